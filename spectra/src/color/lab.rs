@@ -1,0 +1,94 @@
+//! CIELAB, rectangular and in lightness, chroma and hue.
+
+use super::matrix::Matrix3;
+use super::xyz::Xyz;
+
+/// CIE 1976 L*a*b* (ISO/CIE 11664-4).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Lab {
+    /// Lightness, 0 for black to 100 for the white.
+    pub lightness: f64,
+    /// Green (negative) to red.
+    pub a: f64,
+    /// Blue (negative) to yellow.
+    pub b: f64,
+}
+
+/// CIELAB in lightness, chroma and hue.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lch {
+    /// Lightness, 0..100.
+    pub lightness: f64,
+    /// Chroma, 0 for grey.
+    pub chroma: f64,
+    /// Hue angle in degrees, 0..360.
+    pub hue_degrees: f64,
+}
+
+/// (6/29)^3: below it the cube root gives way to a straight line.
+const TOE: f64 = 216.0 / 24389.0;
+/// (29/3)^3, the slope of L* in the toe.
+const KAPPA: f64 = 24389.0 / 27.0;
+
+impl Lab {
+    /// CIELAB of `xyz` seen under `white` (ISO/CIE 11664-4, equations 1 to 6).
+    #[must_use]
+    pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
+        let f = |t: f64| if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 };
+        let (fx, fy, fz) = (f(xyz.x / white.x), f(xyz.y / white.y), f(xyz.z / white.z));
+        Self { lightness: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }
+    }
+
+    /// The derivatives of L*, a*, b* (rows) over X, Y, Z (columns) at `xyz`.
+    #[must_use]
+    pub fn slopes_over_xyz(xyz: Xyz, white: Xyz) -> Matrix3 {
+        let slope = |value: f64, white: f64| {
+            let t = value / white;
+            (if t > TOE { t.powf(-2.0 / 3.0) / 3.0 } else { KAPPA / 116.0 }) / white
+        };
+        let (x, y, z) = (slope(xyz.x, white.x), slope(xyz.y, white.y), slope(xyz.z, white.z));
+        Matrix3([[0.0, 116.0 * y, 0.0], [500.0 * x, -500.0 * y, 0.0], [0.0, 200.0 * y, -200.0 * z]])
+    }
+
+    /// The tristimulus values under `white`: the inverse of [`Lab::from_xyz`].
+    #[must_use]
+    pub fn to_xyz(self, white: Xyz) -> Xyz {
+        let inverse = |f: f64| if f > 6.0 / 29.0 { f.powi(3) } else { (116.0 * f - 16.0) / KAPPA };
+        let fy = (self.lightness + 16.0) / 116.0;
+        Xyz {
+            x: white.x * inverse(fy + self.a / 500.0),
+            y: white.y * inverse(fy),
+            z: white.z * inverse(fy - self.b / 200.0),
+        }
+    }
+
+    /// Lightness, chroma and hue; grey has hue 0.
+    #[must_use]
+    pub fn to_lch(self) -> Lch {
+        let degrees = self.b.atan2(self.a).to_degrees();
+        Lch {
+            lightness: self.lightness,
+            chroma: self.a.hypot(self.b),
+            hue_degrees: if degrees < 0.0 { degrees + 360.0 } else { degrees },
+        }
+    }
+
+    /// L*, a*, b* in order.
+    #[must_use]
+    pub fn to_array(self) -> [f64; 3] {
+        [self.lightness, self.a, self.b]
+    }
+}
+
+impl From<[f64; 3]> for Lab {
+    fn from([lightness, a, b]: [f64; 3]) -> Self {
+        Self { lightness, a, b }
+    }
+}
+
+impl From<Lch> for Lab {
+    fn from(lch: Lch) -> Self {
+        let (sin, cos) = lch.hue_degrees.to_radians().sin_cos();
+        Self { lightness: lch.lightness, a: lch.chroma * cos, b: lch.chroma * sin }
+    }
+}

@@ -1,0 +1,58 @@
+//! The 3 x 3 matrices that carry one set of tristimulus values to another.
+
+/// A 3 x 3 matrix, rows first. Read target from source: `rgb_from_xyz`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matrix3(pub [[f64; 3]; 3]);
+
+impl Matrix3 {
+    /// The matrix with `diagonal` and zeros elsewhere.
+    #[must_use]
+    pub fn diagonal(diagonal: [f64; 3]) -> Self {
+        let mut rows = [[0.0; 3]; 3];
+        for (index, value) in diagonal.into_iter().enumerate() {
+            rows[index][index] = value;
+        }
+        Self(rows)
+    }
+
+    /// The product of the matrix and a column.
+    #[must_use]
+    pub fn apply(&self, column: [f64; 3]) -> [f64; 3] {
+        self.0.map(|row| row[0] * column[0] + row[1] * column[1] + row[2] * column[2])
+    }
+
+    /// `self` after `first`.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        let mut rows = [[0.0; 3]; 3];
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                *value = (0..3).map(|k| self.0[i][k] * first.0[k][j]).sum();
+            }
+        }
+        Self(rows)
+    }
+
+    /// The inverse, by cofactors.
+    ///
+    /// # Panics
+    /// If the matrix is singular; ours are made of independent primaries.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let m = &self.0;
+        let cofactor = |i: usize, j: usize| {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        };
+        let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+        assert!(determinant != 0.0, "a colour matrix is never singular: {m:?}");
+        let mut rows = [[0.0; 3]; 3];
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                *value = cofactor(j, i) / determinant;
+            }
+        }
+        Self(rows)
+    }
+}

@@ -1,0 +1,29 @@
+//! Colour: tristimulus values, CIELAB, display RGB, and differences.
+//!
+//! XYZ is scaled so that Y = 100 for the white. White points are computed from
+//! an illuminant and an observer, never typed in, except where an RGB standard
+//! defines its own chromaticity.
+
+mod matrix;
+
+mod xyz;
+
+mod lab;
+
+mod adaptation;
+
+mod rgb;
+
+mod difference;
+
+mod metamerism;
+
+pub use adaptation::{Adaptation, adapted};
+pub use difference::{
+    Cie94, Cmc, ciede2000_metric, delta_e_cie76, delta_e_cie94, delta_e_ciede2000, delta_e_cmc,
+};
+pub use lab::{Lab, Lch};
+pub use matrix::Matrix3;
+pub use metamerism::{MetamerismError, corrected_to_match, metamerism_index};
+pub use rgb::{Rgb, RgbSpace};
+pub use xyz::{Xyy, Xyz};

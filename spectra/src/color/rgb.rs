@@ -1,0 +1,102 @@
+//! Display RGB: sRGB and Display P3.
+
+use palette::encoding::{FromLinear, IntoLinear, Srgb};
+
+use super::adaptation::{Adaptation, adapted};
+use super::matrix::Matrix3;
+use super::xyz::{Xyy, Xyz};
+
+/// A display's RGB space. Both have the white D65 (x 0.3127, y 0.3290) and the
+/// transfer curve of IEC 61966-2-1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum RgbSpace {
+    /// IEC 61966-2-1.
+    #[default]
+    Srgb,
+    /// Display P3 (SMPTE EG 432-1 primaries).
+    DisplayP3,
+}
+
+/// Red, green and blue, 0..1 inside the display's gamut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rgb(pub [f64; 3]);
+
+impl RgbSpace {
+    fn primaries(self) -> [(f64, f64); 3] {
+        match self {
+            Self::Srgb => [(0.640, 0.330), (0.300, 0.600), (0.150, 0.060)],
+            Self::DisplayP3 => [(0.680, 0.320), (0.265, 0.690), (0.150, 0.060)],
+        }
+    }
+
+    /// The white that both standards name by its chromaticity.
+    #[must_use]
+    pub fn white(self) -> Xyz {
+        Xyy { x: 0.3127, y: 0.3290, luminance: 100.0 }.into()
+    }
+
+    /// XYZ (white Y = 100) from linear RGB (white 1), at full precision from
+    /// the primaries, not the rounded matrix of the standard.
+    #[must_use]
+    pub fn xyz_from_linear(self) -> Matrix3 {
+        let columns = self.primaries().map(|(x, y)| [x / y, 1.0, (1.0 - x - y) / y]);
+        let mut rows = [[0.0; 3]; 3];
+        for (j, column) in columns.iter().enumerate() {
+            for (i, value) in column.iter().enumerate() {
+                rows[i][j] = *value;
+            }
+        }
+        let primaries = Matrix3(rows);
+        let scale = primaries.inverse().apply(self.white().to_array());
+        primaries.after(&Matrix3::diagonal(scale))
+    }
+
+    /// Linear RGB of `xyz` seen under `white`, adapted to the display's white;
+    /// below 0 or above 1 outside the gamut.
+    #[must_use]
+    pub fn linear_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
+        let at_display = adapted(xyz, white, self.white(), adaptation);
+        Rgb(self.xyz_from_linear().inverse().apply(at_display.to_array()))
+    }
+
+    /// Encoded RGB of `xyz`: [`RgbSpace::linear_from_xyz`], then the curve.
+    #[must_use]
+    pub fn encoded_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
+        self.linear_from_xyz(xyz, white, adaptation).encoded()
+    }
+}
+
+impl Rgb {
+    /// Linear to encoded, by the sRGB curve (the straight line below 0.0031308
+    /// goes on below 0).
+    #[must_use]
+    pub fn encoded(self) -> Self {
+        Self(self.0.map(<Srgb as FromLinear<f64, f64>>::from_linear))
+    }
+
+    /// Encoded to linear.
+    #[must_use]
+    pub fn linear(self) -> Self {
+        Self(self.0.map(<Srgb as IntoLinear<f64, f64>>::into_linear))
+    }
+
+    /// Whether the display can show this colour (to a millionth).
+    #[must_use]
+    pub fn in_gamut(self) -> bool {
+        self.0.iter().all(|v| (-1e-6..=1.0 + 1e-6).contains(v))
+    }
+
+    /// The nearest displayable values in 8 bits, each channel cut off at the
+    /// gamut's faces.
+    #[must_use]
+    pub fn to_bytes(self) -> [u8; 3] {
+        self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
+    }
+
+    /// `#rrggbb`, from [`Rgb::to_bytes`].
+    #[must_use]
+    pub fn to_hex(self) -> String {
+        let [r, g, b] = self.to_bytes();
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}

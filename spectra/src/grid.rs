@@ -1,0 +1,153 @@
+//! Regular wavelength grids.
+
+use serde::{Deserialize, Serialize};
+
+use crate::wavelength::{Wavelength, WavelengthError};
+
+/// Wavelengths at a constant step, in nanometres; regular by construction.
+///
+/// ```
+/// use spectra::Grid;
+/// let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
+/// assert_eq!(grid.end_nm(), 700.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "GridParts", into = "GridParts")]
+pub struct Grid {
+    start: Wavelength,
+    step_nm: f64,
+    count: usize,
+}
+
+impl Grid {
+    /// `count` wavelengths from `start_nm` on, `step_nm` apart.
+    ///
+    /// # Errors
+    /// [`GridError`] unless the start is a wavelength, the step finite and
+    /// above 0, and the count at least 1.
+    pub fn from_nm(start_nm: f64, step_nm: f64, count: usize) -> Result<Self, GridError> {
+        let start = Wavelength::from_nm(start_nm)?;
+        if !(step_nm.is_finite() && step_nm > 0.0) {
+            return Err(GridError::Step { step_nm });
+        }
+        if count == 0 {
+            return Err(GridError::Empty);
+        }
+        Ok(Self { start, step_nm, count })
+    }
+
+    /// 360 to 830 nm at 1 nm: the band of the CIE's standard observers, on
+    /// which every sum of this crate is taken (CIE 15:2018, section 7.1).
+    #[must_use]
+    pub fn cie() -> Self {
+        Self {
+            start: Wavelength::from_nm(360.0).expect("360 is a wavelength"),
+            step_nm: 1.0,
+            count: 471,
+        }
+    }
+
+    /// The grid through `nm`, if the wavelengths rise at a constant step
+    /// (to a millionth of it). A single wavelength is a grid of step 1.
+    #[must_use]
+    pub fn through(nm: &[f64]) -> Option<Self> {
+        let first = *nm.first()?;
+        let step = match nm.last() {
+            Some(&last) if nm.len() > 1 => (last - first) / (nm.len() - 1) as f64,
+            _ => 1.0,
+        };
+        let grid = Self::from_nm(first, step, nm.len()).ok()?;
+        let regular =
+            nm.iter().zip(grid.wavelengths_nm()).all(|(a, b)| (a - b).abs() <= 1e-6 * step);
+        regular.then_some(grid)
+    }
+
+    /// The first wavelength in nm.
+    #[must_use]
+    pub fn start_nm(&self) -> f64 {
+        self.start.nm()
+    }
+
+    /// The step in nm.
+    #[must_use]
+    pub fn step_nm(&self) -> f64 {
+        self.step_nm
+    }
+
+    /// How many wavelengths; at least 1.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The last wavelength in nm.
+    #[must_use]
+    pub fn end_nm(&self) -> f64 {
+        self.nm(self.count - 1)
+    }
+
+    /// The wavelength number `index`, in nm, counted from 0.
+    #[must_use]
+    pub fn nm(&self, index: usize) -> f64 {
+        self.start.nm() + self.step_nm * index as f64
+    }
+
+    /// Every wavelength in nm, rising.
+    pub fn wavelengths_nm(&self) -> impl ExactSizeIterator<Item = f64> + Clone + use<> {
+        let grid = *self;
+        (0..grid.count).map(move |index| grid.nm(index))
+    }
+
+    /// Whether `nm` lies between the first and the last wavelength.
+    #[must_use]
+    pub fn covers(&self, nm: f64) -> bool {
+        let slack = 1e-9 * self.step_nm;
+        nm >= self.start_nm() - slack && nm <= self.end_nm() + slack
+    }
+}
+
+impl std::fmt::Display for Grid {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} to {} nm in steps of {} nm", self.start_nm(), self.end_nm(), self.step_nm)
+    }
+}
+
+/// The form in which a grid is written to a file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GridParts {
+    start_nm: f64,
+    step_nm: f64,
+    count: usize,
+}
+
+impl TryFrom<GridParts> for Grid {
+    type Error = GridError;
+
+    fn try_from(parts: GridParts) -> Result<Self, GridError> {
+        Self::from_nm(parts.start_nm, parts.step_nm, parts.count)
+    }
+}
+
+impl From<Grid> for GridParts {
+    fn from(grid: Grid) -> Self {
+        Self { start_nm: grid.start_nm(), step_nm: grid.step_nm, count: grid.count }
+    }
+}
+
+/// Numbers that make no grid.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum GridError {
+    /// The start is no wavelength.
+    #[error(transparent)]
+    Start(#[from] WavelengthError),
+    /// The step is not a finite number above 0.
+    #[error("the step of a grid is a finite number of nanometres above 0, found `{step_nm}`")]
+    Step {
+        /// The step that was given.
+        step_nm: f64,
+    },
+    /// The grid holds no wavelength.
+    #[error("a grid holds at least one wavelength, found `0`")]
+    Empty,
+}

@@ -1,0 +1,144 @@
+//! From a spectrum to tristimulus values.
+
+use crate::color::Xyz;
+use crate::grid::Grid;
+use crate::illuminant::Illuminant;
+use crate::interpolate::{Ends, InterpolateError, Interpolation};
+use crate::observer::Observer;
+
+/// The three weights per wavelength of a grid that turn a reflectance on that
+/// grid into XYZ under one light and observer.
+///
+/// CIE 15:2018, section 7.1, by summation at 1 nm over 360 to 830 nm with
+/// k = 100 / sum(E y). The reflectance is brought to 1 nm by `interpolation`,
+/// its end values held where it stops short (ASTM E308-18, section 7.3.2.3).
+/// Summation and interpolation are both linear, so they are folded into one
+/// table: 3 multiplications a wavelength.
+///
+/// ```
+/// use spectra::{Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
+/// let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
+/// let weights =
+///     TristimulusWeights::new(grid, &Illuminant::d65(), Observer::default(), Interpolation::Sprague)
+///         .unwrap();
+/// let white = weights.xyz(&[1.0; 31]);
+/// assert!((white.y - 100.0).abs() < 1e-9);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct TristimulusWeights {
+    grid: Grid,
+    /// By wavelength: weights of X, Y and Z.
+    weights: Vec<[f64; 3]>,
+    white: Xyz,
+}
+
+impl TristimulusWeights {
+    /// The weights for reflectances on `grid`.
+    ///
+    /// # Errors
+    /// [`InterpolateError::TooFew`] for Sprague on fewer than six wavelengths.
+    pub fn new(
+        grid: Grid,
+        illuminant: &Illuminant,
+        observer: Observer,
+        interpolation: Interpolation,
+    ) -> Result<Self, InterpolateError> {
+        let mut weights = vec![[0.0; 3]; grid.count()];
+        let mut white = [0.0; 3];
+        for (nm, response) in responses(illuminant, observer) {
+            let row = interpolation.row(grid, nm, Ends::Hold)?;
+            for (target, share) in weights[row.first..].iter_mut().zip(row.weights()) {
+                for (t, r) in target.iter_mut().zip(response) {
+                    *t += share * r;
+                }
+            }
+            for (w, r) in white.iter_mut().zip(response) {
+                *w += r;
+            }
+        }
+        Ok(Self { grid, weights, white: white.into() })
+    }
+
+    /// The grid the reflectances must stand on.
+    #[must_use]
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// XYZ of the perfect diffuser: the white point, Y = 100.
+    #[must_use]
+    pub fn white(&self) -> Xyz {
+        self.white
+    }
+
+    /// The weights of X, Y and Z at each wavelength of the grid.
+    #[must_use]
+    pub fn weights(&self) -> &[[f64; 3]] {
+        &self.weights
+    }
+
+    /// XYZ of one reflectance.
+    ///
+    /// # Panics
+    /// If there is not one value for each wavelength of the grid.
+    #[must_use]
+    pub fn xyz(&self, reflectance: &[f64]) -> Xyz {
+        assert_eq!(reflectance.len(), self.weights.len(), "one reflectance for each wavelength");
+        let mut xyz = [0.0; 3];
+        for (value, weights) in reflectance.iter().zip(&self.weights) {
+            for (sum, weight) in xyz.iter_mut().zip(weights) {
+                *sum += value * weight;
+            }
+        }
+        xyz.into()
+    }
+
+    /// XYZ of many reflectances that stand one after another in
+    /// `reflectances`, into `xyz`; the same values as [`TristimulusWeights::xyz`]
+    /// to rounding.
+    ///
+    /// # Panics
+    /// If the lengths do not fit.
+    pub fn xyz_of_many(&self, reflectances: &[f64], xyz: &mut [Xyz]) {
+        let count = self.weights.len();
+        assert_eq!(reflectances.len(), count * xyz.len(), "one reflectance for each wavelength");
+        // Planes of weights, and several sums side by side in each, so that the
+        // compiler can fill its vector registers.
+        let planes: [Vec<f64>; 3] =
+            std::array::from_fn(|channel| self.weights.iter().map(|w| w[channel]).collect());
+        for (values, out) in reflectances.chunks_exact(count).zip(xyz) {
+            let [x, y, z] = [0, 1, 2].map(|channel: usize| dot(values, &planes[channel]));
+            *out = Xyz { x, y, z };
+        }
+    }
+}
+
+/// The dot product in eight running sums.
+#[inline]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let (a_blocks, a_rest) = a.as_chunks::<8>();
+    let (b_blocks, b_rest) = b.as_chunks::<8>();
+    for (a, b) in a_blocks.iter().zip(b_blocks) {
+        for lane in 0..8 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// The light as the observer weights it, k E x, k E y, k E z, at each whole
+/// nanometre from 360 to 830.
+pub(crate) fn responses(
+    illuminant: &Illuminant,
+    observer: Observer,
+) -> impl Iterator<Item = (f64, [f64; 3])> {
+    let functions = observer.functions();
+    let power = illuminant.power().values();
+    let luminance: f64 = power.iter().zip(functions[1].values()).map(|(e, y)| e * y).sum();
+    let k = 100.0 / luminance;
+    Grid::cie().wavelengths_nm().enumerate().map(move |(index, nm)| {
+        (nm, std::array::from_fn(|channel| k * power[index] * functions[channel].values()[index]))
+    })
+}

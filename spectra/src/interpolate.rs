@@ -1,0 +1,216 @@
+//! Interpolation of regular data, as rows of weights.
+//!
+//! A value between grid points is a weighted sum of at most six neighbours.
+//! Keeping the weights rather than the values lets the same rows resample a
+//! spectrum and, transposed, fold an observer onto a coarse grid.
+
+use crate::grid::Grid;
+
+/// How values between grid points are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Interpolation {
+    /// Straight lines between neighbours. Never overshoots.
+    Linear,
+    /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005
+    /// recommends for regular spectra. Needs six points; may overshoot beside a
+    /// sharp edge.
+    #[default]
+    Sprague,
+}
+
+/// What stands beyond the first and the last wavelength.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Ends {
+    /// Nothing: asking is an error.
+    Refuse,
+    /// The end value, held, as ASTM E308 does for tristimulus values.
+    Hold,
+}
+
+/// The weights that give the value at one wavelength from grid values
+/// `first .. first + weights.len()`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Row {
+    pub(crate) first: usize,
+    weights: [f64; 6],
+    len: usize,
+}
+
+impl Row {
+    pub(crate) fn weights(&self) -> &[f64] {
+        &self.weights[..self.len]
+    }
+
+    /// The interpolated value.
+    pub(crate) fn apply(&self, values: &[f64]) -> f64 {
+        self.weights().iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()
+    }
+
+    fn single(index: usize) -> Self {
+        Self { first: index, weights: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], len: 1 }
+    }
+}
+
+impl Interpolation {
+    /// The name by which files and options call this method.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Sprague => "sprague",
+        }
+    }
+
+    /// Sprague where `grid` has the six points it needs, linear otherwise.
+    #[must_use]
+    pub fn best_for(grid: Grid) -> Self {
+        if grid.count() >= 6 { Self::Sprague } else { Self::Linear }
+    }
+
+    /// The row of weights that gives the value at `nm` from values on `grid`.
+    pub(crate) fn row(self, grid: Grid, nm: f64, ends: Ends) -> Result<Row, InterpolateError> {
+        if self == Self::Sprague && grid.count() < 6 {
+            return Err(InterpolateError::TooFew { count: grid.count() });
+        }
+        let last = grid.count() - 1;
+        if !grid.covers(nm) {
+            return match ends {
+                Ends::Refuse => Err(InterpolateError::Outside {
+                    nm,
+                    start_nm: grid.start_nm(),
+                    end_nm: grid.end_nm(),
+                }),
+                Ends::Hold => Ok(Row::single(if nm < grid.start_nm() { 0 } else { last })),
+            };
+        }
+        if last == 0 {
+            return Ok(Row::single(0));
+        }
+        let position = ((nm - grid.start_nm()) / grid.step_nm()).clamp(0.0, last as f64);
+        let index = (position.floor() as usize).min(last - 1);
+        let fraction = position - index as f64;
+        Ok(match self {
+            Self::Linear => Row {
+                first: index,
+                weights: [1.0 - fraction, fraction, 0.0, 0.0, 0.0, 0.0],
+                len: 2,
+            },
+            Self::Sprague => sprague_row(index, fraction, grid.count()),
+        })
+    }
+}
+
+/// Sprague's weights for the six points from two before the interval to three
+/// after its start, at `x` in 0..1 (CIE 167:2005, section 4).
+fn sprague_weights(x: f64) -> [f64; 6] {
+    // Rows: the coefficient of x^n in terms of the six values, times 24.
+    const COEFFICIENTS: [[f64; 6]; 6] = [
+        [0.0, 0.0, 24.0, 0.0, 0.0, 0.0],
+        [2.0, -16.0, 0.0, 16.0, -2.0, 0.0],
+        [-1.0, 16.0, -30.0, 16.0, -1.0, 0.0],
+        [-9.0, 39.0, -70.0, 66.0, -33.0, 7.0],
+        [13.0, -64.0, 126.0, -124.0, 61.0, -12.0],
+        [-5.0, 25.0, -50.0, 50.0, -25.0, 5.0],
+    ];
+    let mut weights = [0.0; 6];
+    for row in COEFFICIENTS.iter().rev() {
+        for (weight, c) in weights.iter_mut().zip(row) {
+            *weight = *weight * x + c / 24.0;
+        }
+    }
+    weights
+}
+
+/// The two values that stand before the first one, from the first six
+/// (CIE 167:2005, table of boundary coefficients, times 209); mirrored at the
+/// far end.
+const BEFORE: [[f64; 6]; 2] = [
+    [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
+    [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
+];
+
+fn sprague_row(index: usize, fraction: f64, count: usize) -> Row {
+    let raw = sprague_weights(fraction);
+    // The six points are index-2 .. index+3; slide the window inside the data
+    // and express what hangs over the edge by the boundary polynomials.
+    let first = index.saturating_sub(2).min(count - 6);
+    let mut weights = [0.0; 6];
+    for (offset, weight) in raw.into_iter().enumerate() {
+        let point = index as isize + offset as isize - 2;
+        if point < 0 {
+            let row = BEFORE[(point + 2) as usize];
+            for (target, c) in weights.iter_mut().zip(row) {
+                *target += weight * c / 209.0;
+            }
+        } else if point as usize >= count {
+            let row = BEFORE[1 - (point as usize - count)];
+            for (target, c) in weights.iter_mut().zip(row.iter().rev()) {
+                *target += weight * c / 209.0;
+            }
+        } else {
+            weights[point as usize - first] += weight;
+        }
+    }
+    Row { first, weights, len: 6 }
+}
+
+/// Why a value between grid points could not be found.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum InterpolateError {
+    /// The wavelength lies outside the data.
+    #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
+    Outside {
+        /// The wavelength that was asked for.
+        nm: f64,
+        /// Where the data starts.
+        start_nm: f64,
+        /// Where the data ends.
+        end_nm: f64,
+    },
+    /// Sprague's polynomial needs six points.
+    #[error("sprague interpolation needs 6 wavelengths, found `{count}`")]
+    TooFew {
+        /// How many there are.
+        count: usize,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sprague_is_exact_for_polynomials_of_degree_four_inside() {
+        let grid = Grid::from_nm(400.0, 10.0, 12).unwrap();
+        let polynomial = |nm: f64| {
+            let x = (nm - 450.0) / 50.0;
+            1.0 + x - 2.0 * x * x + 0.5 * x.powi(3) + 0.25 * x.powi(4)
+        };
+        let values: Vec<f64> = grid.wavelengths_nm().map(polynomial).collect();
+        for nm in [420.0, 423.7, 455.5, 489.9] {
+            let row = Interpolation::Sprague.row(grid, nm, Ends::Refuse).unwrap();
+            assert!((row.apply(&values) - polynomial(nm)).abs() < 1e-12, "at {nm} nm");
+        }
+    }
+
+    #[test]
+    fn a_constant_stays_constant_up_to_both_ends() {
+        let grid = Grid::from_nm(400.0, 10.0, 6).unwrap();
+        for method in [Interpolation::Linear, Interpolation::Sprague] {
+            for tenth in 0..=500 {
+                let nm = 400.0 + f64::from(tenth) / 10.0;
+                let row = method.row(grid, nm, Ends::Refuse).unwrap();
+                assert!((row.apply(&[0.7; 6]) - 0.7).abs() < 1e-12, "{method:?} at {nm} nm");
+            }
+        }
+    }
+
+    #[test]
+    fn outside_the_band_is_refused_or_held() {
+        let grid = Grid::from_nm(400.0, 10.0, 3).unwrap();
+        let refused = Interpolation::Linear.row(grid, 399.0, Ends::Refuse);
+        assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "{refused:?}");
+        let held = Interpolation::Linear.row(grid, 721.0, Ends::Hold).unwrap();
+        assert_eq!(held.apply(&[1.0, 2.0, 3.0]), 3.0);
+    }
+}

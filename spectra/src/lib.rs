@@ -1,0 +1,53 @@
+//! Quantities over wavelength, colour, and Kubelka-Munk optics.
+//!
+//! In scope: wavelengths and grids, typed spectra and their resampling, the
+//! CIE observers and illuminants, colour and colour difference, and the optics
+//! of a paint film. Out of scope: fitting anything (see `calibrate`), painting,
+//! and gloss or fluorescence, which a reflectance factor cannot tell apart.
+//!
+//! Files stand in an order of dependence; each uses only what stands above it.
+
+mod wavelength;
+
+mod grid;
+
+mod interpolate;
+
+mod spectrum;
+
+mod samples;
+
+mod observer;
+
+mod table;
+
+mod illuminant;
+
+mod daylight;
+
+mod black_body;
+
+mod lamp;
+
+mod light;
+
+pub mod color;
+
+mod integrate;
+
+pub mod optics;
+
+pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
+pub use daylight::{daylight, daylight_chromaticity};
+pub use grid::{Grid, GridError};
+pub use illuminant::{Illuminant, IlluminantError};
+pub use integrate::TristimulusWeights;
+pub use interpolate::{Ends, InterpolateError, Interpolation};
+pub use lamp::{LampError, lamp_from_csv};
+pub use light::{LightError, light_from_text};
+pub use observer::{Observer, ObserverError};
+pub use samples::{Samples, SamplesError};
+pub use spectrum::{
+    Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
+};
+pub use wavelength::{Wavelength, WavelengthError};

@@ -1,0 +1,86 @@
+//! A light as a user writes it.
+
+use std::path::Path;
+
+use crate::black_body::black_body;
+use crate::daylight::daylight;
+use crate::illuminant::{Illuminant, IlluminantError};
+use crate::lamp::{LampError, lamp_from_csv};
+
+/// The light that `text` names.
+///
+/// | text | light |
+/// |---|---|
+/// | `D65`, `FL11`, `LED-B3` .. | a CIE illuminant, [`Illuminant::named`] |
+/// | `5600K` | a black body, [`black_body`] |
+/// | `D5600K` | CIE daylight, [`daylight`] |
+/// | anything else | a file, [`lamp_from_csv`] |
+///
+/// # Errors
+/// [`LightError`].
+///
+/// ```
+/// let bulb = spectra::light_from_text("5600K").unwrap();
+/// assert_eq!(bulb.name(), "black body 5600 K");
+/// ```
+pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
+    if let Ok(known) = Illuminant::named(text) {
+        return Ok(known);
+    }
+    if let Some(number) = text.strip_suffix(['K', 'k']) {
+        if let Ok(kelvin) = number.parse() {
+            return Ok(black_body(kelvin)?);
+        }
+        if let Some(Ok(kelvin)) = number.strip_prefix(['D', 'd']).map(str::parse) {
+            return Ok(daylight(kelvin)?);
+        }
+    }
+    let path = Path::new(text);
+    if !path.is_file() {
+        return Err(LightError::Unknown { text: text.to_owned() });
+    }
+    let content = std::fs::read_to_string(path)
+        .map_err(|error| LightError::Read { path: text.to_owned(), reason: error.to_string() })?;
+    Ok(lamp_from_csv(text, &content)?)
+}
+
+/// Why a text names no light.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LightError {
+    /// Neither a name, a temperature nor a file.
+    #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{text}`")]
+    Unknown {
+        /// The text.
+        text: String,
+    },
+    /// The file cannot be read.
+    #[error("{path}: {reason}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// The lamp's file is faulty.
+    #[error(transparent)]
+    Lamp(#[from] LampError),
+    /// The temperature gives no light.
+    #[error(transparent)]
+    Illuminant(#[from] IlluminantError),
+}
+
+impl LightError {
+    /// What to try instead.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Unknown { .. } => Some(
+                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a two-column file `nm,power`",
+            ),
+            Self::Illuminant(_) => {
+                Some("daylight is defined from D4000K to D25000K, a black body from 500K")
+            }
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! A paint film of finite thickness.
+//!
+//! The layer equations as printed in Baxter, Wendt and Lin 2004 (eq. 8 and 9)
+//! are misprinted (tanh for coth, sinh for 1/sinh, by the authors' erratum),
+//! and the textbook form fails at K = 0 and on thick films. The form here has
+//! no special cases; see `Layer::new`.
+
+/// Reflectance and transmittance of a film by itself, both 0..1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// Light sent back, seen from above (or below: a film is symmetric).
+    pub reflectance: f64,
+    /// Light let through.
+    pub transmittance: f64,
+}
+
+impl Layer {
+    /// The film of `thickness` whose paint has `absorption` K and `scattering`
+    /// S per unit of thickness; all 0 and up.
+    ///
+    /// Kubelka 1948 (hyperbolic solution), rewritten with decaying
+    /// exponentials:
+    /// ```text
+    /// alpha = sqrt(K (K + 2 S))   x = alpha d   e = exp(-2 x)
+    /// phi   = (1 - e) / alpha     (2 d as alpha goes to 0)
+    /// den   = (K + S) phi + 1 + e
+    /// R = S phi / den             T = 2 exp(-x) / den
+    /// ```
+    ///
+    /// ```
+    /// use spectra::optics::Layer;
+    /// let glaze = Layer::new(0.5, 0.0, 2.0);
+    /// assert_eq!(glaze.reflectance, 0.0);
+    /// assert!((glaze.transmittance - (-1.0f64).exp()).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn new(absorption: f64, scattering: f64, thickness: f64) -> Self {
+        let (k, s) = (absorption, scattering);
+        let alpha = (k * (k + 2.0 * s)).sqrt();
+        let x = alpha * thickness;
+        let phi = if x > 0.0 { -(-2.0 * x).exp_m1() / alpha } else { 2.0 * thickness };
+        let decay = (-x).exp();
+        let den = (k + s) * phi + 1.0 + decay * decay;
+        Self { reflectance: s * phi / den, transmittance: 2.0 * decay / den }
+    }
+
+    /// The reflectance seen when the film lies over something of reflectance
+    /// `backing` (Kubelka 1948, eq. 34).
+    #[must_use]
+    pub fn over(self, backing: f64) -> f64 {
+        let t = self.transmittance;
+        self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
+    }
+
+    /// This film laid on `lower`, as one film seen from above. Two different
+    /// films together are no longer symmetric: the reflectance is that of the
+    /// upper side.
+    #[must_use]
+    pub fn stacked_on(self, lower: Self) -> Self {
+        let between = 1.0 - self.reflectance * lower.reflectance;
+        Self {
+            reflectance: self.over(lower.reflectance),
+            transmittance: self.transmittance * lower.transmittance / between,
+        }
+    }
+}

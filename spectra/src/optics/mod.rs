@@ -1,0 +1,19 @@
+//! Kubelka-Munk optics of a paint film, with a surface.
+//!
+//! Two fluxes, diffuse light, no fluorescence. Reflectances in this module are
+//! internal (below the surface) but for those [`Surface`] calls measured.
+
+mod layer;
+
+mod infinite_film;
+
+mod two_backings;
+
+mod surface;
+
+pub use infinite_film::{
+    absorption_over_scattering, infinite_film, infinite_film_from_ratio, ratio_slope,
+};
+pub use layer::Layer;
+pub use surface::{Specular, Surface, SurfaceError};
+pub use two_backings::{FilmOptics, OverBacking, film_over_two_backings};

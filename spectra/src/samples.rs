@@ -1,0 +1,121 @@
+//! Spectra at irregular wavelengths, as instruments write them.
+
+use crate::grid::Grid;
+use crate::interpolate::Ends;
+use crate::spectrum::{Quantity, Spectrum, SpectrumError};
+
+/// Values at strictly rising wavelengths with no regular step.
+///
+/// Becomes a [`Spectrum`] through one named function,
+/// [`Samples::resampled_linear`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    nm: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Samples {
+    /// `values` at the wavelengths `nm`.
+    ///
+    /// # Errors
+    /// [`SamplesError`] if the counts differ, there is nothing, or the
+    /// wavelengths do not rise strictly.
+    pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, SamplesError> {
+        if nm.len() != values.len() || nm.is_empty() {
+            return Err(SamplesError::Count { wavelengths: nm.len(), values: values.len() });
+        }
+        if let Some(pair) = nm
+            .windows(2)
+            .find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less))
+        {
+            return Err(SamplesError::Order { before: pair[0], after: pair[1] });
+        }
+        Ok(Self { nm, values })
+    }
+
+    /// The wavelengths in nm, rising.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.nm
+    }
+
+    /// The values.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The value at `nm` on the straight line between its neighbours.
+    ///
+    /// # Errors
+    /// [`SamplesError::Outside`] beyond the ends, unless they are held.
+    pub fn at_linear(&self, nm: f64, ends: Ends) -> Result<f64, SamplesError> {
+        let last = self.nm.len() - 1;
+        if nm < self.nm[0] || nm > self.nm[last] {
+            return match ends {
+                Ends::Hold => Ok(self.values[if nm < self.nm[0] { 0 } else { last }]),
+                Ends::Refuse => {
+                    Err(SamplesError::Outside { nm, start_nm: self.nm[0], end_nm: self.nm[last] })
+                }
+            };
+        }
+        let after = self.nm.partition_point(|&w| w < nm);
+        if self.nm[after] == nm {
+            return Ok(self.values[after]);
+        }
+        let before = after - 1;
+        let fraction = (nm - self.nm[before]) / (self.nm[after] - self.nm[before]);
+        Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
+    }
+
+    /// The samples on a regular grid, by linear interpolation.
+    ///
+    /// # Errors
+    /// [`SamplesError`] beyond the ends (unless held) or where a value is
+    /// impossible for `Q`.
+    pub fn resampled_linear<Q: Quantity>(
+        &self,
+        grid: Grid,
+        ends: Ends,
+    ) -> Result<Spectrum<Q>, SamplesError> {
+        let values =
+            grid.wavelengths_nm().map(|nm| self.at_linear(nm, ends)).collect::<Result<_, _>>()?;
+        Ok(Spectrum::new(grid, values)?)
+    }
+}
+
+/// Why samples could not be made or resampled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SamplesError {
+    /// Not one value for each wavelength, or nothing at all.
+    #[error(
+        "one value for each wavelength is needed, found {wavelengths} wavelengths and `{values}` values"
+    )]
+    Count {
+        /// How many wavelengths.
+        wavelengths: usize,
+        /// How many values.
+        values: usize,
+    },
+    /// The wavelengths do not rise.
+    #[error("wavelengths must rise strictly, found {before} nm before `{after}` nm")]
+    Order {
+        /// The earlier wavelength.
+        before: f64,
+        /// The later one.
+        after: f64,
+    },
+    /// A wavelength outside the samples.
+    #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
+    Outside {
+        /// The wavelength that was asked for.
+        nm: f64,
+        /// Where the samples start.
+        start_nm: f64,
+        /// Where they end.
+        end_nm: f64,
+    },
+    /// A value is impossible for the quantity.
+    #[error(transparent)]
+    Value(#[from] SpectrumError),
+}

@@ -1,0 +1,28 @@
+//! Reading the tables of the CIE that ship inside the crate.
+
+/// The columns of a shipped CSV by header; an empty cell is `None`.
+pub(crate) fn columns(text: &str) -> Vec<(String, Vec<Option<f64>>)> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headers = reader.headers().expect("a shipped table has headers").clone();
+    let mut columns: Vec<(String, Vec<Option<f64>>)> =
+        headers.iter().map(|name| (name.to_owned(), Vec::new())).collect();
+    for record in reader.records() {
+        let record = record.expect("a shipped table has rows of one length");
+        for (column, cell) in columns.iter_mut().zip(&record) {
+            column.1.push(
+                (!cell.is_empty()).then(|| cell.parse().expect("a shipped cell is a number")),
+            );
+        }
+    }
+    columns
+}
+
+/// The column `name`, with the wavelengths of its filled cells.
+pub(crate) fn filled(
+    columns: &[(String, Vec<Option<f64>>)],
+    name: &str,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let nm = &columns.first()?.1;
+    let values = &columns.iter().skip(1).find(|(header, _)| header == name)?.1;
+    Some(nm.iter().zip(values).filter_map(|(nm, value)| Some(((*nm)?, (*value)?))).unzip())
+}

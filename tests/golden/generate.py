@@ -1,0 +1,128 @@
+"""Remake the golden values and the data tables.
+
+    python tests/golden/generate.py            writes them
+    python tests/golden/generate.py --check    makes them in memory, exits with 1
+                                               and names the files that differ
+
+Every JSON file says how its numbers were made and how close a test must come.
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+
+import tables
+from colours import adaptation, difference, lab, rgb, sharma
+from common import rounded
+from films import km
+from spectral import blackbody, daylight, metamerism, resampling, xyz
+
+COMMAND = "python tests/golden/generate.py"
+HERE = "tests/golden"
+
+# Function and decimals kept: a tenth of the tolerance and no finer, for the digits
+# behind it belong to the machine. km.json is rounded once, to doubles.
+GOLDEN = {
+    "xyz.json": (xyz, 10),
+    "sprague.json": (resampling, 12),
+    "lab.json": (lab, 10),
+    "difference.json": (difference, 10),
+    "sharma.json": (sharma, 10),
+    "daylight.json": (daylight, 10),
+    "blackbody.json": (blackbody, 10),
+    "adaptation.json": (adaptation, 10),
+    "rgb.json": (rgb, 11),
+    "metamerism.json": (metamerism, 9),
+    "km.json": (km, None),
+}
+
+
+def lines(value, depth):
+    """Lists of objects one a line, so that a changed case is a changed line."""
+    pad = " " * depth
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        rows = [f"{pad} {json.dumps(v, ensure_ascii=True)}" for v in value]
+        return "[\n" + ",\n".join(rows) + f"\n{pad}]"
+    if isinstance(value, dict) and depth < 2:
+        rows = [f"{pad} {json.dumps(k)}: {lines(v, depth + 1)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(rows) + f"\n{pad}}}"
+    return json.dumps(value, ensure_ascii=True)
+
+
+def golden_files():
+    out = {}
+    for name, (function, places) in GOLDEN.items():
+        made = function()
+        if places is not None:
+            parts = {k: v for k, v in made.items() if k != "tolerance"}
+            made = {**made, **rounded(parts, places)}
+        record = {
+            "command": COMMAND,
+            "package": f"colour-science {tables.VERSION}",
+            "method": "",
+            "tolerance": 0.0,
+            # What is shared by the cases comes between, the cases last.
+            **{k: v for k, v in made.items() if k != "cases"},
+            "cases": made["cases"],
+        }
+        out[f"{HERE}/{name}"] = lines(record, 0) + "\n"
+    return out
+
+
+def alike(old, new, slack):
+    """The same record, floats within slack of each other."""
+    if type(old) is not type(new):
+        return False
+    if isinstance(new, dict):
+        return list(old) == list(new) and all(alike(old[k], new[k], slack) for k in new)
+    if isinstance(new, list):
+        return len(old) == len(new) and all(alike(o, n, slack) for o, n in zip(old, new))
+    if isinstance(new, float):
+        return abs(old - new) <= slack
+    return old == new
+
+
+def current(path, text):
+    """Whether a file already says what it should.
+
+    To the byte, but for one thing: a value close to the edge between two roundings
+    falls to one side on one machine and to the other on the next. So the last decimal
+    of a golden value may differ by one, and the older file then stays.
+    """
+    at = tables.ROOT / path
+    if not at.is_file():
+        return False
+    old = at.read_bytes()
+    if old == text.encode("ascii"):
+        return True
+    _, places = GOLDEN.get(pathlib.PurePosixPath(path).name, (None, None))
+    if places is None:
+        return False
+    try:
+        old = json.loads(old)
+    except ValueError:
+        return False
+    # Written anew in our form it must be unchanged: nobody edits the layout either.
+    if (lines(old, 0) + "\n").encode("ascii") != at.read_bytes():
+        return False
+    new = json.loads(text)
+    return old["tolerance"] == new["tolerance"] and alike(old, new, 1.5 * 10.0**-places)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Remake golden values and data tables.")
+    parser.add_argument("--check", action="store_true", help="write nothing, compare")
+    wanted = parser.parse_args()
+    tables.check_version()
+    texts = {**tables.files(), **golden_files()}
+    stale = {path: text for path, text in texts.items() if not current(path, text)}
+    if wanted.check:
+        for path in sorted(stale):
+            print(f"differs: {path}")
+        sys.exit(1 if stale else 0)
+    tables.write(tables.ROOT, stale)
+
+
+if __name__ == "__main__":
+    main()

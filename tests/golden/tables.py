@@ -1,0 +1,245 @@
+"""Write the data tables of spectra/data from the data sets of colour-science.
+
+    python tests/golden/tables.py
+
+The figures are those of the CIE; colour-science is where they were copied
+from. Nobody edits the tables by hand: change this file and run it again.
+"""
+
+import hashlib
+import pathlib
+import sys
+
+import colour
+
+VERSION = "0.4.7"
+COMMAND = "python tests/golden/tables.py"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+OBSERVERS = {
+    "cie-1931-2": "CIE 1931 2 Degree Standard Observer",
+    "cie-1964-10": "CIE 1964 10 Degree Standard Observer",
+    "cie-2015-2": "CIE 2015 2 Degree Standard Observer",
+    "cie-2015-10": "CIE 2015 10 Degree Standard Observer",
+}
+
+ILLUMINANTS = (
+    ["A", "B", "C", "D50", "D55", "D60", "D65", "D75", "E"]
+    + [f"FL{i}" for i in range(1, 13)]
+    + [f"FL3.{i}" for i in range(1, 16)]
+    + [f"HP{i}" for i in range(1, 6)]
+    + [f"LED-B{i}" for i in range(1, 6)]
+    + ["LED-BH1", "LED-RGB1", "LED-V1", "LED-V2", "ID50", "ID65"]
+)
+
+FIRST_NM, LAST_NM, STEP_NM = 300, 830, 5
+
+# The daylight functions are part of colour-science but not of its top module.
+DAYLIGHT = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
+
+
+def check_version():
+    if colour.__version__ != VERSION:
+        sys.exit(f"needs colour-science {VERSION}, found {colour.__version__}")
+
+
+def whole_nm(sd):
+    """Wavelengths of a table as integers, refusing any that are not."""
+    nm = [int(w) for w in sd.wavelengths]
+    if nm != list(sd.wavelengths):
+        raise ValueError(f"{sd.name}: wavelengths are not whole nanometres")
+    return nm
+
+
+def csv(header, rows):
+    """Rows of (nm, values); None is an empty cell; shortest digits otherwise."""
+    lines = [",".join(header)]
+    for nm, values in rows:
+        cells = ["" if v is None else repr(float(v)) for v in values]
+        lines.append(",".join([str(nm), *cells]))
+    return "\n".join(lines) + "\n"
+
+
+def observer(name):
+    cmfs = colour.MSDS_CMFS[name]
+    nm = whole_nm(cmfs)
+    if nm != list(range(nm[0], 831)):
+        raise ValueError(f"{name}: expected 1 nm rows up to 830 nm")
+    return csv(["nm", "x", "y", "z"], zip(nm, cmfs.values))
+
+
+def illuminants():
+    tables = []
+    for name in ILLUMINANTS:
+        sd = colour.SDS_ILLUMINANTS[name]
+        table = dict(zip(whole_nm(sd), sd.values))
+        # A 5 nm row that falls between source rows would be dropped unseen.
+        if any((nm - FIRST_NM) % STEP_NM for nm in table):
+            raise ValueError(f"{name}: not on the {STEP_NM} nm grid")
+        if min(table) < FIRST_NM or max(table) > LAST_NM:
+            raise ValueError(f"{name}: reaches outside the table")
+        if len(table) != (max(table) - min(table)) // STEP_NM + 1:
+            raise ValueError(f"{name}: has a hole")
+        tables.append(table)
+    rows = (
+        (nm, [t.get(nm) for t in tables])
+        for nm in range(FIRST_NM, LAST_NM + 1, STEP_NM)
+    )
+    return csv(["nm", *ILLUMINANTS], rows)
+
+
+def daylight():
+    s0, s1, s2 = DAYLIGHT["S0"], DAYLIGHT["S1"], DAYLIGHT["S2"]
+    nm = whole_nm(s0)
+    if whole_nm(s1) != nm or whole_nm(s2) != nm:
+        raise ValueError("S0, S1 and S2 have different rows")
+    return csv(
+        ["nm", "S0", "S1", "S2"], zip(nm, zip(s0.values, s1.values, s2.values))
+    )
+
+
+def spans():
+    """Where each illuminant has values, names of equal span together."""
+    groups = {}
+    for name in ILLUMINANTS:
+        nm = whole_nm(colour.SDS_ILLUMINANTS[name])
+        groups.setdefault((nm[0], nm[-1]), []).append(name)
+    return "\n".join(
+        f"  - {first} to {last} nm: {', '.join(names)}"
+        for (first, last), names in sorted(groups.items())
+    )
+
+
+SOURCES = """\
+# Where the tables come from
+
+Written by `{command}`; do not edit the tables or this page by hand.
+The figures are those of the CIE (International Commission on Illumination).
+They were carried from the data sets of colour-science {version}
+(BSD-3-Clause, Copyright 2013 Colour Developers; its licence is at the end).
+
+Rounding: none. Each value is the double held by colour-science, written with
+the fewest digits that read back as the same double. An empty cell means that
+the source table has no value there; it does not mean zero.
+
+## observers
+
+Colour matching functions, header `nm,x,y,z`, 1 nm rows.
+
+- `observers/cie-1931-2.csv`: CIE 1931 standard colorimetric observer (2
+  degrees), 360 to 830 nm. CIE 15:2018; ISO/CIE 11664-1.
+- `observers/cie-1964-10.csv`: CIE 1964 standard colorimetric observer (10
+  degrees), 360 to 830 nm. CIE 15:2018; ISO/CIE 11664-1.
+- `observers/cie-2015-2.csv`: cone-fundamental-based functions, 2 degrees, 390
+  to 830 nm. CIE 170-2:2015, in the digits given out by the Colour and Vision
+  Research Laboratory (CVRL).
+- `observers/cie-2015-10.csv`: the same for 10 degrees.
+
+## illuminants.csv
+
+Relative spectral power, one column each, 300 to 830 nm by 5 nm, in the scale
+of the source (most are 100 at 560 nm, the lamps are not).
+
+- A, D50, D55, D65, D75, and B and C (which the CIE no longer recommends): CIE
+  15:2018 and CIE 15:2004 tables.
+- D60: computed by colour-science from the daylight functions; the CIE prints
+  no such table.
+- E: equal energy, 100 everywhere.
+- FL1 to FL12, FL3.1 to FL3.15 (fluorescent lamps) and HP1 to HP5 (high
+  pressure discharge lamps): CIE 15:2004 and CIE 15:2018 tables.
+- LED-B1 to LED-B5, LED-BH1, LED-RGB1, LED-V1, LED-V2 (typical LED lamps): CIE
+  15:2018.
+- ID50 and ID65 (indoor daylight): CIE 15:2018, after CIE 184:2009.
+
+The CIE prints some of these further than colour-science carries them (D65 to
+830 nm, for one). Here the columns reach:
+
+{spans}
+
+## daylight-components.csv
+
+Functions S0, S1, S2 from which the phases of daylight are built, {day_first} to
+{day_last} nm by {day_step} nm, as colour-science holds them. CIE 15:2018. The CIE
+gives them by 10 nm; the rows between are linear, and rounding to two decimals
+shows in some of them.
+
+## SHA-256
+
+{hashes}
+
+How to go between the rows (CIE 15:2018 names linear for illuminants; CIE
+167:2005 names Sprague for regular reflectance) is the reader's business: the
+tables hold only what the source holds.
+
+## Licence of colour-science
+
+{licence}"""
+
+# BSD-3-Clause asks that this text travels with what is carried over.
+LICENCE = """\
+> Copyright 2013 Colour Developers
+>
+> Redistribution and use in source and binary forms, with or without
+> modification, are permitted provided that the following conditions are met:
+>
+> 1. Redistributions of source code must retain the above copyright notice,
+>    this list of conditions and the following disclaimer.
+>
+> 2. Redistributions in binary form must reproduce the above copyright notice,
+>    this list of conditions and the following disclaimer in the documentation
+>    and/or other materials provided with the distribution.
+>
+> 3. Neither the name of the copyright holder nor the names of its contributors
+>    may be used to endorse or promote products derived from this software
+>    without specific prior written permission.
+>
+> THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS "AS IS"
+> AND ANY EXPRESS OR IMPLIED WARRANTIES, INCLUDING, BUT NOT LIMITED TO, THE
+> IMPLIED WARRANTIES OF MERCHANTABILITY AND FITNESS FOR A PARTICULAR PURPOSE
+> ARE DISCLAIMED. IN NO EVENT SHALL THE COPYRIGHT HOLDER OR CONTRIBUTORS BE
+> LIABLE FOR ANY DIRECT, INDIRECT, INCIDENTAL, SPECIAL, EXEMPLARY, OR
+> CONSEQUENTIAL DAMAGES (INCLUDING, BUT NOT LIMITED TO, PROCUREMENT OF
+> SUBSTITUTE GOODS OR SERVICES; LOSS OF USE, DATA, OR PROFITS; OR BUSINESS
+> INTERRUPTION) HOWEVER CAUSED AND ON ANY THEORY OF LIABILITY, WHETHER IN
+> CONTRACT, STRICT LIABILITY, OR TORT (INCLUDING NEGLIGENCE OR OTHERWISE)
+> ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE, EVEN IF ADVISED OF THE
+> POSSIBILITY OF SUCH DAMAGE.
+"""
+
+
+def files():
+    """Text of every file under spectra/data, by path from the repository root."""
+    check_version()
+    base = "spectra/data"
+    out = {f"{base}/observers/{key}.csv": observer(n) for key, n in OBSERVERS.items()}
+    out[f"{base}/illuminants.csv"] = illuminants()
+    out[f"{base}/daylight-components.csv"] = daylight()
+    hashes = "\n".join(
+        f"- `{path.removeprefix(base + '/')}`:\n"
+        f"  `{hashlib.sha256(text.encode('ascii')).hexdigest()}`"
+        for path, text in sorted(out.items())
+    )
+    nm = whole_nm(DAYLIGHT["S0"])
+    out[f"{base}/SOURCES.md"] = SOURCES.format(
+        command=COMMAND,
+        version=VERSION,
+        spans=spans(),
+        hashes=hashes,
+        licence=LICENCE,
+        day_first=nm[0],
+        day_last=nm[-1],
+        day_step=nm[1] - nm[0],
+    )
+    return out
+
+
+def write(root, texts):
+    for path, text in texts.items():
+        target = pathlib.Path(root) / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        # Bytes, so that no platform changes the line ends.
+        target.write_bytes(text.encode("ascii"))
+
+
+if __name__ == "__main__":
+    write(ROOT, files())
