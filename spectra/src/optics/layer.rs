@@ -52,6 +52,37 @@ impl Layer {
         self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
     }
 
+    /// The reflectance of a film of unit thickness over `backing`, with its
+    /// derivatives over absorption and over scattering.
+    ///
+    /// Differentiates [`Layer::new`] and [`Layer::over`]; along a ray the
+    /// derivatives satisfy Kubelka's equation,
+    /// `K dR/dK + S dR/dS = S - 2 (K + S) R + S R^2`.
+    #[must_use]
+    pub fn over_with_slopes(absorption: f64, scattering: f64, backing: f64) -> [f64; 3] {
+        let (k, s, g) = (absorption, scattering, backing);
+        // Below 1e-8 the film is clear to the last digit.
+        let x = (k * (k + 2.0 * s)).max(1e-16).sqrt();
+        let decay = (-x).exp();
+        let e = decay * decay;
+        let phi = -(-2.0 * x).exp_m1() / x;
+        let den = (k + s) * phi + 1.0 + e;
+        let (r, t) = (s * phi / den, 2.0 * decay / den);
+        // By x at fixed K and S, then by K and S through x as well.
+        let phi_over_x = (2.0 * e - phi) / x;
+        let den_over_x = (k + s) * phi_over_x - 2.0 * e;
+        let slopes = |x_slope: f64, own: f64| {
+            let den_slope = phi + den_over_x * x_slope;
+            let r_slope = (own * phi + s * phi_over_x * x_slope - r * den_slope) / den;
+            (r_slope, -t * (x_slope + den_slope / den))
+        };
+        let (r_over_k, t_over_k) = slopes((k + s) / x, 0.0);
+        let (r_over_s, t_over_s) = slopes(k / x, 1.0);
+        let q = 1.0 / (1.0 - r * g);
+        let (by_r, by_t) = (1.0 + (t * g * q).powi(2), 2.0 * t * g * q);
+        [r + t * t * g * q, by_r * r_over_k + by_t * t_over_k, by_r * r_over_s + by_t * t_over_s]
+    }
+
     /// This film laid on `lower`, as one film seen from above. Two different
     /// films together are no longer symmetric: the reflectance is that of the
     /// upper side.

@@ -11,9 +11,12 @@ mod two_backings;
 
 mod surface;
 
+mod uneven_film;
+
 pub use infinite_film::{
     absorption_over_scattering, infinite_film, infinite_film_from_ratio, ratio_slope,
 };
 pub use layer::Layer;
 pub use surface::{Specular, Surface, SurfaceError};
 pub use two_backings::{FilmOptics, OverBacking, film_over_two_backings};
+pub use uneven_film::UnevenFilm;

@@ -1,0 +1,114 @@
+//! Colour errors, and their summary.
+
+use serde::{Deserialize, Serialize};
+use spectra::color::{Lab, Xyz, delta_e_ciede2000};
+use spectra::{Grid, Illuminant, InterpolateError, Interpolation, Observer, TristimulusWeights};
+
+/// Light and observer under which colours are compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Viewing {
+    /// The light.
+    pub illuminant: Illuminant,
+    /// The observer.
+    pub observer: Observer,
+}
+
+impl Default for Viewing {
+    /// D65 and the observer of 1931.
+    fn default() -> Self {
+        Self { illuminant: Illuminant::d65(), observer: Observer::default() }
+    }
+}
+
+impl Viewing {
+    /// The weights for reflectances on `grid`, with Sprague's interpolation
+    /// where the grid has the six points for it.
+    ///
+    /// # Errors
+    /// Never in practice: the method is chosen to fit the grid.
+    pub fn weights(&self, grid: Grid) -> Result<TristimulusWeights, InterpolateError> {
+        let interpolation = Interpolation::best_for(grid);
+        TristimulusWeights::new(grid, &self.illuminant, self.observer, interpolation)
+    }
+}
+
+/// CIELAB of a reflectance.
+#[must_use]
+pub fn lab(weights: &TristimulusWeights, reflectance: &[f64]) -> Lab {
+    Lab::from_xyz(weights.xyz(reflectance), weights.white())
+}
+
+/// CIEDE2000 between two reflectances.
+#[must_use]
+pub fn delta_e(weights: &TristimulusWeights, first: &[f64], second: &[f64]) -> f64 {
+    delta_e_ciede2000(lab(weights, first), lab(weights, second))
+}
+
+/// CIEDE2000 between two XYZ under one white.
+#[must_use]
+pub fn delta_e_xyz(first: Xyz, second: Xyz, white: Xyz) -> f64 {
+    delta_e_ciede2000(Lab::from_xyz(first, white), Lab::from_xyz(second, white))
+}
+
+/// A set of errors in four numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Median.
+    pub median: f64,
+    /// 90th percentile.
+    pub p90: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+impl Summary {
+    /// The summary of `errors`; all 0 if there are none.
+    #[must_use]
+    pub fn of(errors: &[f64]) -> Self {
+        Self {
+            mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
+            median: percentile(errors, 50.0),
+            p90: percentile(errors, 90.0),
+            max: percentile(errors, 100.0),
+        }
+    }
+
+    /// The same to six significant digits, for a file.
+    #[must_use]
+    pub fn rounded(&self) -> Self {
+        let Self { mean, median, p90, max } = *self;
+        let [mean, median, p90, max] = [mean, median, p90, max].map(crate::library::rounded);
+        Self { mean, median, p90, max }
+    }
+}
+
+/// The value that `percent` of `values` do not exceed, with straight lines
+/// between order statistics (Hyndman and Fan 1996, definition 7, as numpy); 0
+/// if there are none.
+#[must_use]
+pub fn percentile(values: &[f64], percent: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
+    let position = percent / 100.0 * last as f64;
+    let below = position.floor() as usize;
+    let fraction = position - below as f64;
+    sorted[below] + fraction * (sorted[(below + 1).min(last)] - sorted[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_those_of_numpy() {
+        let values = [4.0, 1.0, 3.0, 2.0];
+        assert_eq!(percentile(&values, 50.0), 2.5);
+        assert!((percentile(&values, 90.0) - 3.7).abs() < 1e-12);
+        assert_eq!(percentile(&values, 100.0), 4.0);
+        assert_eq!(percentile(&[], 50.0), 0.0);
+    }
+}

@@ -1,0 +1,62 @@
+//! Colour differences as a part of what a fit minimises, and as a scale for
+//! its residuals.
+
+use spectra::TristimulusWeights;
+use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
+
+/// The colours that a fit should reproduce.
+#[derive(Debug, Clone)]
+pub(super) struct ColourTerm<'a> {
+    weights: &'a TristimulusWeights,
+    /// By sample: its measured colour, and the local metric of CIEDE2000.
+    targets: Vec<(Lab, Matrix3)>,
+}
+
+/// The colour residual of one sample, with its slopes over reflectance.
+pub(super) struct ColourResidual {
+    /// Three components whose length is the colour difference.
+    pub(super) residual: [f64; 3],
+    /// By wavelength: their derivatives.
+    pub(super) slopes: Vec<[f64; 3]>,
+}
+
+impl<'a> ColourTerm<'a> {
+    pub(super) fn new(weights: &'a TristimulusWeights, target: &[Vec<f64>]) -> Self {
+        let targets = target
+            .iter()
+            .map(|reflectance| {
+                let lab = Lab::from_xyz(weights.xyz(reflectance), weights.white());
+                (lab, ciede2000_metric(lab))
+            })
+            .collect();
+        Self { weights, targets }
+    }
+
+    /// The colour difference of sample `index`.
+    pub(super) fn difference(&self, index: usize, reflectance: &[f64]) -> f64 {
+        let residual = self.components(index, self.weights.xyz(reflectance));
+        residual.iter().map(|v| v * v).sum::<f64>().sqrt()
+    }
+
+    pub(super) fn linear(&self, index: usize, reflectance: &[f64]) -> ColourResidual {
+        let xyz = self.weights.xyz(reflectance);
+        let map = self.targets[index].1.after(&Lab::slopes_over_xyz(xyz, self.weights.white()));
+        let slopes = self.weights.weights().iter().map(|w| map.apply(*w)).collect();
+        ColourResidual { residual: self.components(index, xyz), slopes }
+    }
+
+    /// How far the colour moves, in CIEDE2000, with the reflectance of each
+    /// sample at each wavelength.
+    pub(super) fn sensitivity(&self, target: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (0..self.targets.len())
+            .map(|index| self.linear(index, &target[index]).slopes.iter().map(length).collect())
+            .collect()
+    }
+
+    fn components(&self, index: usize, xyz: Xyz) -> [f64; 3] {
+        let (target, metric) = &self.targets[index];
+        let lab = Lab::from_xyz(xyz, self.weights.white());
+        metric.apply([lab.lightness - target.lightness, lab.a - target.a, lab.b - target.b])
+    }
+}

@@ -1,0 +1,65 @@
+//! Rank and condition of a fit's equations.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::curves::{Curves, Layout};
+use super::forward::{Data, Hiding};
+use super::problem::Problem;
+
+/// How well the mixtures determine K and S at the wavelength where they do so
+/// worst.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// Unknowns a wavelength.
+    pub unknowns: usize,
+    /// The least rank over wavelength.
+    pub rank: usize,
+    /// The largest condition number over wavelength.
+    pub number: f64,
+    /// Where that is, in nm.
+    pub nm: f64,
+}
+
+/// Rank and condition of the derivatives of measured reflectance over log K and
+/// log S, columns scaled to length 1. A singular value below 1e-8 of the
+/// largest counts as 0.
+#[must_use]
+pub fn condition(problem: &Problem, absorption: &[Vec<f64>], scattering: &[Vec<f64>]) -> Condition {
+    let layout = Layout {
+        pigments: problem.pigments,
+        reference: Some(problem.reference),
+        wavelengths: problem.grid.count(),
+    };
+    let curves = Curves { absorption: absorption.to_vec(), scattering: scattering.to_vec() };
+    let forward = Hiding { surface: problem.surface };
+    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    let linear = data.linear(&curves);
+    let unknowns = layout.per_wavelength();
+    let mut worst =
+        Condition { unknowns, rank: unknowns, number: 0.0, nm: problem.grid.start_nm() };
+    for at in 0..layout.wavelengths {
+        let mut normal: DMatrix<f64> = DMatrix::zeros(unknowns, unknowns);
+        for (index, slopes) in linear.slopes.iter().enumerate() {
+            let places = data.places(index);
+            let slopes = &slopes[at * places.len()..(at + 1) * places.len()];
+            for (a, &row) in places.iter().enumerate() {
+                for (b, &column) in places.iter().enumerate() {
+                    normal[(row, column)] += slopes[a] * slopes[b];
+                }
+            }
+        }
+        let lengths: Vec<f64> = (0..unknowns).map(|i| normal[(i, i)].sqrt()).collect();
+        let unit = |i: usize| if lengths[i] > 0.0 { lengths[i] } else { 1.0 };
+        let scaled =
+            DMatrix::from_fn(unknowns, unknowns, |i, j| normal[(i, j)] / (unit(i) * unit(j)));
+        let eigenvalues = SymmetricEigen::new(scaled).eigenvalues;
+        let largest = eigenvalues.max();
+        let rank = eigenvalues.iter().filter(|&&v| v > 1e-16 * largest).count();
+        let number = (largest / eigenvalues.min().max(1e-16 * largest)).sqrt();
+        worst.rank = worst.rank.min(rank);
+        if number > worst.number {
+            (worst.number, worst.nm) = (number, problem.grid.nm(at));
+        }
+    }
+    worst
+}

@@ -1,0 +1,140 @@
+//! The two optical models a fit can see its films through.
+
+use spectra::optics::{Surface, UnevenFilm, infinite_film, ratio_slope};
+
+use super::curves::{Curves, Layout};
+
+/// The measured reflectance of a film, from K and S of its mixture.
+pub(super) trait Forward: Sync {
+    /// The reflectance of sample `index` at wavelength `at`.
+    fn reflectance(&self, index: usize, at: usize, k: f64, s: f64) -> f64;
+
+    /// The same, with its derivatives over K and over S.
+    fn linearised(&self, index: usize, at: usize, k: f64, s: f64) -> [f64; 3];
+}
+
+/// Films that hide.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hiding {
+    pub(super) surface: Surface,
+}
+
+impl Forward for Hiding {
+    fn reflectance(&self, _: usize, _: usize, k: f64, s: f64) -> f64 {
+        self.surface.measured_from_internal(infinite_film(k, s))
+    }
+
+    fn linearised(&self, _: usize, _: usize, k: f64, s: f64) -> [f64; 3] {
+        let r = infinite_film(k, s);
+        let over_ratio = self.surface.measured_slope(r) * ratio_slope(r);
+        [self.surface.measured_from_internal(r), over_ratio / s, -over_ratio * k / (s * s)]
+    }
+}
+
+/// Films of unit thickness (the amounts carry it) over known backings.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Finite<'a> {
+    pub(super) film: UnevenFilm,
+    /// By sample and wavelength: internal reflectance of the bare backing.
+    pub(super) backing: &'a [Vec<f64>],
+}
+
+impl Forward for Finite<'_> {
+    fn reflectance(&self, index: usize, at: usize, k: f64, s: f64) -> f64 {
+        self.film.reflectance(k, s, self.backing[index][at])
+    }
+
+    fn linearised(&self, index: usize, at: usize, k: f64, s: f64) -> [f64; 3] {
+        self.film.with_slopes(k, s, self.backing[index][at])
+    }
+}
+
+/// Samples seen through a model.
+#[derive(Debug)]
+pub(super) struct Data<'a, F> {
+    pub(super) layout: Layout,
+    pub(super) forward: F,
+    /// By sample: its pigments and their amounts.
+    pub(super) recipes: &'a [Vec<(usize, f64)>],
+    /// By sample and wavelength: what was measured.
+    pub(super) target: &'a [Vec<f64>],
+    /// By sample: where its unknowns stand in a wavelength.
+    places: Vec<Vec<usize>>,
+}
+
+/// A model near a point: values, and slopes over the unknowns.
+pub(super) struct Linear {
+    /// By sample and wavelength.
+    pub(super) values: Vec<Vec<f64>>,
+    /// By sample: by wavelength, one slope for each of the sample's places.
+    pub(super) slopes: Vec<Vec<f64>>,
+}
+
+impl<'a, F: Forward> Data<'a, F> {
+    pub(super) fn new(
+        layout: Layout,
+        forward: F,
+        recipes: &'a [Vec<(usize, f64)>],
+        target: &'a [Vec<f64>],
+    ) -> Self {
+        let places = recipes
+            .iter()
+            .map(|recipe| {
+                let absorption = recipe.iter().map(|&(pigment, _)| pigment);
+                let scattering = recipe.iter().filter_map(|&(p, _)| layout.scattering(p));
+                absorption.chain(scattering).collect()
+            })
+            .collect();
+        Self { layout, forward, recipes, target, places }
+    }
+
+    /// Where the unknowns of sample `index` stand in a wavelength.
+    pub(super) fn places(&self, index: usize) -> &[usize] {
+        &self.places[index]
+    }
+
+    /// Predicted measured reflectance, by sample and wavelength.
+    pub(super) fn values(&self, curves: &Curves) -> Vec<Vec<f64>> {
+        (0..self.recipes.len())
+            .map(|index| {
+                (0..self.layout.wavelengths)
+                    .map(|at| {
+                        let (k, s) = self.mixed(curves, index, at);
+                        self.forward.reflectance(index, at, k, s)
+                    })
+                    .collect()
+            })
+            .collect()
+    }
+
+    /// The model at `curves`, with slopes over log K and log S.
+    pub(super) fn linear(&self, curves: &Curves) -> Linear {
+        let wavelengths = self.layout.wavelengths;
+        let mut linear = Linear { values: Vec::new(), slopes: Vec::new() };
+        for (index, recipe) in self.recipes.iter().enumerate() {
+            let mut values = Vec::with_capacity(wavelengths);
+            let mut slopes = Vec::with_capacity(wavelengths * self.places[index].len());
+            for at in 0..wavelengths {
+                let (k, s) = self.mixed(curves, index, at);
+                let [value, over_k, over_s] = self.forward.linearised(index, at, k, s);
+                values.push(value);
+                slopes.extend(recipe.iter().map(|&(p, c)| over_k * c * curves.absorption[p][at]));
+                let scattering =
+                    recipe.iter().filter(|&&(p, _)| self.layout.scattering(p).is_some());
+                slopes.extend(scattering.map(|&(p, c)| over_s * c * curves.scattering[p][at]));
+            }
+            linear.values.push(values);
+            linear.slopes.push(slopes);
+        }
+        linear
+    }
+
+    fn mixed(&self, curves: &Curves, index: usize, at: usize) -> (f64, f64) {
+        self.recipes[index].iter().fold((0.0, 0.0), |(k, s), &(pigment, amount)| {
+            (
+                k + amount * curves.absorption[pigment][at],
+                s + amount * curves.scattering[pigment][at],
+            )
+        })
+    }
+}

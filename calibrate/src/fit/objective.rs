@@ -1,0 +1,323 @@
+//! What the refinement minimises, and one step of Levenberg-Marquardt on it.
+
+use super::banded::{Banded, BandedCholesky};
+use super::colour_term::{ColourResidual, ColourTerm};
+use super::curves::{LOWER, UPPER};
+use super::forward::{Data, Forward};
+
+/// Weight of the pull towards the start, in 1 / (log unit)^2: a standard
+/// deviation of 10, which only keeps what no sample tells from running away.
+pub(super) const RIDGE: f64 = 0.01;
+
+/// The whole cost, in units of the residual's variance:
+///
+/// - spectral: rho(w (cbrt R - cbrt R_measured)), knee at 3 standard deviations;
+/// - roughness: smoothness / 2 (second difference over wavelength)^2 of each
+///   log K and log S;
+/// - ridge: [`RIDGE`] / 2 (log - start)^2, for S as told;
+/// - colour: strength x rho(CIEDE2000) of each sample;
+///
+/// rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1), half a square near 0 and straight
+/// beyond the knee c.
+pub(super) struct Objective<'a, F> {
+    pub(super) data: &'a Data<'a, F>,
+    /// By sample and wavelength: w, one over the residual's standard deviation.
+    pub(super) weights: Vec<Vec<f64>>,
+    pub(super) knee: f64,
+    pub(super) smoothness: f64,
+    pub(super) start: &'a [f64],
+    /// As [`RIDGE`], for log S.
+    pub(super) scattering_ridge: f64,
+    pub(super) colour: Option<ColourPart<'a>>,
+}
+
+/// The colour part of the cost.
+pub(super) struct ColourPart<'a> {
+    pub(super) term: &'a ColourTerm<'a>,
+    pub(super) strength: f64,
+    pub(super) knee: f64,
+}
+
+/// The cost near a point.
+pub(super) struct Local {
+    pub(super) cost: f64,
+    gradient: Vec<f64>,
+    /// Gauss-Newton matrix of all but the colour part.
+    pub(super) matrix: Banded,
+    /// The Gauss-Newton matrix's diagonal, colour included.
+    diagonal: Vec<f64>,
+    /// By sample: the colour part's rows, with their weight.
+    colour: Vec<(ColourResidual, f64)>,
+    slopes: Vec<Vec<f64>>,
+}
+
+/// rho and its weight rho'(r) / r.
+pub(super) fn robust(squared: f64, knee: f64) -> (f64, f64) {
+    let root = (1.0 + squared / (knee * knee)).sqrt();
+    (knee * knee * (root - 1.0), root.recip())
+}
+
+impl<F: Forward> Objective<'_, F> {
+    pub(super) fn cost(&self, unknowns: &[f64]) -> f64 {
+        let values = self.data.values(&self.data.layout.curves(unknowns));
+        let mut cost = self.prior_cost(unknowns);
+        for (index, row) in values.iter().enumerate() {
+            let pairs = row.iter().zip(&self.data.target[index]).zip(&self.weights[index]);
+            for ((value, target), weight) in pairs {
+                let residual = weight * (value.cbrt() - target.cbrt());
+                cost += robust(residual * residual, self.knee).0;
+            }
+            if let Some(colour) = &self.colour {
+                let difference = colour.term.difference(index, row);
+                cost += colour.strength * robust(difference * difference, colour.knee).0;
+            }
+        }
+        cost
+    }
+
+    pub(super) fn local(&self, unknowns: &[f64]) -> Local {
+        let layout = self.data.layout;
+        let per = layout.per_wavelength();
+        let linear = self.data.linear(&layout.curves(unknowns));
+        let reach = if self.smoothness > 0.0 { 2 * per } else { per - 1 };
+        let reach = reach.min(layout.len() - 1);
+        let mut local = Local {
+            cost: self.prior_cost(unknowns),
+            gradient: vec![0.0; layout.len()],
+            matrix: Banded::zeros(layout.len(), reach),
+            diagonal: Vec::new(),
+            colour: Vec::new(),
+            slopes: Vec::new(),
+        };
+        self.add_priors(unknowns, &mut local);
+        for index in 0..self.data.recipes.len() {
+            let places = self.data.places(index);
+            for at in 0..layout.wavelengths {
+                let value = linear.values[index][at];
+                let weight = self.weights[index][at];
+                let root = value.cbrt();
+                let residual = weight * (root - self.data.target[index][at].cbrt());
+                let (cost, share) = robust(residual * residual, self.knee);
+                local.cost += cost;
+                let over_value = weight / (3.0 * root * root);
+                let slopes = &linear.slopes[index][at * places.len()..(at + 1) * places.len()];
+                for (a, &place) in places.iter().enumerate() {
+                    let slope = share * over_value * slopes[a];
+                    local.gradient[at * per + place] += slope * residual;
+                    for (b, &other) in places[..=a].iter().enumerate() {
+                        let (row, column) = (place.max(other), place.min(other));
+                        let product = slope * over_value * slopes[b];
+                        local.matrix.add(at * per + row, at * per + column, product);
+                    }
+                }
+            }
+        }
+        local.diagonal = (0..layout.len()).map(|i| local.matrix.diagonal(i)).collect();
+        if let Some(colour) = &self.colour {
+            for (index, values) in linear.values.iter().enumerate() {
+                let row = colour.term.linear(index, values);
+                let squared: f64 = row.residual.iter().map(|v| v * v).sum();
+                let (cost, share) = robust(squared, colour.knee);
+                local.cost += colour.strength * cost;
+                local.colour.push((row, colour.strength * share));
+            }
+            local.slopes = linear.slopes;
+            self.add_colour(&mut local);
+        }
+        local
+    }
+
+    /// Moves `unknowns` downhill until the cost falls by less than `relative`
+    /// of itself, or for `iterations` steps.
+    pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {
+        let mut damping: f64 = 1e-2;
+        let mut local = self.local(unknowns);
+        for _ in 0..iterations {
+            let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { return };
+            let decrease = local.cost - cost;
+            *unknowns = trial;
+            if decrease < relative * local.cost {
+                return;
+            }
+            local = self.local(unknowns);
+        }
+    }
+
+    fn improved(
+        &self,
+        unknowns: &[f64],
+        local: &Local,
+        damping: &mut f64,
+    ) -> Option<(Vec<f64>, f64)> {
+        let held: Vec<bool> = unknowns
+            .iter()
+            .zip(&local.gradient)
+            .map(|(&x, &g)| (x <= LOWER && g > 0.0) || (x >= UPPER && g < 0.0))
+            .collect();
+        for _ in 0..8 {
+            let trial = self.step(local, &held, *damping).map(|step| {
+                let moved = unknowns.iter().zip(&step);
+                moved.map(|(x, d)| (x + d.clamp(-2.0, 2.0)).clamp(LOWER, UPPER)).collect()
+            });
+            if let Some(trial) = trial {
+                let trial: Vec<f64> = trial;
+                let cost = self.cost(&trial);
+                if cost < local.cost {
+                    *damping = (*damping / 5.0).max(1e-8);
+                    return Some((trial, cost));
+                }
+            }
+            *damping *= 6.0;
+        }
+        None
+    }
+
+    /// The damped Gauss-Newton step: straight from the banded factor, or, where
+    /// colour ties all wavelengths together, by conjugate gradients with that
+    /// factor as preconditioner.
+    fn step(&self, local: &Local, held: &[bool], damping: f64) -> Option<Vec<f64>> {
+        let mut matrix = local.matrix.clone();
+        let mut right: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
+        for (i, diagonal) in local.diagonal.iter().enumerate() {
+            matrix.add(i, i, damping * diagonal + 1e-9);
+        }
+        for i in (0..right.len()).filter(|&i| held[i]) {
+            matrix.hold(i);
+            right[i] = 0.0;
+        }
+        let factor = matrix.clone().cholesky()?;
+        if self.colour.is_none() {
+            return Some(factor.solve(&right));
+        }
+        let product = |v: &[f64]| {
+            let mut product = matrix.times(v);
+            self.add_colour_product(local, v, &mut product);
+            for i in (0..v.len()).filter(|&i| held[i]) {
+                product[i] = v[i];
+            }
+            product
+        };
+        Some(conjugate_gradients(&right, &factor, product))
+    }
+
+    /// Strength of the pull of unknown number `place` towards its start.
+    fn ridge(&self, place: usize) -> f64 {
+        let layout = self.data.layout;
+        let is_scattering = place % layout.per_wavelength() >= layout.pigments;
+        if is_scattering { self.scattering_ridge } else { RIDGE }
+    }
+
+    fn prior_cost(&self, unknowns: &[f64]) -> f64 {
+        let pull: f64 = unknowns
+            .iter()
+            .zip(self.start)
+            .enumerate()
+            .map(|(i, (x, s))| self.ridge(i) * (x - s).powi(2))
+            .sum();
+        0.5 * pull + 0.5 * self.smoothness * self.roughness(unknowns)
+    }
+
+    /// Sum of squared second differences over wavelength.
+    pub(super) fn roughness(&self, unknowns: &[f64]) -> f64 {
+        let per = self.data.layout.per_wavelength();
+        let last = unknowns.len().saturating_sub(2 * per);
+        (0..last)
+            .map(|i| (unknowns[i] - 2.0 * unknowns[i + per] + unknowns[i + 2 * per]).powi(2))
+            .sum()
+    }
+
+    fn add_priors(&self, unknowns: &[f64], local: &mut Local) {
+        for (i, (x, start)) in unknowns.iter().zip(self.start).enumerate() {
+            local.gradient[i] += self.ridge(i) * (x - start);
+            let ridge = self.ridge(i);
+            local.matrix.add(i, i, ridge);
+        }
+        if self.smoothness == 0.0 {
+            return;
+        }
+        let per = self.data.layout.per_wavelength();
+        for i in 0..unknowns.len().saturating_sub(2 * per) {
+            let difference = unknowns[i] - 2.0 * unknowns[i + per] + unknowns[i + 2 * per];
+            let places = [(i, 1.0), (i + per, -2.0), (i + 2 * per, 1.0)];
+            for (a, &(row, r)) in places.iter().enumerate() {
+                local.gradient[row] += self.smoothness * r * difference;
+                for &(column, c) in &places[..=a] {
+                    local.matrix.add(row, column, self.smoothness * r * c);
+                }
+            }
+        }
+    }
+
+    fn add_colour(&self, local: &mut Local) {
+        let per = self.data.layout.per_wavelength();
+        for (index, (row, weight)) in local.colour.iter().enumerate() {
+            let places = self.data.places(index);
+            for (at, components) in row.slopes.iter().enumerate() {
+                let along: f64 = components.iter().zip(&row.residual).map(|(s, r)| s * r).sum();
+                let square: f64 = components.iter().map(|s| s * s).sum();
+                let slopes = &local.slopes[index][at * places.len()..];
+                for (&place, slope) in places.iter().zip(slopes) {
+                    local.gradient[at * per + place] += weight * along * slope;
+                    local.diagonal[at * per + place] += weight * square * slope * slope;
+                }
+            }
+        }
+    }
+
+    fn add_colour_product(&self, local: &Local, vector: &[f64], product: &mut [f64]) {
+        let per = self.data.layout.per_wavelength();
+        for (index, (row, weight)) in local.colour.iter().enumerate() {
+            let places = self.data.places(index);
+            let slopes = local.slopes[index].chunks_exact(places.len());
+            let mut moved = [0.0; 3];
+            for (at, (components, slopes)) in row.slopes.iter().zip(slopes.clone()).enumerate() {
+                let pairs = places.iter().zip(slopes);
+                let change: f64 = pairs.map(|(place, s)| s * vector[at * per + place]).sum();
+                for (m, component) in moved.iter_mut().zip(components) {
+                    *m += component * change;
+                }
+            }
+            for (at, (components, slopes)) in row.slopes.iter().zip(slopes).enumerate() {
+                let along: f64 = components.iter().zip(&moved).map(|(c, m)| c * m).sum();
+                for (place, slope) in places.iter().zip(slopes) {
+                    product[at * per + place] += weight * along * slope;
+                }
+            }
+        }
+    }
+}
+
+/// Solves A x = `right` for the A that `product` applies, to a thousandth.
+fn conjugate_gradients(
+    right: &[f64],
+    factor: &BandedCholesky,
+    product: impl Fn(&[f64]) -> Vec<f64>,
+) -> Vec<f64> {
+    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+    let mut solution = vec![0.0; right.len()];
+    let mut residual = right.to_vec();
+    let mut preconditioned = factor.solve(&residual);
+    let mut direction = preconditioned.clone();
+    let mut length = dot(&residual, &preconditioned);
+    let wanted = 1e-6 * length;
+    for _ in 0..60 {
+        if length <= wanted {
+            break;
+        }
+        let image = product(&direction);
+        let along = length / dot(&direction, &image);
+        for ((x, r), (d, i)) in
+            solution.iter_mut().zip(&mut residual).zip(direction.iter().zip(&image))
+        {
+            *x += along * d;
+            *r -= along * i;
+        }
+        preconditioned = factor.solve(&residual);
+        let next = dot(&residual, &preconditioned);
+        for (d, p) in direction.iter_mut().zip(&preconditioned) {
+            *d = p + next / length * *d;
+        }
+        length = next;
+    }
+    solution
+}

@@ -1,0 +1,324 @@
+//! The refinement: from the weighted program to the K and S a user gets.
+
+use spectra::TristimulusWeights;
+
+use super::colour_term::ColourTerm;
+use super::curves::{Curves, Layout};
+use super::forward::{Data, Forward, Hiding};
+use super::objective::{ColourPart, Objective, RIDGE};
+use super::problem::{FitError, Problem};
+use super::settings::Smoothness;
+use super::weighted::weighted;
+
+/// Knee of the spectral loss, in standard deviations.
+const KNEE: f64 = 3.0;
+/// One over the variance granted to each sample's colour: a standard deviation
+/// of 0.32 CIEDE2000, the repeatability of a good instrument.
+const COLOUR_STRENGTH: f64 = 10.0;
+
+/// Pull of log S towards a pigment's start where amounts are absolute: a
+/// standard deviation of 0.32.
+pub(crate) const SCATTERING_RIDGE: f64 = 10.0;
+
+/// The fit's answer, with what it found out about the noise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refined {
+    /// K by pigment and wavelength.
+    pub absorption: Vec<Vec<f64>>,
+    /// S by pigment and wavelength.
+    pub scattering: Vec<Vec<f64>>,
+    /// Standard deviation of K, from the normal matrix (priors included).
+    pub absorption_sd: Vec<Vec<f64>>,
+    /// Standard deviation of S; 0 for the reference.
+    pub scattering_sd: Vec<Vec<f64>>,
+    /// What was estimated beside K and S.
+    pub state: RefinedState,
+}
+
+/// Two numbers estimated from the data, which a leave-one-out fit may reuse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RefinedState {
+    /// How much of the noise is constant in reflectance rather than even to the
+    /// eye, 0 to 200.
+    pub noise_ratio: f64,
+    /// Weight of roughness, in units of the residual's variance.
+    pub smoothness: f64,
+}
+
+/// K and S by `refined`.
+///
+/// Minimised is a robust loss of the residuals in measured reflectance, on a
+/// scale even to the eye (cube root, weighted by how far CIEDE2000 moves with
+/// reflectance at that wavelength), plus roughness of log K and log S over
+/// wavelength, then, from there, the same plus the robust colour difference of
+/// each sample under D65 (whose weights `weights` are). K and S stay within
+/// 1e-5 to 1e4.
+///
+/// The residual's variance is a sum of two: one even to the eye, one constant
+/// in reflectance; their ratio is the one under which the residuals are most
+/// likely (Laplace's law). The smoothness is the one under which the data are
+/// most likely (MacKay 1992, eq. 2.18). Both are taken from `state` instead,
+/// where given.
+///
+/// # Errors
+/// As [`super::fit_weighted`], which it starts from.
+pub fn fit_refined(
+    problem: &Problem,
+    weights: &TristimulusWeights,
+    smoothness: Smoothness,
+    state: Option<RefinedState>,
+) -> Result<Refined, FitError> {
+    let mut start = weighted(problem)?;
+    let layout = Layout {
+        pigments: problem.pigments,
+        reference: Some(problem.reference),
+        wavelengths: problem.grid.count(),
+    };
+    // A weighted fit may put a pigment at 0, where its logarithm has no slope.
+    let off_zero = |curves: &mut Vec<Vec<f64>>, least: f64| {
+        curves.iter_mut().flatten().for_each(|v| *v = v.max(least));
+    };
+    off_zero(&mut start.absorption, 1e-4);
+    off_zero(&mut start.scattering, 1e-3);
+    let forward = Hiding { surface: problem.surface };
+    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    Ok(refine(&data, &start, weights, problem.grid.step_nm(), smoothness, state))
+}
+
+/// The refinement of `start` under any optical model.
+pub(super) fn refine<F: Forward>(
+    data: &Data<'_, F>,
+    start: &Curves,
+    weights: &TristimulusWeights,
+    step_nm: f64,
+    smoothness: Smoothness,
+    state: Option<RefinedState>,
+) -> Refined {
+    let layout = data.layout;
+    let term = ColourTerm::new(weights, data.target);
+    let noise = Noise::new(&term, data.target);
+    let origin = layout.unknowns(start);
+    let fixed = |lambda: f64| lambda * (10.0 / step_nm).powi(3);
+    let estimate = state.is_none();
+    let mut state = state.unwrap_or(RefinedState {
+        noise_ratio: 0.0,
+        smoothness: match smoothness {
+            Smoothness::None => 0.0,
+            Smoothness::Auto => fixed(10.0),
+            Smoothness::Fixed(lambda) => fixed(lambda),
+        },
+    });
+    let mut unknowns = origin.clone();
+    let mut objective = Objective {
+        data,
+        weights: Vec::new(),
+        knee: KNEE,
+        smoothness: state.smoothness,
+        start: &origin,
+        // One backing tells little of S, which then keeps the pigment's mean.
+        scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
+        colour: None,
+    };
+    settle(&mut objective, &noise, state.noise_ratio, &mut unknowns);
+    let rounds = if !estimate {
+        0
+    } else if smoothness == Smoothness::Auto && layout.wavelengths > 2 {
+        5
+    } else {
+        1
+    };
+    for round in 0..rounds {
+        state.noise_ratio = noise.likeliest_ratio(&data.values(&layout.curves(&unknowns)));
+        settle(&mut objective, &noise, state.noise_ratio, &mut unknowns);
+        if round + 1 == rounds {
+            break;
+        }
+        let next = likeliest_smoothness(&objective, &unknowns);
+        if (next / state.smoothness).ln().abs() < 0.15 {
+            break;
+        }
+        state.smoothness = next;
+        objective.smoothness = next;
+    }
+
+    let differences: Vec<f64> = data
+        .values(&layout.curves(&unknowns))
+        .iter()
+        .enumerate()
+        .map(|(index, values)| term.difference(index, values))
+        .collect();
+    let knee = 5.0 * crate::evaluate::percentile(&differences, 50.0).max(0.3);
+    objective.colour = Some(ColourPart { term: &term, strength: COLOUR_STRENGTH, knee });
+    objective.descend(&mut unknowns, 12, 1e-5);
+    objective.colour = None;
+
+    let curves = layout.curves(&unknowns);
+    let (absorption_sd, scattering_sd) = deviations(&objective, &unknowns, &curves);
+    Refined {
+        absorption: curves.absorption,
+        scattering: curves.scattering,
+        absorption_sd,
+        scattering_sd,
+        state,
+    }
+}
+
+/// Descends while the residuals' scale is set anew from their median.
+fn settle<F: Forward>(
+    objective: &mut Objective<'_, F>,
+    noise: &Noise<'_>,
+    ratio: f64,
+    unknowns: &mut Vec<f64>,
+) {
+    for round in 0..4 {
+        let values = objective.data.values(&objective.data.layout.curves(unknowns));
+        objective.weights = noise.weights(ratio, &values);
+        let iterations = if round < 3 { 5 } else { 60 };
+        objective.descend(unknowns, iterations, 1e-6);
+    }
+}
+
+/// How noise spreads over samples and wavelengths.
+struct Noise<'a> {
+    target: &'a [Vec<f64>],
+    /// By sample and wavelength: weight of a cube-root residual that makes it
+    /// even to the eye.
+    even: Vec<Vec<f64>>,
+    /// The same for a residual in reflectance itself.
+    slope: Vec<Vec<f64>>,
+    median_slope: f64,
+}
+
+impl<'a> Noise<'a> {
+    fn new(term: &ColourTerm<'_>, target: &'a [Vec<f64>]) -> Self {
+        let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
+        let mut even = term.sensitivity(target);
+        for (row, reflectances) in even.iter_mut().zip(target) {
+            for (value, &r) in row.iter_mut().zip(reflectances) {
+                *value /= root_slope(r);
+            }
+        }
+        // Only the differences among samples count: no wavelength outweighs
+        // another here, or the dim ends of the band would not be fitted at all.
+        for at in 0..even[0].len() {
+            let mean = even.iter().map(|row| row[at]).sum::<f64>() / even.len() as f64;
+            for row in &mut even {
+                row[at] = if mean > 0.0 { row[at] / mean } else { 1.0 };
+            }
+        }
+        let slope: Vec<Vec<f64>> = even
+            .iter()
+            .zip(target)
+            .map(|(row, rs)| row.iter().zip(rs).map(|(e, &r)| e * root_slope(r)).collect())
+            .collect();
+        let all: Vec<f64> = slope.iter().flatten().copied().collect();
+        Self { target, even, slope, median_slope: crate::evaluate::percentile(&all, 50.0) }
+    }
+
+    /// One over the standard deviation of each residual.
+    fn weights(&self, ratio: f64, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let at_median = 1.0 + (ratio * self.median_slope).powi(2);
+        let mut weights: Vec<Vec<f64>> = self
+            .even
+            .iter()
+            .zip(&self.slope)
+            .map(|(even, slope)| {
+                let pairs = even.iter().zip(slope);
+                pairs.map(|(e, g)| e * (at_median / (1.0 + (ratio * g).powi(2))).sqrt()).collect()
+            })
+            .collect();
+        let mut sizes = Vec::new();
+        for ((row, values), target) in weights.iter().zip(values).zip(self.target) {
+            for ((w, v), t) in row.iter().zip(values).zip(target) {
+                sizes.push((w * (v.cbrt() - t.cbrt())).abs());
+            }
+        }
+        // The median of |r| is 0.6745 standard deviations of normal noise.
+        let sd = (1.4826 * crate::evaluate::percentile(&sizes, 50.0)).max(1e-4);
+        weights.iter_mut().flatten().for_each(|w| *w /= sd);
+        weights
+    }
+
+    /// The ratio of the two kinds of noise under which the residuals of
+    /// `values` are most likely.
+    fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
+        let score = |ratio: f64| {
+            let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
+            for (index, row) in values.iter().enumerate() {
+                for (at, value) in row.iter().enumerate() {
+                    let residual =
+                        self.even[index][at] * (value.cbrt() - self.target[index][at].cbrt());
+                    let sd = (1.0 + (ratio * self.slope[index][at]).powi(2)).sqrt();
+                    sum += (residual / sd).abs();
+                    logs += sd.ln();
+                    count += 1.0;
+                }
+            }
+            count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
+        };
+        // 0, then 25 steps of equal ratio from 0.02 to 200.
+        let candidates = (0..25).map(|i| 0.02 * 10f64.powf(4.0 * f64::from(i) / 24.0));
+        let mut best = (score(0.0), 0.0);
+        for ratio in candidates {
+            let score = score(ratio);
+            if score < best.0 {
+                best = (score, ratio);
+            }
+        }
+        best.1
+    }
+}
+
+/// MacKay's update: the number of well-determined second differences over
+/// their sum of squares.
+fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f64]) -> f64 {
+    let layout = objective.data.layout;
+    let per = layout.per_wavelength();
+    let count = (unknowns.len() - 2 * per) as f64;
+    let Some(factor) = objective.local(unknowns).matrix.cholesky() else {
+        return objective.smoothness;
+    };
+    let inverse = factor.inverse_band();
+    // The trace of inverse x D'D, from the three diagonals of D'D.
+    let mut trace = 0.0;
+    for i in 0..unknowns.len() - 2 * per {
+        let (a, b, c) = (i, i + per, i + 2 * per);
+        trace += inverse.at(a, a) + 4.0 * inverse.at(b, b) + inverse.at(c, c)
+            - 4.0 * inverse.at(b, a)
+            - 4.0 * inverse.at(c, b)
+            + 2.0 * inverse.at(c, a);
+    }
+    let determined = (count - objective.smoothness * trace).max(1.0);
+    determined / objective.roughness(unknowns).max(f64::MIN_POSITIVE)
+}
+
+/// Standard deviations of K and S.
+fn deviations<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+    curves: &Curves,
+) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let layout = objective.data.layout;
+    let per = layout.per_wavelength();
+    let factor = objective.local(unknowns).matrix.cholesky();
+    let inverse = factor.map(|factor| factor.inverse_band());
+    // Without data the ridge alone is left.
+    let sd = |place: usize| {
+        inverse.as_ref().map_or(RIDGE.sqrt().recip(), |inverse| inverse.at(place, place).sqrt())
+    };
+    let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
+        curve.iter().enumerate().map(|(at, value)| value * sd(at * per + place)).collect()
+    };
+    let absorption =
+        curves.absorption.iter().enumerate().map(|(p, curve)| of_logs(p, curve)).collect();
+    let scattering = curves
+        .scattering
+        .iter()
+        .enumerate()
+        .map(|(p, curve)| match layout.scattering(p) {
+            Some(place) => of_logs(place, curve),
+            None => vec![0.0; curve.len()],
+        })
+        .collect();
+    (absorption, scattering)
+}

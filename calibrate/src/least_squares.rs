@@ -1,0 +1,188 @@
+//! Bounded nonlinear least squares: Levenberg-Marquardt with a projected step.
+//!
+//! Marquardt 1963 with Nielsen's damping (1999). A parameter at its bound whose
+//! gradient points outward is held for the step; every trial is projected into
+//! the box (Kanzow, Yamashita and Fukushima 2004, the projected variant).
+
+use nalgebra::{DMatrix, DVector};
+
+/// Half the sum of squares, its gradient and the Gauss-Newton matrix.
+#[derive(Debug, Clone)]
+pub(crate) struct NormalEquations {
+    pub(crate) cost: f64,
+    pub(crate) gradient: DVector<f64>,
+    pub(crate) matrix: DMatrix<f64>,
+}
+
+impl NormalEquations {
+    pub(crate) fn zeros(count: usize) -> Self {
+        Self { cost: 0.0, gradient: DVector::zeros(count), matrix: DMatrix::zeros(count, count) }
+    }
+
+    /// Adds one residual with its derivatives.
+    pub(crate) fn add(&mut self, residual: f64, derivatives: &[f64], weight: f64) {
+        self.cost += 0.5 * weight * residual * residual;
+        let count = derivatives.len();
+        let columns = self.matrix.as_mut_slice();
+        for (j, &d) in derivatives.iter().enumerate() {
+            if d == 0.0 {
+                continue;
+            }
+            let scaled = weight * d;
+            self.gradient[j] += scaled * residual;
+            // The lower triangle of column j; mirrored when solved.
+            for (target, other) in
+                columns[j * count + j..(j + 1) * count].iter_mut().zip(&derivatives[j..])
+            {
+                *target += scaled * other;
+            }
+        }
+    }
+}
+
+/// When to stop.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stop {
+    pub(crate) iterations: usize,
+    /// Stop when the cost falls by less than this share of itself.
+    pub(crate) relative_decrease: f64,
+}
+
+/// The best point found.
+#[derive(Debug, Clone)]
+pub(crate) struct Minimum {
+    pub(crate) point: DVector<f64>,
+    pub(crate) cost: f64,
+}
+
+/// Minimises from `start` inside `lower..=upper`. `build` gives the normal
+/// equations at a point, `cost` the cost alone.
+pub(crate) fn minimise(
+    start: DVector<f64>,
+    (lower, upper): (&DVector<f64>, &DVector<f64>),
+    stop: Stop,
+    mut build: impl FnMut(&DVector<f64>) -> NormalEquations,
+    mut cost: impl FnMut(&DVector<f64>) -> f64,
+) -> Minimum {
+    let mut point = start.zip_zip_map(lower, upper, f64::clamp);
+    let mut equations = build(&point);
+    let largest = equations.matrix.diagonal().max();
+    let mut damping = 1e-3;
+    let mut growth = 2.0;
+    for _ in 0..stop.iterations {
+        let held: Vec<bool> = (0..point.len())
+            .map(|i| {
+                (point[i] <= lower[i] && equations.gradient[i] > 0.0)
+                    || (point[i] >= upper[i] && equations.gradient[i] < 0.0)
+            })
+            .collect();
+        let Some(step) = damped_step(&equations, &held, damping, largest) else {
+            damping *= growth;
+            growth *= 2.0;
+            continue;
+        };
+        let trial = (&point + &step).zip_zip_map(lower, upper, f64::clamp);
+        let taken = &trial - &point;
+        let trial_cost = cost(&trial);
+        let decrease = equations.cost - trial_cost;
+        let full = equations.matrix.clone();
+        let promised = -(equations.gradient.dot(&taken) + 0.5 * lower_product(&full, &taken));
+        if trial_cost.is_finite() && decrease > 0.0 {
+            let ratio = if promised > 0.0 { decrease / promised } else { 1.0 };
+            damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+            damping = damping.max(1e-12);
+            growth = 2.0;
+            point = trial;
+            let done = decrease <= stop.relative_decrease * equations.cost;
+            equations = build(&point);
+            if done {
+                break;
+            }
+        } else {
+            damping *= growth;
+            growth *= 2.0;
+            if damping > 1e12 {
+                break;
+            }
+        }
+    }
+    Minimum { point, cost: equations.cost }
+}
+
+/// Solves (A + damping D) step = -gradient over the parameters not held, D the
+/// diagonal of A kept off zero.
+fn damped_step(
+    equations: &NormalEquations,
+    held: &[bool],
+    damping: f64,
+    largest: f64,
+) -> Option<DVector<f64>> {
+    let mut matrix = equations.matrix.clone();
+    let mut right = -&equations.gradient;
+    for i in 0..right.len() {
+        let diagonal = matrix[(i, i)];
+        matrix[(i, i)] += damping * diagonal.max(1e-12 * largest).max(f64::MIN_POSITIVE);
+    }
+    for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+        for j in 0..i {
+            matrix[(i, j)] = 0.0;
+        }
+        for j in i + 1..right.len() {
+            matrix[(j, i)] = 0.0;
+        }
+        matrix[(i, i)] = 1.0;
+        right[i] = 0.0;
+    }
+    // Cholesky reads the lower triangle alone.
+    Some(matrix.cholesky()?.solve(&right))
+}
+
+/// v' A v of a symmetric A given by its lower triangle.
+fn lower_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> f64 {
+    let mut total = 0.0;
+    for j in 0..vector.len() {
+        total += matrix[(j, j)] * vector[j] * vector[j];
+        for i in j + 1..vector.len() {
+            total += 2.0 * matrix[(i, j)] * vector[i] * vector[j];
+        }
+    }
+    total
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rosenbrock(upper: f64) -> Minimum {
+        let bounds = (DVector::from_element(2, -2.0), DVector::from_element(2, upper));
+        let residuals = |p: &DVector<f64>| [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]];
+        minimise(
+            DVector::from_vec(vec![-1.2, 0.4]),
+            (&bounds.0, &bounds.1),
+            Stop { iterations: 500, relative_decrease: 1e-15 },
+            |p| {
+                let [r1, r2] = residuals(p);
+                let mut equations = NormalEquations::zeros(2);
+                equations.add(r1, &[-20.0 * p[0], 10.0], 1.0);
+                equations.add(r2, &[-1.0, 0.0], 1.0);
+                equations
+            },
+            |p| residuals(p).iter().map(|r| 0.5 * r * r).sum(),
+        )
+    }
+
+    #[test]
+    fn the_valley_of_rosenbrock_is_followed_to_its_end() {
+        let minimum = rosenbrock(2.0);
+        assert!(minimum.cost < 1e-20, "{minimum:?}");
+    }
+
+    #[test]
+    fn a_bound_is_kept_and_the_best_point_on_it_found() {
+        let minimum = rosenbrock(0.5);
+        assert!(minimum.point.max() <= 0.5, "{minimum:?}");
+        // On the face y = 0.5 the minimum of 100 (0.5 - x^2)^2 + (1 - x)^2,
+        // limited to x <= 0.5, is its corner.
+        assert!((minimum.point[0] - 0.5).abs() < 1e-6, "{minimum:?}");
+    }
+}

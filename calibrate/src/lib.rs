@@ -1,0 +1,36 @@
+//! From swatches of paint to a calibrated pigment library.
+//!
+//! In scope: reading measurements of mixtures, K/S of films that hide or not,
+//! fitting each pigment's K and S, what the data cannot tell, validation, the
+//! library file, mixing forward, and quadrature in wavelength. Out of scope:
+//! recipes for a target colour, and anything with a brush.
+//!
+//! Files stand in an order of dependence; each uses only what stands above it.
+
+pub mod measurement;
+
+pub mod swatch;
+
+pub mod observation;
+
+pub mod evaluate;
+
+pub mod mixture;
+
+mod least_squares;
+
+pub mod fit;
+
+pub mod library;
+
+mod findings;
+
+pub mod calibration;
+
+pub mod absolute;
+
+pub mod validation;
+
+pub mod quadrature;
+
+pub mod synthetic;

@@ -1,0 +1,279 @@
+//! What can be wrong with a measurement file, and where.
+
+/// A cell of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file, as the user named it.
+    pub file: String,
+    /// The row, counted from 1; the header is row 1.
+    pub row: u64,
+    /// The column's header.
+    pub column: String,
+}
+
+impl Place {
+    pub(crate) fn new(file: &str, row: u64, column: &str) -> Self {
+        Self { file: file.to_owned(), row, column: column.to_owned() }
+    }
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column)
+    }
+}
+
+/// Why readings cannot be used. Every variant says where.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasurementError {
+    /// The file holds nothing.
+    #[error("{file}: the file holds no readings")]
+    Empty {
+        /// The file.
+        file: String,
+    },
+    /// The bytes are not UTF-8.
+    #[error("{file}, row {row}: text must be UTF-8, found byte `0x{byte:02x}`")]
+    Encoding {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The first byte that does not fit.
+        byte: u8,
+    },
+    /// The columns are not parted by commas.
+    #[error("{file}, row 1: columns must be parted by commas, found `{separator}`")]
+    Separator {
+        /// The file.
+        file: String,
+        /// What parts them.
+        separator: char,
+    },
+    /// A column that must be there is not.
+    #[error("{file}, row 1: no column `{column}`")]
+    MissingColumn {
+        /// The file.
+        file: String,
+        /// The column.
+        column: &'static str,
+    },
+    /// A column has no header.
+    #[error("{file}, row 1: column number {number} has no header")]
+    UnnamedColumn {
+        /// The file.
+        file: String,
+        /// Counted from 1.
+        number: usize,
+    },
+    /// Two columns have one header.
+    #[error("{place} stands twice, as column number {first} and {second}")]
+    RepeatedColumn {
+        /// Where.
+        place: Place,
+        /// Counted from 1.
+        first: usize,
+        /// Counted from 1.
+        second: usize,
+    },
+    /// A wavelength stands twice.
+    #[error("{place}: the wavelength {nm} nm stands twice")]
+    RepeatedWavelength {
+        /// Where.
+        place: Place,
+        /// The wavelength.
+        nm: f64,
+    },
+    /// Wavelengths fall.
+    #[error("{place}: wavelengths must rise, found {nm} nm after {before} nm")]
+    FallingWavelength {
+        /// Where.
+        place: Place,
+        /// The one before.
+        before: f64,
+        /// The one found.
+        nm: f64,
+    },
+    /// A header is a number that is no wavelength of light.
+    #[error("{place} is no wavelength from 200 to 2500 nm")]
+    WavelengthRange {
+        /// Where.
+        place: Place,
+    },
+    /// A row has more or fewer cells than the header.
+    #[error("{file}, row {row}: {wanted} cells are wanted, found `{found}`")]
+    RowLength {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// Cells of the header.
+        wanted: usize,
+        /// Cells of the row.
+        found: usize,
+    },
+    /// A cell is not the number it should be.
+    #[error("{place}: {wanted} is wanted, found `{text}`")]
+    Cell {
+        /// Where.
+        place: Place,
+        /// What should stand there.
+        wanted: &'static str,
+        /// What stands there.
+        text: String,
+    },
+    /// A reading below 0 or far above white.
+    #[error("{place}: a reflectance {range} is wanted, found `{value}`")]
+    Reflectance {
+        /// Where; the column is the wavelength.
+        place: Place,
+        /// The allowed range, in the file's unit.
+        range: &'static str,
+        /// What was found.
+        value: f64,
+    },
+    /// One reading looks like fractions in a file of percent.
+    #[error(
+        "{file}, row {row}: the file is in percent, but no value of this reading exceeds `{largest}`, as if it were a fraction"
+    )]
+    MixedScale {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The largest value of the reading.
+        largest: f64,
+    },
+    /// Two readings of one sample carry different recipes.
+    #[error("{place}: sample {sample} has another amount than in row {first_row}: `{text}`")]
+    Contradiction {
+        /// Where.
+        place: Place,
+        /// The sample.
+        sample: String,
+        /// Where the other amount stands.
+        first_row: u64,
+        /// The amount found.
+        text: String,
+    },
+    /// A film has no recipe.
+    #[error("{file}, row {row}: sample {sample} is paint, but no pigment has an amount")]
+    NoRecipe {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The sample.
+        sample: String,
+    },
+    /// A reading lies below what the surface alone reflects.
+    #[error(
+        "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, below k1 = {k1}: the surface alone would reflect more"
+    )]
+    BelowSurface {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The sample.
+        sample: String,
+        /// The wavelength.
+        nm: f64,
+        /// The reading, as a fraction.
+        measured: f64,
+        /// The surface's share.
+        k1: f64,
+        /// The least reading of the whole file, as a fraction.
+        least: f64,
+    },
+    /// A reading above what a white film under this surface can reflect.
+    #[error(
+        "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, above a perfect white"
+    )]
+    AboveWhite {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The sample.
+        sample: String,
+        /// The wavelength.
+        nm: f64,
+        /// The reading, as a fraction.
+        measured: f64,
+    },
+    /// A film on a known backing whose bare reading is missing.
+    #[error(
+        "{file}, row {row}: sample {sample} lies on `{backing}`, of which there is no bare reading"
+    )]
+    NoBareBacking {
+        /// The file.
+        file: String,
+        /// The row.
+        row: u64,
+        /// The sample.
+        sample: String,
+        /// The backing.
+        backing: String,
+    },
+    /// The amounts do not belong to one known backing.
+    #[error("{file}: no film has an amount of paint on a known backing")]
+    NoFilms {
+        /// The file.
+        file: String,
+    },
+}
+
+impl MeasurementError {
+    /// What to try, where there is something.
+    #[must_use]
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Encoding { .. } => {
+                "save the file as UTF-8 (`iconv -f latin1 -t utf-8 OLD.csv > NEW.csv`)".into()
+            }
+            Self::Separator { .. } => {
+                "save as comma-separated values with decimal points, not decimal commas".into()
+            }
+            Self::MissingColumn { .. } => {
+                "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
+            }
+            Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
+                "remove or rename one of the two columns".into()
+            }
+            Self::FallingWavelength { .. } => {
+                "order the wavelength columns from short to long".into()
+            }
+            Self::RowLength { wanted, found, .. } if found > wanted => {
+                "numbers take a decimal point; a decimal comma splits a cell in two".into()
+            }
+            Self::RowLength { .. } => {
+                "the row may be cut off; write empty cells as `,,`".into()
+            }
+            Self::Cell { text, .. } if text.contains(',') => {
+                "numbers take a decimal point, not a comma".into()
+            }
+            Self::MixedScale { .. } => {
+                "write all readings in one unit, or say `--percent` if this sample really is that dark".into()
+            }
+            Self::Reflectance { .. } => {
+                "say `--percent` or `--fraction` if the unit was told apart wrongly; a dark reading below 0 means that the instrument's zero is off".into()
+            }
+            Self::BelowSurface { least, .. } => format!(
+                "give a k1 below every reading, such as `--saunderson {:.3},0.6`, or `--below-surface floor` to read such samples as black",
+                (least * 0.95 * 1000.0).floor() / 1000.0
+            ),
+            Self::NoBareBacking { backing, .. } => format!(
+                "add a row with film `none` and backing `{backing}`: the card without paint"
+            ),
+            Self::NoFilms { .. } => {
+                "give every film a backing, and the bare backing a row with film `none`".into()
+            }
+            Self::NoRecipe { .. } => {
+                "write the amounts in the pigment columns, or film `none` for a bare card".into()
+            }
+            Self::AboveWhite { .. } => "say `--percent` or `--fraction` if the unit was told apart wrongly".into(),
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! What a swatch tells of its paint: K/S, and the colour it would have in a
+//! film that hides.
+
+use spectra::optics::{
+    OverBacking, Surface, SurfaceError, absorption_over_scattering, film_over_two_backings,
+};
+
+use serde::{Deserialize, Serialize};
+
+use crate::measurement::MeasurementError;
+use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
+
+/// What to do with a reading below what the surface alone reflects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BelowSurface {
+    /// Refuse, naming sample and wavelength: k1 is too high for this paint.
+    #[default]
+    Refuse,
+    /// Read it as [`BLACK`] below the surface.
+    Floor,
+}
+
+/// The internal reflectance that stands for black: K/S is about 500 there. A
+/// reading nearer to the surface's own reflection carries no more information,
+/// and K/S would rise without bound.
+pub const BLACK: f64 = 1e-3;
+
+/// How the backing was kept out of a swatch's K/S.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hiding {
+    /// Read over two backings; the largest share of their contrast that shows
+    /// through, over wavelength.
+    Transparency(f64),
+    /// Only one backing, or none known: taken to hide.
+    Assumed,
+}
+
+/// One swatch as the fit sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// The sample's name.
+    pub sample: String,
+    /// Share of each pigment, sum 1.
+    pub shares: Vec<f64>,
+    /// K/S at each wavelength, 0 and up.
+    pub ratio: Vec<f64>,
+    /// Measured reflectance of a film that hides, surface included.
+    pub reflectance: Vec<f64>,
+    /// How far the film let its backing through.
+    pub hiding: Hiding,
+    /// Spread of repeated readings, if any were repeated.
+    pub spread: Option<f64>,
+    /// How many of its films' readings lay below the surface's own reflection
+    /// and were read as black.
+    pub below_surface: usize,
+}
+
+impl Hiding {
+    /// Whether the two readings differ by at most a twentieth of the backings'
+    /// contrast at every wavelength; `None` if assumed.
+    #[must_use]
+    pub fn hides(self) -> Option<bool> {
+        match self {
+            Self::Transparency(share) => Some(share <= 0.05),
+            Self::Assumed => None,
+        }
+    }
+}
+
+/// The observations of all swatches.
+///
+/// Readings are first brought below the surface. A film over two backings of
+/// known reflectance gives K/S by [`film_over_two_backings`], the pair with the
+/// greatest contrast at equal thickness; the thickest such pair where there are
+/// several. Any other swatch is taken to hide.
+///
+/// # Errors
+/// [`MeasurementError::BelowSurface`] or `AboveWhite`, naming sample and
+/// wavelength.
+pub fn observations(
+    set: &SwatchSet,
+    surface: Surface,
+    below: BelowSurface,
+) -> Result<Vec<Observation>, MeasurementError> {
+    let door = Door { set, surface, below };
+    set.swatches.iter().map(|swatch| door.observation(swatch)).collect()
+}
+
+/// The least measured reflectance of any film or bare backing in use.
+#[must_use]
+pub fn least_reading(set: &SwatchSet) -> f64 {
+    let films = set.swatches.iter().flat_map(|swatch| &swatch.films);
+    let all = films.flat_map(|film| film.reflectance.iter().chain(film.bare.iter().flatten()));
+    all.copied().fold(f64::INFINITY, f64::min)
+}
+
+/// Readings pass through the surface here.
+pub(crate) struct Door<'a> {
+    pub(crate) set: &'a SwatchSet,
+    pub(crate) surface: Surface,
+    pub(crate) below: BelowSurface,
+}
+
+impl Door<'_> {
+    /// Measured reflectances below the surface.
+    pub(crate) fn internal(
+        &self,
+        swatch: &Swatch,
+        measured: &[f64],
+    ) -> Result<Vec<f64>, MeasurementError> {
+        let at = |(index, &value): (usize, &f64)| {
+            let internal = match self.surface.internal_from_measured(value) {
+                Ok(internal) => internal.max(BLACK),
+                Err(SurfaceError::BelowFloor { .. }) if self.below == BelowSurface::Floor => BLACK,
+                Err(_) => {
+                    return Err(MeasurementError::BelowSurface {
+                        file: self.set.file.clone(),
+                        row: swatch.row,
+                        sample: swatch.sample.clone(),
+                        nm: self.set.grid.nm(index),
+                        measured: value,
+                        k1: self.surface.k1,
+                        least: least_reading(self.set),
+                    });
+                }
+            };
+            if internal > 1.05 {
+                return Err(MeasurementError::AboveWhite {
+                    file: self.set.file.clone(),
+                    row: swatch.row,
+                    sample: swatch.sample.clone(),
+                    nm: self.set.grid.nm(index),
+                    measured: value,
+                });
+            }
+            // A hair above white is the instrument's tile, not the paint.
+            Ok(internal.min(1.0))
+        };
+        measured.iter().enumerate().map(at).collect()
+    }
+
+    fn count_below(&self, swatch: &Swatch) -> usize {
+        let floor = self.surface.floor();
+        let readings = swatch.films.iter().flat_map(|film| &film.reflectance);
+        readings.filter(|&&r| r < floor).count()
+    }
+
+    fn observation(&self, swatch: &Swatch) -> Result<Observation, MeasurementError> {
+        let (ratio, hiding) = match two_backings(&swatch.films) {
+            Some((light, dark)) => self.over_two_backings(swatch, light, dark)?,
+            None => {
+                let internal = self.internal(swatch, &swatch.films[0].reflectance)?;
+                (internal.into_iter().map(absorption_over_scattering).collect(), Hiding::Assumed)
+            }
+        };
+        let external = |&q: &f64| {
+            self.surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(q))
+        };
+        let spreads: Vec<f64> = swatch.films.iter().filter_map(|film| film.spread).collect();
+        Ok(Observation {
+            sample: swatch.sample.clone(),
+            shares: swatch.shares.clone(),
+            reflectance: ratio.iter().map(external).collect(),
+            ratio,
+            hiding,
+            below_surface: self.count_below(swatch),
+            spread: spreads.into_iter().reduce(f64::max),
+        })
+    }
+
+    fn over_two_backings(
+        &self,
+        swatch: &Swatch,
+        light: (&[f64], &[f64]),
+        dark: (&[f64], &[f64]),
+    ) -> Result<(Vec<f64>, Hiding), MeasurementError> {
+        let over = |(film, bare): (&[f64], &[f64])| -> Result<Vec<OverBacking>, _> {
+            let film = self.internal(swatch, film)?;
+            let bare = self.internal(swatch, bare)?;
+            let pairs = film.into_iter().zip(bare);
+            Ok(pairs.map(|(film, backing)| OverBacking { film, backing }).collect())
+        };
+        let (light, dark) = (over(light)?, over(dark)?);
+        let mut largest: f64 = 0.0;
+        let ratio = light
+            .into_iter()
+            .zip(dark)
+            .map(|(light, dark)| match film_over_two_backings(light, dark) {
+                Some(optics) => {
+                    largest = largest.max(optics.transparency);
+                    optics.ratio.min(absorption_over_scattering(BLACK))
+                }
+                // Two backings that are alike here tell nothing apart.
+                None => absorption_over_scattering(f64::midpoint(light.film, dark.film)),
+            })
+            .collect();
+        Ok((ratio, Hiding::Transparency(largest)))
+    }
+}
+
+/// Film and bare reflectance over the two backings that differ most.
+type Pair<'a> = ((&'a [f64], &'a [f64]), (&'a [f64], &'a [f64]));
+
+fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
+    let known: Vec<(&SwatchFilm, &[f64])> =
+        films.iter().filter_map(|film| Some((film, film.bare.as_deref()?))).collect();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let mut best: Option<(f64, f64, Pair<'_>)> = None;
+    for (index, (first, first_bare)) in known.iter().enumerate() {
+        for (second, second_bare) in &known[index + 1..] {
+            if first.thickness_mm != second.thickness_mm {
+                continue;
+            }
+            let contrast = (mean(first_bare) - mean(second_bare)).abs();
+            let thickness = first.thickness_mm.unwrap_or(0.0);
+            let better = best.as_ref().is_none_or(|(t, c, _)| (thickness, contrast) > (*t, *c));
+            if contrast > 0.05 && better {
+                let pair = (
+                    (first.reflectance.as_slice(), *first_bare),
+                    (second.reflectance.as_slice(), *second_bare),
+                );
+                best = Some((thickness, contrast, pair));
+            }
+        }
+    }
+    best.map(|(_, _, pair)| pair)
+}

@@ -1,0 +1,222 @@
+//! Nodes and weights fitted to what a library can mix.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
+use spectra::optics::{infinite_film, infinite_film_from_ratio, ratio_slope};
+
+use super::mixtures::MixtureSet;
+use super::rule::{Quadrature, on_line};
+use crate::least_squares::{NormalEquations, Stop, minimise};
+
+/// The best of several fits.
+///
+/// Unknown are the n nodes and, in each channel, all weights but the last,
+/// which makes the sum that of the white. The residuals are colour differences
+/// to the exact colour in the local metric of CIEDE2000. Starts: the nodes of
+/// `start`, the same drawn to the middle or spread, and evenly spaced ones.
+pub(super) fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
+    let problem = Problem::new(start, training);
+    let count = start.nodes_nm.len();
+    let middle = start.nodes_nm.iter().sum::<f64>() / count as f64;
+    let scaled = |factor: f64| -> Vec<f64> {
+        start.nodes_nm.iter().map(|nm| middle + factor * (nm - middle)).collect()
+    };
+    let even = |low: f64, high: f64| -> Vec<f64> {
+        (0..count).map(|i| low + (high - low) * (i as f64 + 0.5) / count as f64).collect()
+    };
+    let starts =
+        [start.nodes_nm.clone(), scaled(0.85), scaled(1.1), even(410.0, 680.0), even(425.0, 650.0)];
+    let fits: Vec<(f64, Quadrature)> =
+        starts.into_par_iter().map(|nodes| problem.solve(nodes)).collect();
+    let best = fits.into_iter().reduce(|a, b| if b.0 < a.0 { b } else { a });
+    best.expect("there is a start").1
+}
+
+struct Problem<'a> {
+    start: &'a Quadrature,
+    training: &'a MixtureSet,
+    targets: Vec<(Lab, Matrix3)>,
+}
+
+impl<'a> Problem<'a> {
+    fn new(start: &'a Quadrature, training: &'a MixtureSet) -> Self {
+        let target = |xyz: &Xyz| {
+            let lab = Lab::from_xyz(*xyz, training.white);
+            (lab, ciede2000_metric(lab))
+        };
+        Self { start, training, targets: training.xyz.iter().map(target).collect() }
+    }
+
+    /// The fit from these nodes, with its cost.
+    fn solve(&self, nodes: Vec<f64>) -> (f64, Quadrature) {
+        let n = nodes.len();
+        let mut nodes = nodes;
+        nodes.sort_by(f64::total_cmp);
+        let weights = self.linear_weights(&nodes);
+        let mut point = DVector::zeros(n + 3 * (n - 1));
+        for (i, nm) in nodes.iter().enumerate() {
+            point[i] = *nm;
+        }
+        for i in 0..n - 1 {
+            for channel in 0..3 {
+                point[n + 3 * i + channel] = weights[i][channel];
+            }
+        }
+        let mut lower = DVector::from_element(point.len(), -1e3);
+        let mut upper = DVector::from_element(point.len(), 1e3);
+        lower.rows_mut(0, n).fill(360.0);
+        upper.rows_mut(0, n).fill(830.0);
+        let minimum = minimise(
+            point,
+            (&lower, &upper),
+            Stop { iterations: 120, relative_decrease: 1e-6 },
+            |p| self.equations(p),
+            |p| self.cost(p),
+        );
+        (minimum.cost, self.quadrature(&minimum.point))
+    }
+
+    /// Weights at fixed nodes by linear least squares in XYZ.
+    fn linear_weights(&self, nodes: &[f64]) -> Vec<[f64; 3]> {
+        let n = nodes.len();
+        let mut equations = [(); 3].map(|()| NormalEquations::zeros(n));
+        let white = self.training.white.to_array();
+        for (index, xyz) in self.training.xyz.iter().enumerate() {
+            let reflectance: Vec<f64> =
+                nodes.iter().map(|&nm| self.reflectance(index, nm).0).collect();
+            // Relative errors weigh dark colours as the eye does.
+            let weight = (xyz.y + 1.0).recip().powi(2);
+            for (channel, value) in xyz.to_array().into_iter().enumerate() {
+                equations[channel].add(-value, &reflectance, weight);
+            }
+        }
+        let solved = equations.map(|mut equations| {
+            for i in 0..n {
+                equations.matrix[(i, i)] *= 1.0 + 1e-9;
+            }
+            let cholesky = equations.matrix.cholesky();
+            cholesky.map_or_else(|| DVector::zeros(n), |c| c.solve(&-equations.gradient))
+        });
+        (0..n)
+            .map(|i| {
+                std::array::from_fn(|channel| {
+                    let value = solved[channel][i];
+                    if value.is_finite() { value } else { white[channel] / n as f64 }
+                })
+            })
+            .collect()
+    }
+
+    fn quadrature(&self, point: &DVector<f64>) -> Quadrature {
+        let n = self.start.nodes_nm.len();
+        let white = self.start.white.to_array();
+        let mut last = white;
+        let mut pairs: Vec<(f64, [f64; 3])> = (0..n - 1)
+            .map(|i| {
+                let weights: [f64; 3] = std::array::from_fn(|channel| point[n + 3 * i + channel]);
+                for (rest, weight) in last.iter_mut().zip(weights) {
+                    *rest -= weight;
+                }
+                (point[i], weights)
+            })
+            .collect();
+        pairs.push((point[n - 1], last));
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (nodes_nm, weights) = pairs.into_iter().unzip();
+        Quadrature { nodes_nm, weights, white: self.start.white }
+    }
+
+    /// Measured reflectance of a mixture at `nm`, and its slope over nm.
+    fn reflectance(&self, index: usize, nm: f64) -> (f64, f64) {
+        let mixture = &self.training.mixtures[index];
+        let (k, k_slope) = on_line(self.training.grid, &mixture.absorption, nm);
+        let (s, s_slope) = on_line(self.training.grid, &mixture.scattering, nm);
+        let internal = infinite_film(k, s);
+        let surface = self.training.surface;
+        let slope = if k > 0.0 && s > 0.0 && internal < 1.0 {
+            let ratio = k / s;
+            let ratio_over_nm = (k_slope - ratio * s_slope) / s;
+            ratio_slope(infinite_film_from_ratio(ratio)) * ratio_over_nm
+        } else {
+            0.0
+        };
+        (surface.measured_from_internal(internal), surface.measured_slope(internal) * slope)
+    }
+
+    /// Residual of a mixture, and the derivative of each with respect to XYZ.
+    fn residual(&self, index: usize, xyz: Xyz) -> ([f64; 3], Matrix3) {
+        let white = self.training.white;
+        let (target, metric) = &self.targets[index];
+        let lab = Lab::from_xyz(xyz, white);
+        let difference = [lab.lightness - target.lightness, lab.a - target.a, lab.b - target.b];
+        let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
+        (metric.apply(difference), metric.after(&lab_over_xyz))
+    }
+
+    fn equations(&self, point: &DVector<f64>) -> NormalEquations {
+        let n = self.start.nodes_nm.len();
+        let weights = self.weights_in_order(point);
+        let mut equations = NormalEquations::zeros(point.len());
+        let mut derivatives = vec![0.0; point.len()];
+        for index in 0..self.training.len() {
+            let at_nodes: Vec<(f64, f64)> =
+                (0..n).map(|i| self.reflectance(index, point[i])).collect();
+            let (residual, slopes) = self.residual(index, sum(&at_nodes, &weights));
+            let last = at_nodes[n - 1].0;
+            for (row, slope) in residual.into_iter().zip(slopes.0) {
+                for i in 0..n {
+                    let along: f64 = (0..3).map(|c| slope[c] * weights[i][c]).sum();
+                    derivatives[i] = along * at_nodes[i].1;
+                    if i + 1 < n {
+                        for channel in 0..3 {
+                            derivatives[n + 3 * i + channel] =
+                                slope[channel] * (at_nodes[i].0 - last);
+                        }
+                    }
+                }
+                equations.add(row, &derivatives, 1.0);
+            }
+        }
+        equations
+    }
+
+    fn cost(&self, point: &DVector<f64>) -> f64 {
+        let n = self.start.nodes_nm.len();
+        let weights = self.weights_in_order(point);
+        (0..self.training.len())
+            .map(|index| {
+                let at_nodes: Vec<(f64, f64)> =
+                    (0..n).map(|i| self.reflectance(index, point[i])).collect();
+                let (residual, _) = self.residual(index, sum(&at_nodes, &weights));
+                residual.iter().map(|r| 0.5 * r * r).sum::<f64>()
+            })
+            .sum()
+    }
+
+    /// All weights, in the order of the nodes of `point` (not sorted).
+    fn weights_in_order(&self, point: &DVector<f64>) -> Vec<[f64; 3]> {
+        let n = self.start.nodes_nm.len();
+        let mut last = self.start.white.to_array();
+        let mut weights: Vec<[f64; 3]> = Vec::with_capacity(n);
+        for i in 0..n - 1 {
+            let own: [f64; 3] = std::array::from_fn(|channel| point[n + 3 * i + channel]);
+            for (rest, weight) in last.iter_mut().zip(own) {
+                *rest -= weight;
+            }
+            weights.push(own);
+        }
+        weights.push(last);
+        weights
+    }
+}
+
+fn sum(at_nodes: &[(f64, f64)], weights: &[[f64; 3]]) -> Xyz {
+    let mut xyz = [0.0; 3];
+    for ((value, _), weights) in at_nodes.iter().zip(weights) {
+        for (total, weight) in xyz.iter_mut().zip(weights) {
+            *total += value * weight;
+        }
+    }
+    xyz.into()
+}

@@ -1,0 +1,226 @@
+//! Swatches: all readings of one sample, averaged.
+
+use std::collections::BTreeMap;
+
+use spectra::Grid;
+
+use crate::measurement::{Film, MeasurementError, MeasurementTable, Place, Reading};
+
+/// One painted sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swatch {
+    /// Its name.
+    pub sample: String,
+    /// Its first row in the file.
+    pub row: u64,
+    /// Amount of each pigment as written.
+    pub amounts: Vec<f64>,
+    /// The same, normalised to sum 1.
+    pub shares: Vec<f64>,
+    /// Its films, by backing and thickness; at least one.
+    pub films: Vec<SwatchFilm>,
+}
+
+/// The averaged readings of one film on one backing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SwatchFilm {
+    /// The backing's name; empty if the file does not say.
+    pub backing: String,
+    /// Thickness in mm, where given.
+    pub thickness_mm: Option<f64>,
+    /// Mean measured reflectance, as a fraction.
+    pub reflectance: Vec<f64>,
+    /// Root mean square over wavelengths of the standard deviation of repeated
+    /// readings; `None` for a single reading.
+    pub spread: Option<f64>,
+    /// The bare backing's measured reflectance, where there is a reading of it:
+    /// the sample's own, else the mean over the file.
+    pub bare: Option<Vec<f64>>,
+}
+
+/// Every swatch of a measurement file, in order of first appearance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SwatchSet {
+    /// The file, as the user named it.
+    pub file: String,
+    /// The wavelengths of every reflectance.
+    pub grid: Grid,
+    /// The pigments.
+    pub pigments: Vec<String>,
+    /// The swatches; none if the file holds bare cards only.
+    pub swatches: Vec<Swatch>,
+}
+
+impl SwatchSet {
+    /// Groups the readings of `table` by sample, averages what was repeated and
+    /// gives every film its bare backing.
+    ///
+    /// # Errors
+    /// [`MeasurementError::Contradiction`] if rows of one sample disagree on the
+    /// recipe, [`MeasurementError::NoRecipe`] for paint without a pigment.
+    pub fn from_table(table: &MeasurementTable) -> Result<Self, MeasurementError> {
+        let cards = BareCards::of(table);
+        let mut order: Vec<&str> = Vec::new();
+        let mut by_sample: BTreeMap<&str, Vec<&Reading>> = BTreeMap::new();
+        for reading in table.readings.iter().filter(|r| r.film == Film::Paint) {
+            let readings = by_sample.entry(&reading.sample).or_default();
+            if readings.is_empty() {
+                order.push(&reading.sample);
+            }
+            readings.push(reading);
+        }
+        let swatches = order
+            .into_iter()
+            .map(|sample| swatch(table, sample, &by_sample[sample], &cards))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            file: table.file.clone(),
+            grid: table.grid,
+            pigments: table.pigments.clone(),
+            swatches,
+        })
+    }
+
+    /// The set without some swatches; pigments that then occur nowhere go too.
+    #[must_use]
+    pub fn retaining(&self, keep: impl Fn(&Swatch) -> bool) -> Self {
+        let swatches: Vec<Swatch> = self.swatches.iter().filter(|s| keep(s)).cloned().collect();
+        let used: Vec<bool> = (0..self.pigments.len())
+            .map(|index| swatches.iter().any(|s| s.amounts[index] > 0.0))
+            .collect();
+        let only_used = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(&used).filter(|(_, used)| **used).map(|(v, _)| *v).collect()
+        };
+        let swatches = swatches
+            .into_iter()
+            .map(|swatch| Swatch {
+                amounts: only_used(&swatch.amounts),
+                shares: only_used(&swatch.shares),
+                ..swatch
+            })
+            .collect();
+        let pigments =
+            self.pigments.iter().zip(&used).filter(|(_, used)| **used).map(|(p, _)| p.clone());
+        Self { file: self.file.clone(), grid: self.grid, pigments: pigments.collect(), swatches }
+    }
+
+    /// Swatches whose amounts do not sum to 100 % (or 1), with their sum in
+    /// percent; nothing where the file plainly counts parts instead.
+    #[must_use]
+    pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
+        let totals: Vec<f64> = self.swatches.iter().map(|s| s.amounts.iter().sum()).collect();
+        for whole in [100.0, 1.0] {
+            let even = |total: f64| (total / whole - 1.0).abs() < 1e-3;
+            if 2 * totals.iter().filter(|t| even(**t)).count() > totals.len() {
+                let pairs = self.swatches.iter().zip(totals);
+                return pairs
+                    .filter(|(_, total)| !even(*total))
+                    .map(|(swatch, total)| (swatch.sample.as_str(), 100.0 * total / whole))
+                    .collect();
+            }
+        }
+        Vec::new()
+    }
+}
+
+/// Mean readings of the bare backings: by sample and backing, and by backing.
+struct BareCards {
+    own: BTreeMap<(String, String), Vec<f64>>,
+    any: BTreeMap<String, Vec<f64>>,
+}
+
+impl BareCards {
+    fn of(table: &MeasurementTable) -> Self {
+        let mut own: BTreeMap<(String, String), Vec<&Reading>> = BTreeMap::new();
+        let mut any: BTreeMap<String, Vec<&Reading>> = BTreeMap::new();
+        for reading in table.readings.iter().filter(|r| r.film == Film::None) {
+            own.entry((reading.sample.clone(), reading.backing.clone())).or_default().push(reading);
+            any.entry(reading.backing.clone()).or_default().push(reading);
+        }
+        Self {
+            own: own.into_iter().map(|(key, group)| (key, mean(&group))).collect(),
+            any: any.into_iter().map(|(key, group)| (key, mean(&group))).collect(),
+        }
+    }
+
+    fn under(&self, sample: &str, backing: &str) -> Option<Vec<f64>> {
+        let own = self.own.get(&(sample.to_owned(), backing.to_owned()));
+        own.or_else(|| self.any.get(backing)).cloned()
+    }
+}
+
+fn swatch(
+    table: &MeasurementTable,
+    sample: &str,
+    readings: &[&Reading],
+    cards: &BareCards,
+) -> Result<Swatch, MeasurementError> {
+    let first = readings[0];
+    for reading in &readings[1..] {
+        let differs = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+        if let Some(index) = first.amounts.iter().zip(&reading.amounts).position(differs) {
+            return Err(MeasurementError::Contradiction {
+                place: Place::new(&table.file, reading.row, &table.pigments[index]),
+                sample: sample.to_owned(),
+                first_row: first.row,
+                text: reading.amounts[index].to_string(),
+            });
+        }
+    }
+    let total: f64 = first.amounts.iter().sum();
+    if total <= 0.0 {
+        return Err(MeasurementError::NoRecipe {
+            file: table.file.clone(),
+            row: first.row,
+            sample: sample.to_owned(),
+        });
+    }
+    let mut films: Vec<SwatchFilm> = Vec::new();
+    for reading in readings {
+        let same = |other: &SwatchFilm| {
+            other.backing == reading.backing && other.thickness_mm == reading.thickness_mm
+        };
+        if films.iter().any(same) {
+            continue;
+        }
+        let group: Vec<&Reading> = readings
+            .iter()
+            .filter(|r| r.backing == reading.backing && r.thickness_mm == reading.thickness_mm)
+            .copied()
+            .collect();
+        films.push(SwatchFilm {
+            backing: reading.backing.clone(),
+            thickness_mm: reading.thickness_mm,
+            reflectance: mean(&group),
+            spread: spread(&group),
+            bare: cards.under(sample, &reading.backing),
+        });
+    }
+    Ok(Swatch {
+        sample: sample.to_owned(),
+        row: first.row,
+        amounts: first.amounts.clone(),
+        shares: first.amounts.iter().map(|amount| amount / total).collect(),
+        films,
+    })
+}
+
+fn mean(readings: &[&Reading]) -> Vec<f64> {
+    let count = readings.len() as f64;
+    (0..readings[0].reflectance.len())
+        .map(|w| readings.iter().map(|r| r.reflectance[w]).sum::<f64>() / count)
+        .collect()
+}
+
+fn spread(readings: &[&Reading]) -> Option<f64> {
+    if readings.len() < 2 {
+        return None;
+    }
+    let mean = mean(readings);
+    let freedom = ((readings.len() - 1) * mean.len()) as f64;
+    let squares: f64 = readings
+        .iter()
+        .flat_map(|r| r.reflectance.iter().zip(&mean).map(|(v, m)| (v - m).powi(2)))
+        .sum();
+    Some((squares / freedom).sqrt())
+}

@@ -1,0 +1,156 @@
+//! Made-up paint of known K and S, for tests, benches and trying a method.
+//!
+//! Nothing here was measured.
+
+use rand::seq::index;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Exp1, StandardNormal};
+use spectra::Grid;
+use spectra::optics::{Specular, Surface, absorption_over_scattering};
+
+use crate::mixture::Mixture;
+use crate::observation::{BLACK, Hiding, Observation};
+
+/// Mixtures of made-up pigments, the first of them white with S = 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SyntheticMixtures {
+    /// The wavelengths.
+    pub grid: Grid,
+    /// The surface.
+    pub surface: Surface,
+    /// True K by pigment and wavelength.
+    pub absorption: Vec<Vec<f64>>,
+    /// True S by pigment and wavelength.
+    pub scattering: Vec<Vec<f64>>,
+    /// By mixture: reflectance without noise.
+    pub truth: Vec<Vec<f64>>,
+    /// By mixture: what a noisy instrument makes of it.
+    pub observations: Vec<Observation>,
+}
+
+impl SyntheticMixtures {
+    /// The size of the paper's experiment, 11 pigments and 71 mixtures at 101
+    /// wavelengths (400 to 700 nm by 3 nm): every masstone, two tints with
+    /// white of each (10 % and 40 %), then random mixtures of two or three.
+    /// Readings carry normal noise of standard deviation `noise` in reflectance.
+    ///
+    /// K and S are exponentials of a level and a few smooth bumps.
+    #[must_use]
+    pub fn paper_size(seed: u64, noise: f64) -> Self {
+        let grid = Grid::from_nm(400.0, 3.0, 101).expect("a grid");
+        let surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let pigments = 11;
+        let mut absorption = vec![curve(&mut random, grid, (-6.0, -5.0), 2)];
+        let mut scattering = vec![vec![1.0; grid.count()]];
+        for _ in 1..pigments {
+            absorption.push(curve(&mut random, grid, (-2.5, 1.5), 4));
+            scattering.push(curve(&mut random, grid, (-2.0, 0.3), 3));
+        }
+        let observations = recipes(&mut random, pigments, 71);
+        let mut mixtures = Self {
+            grid,
+            surface,
+            absorption,
+            scattering,
+            truth: Vec::new(),
+            observations: Vec::new(),
+        };
+        for (number, shares) in observations.into_iter().enumerate() {
+            let truth = mixtures.predicted(&mixtures.absorption, &mixtures.scattering, &shares);
+            let read = |value: &f64| {
+                let error: f64 = StandardNormal.sample(&mut random);
+                let internal = surface.internal_from_measured(value + noise * error);
+                absorption_over_scattering(internal.unwrap_or(BLACK).clamp(BLACK, 1.0))
+            };
+            let ratio: Vec<f64> = truth.iter().map(read).collect();
+            let measured = |q: &f64| {
+                surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(*q))
+            };
+            mixtures.observations.push(Observation {
+                sample: format!("S{number:02}"),
+                shares,
+                reflectance: ratio.iter().map(measured).collect(),
+                ratio,
+                hiding: Hiding::Assumed,
+                spread: None,
+                below_surface: 0,
+            });
+            mixtures.truth.push(truth);
+        }
+        mixtures
+    }
+
+    /// Root mean square difference of what K and S predict from the truth.
+    #[must_use]
+    pub fn rms_to_truth(&self, absorption: &[Vec<f64>], scattering: &[Vec<f64>]) -> f64 {
+        let mut squares = 0.0;
+        for (observation, truth) in self.observations.iter().zip(&self.truth) {
+            let predicted = self.predicted(absorption, scattering, &observation.shares);
+            squares += predicted.iter().zip(truth).map(|(p, t)| (p - t).powi(2)).sum::<f64>();
+        }
+        (squares / (self.truth.len() * self.grid.count()) as f64).sqrt()
+    }
+
+    fn predicted(
+        &self,
+        absorption: &[Vec<f64>],
+        scattering: &[Vec<f64>],
+        shares: &[f64],
+    ) -> Vec<f64> {
+        let curves = absorption.iter().zip(scattering).zip(shares);
+        let parts = curves.map(|((k, s), share)| (*share, k.as_slice(), s.as_slice()));
+        Mixture::of(self.grid.count(), parts).hiding(self.surface)
+    }
+}
+
+/// exp of a level between `level` and a few Gaussian bumps.
+fn curve(random: &mut ChaCha8Rng, grid: Grid, level: (f64, f64), bumps: usize) -> Vec<f64> {
+    let level = random.random_range(level.0..level.1);
+    let bumps: Vec<(f64, f64, f64)> = (0..bumps)
+        .map(|_| {
+            let height = StandardNormal.sample(random);
+            (height, random.random_range(-0.1..1.1), random.random_range(0.1..0.3))
+        })
+        .collect();
+    let last = (grid.count() - 1) as f64;
+    (0..grid.count())
+        .map(|at| {
+            let x = at as f64 / last;
+            let sum: f64 = bumps
+                .iter()
+                .map(|(height, middle, width)| {
+                    height * (-0.5 * ((x - middle) / width).powi(2)).exp()
+                })
+                .sum();
+            (level + sum).exp()
+        })
+        .collect()
+}
+
+/// Shares of masstones, tints with pigment 0, and random mixtures.
+fn recipes(random: &mut ChaCha8Rng, pigments: usize, count: usize) -> Vec<Vec<f64>> {
+    let with = |parts: &[(usize, f64)]| {
+        let mut shares = vec![0.0; pigments];
+        parts.iter().for_each(|&(pigment, share)| shares[pigment] = share);
+        shares
+    };
+    let mut recipes: Vec<Vec<f64>> = (0..pigments).map(|p| with(&[(p, 1.0)])).collect();
+    for pigment in 1..pigments {
+        recipes.push(with(&[(0, 0.9), (pigment, 0.1)]));
+        recipes.push(with(&[(0, 0.6), (pigment, 0.4)]));
+    }
+    while recipes.len() < count {
+        let number = random.random_range(2..=3);
+        let parts: Vec<(usize, f64)> = index::sample(random, pigments, number)
+            .into_iter()
+            .map(|pigment| (pigment, Exp1.sample(random)))
+            .collect();
+        let total: f64 = parts.iter().map(|(_, part)| part).sum();
+        let shares: Vec<(usize, f64)> = parts.iter().map(|&(p, part)| (p, part / total)).collect();
+        recipes.push(with(&shares));
+    }
+    recipes.truncate(count);
+    recipes
+}
