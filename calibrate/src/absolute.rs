@@ -9,12 +9,13 @@ use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError};
+use crate::digits::rounded;
 use crate::evaluate::{Summary, Viewing, delta_e, percentile};
 use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, Refined, SCATTERING_RIDGE, Smoothness, fit_finite,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence, rounded};
+use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
 use crate::measurement::MeasurementError;
 use crate::swatch::SwatchSet;
 
@@ -35,7 +36,7 @@ pub fn films(set: &SwatchSet) -> Result<(FiniteProblem, Vec<String>), Measuremen
     for swatch in &set.swatches {
         for film in &swatch.films {
             let bare = film.bare.clone().ok_or_else(|| MeasurementError::NoBareBacking {
-                file: set.file.clone(),
+                file: swatch.file.to_string(),
                 row: swatch.row,
                 sample: swatch.sample.clone(),
                 backing: film.backing.clone(),
@@ -52,7 +53,7 @@ pub fn films(set: &SwatchSet) -> Result<(FiniteProblem, Vec<String>), Measuremen
         }
     }
     if names.is_empty() {
-        return Err(MeasurementError::NoFilms { file: set.file.clone() });
+        return Err(MeasurementError::NoFilms);
     }
     Ok((problem, names))
 }

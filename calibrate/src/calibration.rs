@@ -2,13 +2,14 @@
 
 use spectra::optics::Surface;
 
+use crate::digits::rounded;
 use crate::evaluate::{Summary, Viewing, delta_e};
 use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, RefinedState, Unidentified, Unknown,
     condition, fit_qp, fit_refined, fit_weighted, unidentified,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence, rounded};
+use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
 use crate::swatch::SwatchSet;

@@ -80,7 +80,7 @@ impl Summary {
     #[must_use]
     pub fn rounded(&self) -> Self {
         let Self { mean, median, p90, max } = *self;
-        let [mean, median, p90, max] = [mean, median, p90, max].map(crate::library::rounded);
+        let [mean, median, p90, max] = [mean, median, p90, max].map(crate::digits::rounded);
         Self { mean, median, p90, max }
     }
 }

@@ -13,6 +13,8 @@ pub mod swatch;
 
 pub mod observation;
 
+pub mod digits;
+
 pub mod evaluate;
 
 pub mod mixture;

@@ -29,9 +29,9 @@ pub const BLACK: f64 = 1e-3;
 /// How the backing was kept out of a swatch's K/S.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hiding {
-    /// Read over two backings; the largest share of their contrast that shows
-    /// through, over wavelength.
-    Transparency(f64),
+    /// Read over two backings; the largest difference of the two readings over
+    /// wavelength, in measured reflectance.
+    Difference(f64),
     /// Only one backing, or none known: taken to hide.
     Assumed,
 }
@@ -57,12 +57,12 @@ pub struct Observation {
 }
 
 impl Hiding {
-    /// Whether the two readings differ by at most a twentieth of the backings'
-    /// contrast at every wavelength; `None` if assumed.
+    /// Whether the two readings differ by at most 0.05 at every wavelength;
+    /// `None` if assumed.
     #[must_use]
     pub fn hides(self) -> Option<bool> {
         match self {
-            Self::Transparency(share) => Some(share <= 0.05),
+            Self::Difference(largest) => Some(largest <= 0.05),
             Self::Assumed => None,
         }
     }
@@ -115,7 +115,7 @@ impl Door<'_> {
                 Err(SurfaceError::BelowFloor { .. }) if self.below == BelowSurface::Floor => BLACK,
                 Err(_) => {
                     return Err(MeasurementError::BelowSurface {
-                        file: self.set.file.clone(),
+                        file: swatch.file.to_string(),
                         row: swatch.row,
                         sample: swatch.sample.clone(),
                         nm: self.set.grid.nm(index),
@@ -127,7 +127,7 @@ impl Door<'_> {
             };
             if internal > 1.05 {
                 return Err(MeasurementError::AboveWhite {
-                    file: self.set.file.clone(),
+                    file: swatch.file.to_string(),
                     row: swatch.row,
                     sample: swatch.sample.clone(),
                     nm: self.set.grid.nm(index),
@@ -181,21 +181,19 @@ impl Door<'_> {
             let pairs = film.into_iter().zip(bare);
             Ok(pairs.map(|(film, backing)| OverBacking { film, backing }).collect())
         };
+        let differences = light.0.iter().zip(dark.0).map(|(a, b)| (a - b).abs());
+        let largest = differences.fold(0.0, f64::max);
         let (light, dark) = (over(light)?, over(dark)?);
-        let mut largest: f64 = 0.0;
         let ratio = light
             .into_iter()
             .zip(dark)
             .map(|(light, dark)| match film_over_two_backings(light, dark) {
-                Some(optics) => {
-                    largest = largest.max(optics.transparency);
-                    optics.ratio.min(absorption_over_scattering(BLACK))
-                }
+                Some(optics) => optics.ratio.min(absorption_over_scattering(BLACK)),
                 // Two backings that are alike here tell nothing apart.
                 None => absorption_over_scattering(f64::midpoint(light.film, dark.film)),
             })
             .collect();
-        Ok((ratio, Hiding::Transparency(largest)))
+        Ok((ratio, Hiding::Difference(largest)))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Swatches: all readings of one sample, averaged.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use spectra::Grid;
 
@@ -11,7 +12,9 @@ use crate::measurement::{Film, MeasurementError, MeasurementTable, Place, Readin
 pub struct Swatch {
     /// Its name.
     pub sample: String,
-    /// Its first row in the file.
+    /// The file of its first reading.
+    pub file: Arc<str>,
+    /// Its first row there.
     pub row: u64,
     /// Amount of each pigment as written.
     pub amounts: Vec<f64>,
@@ -41,8 +44,6 @@ pub struct SwatchFilm {
 /// Every swatch of a measurement file, in order of first appearance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchSet {
-    /// The file, as the user named it.
-    pub file: String,
     /// The wavelengths of every reflectance.
     pub grid: Grid,
     /// The pigments.
@@ -73,12 +74,7 @@ impl SwatchSet {
             .into_iter()
             .map(|sample| swatch(table, sample, &by_sample[sample], &cards))
             .collect::<Result<_, _>>()?;
-        Ok(Self {
-            file: table.file.clone(),
-            grid: table.grid,
-            pigments: table.pigments.clone(),
-            swatches,
-        })
+        Ok(Self { grid: table.grid, pigments: table.pigments.clone(), swatches })
     }
 
     /// The set without some swatches; pigments that then occur nowhere go too.
@@ -101,7 +97,7 @@ impl SwatchSet {
             .collect();
         let pigments =
             self.pigments.iter().zip(&used).filter(|(_, used)| **used).map(|(p, _)| p.clone());
-        Self { file: self.file.clone(), grid: self.grid, pigments: pigments.collect(), swatches }
+        Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
     /// Swatches whose amounts do not sum to 100 % (or 1), with their sum in
@@ -160,7 +156,7 @@ fn swatch(
         let differs = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
         if let Some(index) = first.amounts.iter().zip(&reading.amounts).position(differs) {
             return Err(MeasurementError::Contradiction {
-                place: Place::new(&table.file, reading.row, &table.pigments[index]),
+                place: Place::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
                 first_row: first.row,
                 text: reading.amounts[index].to_string(),
@@ -170,7 +166,7 @@ fn swatch(
     let total: f64 = first.amounts.iter().sum();
     if total <= 0.0 {
         return Err(MeasurementError::NoRecipe {
-            file: table.file.clone(),
+            file: first.file.to_string(),
             row: first.row,
             sample: sample.to_owned(),
         });
@@ -198,6 +194,7 @@ fn swatch(
     }
     Ok(Swatch {
         sample: sample.to_owned(),
+        file: Arc::clone(&first.file),
         row: first.row,
         amounts: first.amounts.clone(),
         shares: first.amounts.iter().map(|amount| amount / total).collect(),

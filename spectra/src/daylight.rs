@@ -12,8 +12,8 @@ use crate::table;
 /// CIE 15:2018, section 4.1.2: the chromaticity sets the weights M1 and M2 of
 /// the three tabulated components. The weights are not rounded to three places
 /// here (the CIE rounds them for the tabulated D50 .. D75, which are
-/// [`Illuminant::named`]). The temperature is today's scale, on which D65 is
-/// 6504 K (6500 x 1.4388 / 1.4380).
+/// [`Illuminant::named`]). The temperature is on today's scale, on which D65 is
+/// 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
 ///
 /// # Errors
 /// [`IlluminantError::Unknown`] outside 4000 to 25000 K, where the CIE defines

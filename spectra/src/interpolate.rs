@@ -75,12 +75,14 @@ impl Interpolation {
         let last = grid.count() - 1;
         if !grid.covers(nm) {
             return match ends {
-                Ends::Refuse => Err(InterpolateError::Outside {
+                Ends::Hold if !nm.is_nan() => {
+                    Ok(Row::single(if nm < grid.start_nm() { 0 } else { last }))
+                }
+                _ => Err(InterpolateError::Outside {
                     nm,
                     start_nm: grid.start_nm(),
                     end_nm: grid.end_nm(),
                 }),
-                Ends::Hold => Ok(Row::single(if nm < grid.start_nm() { 0 } else { last })),
             };
         }
         if last == 0 {

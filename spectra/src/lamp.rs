@@ -1,5 +1,6 @@
 //! A measured lamp from a two-column text file.
 
+use crate::grid::Grid;
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::samples::Samples;
 
@@ -56,6 +57,11 @@ pub fn lamp_from_csv(name: &str, text: &str) -> Result<Illuminant, LampError> {
     if nm.len() < 2 {
         return Err(LampError::TooShort { file: name.to_owned(), count: nm.len() });
     }
+    let (start_nm, end_nm) = (nm[0], nm[nm.len() - 1]);
+    let band = Grid::cie();
+    if end_nm < band.start_nm() || start_nm > band.end_nm() {
+        return Err(LampError::Band { file: name.to_owned(), start_nm, end_nm });
+    }
     let samples = Samples::new(nm, power).map_err(IlluminantError::from)?;
     Ok(Illuminant::from_samples(name, &samples)?)
 }
@@ -102,6 +108,18 @@ pub enum LampError {
         file: String,
         /// How many were found.
         count: usize,
+    },
+    /// No wavelength that an eye sees; in another unit, perhaps.
+    #[error(
+        "{file}: a lamp needs wavelengths from 360 to 830 nm, found `{start_nm}` to `{end_nm}` nm"
+    )]
+    Band {
+        /// The file.
+        file: String,
+        /// The first wavelength.
+        start_nm: f64,
+        /// The last one.
+        end_nm: f64,
     },
     /// The light cannot be used.
     #[error(transparent)]

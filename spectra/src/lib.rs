@@ -17,9 +17,9 @@ mod spectrum;
 
 mod samples;
 
-mod observer;
-
 mod table;
+
+mod observer;
 
 mod illuminant;
 

@@ -3,6 +3,7 @@
 use crate::grid::Grid;
 use crate::interpolate::Ends;
 use crate::spectrum::{Quantity, Spectrum, SpectrumError};
+use crate::wavelength::{Wavelength, WavelengthError};
 
 /// Values at strictly rising wavelengths with no regular step.
 ///
@@ -18,16 +19,16 @@ impl Samples {
     /// `values` at the wavelengths `nm`.
     ///
     /// # Errors
-    /// [`SamplesError`] if the counts differ, there is nothing, or the
-    /// wavelengths do not rise strictly.
+    /// [`SamplesError`] if the counts differ, there is nothing, or `nm` is not
+    /// made of wavelengths that rise strictly.
     pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, SamplesError> {
         if nm.len() != values.len() || nm.is_empty() {
             return Err(SamplesError::Count { wavelengths: nm.len(), values: values.len() });
         }
-        if let Some(pair) = nm
-            .windows(2)
-            .find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less))
-        {
+        for &nm in &nm {
+            Wavelength::from_nm(nm)?;
+        }
+        if let Some(pair) = nm.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(SamplesError::Order { before: pair[0], after: pair[1] });
         }
         Ok(Self { nm, values })
@@ -51,12 +52,12 @@ impl Samples {
     /// [`SamplesError::Outside`] beyond the ends, unless they are held.
     pub fn at_linear(&self, nm: f64, ends: Ends) -> Result<f64, SamplesError> {
         let last = self.nm.len() - 1;
-        if nm < self.nm[0] || nm > self.nm[last] {
+        if !(self.nm[0]..=self.nm[last]).contains(&nm) {
             return match ends {
-                Ends::Hold => Ok(self.values[if nm < self.nm[0] { 0 } else { last }]),
-                Ends::Refuse => {
-                    Err(SamplesError::Outside { nm, start_nm: self.nm[0], end_nm: self.nm[last] })
+                Ends::Hold if !nm.is_nan() => {
+                    Ok(self.values[if nm < self.nm[0] { 0 } else { last }])
                 }
+                _ => Err(SamplesError::Outside { nm, start_nm: self.nm[0], end_nm: self.nm[last] }),
             };
         }
         let after = self.nm.partition_point(|&w| w < nm);
@@ -97,6 +98,9 @@ pub enum SamplesError {
         /// How many values.
         values: usize,
     },
+    /// A number that is no wavelength.
+    #[error(transparent)]
+    Wavelength(#[from] WavelengthError),
     /// The wavelengths do not rise.
     #[error("wavelengths must rise strictly, found {before} nm before `{after}` nm")]
     Order {

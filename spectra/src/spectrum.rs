@@ -9,25 +9,30 @@ use crate::interpolate::{Ends, InterpolateError, Interpolation};
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {
     /// What an error calls it.
     const NAME: &'static str;
-    /// Whether `value` is possible for this quantity.
-    fn possible(value: f64) -> bool;
-    /// The range that [`Quantity::possible`] allows, in words.
+    /// The least possible value.
+    const LEAST: f64;
+    /// The greatest possible value.
+    const MOST: f64;
+    /// The range from least to greatest, in words.
     const RANGE: &'static str;
+
+    /// Whether `value` is possible for this quantity.
+    fn possible(value: f64) -> bool {
+        value.is_finite() && (Self::LEAST..=Self::MOST).contains(&value)
+    }
 }
 
 macro_rules! quantity {
-    ($(#[$doc:meta])* $name:ident, $word:literal, $range:literal, $test:expr) => {
+    ($(#[$doc:meta])* $name:ident, $word:literal, $least:expr, $most:expr, $range:literal) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub struct $name;
 
         impl Quantity for $name {
             const NAME: &'static str = $word;
+            const LEAST: f64 = $least;
+            const MOST: f64 = $most;
             const RANGE: &'static str = $range;
-            fn possible(value: f64) -> bool {
-                let test: fn(f64) -> bool = $test;
-                value.is_finite() && test(value)
-            }
         }
     };
 }
@@ -35,23 +40,23 @@ macro_rules! quantity {
 quantity!(
     /// Reflectance factor, as a fraction. Above 1 is possible (fluorescence, or
     /// a reading relative to a duller white); above 2 is a mistaken unit.
-    Reflectance, "reflectance", "0 to 2", |v| (0.0..=2.0).contains(&v)
+    Reflectance, "reflectance", 0.0, 2.0, "0 to 2"
 );
 quantity!(
     /// Relative spectral power of a light; any unit, not negative.
-    Power, "power", "0 and up", |v| v >= 0.0
+    Power, "power", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
     /// Kubelka-Munk absorption K, per unit of thickness (or of amount).
-    Absorption, "absorption", "0 and up", |v| v >= 0.0
+    Absorption, "absorption", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
     /// Kubelka-Munk scattering S, per unit of thickness (or of amount).
-    Scattering, "scattering", "0 and up", |v| v >= 0.0
+    Scattering, "scattering", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
     /// Response of an observer or a sensor; any sign.
-    Response, "response", "any finite number", |_| true
+    Response, "response", f64::NEG_INFINITY, f64::INFINITY, "any finite number"
 );
 
 /// Values of the quantity `Q` on a regular grid, each checked to be possible.
@@ -125,10 +130,7 @@ impl<Q: Quantity> Spectrum<Q> {
     ) -> Result<Self, InterpolateError> {
         let values = grid
             .wavelengths_nm()
-            .map(|nm| {
-                let value = self.at(nm, method, ends)?;
-                Ok(if Q::possible(value) { value } else { value.max(0.0) })
-            })
+            .map(|nm| Ok(self.at(nm, method, ends)?.clamp(Q::LEAST, Q::MOST)))
             .collect::<Result<_, InterpolateError>>()?;
         Ok(Self { grid, values, quantity: PhantomData })
     }

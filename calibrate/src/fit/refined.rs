@@ -163,18 +163,26 @@ pub(super) fn refine<F: Forward>(
     }
 }
 
-/// Descends while the residuals' scale is set anew from their median.
+/// Descends while the residuals' scale is set anew from their median, until
+/// that settles: a scale that fell at once would lock early errors in as
+/// outliers.
 fn settle<F: Forward>(
     objective: &mut Objective<'_, F>,
     noise: &Noise<'_>,
     ratio: f64,
     unknowns: &mut Vec<f64>,
 ) {
-    for round in 0..4 {
+    let mut before = f64::INFINITY;
+    for round in 0..20 {
         let values = objective.data.values(&objective.data.layout.curves(unknowns));
-        objective.weights = noise.weights(ratio, &values);
-        let iterations = if round < 3 { 5 } else { 60 };
-        objective.descend(unknowns, iterations, 1e-6);
+        let (weights, sd) = noise.weights(ratio, &values, before / 3.0);
+        objective.weights = weights;
+        let settled = round >= 3 && (sd / before - 1.0).abs() < 0.1;
+        before = sd;
+        objective.descend(unknowns, if settled { 60 } else { 5 }, 1e-6);
+        if settled {
+            break;
+        }
     }
 }
 
@@ -215,8 +223,9 @@ impl<'a> Noise<'a> {
         Self { target, even, slope, median_slope: crate::evaluate::percentile(&all, 50.0) }
     }
 
-    /// One over the standard deviation of each residual.
-    fn weights(&self, ratio: f64, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    /// One over the standard deviation of each residual, and the deviation at a
+    /// typical sample, which is `least` or more.
+    fn weights(&self, ratio: f64, values: &[Vec<f64>], least: f64) -> (Vec<Vec<f64>>, f64) {
         let at_median = 1.0 + (ratio * self.median_slope).powi(2);
         let mut weights: Vec<Vec<f64>> = self
             .even
@@ -234,9 +243,10 @@ impl<'a> Noise<'a> {
             }
         }
         // The median of |r| is 0.6745 standard deviations of normal noise.
-        let sd = (1.4826 * crate::evaluate::percentile(&sizes, 50.0)).max(1e-4);
+        let least = if least.is_finite() { least.max(1e-4) } else { 1e-4 };
+        let sd = (1.4826 * crate::evaluate::percentile(&sizes, 50.0)).max(least);
         weights.iter_mut().flatten().for_each(|w| *w /= sd);
-        weights
+        (weights, sd)
     }
 
     /// The ratio of the two kinds of noise under which the residuals of

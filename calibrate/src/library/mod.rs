@@ -9,5 +9,5 @@ mod pigment_library;
 pub use file::LibraryError;
 pub use json::to_text;
 pub use pigment_library::{
-    AmountKind, Evidence, Input, Pigment, PigmentLibrary, RecipeError, SampleEvidence, rounded,
+    AmountKind, Evidence, Input, Pigment, PigmentLibrary, RecipeError, SampleEvidence,
 };

@@ -216,12 +216,23 @@ pub enum MeasurementError {
         /// The backing.
         backing: String,
     },
-    /// The amounts do not belong to one known backing.
-    #[error("{file}: no film has an amount of paint on a known backing")]
-    NoFilms {
-        /// The file.
+    /// Two files on different wavelengths.
+    #[error(
+        "{file}: all files must have one set of wavelengths; {first} has {wanted}, found `{found}`"
+    )]
+    Grid {
+        /// The later file.
         file: String,
+        /// Its wavelengths.
+        found: String,
+        /// The first file.
+        first: String,
+        /// Its wavelengths.
+        wanted: String,
     },
+    /// The amounts do not belong to one known backing.
+    #[error("no film has an amount of paint on a known backing")]
+    NoFilms,
 }
 
 impl MeasurementError {
@@ -266,7 +277,7 @@ impl MeasurementError {
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
             ),
-            Self::NoFilms { .. } => {
+            Self::NoFilms => {
                 "give every film a backing, and the bare backing a row with film `none`".into()
             }
             Self::NoRecipe { .. } => {

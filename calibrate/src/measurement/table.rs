@@ -1,5 +1,7 @@
 //! Reading a measurement CSV.
 
+use std::sync::Arc;
+
 use spectra::{Ends, Grid, Samples};
 
 use super::column::{Column, columns};
@@ -18,6 +20,8 @@ pub enum Film {
 /// One reading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
+    /// The file, as the user named it.
+    pub file: Arc<str>,
     /// Its row in the file, the header being 1.
     pub row: u64,
     /// The sample's name.
@@ -34,11 +38,9 @@ pub struct Reading {
     pub reflectance: Vec<f64>,
 }
 
-/// All readings of a file.
+/// All readings of a file, or of several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasurementTable {
-    /// The file, as the user named it.
-    pub file: String,
     /// The pigments, in order of their columns.
     pub pigments: Vec<String>,
     /// The wavelengths of every reading.
@@ -86,7 +88,7 @@ impl MeasurementTable {
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let sheet = Sheet { file, headers: &headers, columns: &columns };
+        let sheet = Sheet { file: &file.into(), headers: &headers, columns: &columns };
         let mut readings =
             rows.iter().map(|row| sheet.reading(row)).collect::<Result<Vec<_>, _>>()?;
         let scale = sheet.scaled(&mut readings, scale)?;
@@ -111,14 +113,53 @@ impl MeasurementTable {
             }
             grid
         });
-        Ok(Self {
-            file: file.to_owned(),
-            pigments: names.collect(),
-            grid,
-            resampled_from,
-            scale,
-            readings,
-        })
+        Ok(Self { pigments: names.collect(), grid, resampled_from, scale, readings })
+    }
+}
+
+impl MeasurementTable {
+    /// The readings of several files as one table. A pigment is one column
+    /// wherever it stands; a sample that occurs in two files is one sample, read
+    /// again.
+    ///
+    /// # Errors
+    /// [`MeasurementError::Grid`] if the wavelengths differ,
+    /// [`MeasurementError::Empty`] without a table.
+    pub fn joined(tables: Vec<Self>) -> Result<Self, MeasurementError> {
+        let mut tables = tables.into_iter();
+        let mut all =
+            tables.next().ok_or_else(|| MeasurementError::Empty { file: "no file".to_owned() })?;
+        for mut table in tables {
+            if table.grid != all.grid {
+                return Err(MeasurementError::Grid {
+                    file: table.readings[0].file.to_string(),
+                    found: table.grid.to_string(),
+                    first: all.readings[0].file.to_string(),
+                    wanted: all.grid.to_string(),
+                });
+            }
+            let places: Vec<usize> = table
+                .pigments
+                .iter()
+                .map(|name| {
+                    all.pigments.iter().position(|known| known == name).unwrap_or_else(|| {
+                        all.pigments.push(name.clone());
+                        all.pigments.len() - 1
+                    })
+                })
+                .collect();
+            for reading in &mut table.readings {
+                let mut amounts = vec![0.0; all.pigments.len()];
+                for (&place, amount) in places.iter().zip(&reading.amounts) {
+                    amounts[place] = *amount;
+                }
+                reading.amounts = amounts;
+            }
+            all.readings.append(&mut table.readings);
+        }
+        let count = all.pigments.len();
+        all.readings.iter_mut().for_each(|reading| reading.amounts.resize(count, 0.0));
+        Ok(all)
     }
 }
 
@@ -147,7 +188,7 @@ fn decoded<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, MeasurementError>
 
 /// The header row, for reading the others.
 struct Sheet<'a> {
-    file: &'a str,
+    file: &'a Arc<str>,
     headers: &'a [&'a str],
     columns: &'a [Column],
 }
@@ -157,13 +198,14 @@ impl Sheet<'_> {
         let row = record.position().map_or(0, csv::Position::line);
         if record.len() != self.columns.len() {
             return Err(MeasurementError::RowLength {
-                file: self.file.to_owned(),
+                file: self.file.to_string(),
                 row,
                 wanted: self.columns.len(),
                 found: record.len(),
             });
         }
         let mut reading = Reading {
+            file: Arc::clone(self.file),
             row,
             sample: String::new(),
             film: Film::Paint,
@@ -231,7 +273,7 @@ impl Sheet<'_> {
                 let mixed = readings.iter().find(|r| scale == Scale::Percent && largest(r) <= 1.0);
                 if let Some(reading) = mixed {
                     return Err(MeasurementError::MixedScale {
-                        file: self.file.to_owned(),
+                        file: self.file.to_string(),
                         row: reading.row,
                         largest: largest(reading),
                     });

@@ -33,7 +33,29 @@ impl MixtureSet {
         count: usize,
         seed: u64,
     ) -> Self {
+        Self::from_stream(library, weights, count, seed, 0)
+    }
+
+    /// Mixtures to fit a quadrature to: whatever the seed, none of those that
+    /// [`MixtureSet::random`] gives.
+    pub(super) fn for_fitting(
+        library: &PigmentLibrary,
+        weights: &TristimulusWeights,
+        count: usize,
+        seed: u64,
+    ) -> Self {
+        Self::from_stream(library, weights, count, seed, 1)
+    }
+
+    fn from_stream(
+        library: &PigmentLibrary,
+        weights: &TristimulusWeights,
+        count: usize,
+        seed: u64,
+        stream: u64,
+    ) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(stream);
         let pigments = library.pigments.len();
         let mixtures = (0..count)
             .map(|_| {

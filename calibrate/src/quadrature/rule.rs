@@ -98,7 +98,7 @@ impl Quadrature {
     ) -> Result<Self, QuadratureFailure> {
         let start = Self::moments(viewing, count)?;
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
-        let training = MixtureSet::masstones(library, &weights).joined(MixtureSet::random(
+        let training = MixtureSet::masstones(library, &weights).joined(MixtureSet::for_fitting(
             library,
             &weights,
             700,

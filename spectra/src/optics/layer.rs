@@ -5,12 +5,15 @@
 //! and the textbook form fails at K = 0 and on thick films. The form here has
 //! no special cases; see `Layer::new`.
 
-/// Reflectance and transmittance of a film by itself, both 0..1.
+/// Reflectance and transmittance of a film, or of a stack of films, by itself;
+/// all 0..1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
-    /// Light sent back, seen from above (or below: a film is symmetric).
+    /// Light sent back, seen from above.
     pub reflectance: f64,
-    /// Light let through.
+    /// Light sent back, seen from below; a single film is symmetric.
+    pub underside: f64,
+    /// Light let through, the same both ways.
     pub transmittance: f64,
 }
 
@@ -41,15 +44,16 @@ impl Layer {
         let phi = if x > 0.0 { -(-2.0 * x).exp_m1() / alpha } else { 2.0 * thickness };
         let decay = (-x).exp();
         let den = (k + s) * phi + 1.0 + decay * decay;
-        Self { reflectance: s * phi / den, transmittance: 2.0 * decay / den }
+        let reflectance = s * phi / den;
+        Self { reflectance, underside: reflectance, transmittance: 2.0 * decay / den }
     }
 
-    /// The reflectance seen when the film lies over something of reflectance
+    /// The reflectance seen when the layer lies over something of reflectance
     /// `backing` (Kubelka 1948, eq. 34).
     #[must_use]
     pub fn over(self, backing: f64) -> f64 {
         let t = self.transmittance;
-        self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
+        self.reflectance + t * t * backing / (1.0 - self.underside * backing)
     }
 
     /// The reflectance of a film of unit thickness over `backing`, with its
@@ -61,37 +65,48 @@ impl Layer {
     #[must_use]
     pub fn over_with_slopes(absorption: f64, scattering: f64, backing: f64) -> [f64; 3] {
         let (k, s, g) = (absorption, scattering, backing);
-        // Below 1e-8 the film is clear to the last digit.
-        let x = (k * (k + 2.0 * s)).max(1e-16).sqrt();
+        // cosh x, sinh x / x and the slope of the latter over y = x^2, each
+        // times exp(-x); that slope by its series where the difference loses digits.
+        let y = k * (k + 2.0 * s);
+        let x = y.sqrt();
         let decay = (-x).exp();
-        let e = decay * decay;
-        let phi = -(-2.0 * x).exp_m1() / x;
-        let den = (k + s) * phi + 1.0 + e;
-        let (r, t) = (s * phi / den, 2.0 * decay / den);
-        // By x at fixed K and S, then by K and S through x as well.
-        let phi_over_x = (2.0 * e - phi) / x;
-        let den_over_x = (k + s) * phi_over_x - 2.0 * e;
-        let slopes = |x_slope: f64, own: f64| {
-            let den_slope = phi + den_over_x * x_slope;
-            let r_slope = (own * phi + s * phi_over_x * x_slope - r * den_slope) / den;
-            (r_slope, -t * (x_slope + den_slope / den))
+        let cosh = f64::midpoint(1.0, decay * decay);
+        let sinh = if x > 0.0 { -(-2.0 * x).exp_m1() / (2.0 * x) } else { 1.0 };
+        let sinh_over_y = if y < 1e-2 {
+            decay * (1.0 / 6.0 + y * (1.0 / 60.0 + y * (1.0 / 1680.0 + y / 90720.0)))
+        } else {
+            (cosh - sinh) / (2.0 * y)
         };
-        let (r_over_k, t_over_k) = slopes((k + s) / x, 0.0);
-        let (r_over_s, t_over_s) = slopes(k / x, 1.0);
+        let den = (k + s) * sinh + cosh;
+        let (r, t) = (s * sinh / den, decay / den);
+        // By K and S through y, then on their own.
+        let slopes = |y_slope: f64, own: f64| {
+            let den_slope = sinh + ((k + s) * sinh_over_y + sinh / 2.0) * y_slope;
+            let r_slope = (own * sinh + s * sinh_over_y * y_slope - r * den_slope) / den;
+            (r_slope, -t * den_slope / den)
+        };
+        let (r_over_k, t_over_k) = slopes(2.0 * (k + s), 0.0);
+        let (r_over_s, t_over_s) = slopes(2.0 * k, 1.0);
         let q = 1.0 / (1.0 - r * g);
         let (by_r, by_t) = (1.0 + (t * g * q).powi(2), 2.0 * t * g * q);
         [r + t * t * g * q, by_r * r_over_k + by_t * t_over_k, by_r * r_over_s + by_t * t_over_s]
     }
 
-    /// This film laid on `lower`, as one film seen from above. Two different
-    /// films together are no longer symmetric: the reflectance is that of the
-    /// upper side.
+    /// This layer laid on `lower`, as one layer. Stacking is associative; two
+    /// different films together are no longer symmetric.
     #[must_use]
     pub fn stacked_on(self, lower: Self) -> Self {
-        let between = 1.0 - self.reflectance * lower.reflectance;
+        let between = 1.0 - self.underside * lower.reflectance;
         Self {
             reflectance: self.over(lower.reflectance),
+            underside: lower.turned_over().over(self.underside),
             transmittance: self.transmittance * lower.transmittance / between,
         }
+    }
+
+    /// This layer with its lower side up.
+    #[must_use]
+    pub fn turned_over(self) -> Self {
+        Self { reflectance: self.underside, underside: self.reflectance, ..self }
     }
 }

@@ -23,7 +23,7 @@ pub enum Specular {
 /// Measured from internal R: `k1 + (1 - k1)(1 - k2) R / (1 - k2 R)`, the first
 /// term missing where the specular component is excluded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "SurfaceParts")]
 pub struct Surface {
     /// Share of the arriving light reflected, 0..1.
     pub k1: f64,
@@ -82,6 +82,23 @@ impl Surface {
             return Err(SurfaceError::BelowFloor { measured, floor: self.floor() });
         }
         Ok(above / ((1.0 - self.k1) * (1.0 - self.k2) + self.k2 * above))
+    }
+}
+
+/// The form in which a surface is read from a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SurfaceParts {
+    k1: f64,
+    k2: f64,
+    specular: Specular,
+}
+
+impl TryFrom<SurfaceParts> for Surface {
+    type Error = SurfaceError;
+
+    fn try_from(parts: SurfaceParts) -> Result<Self, SurfaceError> {
+        Self::new(parts.k1, parts.k2, parts.specular)
     }
 }
 

@@ -30,7 +30,8 @@ pub struct FilmOptics {
 /// `a (R + g) + c (R - g) = 1 + R g`, where `a = 1 + K/S` and
 /// `c = b coth(b S d)`, `b = sqrt(a^2 - 1)`. Two backings make a 2 x 2 system.
 /// Readings that noise has pushed past what a film can do (a below 1) give
-/// K/S = 0. Returns `None` if the two backings are the same.
+/// K/S = 0. Returns `None` if the two backings are the same, or if the film
+/// scatters nothing back over either.
 #[must_use]
 pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option<FilmOptics> {
     let (r1, g1) = (first.film, first.backing);
@@ -46,11 +47,9 @@ pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option
     let c = ((r1 + g1) * p2 - (r2 + g2) * p1) / determinant;
     let ratio = (a - 1.0).max(0.0);
     let b = (ratio * (ratio + 2.0)).sqrt();
-    Some(FilmOptics {
-        ratio,
-        scattering_power: scattering_power(b, c),
-        transparency: (r1 - r2) / (g1 - g2),
-    })
+    // Where the films read the same, c = b but for rounding.
+    let scattering_power = if r1 == r2 { Some(f64::INFINITY) } else { scattering_power(b, c) };
+    Some(FilmOptics { ratio, scattering_power, transparency: (r1 - r2) / (g1 - g2) })
 }
 
 /// S d from c = b coth(b S d).

@@ -1,0 +1,62 @@
+//! Where a verb writes: results, remarks, and swatches of colour.
+
+use std::io::Write;
+
+use serde_json::Value;
+use spectra::color::Rgb;
+
+/// What the terminal can do.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Screen {
+    /// Whether results may carry colour.
+    pub colours: bool,
+    /// Whether remarks go to a terminal, where a progress bar makes sense.
+    pub progress: bool,
+}
+
+/// A verb's way out.
+pub(crate) struct Console<'a> {
+    /// Results.
+    pub(crate) out: &'a mut dyn Write,
+    /// Everything else.
+    pub(crate) err: &'a mut dyn Write,
+    pub(crate) screen: Screen,
+}
+
+impl Console<'_> {
+    /// A line of results.
+    pub(crate) fn line(&mut self, text: impl AsRef<str>) -> anyhow::Result<()> {
+        writeln!(self.out, "{}", text.as_ref())?;
+        Ok(())
+    }
+
+    /// A result for programs.
+    pub(crate) fn json(&mut self, value: &Value) -> anyhow::Result<()> {
+        write!(self.out, "{}", calibrate::library::to_text(value))?;
+        Ok(())
+    }
+
+    /// A line beside the results.
+    pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> anyhow::Result<()> {
+        writeln!(self.err, "{}", text.as_ref())?;
+        Ok(())
+    }
+
+    /// Warnings, one a line.
+    pub(crate) fn warnings(&mut self, warnings: &[String]) -> anyhow::Result<()> {
+        for warning in warnings {
+            self.remark(format!("warning: {warning}"))?;
+        }
+        Ok(())
+    }
+
+    /// A patch of colour of six columns, where the terminal shows colours;
+    /// otherwise nothing. The value in words must stand beside it.
+    pub(crate) fn patch(&self, colour: Rgb) -> String {
+        if !self.screen.colours {
+            return String::new();
+        }
+        let [r, g, b] = colour.to_bytes();
+        format!("\x1b[48;2;{r};{g};{b}m      \x1b[0m ")
+    }
+}

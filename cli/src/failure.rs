@@ -1,0 +1,83 @@
+//! How an error is told: its causes, a hint, and the exit status.
+
+use std::io::Write;
+
+use calibrate::calibration::CalibrationError;
+use calibrate::fit::FitError;
+use calibrate::library::{LibraryError, RecipeError};
+use calibrate::measurement::MeasurementError;
+use spectra::{LampError, LightError};
+
+/// An error of the user's request, with what to try.
+#[derive(Debug, thiserror::Error)]
+#[error("{what}")]
+pub(crate) struct Refusal {
+    pub(crate) what: String,
+    pub(crate) hint: Option<String>,
+    /// 1 if the data says no, 2 if the program could not run.
+    pub(crate) status: u8,
+}
+
+impl Refusal {
+    /// The data says no.
+    pub(crate) fn data(what: impl Into<String>, hint: impl Into<String>) -> anyhow::Error {
+        Self { what: what.into(), hint: Some(hint.into()), status: 1 }.into()
+    }
+
+    /// The program cannot run as asked.
+    pub(crate) fn usage(what: impl Into<String>, hint: impl Into<String>) -> anyhow::Error {
+        Self { what: what.into(), hint: Some(hint.into()), status: 2 }.into()
+    }
+}
+
+/// Writes `error:`, the causes and `hint:`, and gives the exit status. A pipe
+/// closed by its reader is no error.
+pub(crate) fn report(error: &anyhow::Error, err: &mut dyn Write) -> u8 {
+    let closed = |cause: &(dyn std::error::Error + 'static)| {
+        cause
+            .downcast_ref::<std::io::Error>()
+            .is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe)
+    };
+    if error.chain().any(closed) {
+        return 0;
+    }
+    let _ = writeln!(err, "error: {error}");
+    for cause in error.chain().skip(1) {
+        let _ = writeln!(err, "  because: {cause}");
+    }
+    if let Some(hint) = error.chain().find_map(hint) {
+        let _ = writeln!(err, "hint: {hint}");
+    }
+    error.chain().find_map(status).unwrap_or(2)
+}
+
+fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
+    if let Some(CalibrationError::Measurement(error)) = cause.downcast_ref() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<MeasurementError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<RecipeError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<LightError>() {
+        return error.hint().map(str::to_owned);
+    }
+    cause.downcast_ref::<Refusal>()?.hint.clone()
+}
+
+fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
+    if let Some(refusal) = cause.downcast_ref::<Refusal>() {
+        return Some(refusal.status);
+    }
+    let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
+    let data = cause.is::<MeasurementError>()
+        || cause.is::<CalibrationError>()
+        || cause.is::<FitError>()
+        || cause.is::<LibraryError>()
+        || cause.is::<RecipeError>()
+        || cause.is::<LampError>()
+        || faulty_lamp;
+    data.then_some(1)
+}

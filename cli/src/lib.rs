@@ -1,0 +1,58 @@
+//! The command line `impasto VERB ...`, callable in process.
+//!
+//! One file a verb; parsing and doing are apart. Results go to the first
+//! writer, everything else to the second. Exit status: 0 done, 1 the data says
+//! no, 2 could not run.
+
+mod console;
+
+mod failure;
+
+mod input;
+
+mod output;
+
+mod progress;
+
+mod verbs;
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use clap::Parser;
+
+use console::Console;
+pub use console::Screen;
+
+/// Measure real paint, calibrate it, and mix it.
+#[derive(Debug, Parser)]
+#[command(name = "impasto", version, propagate_version = true, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: verbs::Verb,
+}
+
+/// Runs the program with `arguments` (the first is its name) and gives its exit
+/// status.
+pub fn run(
+    arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+    screen: Screen,
+) -> u8 {
+    let parsed = match Arguments::try_parse_from(arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            // Help that was asked for is a result.
+            let text = error.render();
+            let asked = !error.use_stderr();
+            let _ = if asked { write!(out, "{text}") } else { write!(err, "{text}") };
+            return if asked { 0 } else { 2 };
+        }
+    };
+    let mut console = Console { out, err, screen };
+    match parsed.verb.run(&mut console) {
+        Ok(()) => 0,
+        Err(error) => failure::report(&error, console.err),
+    }
+}

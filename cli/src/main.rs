@@ -1,0 +1,17 @@
+//! The program `impasto`.
+
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::process::ExitCode;
+
+use impasto::Screen;
+
+fn main() -> ExitCode {
+    let colours =
+        stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let mut out = std::io::BufWriter::new(stdout().lock());
+    let screen = Screen { colours, progress: stderr().is_terminal() };
+    let code = impasto::run(std::env::args_os(), &mut out, &mut stderr(), screen);
+    // A reader that closed the pipe has seen enough.
+    let _ = out.flush();
+    ExitCode::from(code)
+}

@@ -1,0 +1,41 @@
+//! A progress bar, where a terminal waits for more than a second.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Counts steps; shows itself only on a terminal, and only after a second.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+    terminal: bool,
+    shown: AtomicBool,
+}
+
+impl Progress {
+    pub(crate) fn new(steps: usize, label: &'static str, terminal: bool) -> Self {
+        let style = ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {eta}")
+            .expect("the template is ours")
+            .progress_chars("=> ");
+        let hidden = ProgressDrawTarget::hidden();
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), hidden)
+            .with_style(style)
+            .with_message(label);
+        Self { bar, start: Instant::now(), terminal, shown: AtomicBool::new(false) }
+    }
+
+    /// One step done; callable from any thread.
+    pub(crate) fn step(&self) {
+        let late = self.start.elapsed() > Duration::from_secs(1);
+        if self.terminal && late && !self.shown.swap(true, Ordering::Relaxed) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.inc(1);
+    }
+
+    /// Clears the bar.
+    pub(crate) fn done(&self) {
+        self.bar.finish_and_clear();
+    }
+}

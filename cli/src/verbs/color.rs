@@ -1,0 +1,273 @@
+//! `impasto color`: spectra to XYZ, Lab and sRGB, and their differences.
+
+use std::path::PathBuf;
+
+use calibrate::evaluate::Viewing;
+use calibrate::measurement::{Film, MeasurementTable, Reading};
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use spectra::color::{
+    Adaptation, Cie94, Cmc, Lab, Rgb, RgbSpace, Xyz, delta_e_cie76, delta_e_cie94,
+    delta_e_ciede2000, delta_e_cmc, metamerism_index,
+};
+
+use super::mix::gamut_note;
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::{ScaleOptions, measurements, viewing};
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SpaceName {
+    Srgb,
+    P3,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum AdaptationName {
+    Bradford,
+    Cat16,
+}
+
+/// Colour of measured spectra under any light, and differences between them
+///
+/// Reads the CSV of `fit`; pigment columns do not matter here. Repeated readings of one sample on
+/// one backing are averaged. Several lights may be given; with --compare the metamerism index
+/// (change of illuminant from the first) is told for each later one.
+#[derive(Debug, Args)]
+pub(crate) struct Color {
+    /// Spectra (CSV): a column `sample`, then wavelengths
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or a file of a lamp
+    #[arg(long, value_name = "LIGHT", default_value = "D65")]
+    illuminant: Vec<String>,
+    /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
+    #[arg(long, value_name = "NAME", default_value = "1931-2")]
+    observer: String,
+    /// Only these samples (may be repeated)
+    #[arg(long, value_name = "SAMPLE")]
+    sample: Vec<String>,
+    /// Tell the difference of every spectrum from this one
+    #[arg(long, value_name = "SAMPLE")]
+    compare: Option<String>,
+    /// RGB space of `srgb` and `hex`
+    #[arg(long, value_enum, default_value = "srgb")]
+    space: SpaceName,
+    /// Adaptation from the light's white to the display's
+    #[arg(long, value_enum, default_value = "bradford")]
+    adaptation: AdaptationName,
+    #[command(flatten)]
+    scale: ScaleOptions,
+    /// Print JSON: a list of sample, xyz, lab, srgb, hex
+    #[arg(long)]
+    json: bool,
+}
+
+/// One spectrum with its colours, one for each light.
+struct Row {
+    name: String,
+    colours: Vec<Colour>,
+}
+
+struct Colour {
+    xyz: Xyz,
+    lab: Lab,
+    rgb: Rgb,
+}
+
+impl Color {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let lights = self
+            .illuminant
+            .iter()
+            .map(|light| viewing(light, &self.observer))
+            .collect::<anyhow::Result<Vec<Viewing>>>()?;
+        let (table, _) = measurements(&self.files, self.scale.choice())?;
+        let spectra = named_spectra(&table);
+        let weights = lights
+            .iter()
+            .map(|viewing| viewing.weights(table.grid))
+            .collect::<Result<Vec<_>, _>>()?;
+        let space = match self.space {
+            SpaceName::Srgb => RgbSpace::Srgb,
+            SpaceName::P3 => RgbSpace::DisplayP3,
+        };
+        let adaptation = match self.adaptation {
+            AdaptationName::Bradford => Adaptation::Bradford,
+            AdaptationName::Cat16 => Adaptation::Cat16,
+        };
+        let rows: Vec<Row> = spectra
+            .into_iter()
+            .map(|(name, reflectance)| Row {
+                name,
+                colours: weights
+                    .iter()
+                    .map(|weights| {
+                        let xyz = weights.xyz(&reflectance);
+                        let white = weights.white();
+                        Colour {
+                            xyz,
+                            lab: Lab::from_xyz(xyz, white),
+                            rgb: space.encoded_from_xyz(xyz, white, adaptation),
+                        }
+                    })
+                    .collect(),
+            })
+            .collect();
+        let standard = self.compare.as_deref().map(|name| find(&rows, name)).transpose()?;
+        let chosen: Vec<&Row> = if self.sample.is_empty() {
+            rows.iter().collect()
+        } else {
+            self.sample.iter().map(|name| find(&rows, name)).collect::<anyhow::Result<_>>()?
+        };
+        let whites: Vec<Xyz> = weights.iter().map(spectra::TristimulusWeights::white).collect();
+        if self.json {
+            let mut list = Vec::new();
+            for row in chosen {
+                for light in 0..lights.len() {
+                    list.push(entry(row, light, standard, &lights, &whites));
+                }
+            }
+            return console.json(&Value::from(list));
+        }
+        for (light, viewing) in lights.iter().enumerate() {
+            console.line(format!(
+                "{}, observer {}",
+                viewing.illuminant.name(),
+                viewing.observer
+            ))?;
+            print(&chosen, light, standard, &whites, console)?;
+        }
+        Ok(())
+    }
+}
+
+/// The averaged spectra, each by its sample's name and, where one sample has
+/// several, its backing.
+fn named_spectra(table: &MeasurementTable) -> Vec<(String, Vec<f64>)> {
+    let same = |a: &Reading, b: &Reading| {
+        (&a.sample, a.film, &a.backing, a.thickness_mm)
+            == (&b.sample, b.film, &b.backing, b.thickness_mm)
+    };
+    let mut groups: Vec<Vec<&Reading>> = Vec::new();
+    for reading in &table.readings {
+        match groups.iter_mut().find(|group| same(group[0], reading)) {
+            Some(group) => group.push(reading),
+            None => groups.push(vec![reading]),
+        }
+    }
+    groups
+        .iter()
+        .map(|group| {
+            let first = group[0];
+            let alone = groups.iter().filter(|g| g[0].sample == first.sample).count() == 1;
+            let name = match (alone, first.film) {
+                (true, _) => first.sample.clone(),
+                (_, Film::None) => format!("{} bare {}", first.sample, first.backing),
+                (_, Film::Paint) => match first.thickness_mm {
+                    Some(mm) => format!("{} on {}, {mm} mm", first.sample, first.backing),
+                    None => format!("{} on {}", first.sample, first.backing),
+                },
+            };
+            let mean = |at: usize| {
+                group.iter().map(|r| r.reflectance[at]).sum::<f64>() / group.len() as f64
+            };
+            (name, (0..table.grid.count()).map(mean).collect())
+        })
+        .collect()
+}
+
+fn find<'a>(rows: &'a [Row], name: &str) -> anyhow::Result<&'a Row> {
+    rows.iter().find(|row| row.name == name).ok_or_else(|| {
+        let mut names: Vec<&str> = rows.iter().take(20).map(|row| row.name.as_str()).collect();
+        if rows.len() > names.len() {
+            names.push("..");
+        }
+        Refusal::data(
+            format!("no spectrum is called `{name}`"),
+            format!("spectra: {}", names.join(", ")),
+        )
+    })
+}
+
+fn entry(
+    row: &Row,
+    light: usize,
+    standard: Option<&Row>,
+    lights: &[Viewing],
+    whites: &[Xyz],
+) -> Value {
+    let Colour { xyz, lab, rgb } = &row.colours[light];
+    let mut entry = json!({
+        "sample": row.name,
+        "xyz": xyz.to_array(),
+        "lab": lab.to_array(),
+        "srgb": rgb.0,
+        "hex": rgb.to_hex(),
+    });
+    if lights.len() > 1 {
+        entry["illuminant"] = json!(lights[light].illuminant.name());
+    }
+    if let Some(standard) = standard {
+        let of = standard.colours[light].lab;
+        entry["difference"] = json!({
+            "from": standard.name,
+            "ciede2000": delta_e_ciede2000(of, *lab),
+            "cie1976": delta_e_cie76(of, *lab),
+            "cie94": delta_e_cie94(of, *lab, Cie94::GraphicArts),
+            "cmc_2_1": delta_e_cmc(of, *lab, Cmc::ACCEPTABILITY),
+        });
+        if light > 0 {
+            entry["metamerism"] = json!(metamerism(standard, row, light, whites));
+        }
+    }
+    entry
+}
+
+fn metamerism(standard: &Row, row: &Row, light: usize, whites: &[Xyz]) -> Option<f64> {
+    let pair = |row: &Row| [row.colours[0].xyz, row.colours[light].xyz];
+    metamerism_index(pair(standard), pair(row), whites[light]).ok()
+}
+
+fn print(
+    rows: &[&Row],
+    light: usize,
+    standard: Option<&Row>,
+    whites: &[Xyz],
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
+    let mut heading =
+        format!("{:width$}        X       Y       Z      L*      a*      b*", "sample");
+    if standard.is_some() {
+        heading += "  CIEDE2000  CIE76  CIE94  CMC2:1";
+        if light > 0 {
+            heading += "  metamerism";
+        }
+    }
+    console.line(heading + "  display")?;
+    for row in rows {
+        let Colour { xyz, lab, rgb } = &row.colours[light];
+        let mut line = format!("{:width$} ", row.name);
+        for value in xyz.to_array().into_iter().chain(lab.to_array()) {
+            line += &format!(" {value:7.2}");
+        }
+        if let Some(standard) = standard {
+            let of = standard.colours[light].lab;
+            line += &format!(
+                "  {:9.2} {:6.2} {:6.2}  {:6.2}",
+                delta_e_ciede2000(of, *lab),
+                delta_e_cie76(of, *lab),
+                delta_e_cie94(of, *lab, Cie94::GraphicArts),
+                delta_e_cmc(of, *lab, Cmc::ACCEPTABILITY),
+            );
+            if light > 0 {
+                let index = metamerism(standard, row, light, whites);
+                line += &index.map_or_else(|| format!("  {:>10}", "-"), |v| format!("  {v:10.2}"));
+            }
+        }
+        let patch = console.patch(*rgb);
+        console.line(format!("{line}  {patch}{}{}", rgb.to_hex(), gamut_note(rgb.in_gamut())))?;
+    }
+    Ok(())
+}

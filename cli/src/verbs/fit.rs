@@ -1,0 +1,78 @@
+//! `impasto fit`: measurements to a pigment library.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+
+use super::calibration_options::CalibrationOptions;
+use super::fit_report;
+use crate::console::Console;
+use crate::input::ViewingOptions;
+use crate::output::Output;
+
+/// Fit K and S of every pigment to measured mixtures, and write the library
+///
+/// Prints the colour error of every sample: CIEDE2000 between its measured K/S in a film that hides
+/// and the fitted mixture (for absolute amounts, between measured and fitted film). K and S do not
+/// depend on --illuminant and --observer, which only set under what errors are told.
+#[derive(Debug, Args)]
+pub(crate) struct Fit {
+    #[command(flatten)]
+    options: CalibrationOptions,
+    /// The library file to write (JSON); without it errors are printed only
+    #[arg(short, long, value_name = "LIBRARY")]
+    output: Option<PathBuf>,
+    /// Title of the library [default: the first file's name]
+    #[arg(long)]
+    title: Option<String>,
+    /// Licence of the figures
+    #[arg(long, default_value = "not stated")]
+    licence: String,
+    /// Where the measurements come from
+    #[arg(long, default_value = "not stated")]
+    source: String,
+    #[command(flatten)]
+    viewing: ViewingOptions,
+    /// Print JSON: samples, pigments, rms, delta_e, per_sample, warnings, seconds
+    #[arg(long)]
+    json: bool,
+}
+
+impl Fit {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let start = Instant::now();
+        let viewing = self.viewing.viewing()?;
+        let output = self.output.as_deref().map(Output::open).transpose()?;
+        let job = self.options.job(console)?;
+        let calibration = job.calibrate(&viewing)?;
+        fit_report::remark_films(&calibration, console)?;
+        let mut library = calibration.library;
+        library.title = self.title.unwrap_or_else(|| job.inputs[0].path.clone());
+        library.licence = self.licence;
+        library.source = self.source;
+        let text = library.to_json();
+        let evidence = library.evidence.as_ref().expect("a fit has evidence");
+        if let Some(output) = output {
+            output.write(&text)?;
+        }
+        if self.json {
+            return console.json(&fit_report::to_json(
+                library.pigments.len(),
+                evidence.rms,
+                &evidence.delta_e,
+                &evidence.per_sample,
+                &evidence.warnings,
+                start.elapsed().as_secs_f64(),
+            ));
+        }
+        console.warnings(&evidence.warnings)?;
+        fit_report::print(&library, evidence, usize::MAX, console)?;
+        match &self.output {
+            Some(path) => console.remark(format!("written: {}", path.display())),
+            None => {
+                console.remark("nothing written; give --output LIBRARY.json to keep the library")
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The verbs, one file each.
+
+mod calibration_options;
+
+mod fit_report;
+
+mod fit;
+
+mod validate;
+
+mod mix;
+
+mod color;
+
+mod quadrature;
+
+mod library;
+
+mod demo;
+
+use clap::Subcommand;
+
+use crate::console::Console;
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    Fit(fit::Fit),
+    Validate(validate::Validate),
+    Mix(mix::Mix),
+    Color(color::Color),
+    Quadrature(quadrature::Quadrature),
+    Library(library::Library),
+    Demo(demo::Demo),
+}
+
+impl Verb {
+    pub(crate) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        match self {
+            Self::Fit(verb) => verb.run(console),
+            Self::Validate(verb) => verb.run(console),
+            Self::Mix(verb) => verb.run(console),
+            Self::Color(verb) => verb.run(console),
+            Self::Quadrature(verb) => verb.run(console),
+            Self::Library(verb) => verb.run(console),
+            Self::Demo(verb) => verb.run(console),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The Van Gogh oils, read and fitted.
+
+use calibrate::calibration::{Calibration, calibrate};
+use calibrate::evaluate::Viewing;
+use calibrate::fit::{FitSettings, Method};
+use calibrate::measurement::{MeasurementTable, ScaleChoice};
+use calibrate::observation::BelowSurface;
+use calibrate::swatch::SwatchSet;
+use spectra::optics::{Specular, Surface};
+
+/// The surface of the figures that are to be met.
+pub const SURFACE: Surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
+
+/// The swatches of the shipped file, and the index of zinc white.
+///
+/// # Panics
+/// If the file cannot be read.
+#[must_use]
+pub fn swatches() -> (SwatchSet, usize) {
+    let bytes = include_bytes!("../../measurements/van-gogh-oils.csv");
+    let table = MeasurementTable::from_csv("van-gogh-oils.csv", bytes, ScaleChoice::ByFile)
+        .expect("the shipped oils are sound");
+    let set = SwatchSet::from_table(&table).expect("the shipped oils are sound");
+    let white = set.pigments.iter().position(|p| p == "Zinc White").expect("a zinc white");
+    (set, white)
+}
+
+/// Settings for the oils, some of whose readings lie below k1.
+#[must_use]
+pub fn settings(method: Method) -> FitSettings {
+    FitSettings { method, below_surface: BelowSurface::Floor, ..FitSettings::default() }
+}
+
+/// A fit of all of them.
+///
+/// # Panics
+/// If the fit fails.
+#[must_use]
+pub fn fitted(method: Method, surface: Surface) -> Calibration {
+    let (set, white) = swatches();
+    calibrate(&set, white, surface, &settings(method), &Viewing::default()).expect("a fit")
+}

@@ -1,0 +1,85 @@
+//! Absolute amounts on one backing: ladders and mixtures of watercolor.
+
+use calibrate::absolute::{calibrate_absolute, chosen_film, films};
+use calibrate::evaluate::Viewing;
+use calibrate::fit::FitSettings;
+use calibrate::measurement::MeasurementError;
+use calibrate::validation::{ValidationPlan, validate_absolute};
+use spectra::optics::{Surface, UnevenFilm};
+use suite::watercolors::Watercolors;
+
+const EVEN: UnevenFilm = UnevenFilm { surface: Surface::NONE, unevenness: 0.0 };
+
+#[test]
+fn ladders_and_mixtures_without_error_give_back_k_and_s() {
+    let made = Watercolors::exact();
+    let library =
+        calibrate_absolute(&made.swatches(), EVEN, &FitSettings::default(), &Viewing::default())
+            .unwrap()
+            .library;
+    let error = library.evidence.as_ref().unwrap().delta_e;
+    assert!(error.max < 0.1, "{error:?}");
+    for (index, pigment) in library.pigments.iter().enumerate() {
+        for at in 0..library.grid.count() {
+            let (found, truth) = (pigment.absorption[at], made.absorption[index][at]);
+            // What absorbs a hundredth of this cannot be seen in a film.
+            if truth > 1.0 {
+                assert!(
+                    (found / truth).ln().abs() < 0.05,
+                    "{}: K {found} for {truth}",
+                    pigment.name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
+    // As hard as real watercolor is said to be: the even film without a surface
+    // predicts these to 2.2 or so.
+    let set = Watercolors::hard(1).swatches();
+    let (problem, _) = films(&set).unwrap();
+    let film = chosen_film(&problem, Surface::NONE, &|| ()).unwrap();
+    assert!(film.unevenness > 0.0 || film.surface.k2 > 0.0, "{film:?}");
+    let settings = FitSettings::default();
+    let viewing = Viewing::default();
+    let plan = ValidationPlan {
+        settings: &settings,
+        viewing: &viewing,
+        state: None,
+        folds: Some(3),
+        progress: &|| (),
+    };
+    let chosen = validate_absolute(&set, film, &plan).unwrap();
+    assert_eq!(chosen.per_sample.len(), 702, "234 unseen at a time");
+    assert!(chosen.delta_e.mean < 2.0, "{:?}", chosen.delta_e);
+    let plain = validate_absolute(&set, EVEN, &plan).unwrap();
+    assert!(chosen.delta_e.mean < plain.delta_e.mean, "{:?}", plain.delta_e);
+}
+
+#[test]
+fn amounts_in_another_unit_change_only_the_unit_of_k_and_s() {
+    let made = Watercolors::exact();
+    let mut set = made.swatches();
+    let fit = |set: &calibrate::swatch::SwatchSet| {
+        calibrate_absolute(set, EVEN, &FitSettings::default(), &Viewing::default()).unwrap().library
+    };
+    let millilitres = fit(&set);
+    set.swatches.iter_mut().flat_map(|s| &mut s.amounts).for_each(|amount| *amount *= 1000.0);
+    let microlitres = fit(&set);
+    for (a, b) in millilitres.pigments.iter().zip(&microlitres.pigments) {
+        for (a, b) in a.absorption.iter().zip(&b.absorption) {
+            assert!((a / b / 1000.0 - 1.0).abs() < 1e-3, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_film_without_its_bare_backing_is_refused() {
+    let mut set = Watercolors::exact().swatches();
+    set.swatches[2].films[0].bare = None;
+    let error = films(&set).unwrap_err();
+    let MeasurementError::NoBareBacking { sample, .. } = &error else { panic!("{error}") };
+    assert_eq!(*sample, set.swatches[2].sample);
+}

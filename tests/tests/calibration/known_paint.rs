@@ -1,0 +1,143 @@
+//! Paint of known K and S.
+
+use calibrate::evaluate::Viewing;
+use calibrate::fit::{FitError, Problem, Refined, Smoothness, fit_qp, fit_refined, fit_weighted};
+use calibrate::observation::Observation;
+use calibrate::synthetic::SyntheticMixtures;
+
+fn problem(made: &SyntheticMixtures) -> Problem {
+    Problem::new(made.grid, made.surface, &made.observations, 0).unwrap()
+}
+
+fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
+    let weights = Viewing::default().weights(made.grid).unwrap();
+    fit_refined(&problem(made), &weights, smoothness, None).unwrap()
+}
+
+/// The largest error of log K and log S where the pigment shows at all.
+fn largest_log_error(found: &[Vec<f64>], truth: &[Vec<f64>]) -> f64 {
+    let pairs = found.iter().flatten().zip(truth.iter().flatten());
+    pairs.filter(|(_, t)| **t > 1e-2).map(|(f, t)| (f / t).ln().abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
+    let made = SyntheticMixtures::paper_size(3, 0.0);
+    let problem = problem(&made);
+    let refined = refined(&made, Smoothness::None);
+    let fits = [
+        ("qp", fit_qp(&problem).unwrap(), 0.05),
+        ("weighted", fit_weighted(&problem).unwrap(), 0.05),
+        ("refined", [refined.absorption, refined.scattering], 0.05),
+    ];
+    for (name, [absorption, scattering], bound) in fits {
+        let k = largest_log_error(&absorption, &made.absorption);
+        let s = largest_log_error(&scattering, &made.scattering);
+        assert!(k < bound && s < bound, "{name}: log K off by {k}, log S by {s}");
+    }
+}
+
+#[test]
+fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
+    for seed in [11, 12] {
+        let made = SyntheticMixtures::paper_size(seed, 0.002);
+        let rms = |fit: &Refined| made.rms_to_truth(&fit.absorption, &fit.scattering);
+        // The floor without smoothness is 0.002 sqrt(21 / 71) = 0.00109.
+        let rough = rms(&refined(&made, Smoothness::None));
+        assert!(rough < 0.00115, "seed {seed}: {rough}");
+        let smooth = rms(&refined(&made, Smoothness::Auto));
+        assert!(smooth < 0.0007, "seed {seed}: {smooth}");
+    }
+}
+
+#[test]
+fn standard_deviations_are_of_the_size_of_the_errors() {
+    let made = SyntheticMixtures::paper_size(21, 0.002);
+    let fit = refined(&made, Smoothness::None);
+    let mut pulls = Vec::new();
+    for pigment in 1..made.scattering.len() {
+        for at in 0..made.grid.count() {
+            let error = fit.scattering[pigment][at] - made.scattering[pigment][at];
+            pulls.push((error / fit.scattering_sd[pigment][at]).powi(2));
+        }
+    }
+    pulls.sort_by(f64::total_cmp);
+    // The median of a squared normal deviate is 0.455.
+    let median = pulls[pulls.len() / 2];
+    assert!((0.2..1.0).contains(&median), "median squared error in deviations: {median}");
+    assert!(fit.scattering_sd[0].iter().all(|sd| *sd == 0.0), "the reference's S is given");
+}
+
+#[test]
+fn the_program_ends_at_its_optimum() {
+    // At the minimum of a convex program over the nonnegative orthant the
+    // gradient is 0 along what is positive, and not negative along what is 0.
+    let made = SyntheticMixtures::paper_size(5, 0.002);
+    let [absorption, scattering] = fit_qp(&problem(&made)).unwrap();
+    let pigments = absorption.len();
+    for at in (0..made.grid.count()).step_by(10) {
+        let mut gradient = vec![0.0; 2 * pigments];
+        let mut size = vec![1e-300f64; 2 * pigments];
+        for observation in &made.observations {
+            let q = observation.ratio[at];
+            let row: Vec<f64> = observation
+                .shares
+                .iter()
+                .copied()
+                .chain(observation.shares.iter().map(|c| -q * c))
+                .collect();
+            let values = (0..pigments)
+                .map(|p| absorption[p][at])
+                .chain((0..pigments).map(|p| scattering[p][at]));
+            let residual: f64 = row.iter().zip(values.clone()).map(|(r, v)| r * v).sum();
+            let scale: f64 = row.iter().zip(values).map(|(r, v)| (r * v).abs()).sum();
+            for (place, r) in row.iter().enumerate() {
+                gradient[place] += r * residual;
+                size[place] += (r * scale).abs();
+            }
+        }
+        for place in (0..2 * pigments).filter(|&p| p != pigments) {
+            let slope = gradient[place] / size[place];
+            let value = if place < pigments {
+                absorption[place][at]
+            } else {
+                scattering[place - pigments][at]
+            };
+            assert!(slope > -1e-5, "unknown {place} at {at} falls further: {slope}");
+            assert!(value < 1e-6 || slope < 1e-5, "unknown {place} = {value} at {at}: {slope}");
+        }
+    }
+}
+
+#[test]
+fn any_number_of_wavelengths_will_do() {
+    let made = SyntheticMixtures::paper_size(4, 0.001);
+    for count in [1, 2, 3, 7] {
+        let grid = spectra::Grid::from_nm(500.0, 3.0, count).unwrap();
+        let cut = |o: &Observation| Observation {
+            ratio: o.ratio[..count].to_vec(),
+            reflectance: o.reflectance[..count].to_vec(),
+            ..o.clone()
+        };
+        let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
+        let problem = Problem::new(grid, made.surface, &observations, 0).unwrap();
+        let weights = Viewing::default().weights(grid).unwrap();
+        let fit = fit_refined(&problem, &weights, Smoothness::Auto, None).unwrap();
+        assert!(fit.absorption.iter().flatten().all(|v| v.is_finite() && *v >= 0.0), "{count}");
+    }
+}
+
+#[test]
+fn wrong_shapes_are_refused() {
+    let made = SyntheticMixtures::paper_size(1, 0.0);
+    let mut observations = made.observations.clone();
+    observations[3].ratio.pop();
+    let error = Problem::new(made.grid, made.surface, &observations, 0).unwrap_err();
+    assert!(matches!(&error, FitError::Shape { sample, .. } if sample == "S03"), "{error}");
+    let none = Problem::new(made.grid, made.surface, &[], 0).unwrap_err();
+    assert_eq!(none, FitError::Empty);
+    let only_black: Vec<Observation> =
+        made.observations.iter().filter(|o| o.shares[0] == 0.0).cloned().collect();
+    let lost = Problem::new(made.grid, made.surface, &only_black, 0).unwrap_err();
+    assert_eq!(lost, FitError::Reference);
+}

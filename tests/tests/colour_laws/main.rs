@@ -1,0 +1,27 @@
+//! What colours, lights and spectra obey, whatever the values.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod colours;
+mod inputs;
+mod sums;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use spectra::color::Lab;
+
+/// A few roundings of numbers of size 100, as XYZ and Lab are.
+const ROUNDING: f64 = 1600.0 * f64::EPSILON;
+
+/// Random pairs of colours, each with its seed.
+fn random_pairs() -> impl Iterator<Item = (u64, Lab, Lab)> {
+    (0..2000).map(|seed| {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut lab = || Lab {
+            lightness: rng.random_range(0.0..=100.0),
+            a: rng.random_range(-100.0..=100.0),
+            b: rng.random_range(-100.0..=100.0),
+        };
+        (seed, lab(), lab())
+    })
+}

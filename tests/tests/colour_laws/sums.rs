@@ -1,0 +1,89 @@
+//! Laws of the sums from spectrum to XYZ.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use spectra::color::Xyz;
+use spectra::{
+    Grid, Illuminant, Interpolation, Observer, TristimulusWeights, black_body, daylight,
+    lamp_from_csv,
+};
+use suite::near::assert_near;
+
+use crate::ROUNDING;
+
+fn grids() -> [Grid; 4] {
+    [(380.0, 10.0, 36), (400.0, 10.0, 31), (400.0, 20.0, 16), (360.0, 1.0, 471)]
+        .map(|(start, step, count)| Grid::from_nm(start, step, count).unwrap())
+}
+
+/// Every light of the tables, and two of a temperature, with every observer.
+fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
+    let by_temperature = [black_body(5600.0).unwrap(), daylight(5600.0).unwrap()];
+    let lights = Illuminant::names().map(|name| Illuminant::named(name).unwrap());
+    lights.chain(by_temperature).flat_map(|light| {
+        Observer::ALL.into_iter().zip(grids()).flat_map(move |(observer, grid)| {
+            let light = light.clone();
+            [Interpolation::Linear, Interpolation::Sprague].map(move |method| {
+                let told = format!("{} for {observer} on {grid}, {}", light.name(), method.name());
+                (told, TristimulusWeights::new(grid, &light, observer, method).unwrap())
+            })
+        })
+    })
+}
+
+#[test]
+fn a_perfect_diffuser_is_the_white_of_any_light() {
+    for (told, weights) in weights() {
+        let white = weights.white().to_array();
+        let diffuser = weights.xyz(&vec![1.0; weights.grid().count()]).to_array();
+        assert_near(&told, &diffuser, &white, ROUNDING);
+        assert_near(&told, &white[1..2], &[100.0], ROUNDING);
+    }
+}
+
+#[test]
+fn weights_sum_to_the_white() {
+    for (told, weights) in weights() {
+        let mut sum = [0.0; 3];
+        for row in weights.weights() {
+            for (total, weight) in sum.iter_mut().zip(row) {
+                *total += weight;
+            }
+        }
+        assert_near(&told, &sum, &weights.white().to_array(), ROUNDING);
+    }
+}
+
+#[test]
+fn xyz_of_many_reflectances_is_that_of_each() {
+    let seed = 7;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    for grid in grids() {
+        let weights = TristimulusWeights::new(
+            grid,
+            &Illuminant::d65(),
+            Observer::default(),
+            Interpolation::Sprague,
+        )
+        .unwrap();
+        let reflectances: Vec<f64> =
+            (0..5 * grid.count()).map(|_| rng.random_range(0.0..=1.0)).collect();
+        let mut many = [Xyz::default(); 5];
+        weights.xyz_of_many(&reflectances, &mut many);
+        for (one, together) in reflectances.chunks(grid.count()).zip(many) {
+            let alone = weights.xyz(one).to_array();
+            assert_near(format!("{grid}, seed {seed}"), &together.to_array(), &alone, ROUNDING);
+        }
+    }
+}
+
+#[test]
+fn a_brighter_light_of_the_same_kind_changes_no_colour() {
+    let dim = lamp_from_csv("dim", "400,1\n500,2\n700,4\n").unwrap();
+    let bright = lamp_from_csv("bright", "400,30\n500,60\n700,120\n").unwrap();
+    let [dim, bright] = [dim, bright].map(|light| {
+        let observer = Observer::Cie1964Deg10;
+        TristimulusWeights::new(grids()[1], &light, observer, Interpolation::Linear).unwrap()
+    });
+    assert_near("white", &dim.white().to_array(), &bright.white().to_array(), ROUNDING);
+}

@@ -1,0 +1,185 @@
+//! Bad files, one fault each: refused with place and reason, exit status 1,
+//! nothing written.
+
+use suite::program::{Run, impasto};
+
+/// A small sound file; each fault is made by changing it.
+const SOUND: &str = "\
+sample,film,backing,White,Red,400,410,420
+a,paint,card,100,,90,91,92
+b,paint,card,,100,10,11,60
+c,paint,card,50,50,20,22,70
+d,paint,card,90,10,40,42,80
+";
+
+/// Runs `fit` on a file of these bytes; nothing must be left in the folder.
+fn fit(bytes: &[u8]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.csv");
+    std::fs::write(&file, bytes).unwrap();
+    let output = folder.path().join("library.json");
+    let run = impasto(&["fit", file.to_str().unwrap(), "--output", output.to_str().unwrap()]);
+    let left: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .filter(|name| name != "bad.csv")
+        .collect();
+    if run.status == 0 {
+        assert_eq!(left, ["library.json"], "{}", run.err);
+    } else {
+        assert!(left.is_empty(), "half-written: {left:?}");
+    }
+    run
+}
+
+/// The file must be refused, in words that hold all of `words`.
+fn refused(bytes: &[u8], words: &[&str]) {
+    let run = fit(bytes);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.out.is_empty(), "{}", run.out);
+    assert!(run.err.contains("error: ") && run.err.contains("bad.csv"), "{}", run.err);
+    for word in words {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+}
+
+fn changed(from: &str, to: &str) -> Vec<u8> {
+    assert!(SOUND.contains(from), "the sound file holds `{from}`");
+    SOUND.replacen(from, to, 1).into_bytes()
+}
+
+#[test]
+fn the_sound_file_is_fitted() {
+    let run = fit(SOUND.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.err);
+}
+
+#[test]
+fn decimal_commas_unquoted() {
+    refused(&changed("10,11,60", "10,5,11,2,60,1"), &["row 3", "8 cells", "`11`", "decimal"]);
+}
+
+#[test]
+fn decimal_commas_quoted() {
+    refused(&changed("10,11,60", "\"10,5\",11,60"), &["row 3", "`400`", "`10,5`", "hint"]);
+}
+
+#[test]
+fn decimal_commas_with_semicolons() {
+    let file = SOUND.replace(',', ";");
+    refused(file.as_bytes(), &["row 1", "`;`", "hint"]);
+}
+
+#[test]
+fn missing_sample_column() {
+    refused(&changed("sample,", "name,"), &["row 1", "no column `sample`"]);
+}
+
+#[test]
+fn no_wavelengths_at_all() {
+    refused(b"sample,White\na,1\n", &["no column `400 (a wavelength in nm)`"]);
+}
+
+#[test]
+fn repeated_wavelength() {
+    refused(&changed("400,410,420", "400,410,410nm"), &["row 1", "410 nm stands twice"]);
+}
+
+#[test]
+fn repeated_pigment() {
+    refused(&changed("White,Red", "Red,Red"), &["`Red` stands twice", "4", "5"]);
+}
+
+#[test]
+fn reversed_wavelengths() {
+    refused(&changed("400,410,420", "420,410,400"), &["row 1", "410 nm after 420 nm", "hint"]);
+}
+
+#[test]
+fn percent_mixed_with_fractions() {
+    refused(&changed("20,22,70", "0.20,0.22,0.70"), &["row 4", "`0.7`", "hint", "--percent"]);
+}
+
+#[test]
+fn nan() {
+    refused(&changed("10,11,60", "10,NaN,60"), &["row 3", "`410`", "`NaN`"]);
+}
+
+#[test]
+fn infinite_reflectance() {
+    refused(&changed("10,11,60", "10,inf,60"), &["row 3", "`410`", "`inf`"]);
+}
+
+#[test]
+fn negative_reflectance() {
+    refused(&changed("10,11,60", "-10,11,60"), &["row 3", "`400`", "`-10`", "from 0 to 200 %"]);
+}
+
+#[test]
+fn negative_amount() {
+    refused(&changed("90,10,40", "90,-10,40"), &["row 5", "`Red`", "`-10`"]);
+}
+
+#[test]
+fn amount_that_is_no_number() {
+    refused(&changed("90,10,40", "90,some,40"), &["row 5", "`Red`", "`some`"]);
+}
+
+#[test]
+fn paint_without_a_recipe() {
+    refused(&changed("50,50,20", ",,20"), &["row 4", "sample c"]);
+}
+
+#[test]
+fn unknown_film() {
+    refused(&changed("a,paint", "a,glass"), &["row 2", "`film`", "`glass`"]);
+}
+
+#[test]
+fn empty_file() {
+    refused(b"", &["holds no readings"]);
+    refused(b"\n\n", &["holds no readings"]);
+}
+
+#[test]
+fn header_alone() {
+    refused(b"sample,White,400\n", &["holds no readings"]);
+}
+
+#[test]
+fn truncated_row() {
+    refused(
+        &changed("d,paint,card,90,10,40,42,80\n", "d,paint,card,90,1"),
+        &["row 5", "8 cells", "`5`"],
+    );
+}
+
+#[test]
+fn latin_1_bytes() {
+    let mut bytes = changed("Red", "Gr?n");
+    let at = bytes.iter().position(|&b| b == b'?').unwrap();
+    bytes[at] = 0xfc;
+    refused(&bytes, &["row 1", "`0xfc`", "UTF-8", "iconv"]);
+}
+
+#[test]
+fn contradicting_recipes_of_one_sample() {
+    refused(&changed("d,paint,card,90,10", "c,paint,black,90,10"), &["row 5", "sample c", "row 4"]);
+}
+
+#[test]
+fn a_reading_below_a_k1_that_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("dark.csv");
+    std::fs::write(&file, SOUND.replace("10,11,60", "2,11,60")).unwrap();
+    let path = file.to_str().unwrap();
+    let run = impasto(&["fit", path, "--saunderson", "0.03,0.6"]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    for word in ["row 3", "sample b", "400 nm", "k1 = 0.03", "--saunderson 0.019,0.6"] {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+    let floored =
+        impasto(&["fit", path, "--saunderson", "0.03,0.6", "--below-surface", "floor", "--json"]);
+    assert_eq!(floored.status, 0, "{}", floored.err);
+    assert!(floored.out.contains("b (1)"), "the reading is named: {}", floored.out);
+}

@@ -1,0 +1,232 @@
+//! What each verb prints for programs.
+
+use serde_json::Value;
+use suite::program::{Run, impasto, repository};
+
+fn oils() -> String {
+    repository("measurements/van-gogh-oils.csv")
+}
+
+fn library() -> String {
+    repository("measurements/van-gogh-oils.pigments.json")
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let run: Run = impasto(arguments);
+    assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
+    run.json()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+const FIT_KEYS: [&str; 7] =
+    ["samples", "pigments", "rms", "delta_e", "per_sample", "warnings", "seconds"];
+
+#[test]
+fn fit_prints_its_keys_and_writes_what_it_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oils.json");
+    let path = path.to_str().unwrap();
+    let fit = json(&["fit", &oils(), "--output", path, "--title", "Oils", "--json"]);
+    assert_eq!(keys(&fit), FIT_KEYS);
+    assert_eq!(keys(&fit["delta_e"]), ["mean", "median", "p90", "max"]);
+    assert_eq!(keys(&fit["per_sample"][0]), ["sample", "delta_e"]);
+    assert_eq!((&fit["samples"], &fit["pigments"]), (&82.into(), &20.into()));
+    let library: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    assert_eq!(library["evidence"]["delta_e"], fit["delta_e"]);
+    assert_eq!(library["title"], "Oils");
+}
+
+#[test]
+fn excluded_samples_take_their_lone_pigments_along() {
+    let fit = json(&["fit", &oils(), "--exclude", "07B", "--exclude", "14F", "--json"]);
+    assert_eq!((&fit["samples"], &fit["pigments"]), (&82.into(), &18.into()));
+    let warnings = fit["warnings"].to_string();
+    assert!(!warnings.contains("not identified"), "{warnings}");
+}
+
+#[test]
+fn every_method_and_surface_runs() {
+    for options in [
+        vec!["--method", "qp", "--saunderson", "none"],
+        vec!["--method", "weighted"],
+        vec!["--smoothness", "none"],
+        vec!["--smoothness", "10"],
+        vec!["--specular", "excluded"],
+        vec!["--saunderson", "0.019,0.5"],
+        vec!["--reference", "Lead White"],
+    ] {
+        let oils = oils();
+        let mut arguments = vec!["fit", oils.as_str(), "--json"];
+        arguments.extend(&options);
+        let mean = json(&arguments)["delta_e"]["mean"].as_f64().unwrap();
+        assert!((0.5..13.0).contains(&mean), "{options:?}: {mean}");
+    }
+}
+
+#[test]
+fn validate_prints_its_keys() {
+    let found = json(&["validate", &oils(), "--folds", "4", "--method", "weighted", "--json"]);
+    assert_eq!(keys(&found), FIT_KEYS);
+    let with = json(&[
+        "validate",
+        &oils(),
+        "--folds",
+        "4",
+        "--method",
+        "weighted",
+        "--with",
+        "Viridian",
+        "--json",
+    ]);
+    assert_eq!(with["samples"], 6, "09B to 09E, 08E and 16E");
+}
+
+#[test]
+fn color_prints_its_keys_with_white_at_100() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("spectra.csv");
+    std::fs::write(&file, "sample,400,500,600,700\nwhite,1,1,1,1\ngrey,0.2,0.2,0.2,0.2\n").unwrap();
+    let file = file.to_str().unwrap();
+    let list = json(&["color", file, "--illuminant", "A", "--observer", "10", "--json"]);
+    assert_eq!(keys(&list[0]), ["sample", "xyz", "lab", "srgb", "hex"]);
+    assert_eq!(list[0]["sample"], "white");
+    assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
+    assert_eq!(list[0]["hex"], "#ffffff");
+    assert!((list[1]["xyz"][1].as_f64().unwrap() - 20.0).abs() < 1e-9, "{}", list[1]);
+}
+
+#[test]
+fn color_tells_differences_and_metamerism() {
+    let list = json(&[
+        "color",
+        &oils(),
+        "--sample",
+        "09A on white",
+        "--sample",
+        "10A on white",
+        "--compare",
+        "10A on white",
+        "--illuminant",
+        "D65",
+        "--illuminant",
+        "A",
+        "--json",
+    ]);
+    assert_eq!(list.as_array().unwrap().len(), 4, "two spectra under two lights");
+    let difference = &list[0]["difference"];
+    assert_eq!(keys(difference), ["from", "ciede2000", "cie1976", "cie94", "cmc_2_1"]);
+    assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
+    assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
+    assert!(list[1]["metamerism"].as_f64().unwrap() > 0.1, "{}", list[1]);
+    assert!(list[0].get("metamerism").is_none(), "the first light is the reference");
+}
+
+#[test]
+fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
+    let mix = json(&["mix", &library(), "viridian=2", "--json"]);
+    assert_eq!(keys(&mix), ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex"]);
+    assert_eq!(mix["wavelengths_nm"].as_array().unwrap().len(), 31);
+    // 09A reads 6.1 % at 410 nm in a film that hides.
+    let at_410 = mix["reflectance"][1].as_f64().unwrap();
+    assert!((at_410 - 0.061).abs() < 0.004, "{at_410}");
+}
+
+#[test]
+fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
+    let film = |thickness: &str, over: &str| {
+        let mix = json(&[
+            "mix",
+            &library(),
+            "Viridian=1",
+            "--thickness",
+            thickness,
+            "--over",
+            over,
+            "--json",
+        ]);
+        mix["reflectance"][10].as_f64().unwrap()
+    };
+    let hiding = json(&["mix", &library(), "Viridian=1", "--json"]);
+    let hiding = hiding["reflectance"][10].as_f64().unwrap();
+    assert!((film("1000", "black") - hiding).abs() < 1e-6);
+    assert!((film("1000", "white") - hiding).abs() < 1e-6);
+    assert!((film("0.000001", "0.5") - 0.5).abs() < 1e-3, "{}", film("0.000001", "0.5"));
+    assert!(film("0.2", "white") > film("0.2", "black") + 0.01);
+}
+
+#[test]
+fn a_ground_may_come_from_a_file() {
+    let ground = format!("{}#01A", oils());
+    let over =
+        ["mix", &library(), "Zinc White=1", "--thickness", "0.1", "--over", &ground, "--json"];
+    assert!(json(&over)["reflectance"].is_array());
+    let missing = format!("{}#99Z", oils());
+    let run = impasto(&["mix", &library(), "Zinc White=1", "--over", &missing]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("`99Z`"), "{}", run.err);
+}
+
+#[test]
+fn a_mixture_with_an_unidentified_pigment_warns() {
+    let recipe = ["mix", &library(), "Zinc White=1", "Zinc White (linseed)=1"];
+    let run = impasto(&recipe);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("warning: Zinc White (linseed)"), "{}", run.err);
+    let alone = impasto(&["mix", &library(), "Zinc White (linseed)=1"]);
+    assert!(!alone.err.contains("warning"), "its masstone is known: {}", alone.err);
+}
+
+#[test]
+fn quadrature_prints_its_keys_and_its_error_on_unseen_mixtures() {
+    let rule = json(&["quadrature", &library(), "--seed", "3", "--json"]);
+    assert_eq!(keys(&rule), ["nodes_nm", "weights", "error"]);
+    assert_eq!(rule["nodes_nm"].as_array().unwrap().len(), 8);
+    assert_eq!(rule["weights"][0].as_array().unwrap().len(), 3);
+    assert_eq!(keys(&rule["error"]), ["mean", "p95", "max"]);
+    assert!(rule["error"]["mean"].as_f64().unwrap() < 0.25, "{}", rule["error"]);
+    let other = json(&["quadrature", &library(), "--seed", "4", "--json"]);
+    assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed is that of the unseen mixtures");
+    assert_ne!(other["error"], rule["error"]);
+    let paper =
+        json(&["quadrature", "--method", "gauss", "-n", "4", "--illuminant", "5600K", "--json"]);
+    assert_eq!(paper["nodes_nm"].as_array().unwrap().len(), 4);
+    assert!(paper["error"].is_null(), "without a library there is nothing to mix");
+}
+
+#[test]
+fn library_lists_and_shows() {
+    let list = json(&["library", "list", &library(), "--json"]);
+    assert_eq!(list.as_array().unwrap().len(), 20);
+    assert_eq!(list[1]["name"], "Zinc White");
+    let show = json(&["library", "show", &library(), "Cobalt", "--json"]);
+    assert_eq!(show["name"], "Cobalt Blue");
+    assert_eq!(show["absorption"].as_array().unwrap().len(), 31);
+    let white = json(&["library", "show", &library(), "Zinc White", "--json"]);
+    assert!(white["scattering"].as_array().unwrap().iter().all(|s| *s == 1.0), "the reference");
+}
+
+#[test]
+fn absolute_amounts_are_fitted_validated_and_mixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("washes.csv");
+    std::fs::write(&csv, suite::watercolors::Watercolors::exact().csv()).unwrap();
+    let csv = csv.to_str().unwrap();
+    let path = folder.path().join("washes.json");
+    let path = path.to_str().unwrap();
+    let even = ["--amounts", "absolute", "--saunderson", "none", "--json"];
+    let fit = json(&[&["fit", csv, "--output", path], even.as_slice()].concat());
+    assert!(fit["delta_e"]["max"].as_f64().unwrap() < 0.2, "{}", fit["delta_e"]);
+    let found = json(&[&["validate", csv, "--folds", "2"], even.as_slice()].concat());
+    assert_eq!(found["samples"], 702);
+    // W000 is 0.01 mL of cadmium red on the paper.
+    let over = format!("{csv}#bare");
+    let mix = json(&["mix", path, "cadmium red=0.01", "--over", &over, "--json"]);
+    let colour = json(&["color", csv, "--sample", "W000", "--json"]);
+    for channel in 0..3 {
+        let (a, b) = (&mix["lab"][channel], &colour[0]["lab"][channel]);
+        assert!((a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 0.1, "{a} {b}");
+    }
+}

@@ -1,0 +1,169 @@
+//! Laws of layers.
+
+use spectra::optics::{Layer, infinite_film};
+
+use crate::{Film, ROUNDING, random_films};
+
+/// Asserts that two layers send back and let through the same.
+#[track_caller]
+fn assert_same(got: Layer, wanted: Layer, told: impl std::fmt::Debug) {
+    let values = |layer: Layer| [layer.reflectance, layer.underside, layer.transmittance];
+    for (g, w) in values(got).into_iter().zip(values(wanted)) {
+        assert!((g - w).abs() <= ROUNDING, "{got:?} for {wanted:?}: {told:?}");
+    }
+}
+
+#[test]
+fn a_film_never_gives_back_more_than_it_gets() {
+    for film in random_films() {
+        let Layer { reflectance, transmittance, .. } = film.layer();
+        assert!((0.0..=1.0).contains(&reflectance), "R {reflectance}: {film:?}");
+        assert!((0.0..=1.0).contains(&transmittance), "T {transmittance}: {film:?}");
+        let sum = reflectance + transmittance;
+        assert!(sum <= 1.0 + ROUNDING, "R + T {sum}: {film:?}");
+        if film.absorption == 0.0 {
+            assert!(sum >= 1.0 - ROUNDING, "nothing absorbs, yet R + T {sum}: {film:?}");
+        }
+        let over = film.over_backing();
+        assert!((0.0..=1.0 + ROUNDING).contains(&over), "{over} over a backing: {film:?}");
+    }
+}
+
+#[test]
+fn reflectance_grows_with_scattering_over_any_backing() {
+    for film in random_films() {
+        let more = Film { scattering: film.scattering * 1.5 + 1e-3, ..film };
+        let (before, after) = (film.over_backing(), more.over_backing());
+        // Over white, a film that absorbs next to nothing has no room to grow.
+        let room = if before < 0.99 { 0.0 } else { -ROUNDING };
+        assert!(after - before > room, "{before} to {after}: {film:?}");
+    }
+}
+
+#[test]
+fn reflectance_falls_with_absorption_over_any_backing() {
+    for film in random_films() {
+        let more = Film { absorption: film.absorption * 1.5 + 1e-3, ..film };
+        let (before, after) = (film.over_backing(), more.over_backing());
+        // What is black already cannot fall.
+        assert!(after < before || before < 1e-300, "{before} to {after}: {film:?}");
+    }
+}
+
+#[test]
+fn a_film_cut_in_two_and_stacked_again_is_the_same_film() {
+    for film in random_films() {
+        for share in [0.0, 1e-6, 0.3, 0.5, 1.0] {
+            let stacked = film.share(share).stacked_on(film.share(1.0 - share));
+            assert_same(stacked, film.layer(), (share, film));
+        }
+    }
+}
+
+#[test]
+fn stacking_is_associative() {
+    for (film, seed) in random_films().zip(10_000..) {
+        let upper = film.layer();
+        let [middle, lower] = [seed, seed + 10_000].map(|seed| Film::random(seed).layer());
+        let above = upper.stacked_on(middle).stacked_on(lower);
+        let below = upper.stacked_on(middle.stacked_on(lower));
+        assert_same(above, below, film);
+    }
+}
+
+#[test]
+fn a_stack_over_a_backing_is_the_upper_film_over_the_lower() {
+    for (film, seed) in random_films().zip(10_000..) {
+        let (upper, lower) = (film.layer(), Film::random(seed).layer());
+        let at_once = upper.stacked_on(lower).over(film.backing);
+        let in_turn = upper.over(lower.over(film.backing));
+        assert!((at_once - in_turn).abs() <= ROUNDING, "{at_once}, {in_turn}: {film:?}");
+    }
+}
+
+#[test]
+fn zero_thickness_is_the_backing() {
+    for film in random_films() {
+        let nothing = film.share(0.0);
+        assert_eq!(nothing.over(film.backing), film.backing, "{film:?}");
+        assert_eq!(nothing.stacked_on(film.layer()), film.layer(), "over itself: {film:?}");
+        assert_eq!(film.layer().stacked_on(nothing), film.layer(), "under itself: {film:?}");
+    }
+}
+
+#[test]
+fn great_thickness_forgets_the_backing() {
+    for film in random_films().filter(|film| film.absorption > 0.0) {
+        let (k, s) = (film.absorption, film.scattering);
+        let extinction = (k * (k + 2.0 * s)).sqrt();
+        // Light that goes down and up again is weakened to exp(-80), 2e-35.
+        let thick = Layer::new(k, s, 40.0 / extinction);
+        let (over, hiding) = (thick.over(film.backing), infinite_film(k, s));
+        let tolerance = ROUNDING * hiding + 1e-34;
+        assert!((over - hiding).abs() <= tolerance, "{over} for {hiding}: {film:?}");
+    }
+}
+
+#[test]
+fn a_film_without_absorption_over_white_is_white() {
+    for film in random_films() {
+        let over = Film { absorption: 0.0, backing: 1.0, ..film }.over_backing();
+        assert!((over - 1.0).abs() <= ROUNDING, "{over}: {film:?}");
+    }
+}
+
+#[test]
+fn a_film_without_scattering_lets_through_what_beer_and_lambert_say() {
+    for film in random_films() {
+        let glaze = Film { scattering: 0.0, ..film };
+        let wanted = film.backing * (-2.0 * film.absorption * film.thickness).exp();
+        let over = glaze.over_backing();
+        // The exponent carries its own rounding into the result.
+        let tolerance = ROUNDING * wanted * (1.0 + film.absorption * film.thickness);
+        assert!((over - wanted).abs() <= tolerance, "{over} for {wanted}: {film:?}");
+    }
+}
+
+#[test]
+fn slopes_are_the_limit_of_difference_quotients() {
+    for film in random_films() {
+        let g = film.backing;
+        let (k, s) = (film.absorption * film.thickness, film.scattering * film.thickness);
+        let [value, over_k, over_s] = Layer::over_with_slopes(k, s, g);
+        assert!((value - film.over_backing()).abs() <= ROUNDING, "{value}: {film:?}");
+        // Forward, since K and S may be 0; of second order in the step.
+        let quotient = |at: &dyn Fn(f64) -> f64, size: f64| {
+            let step = 1e-5 * (1.0 + size);
+            (4.0 * at(step) - at(2.0 * step) - 3.0 * at(0.0)) / (2.0 * step)
+        };
+        let by_k = quotient(&|h| Layer::new(k + h, s, 1.0).over(g), k);
+        let by_s = quotient(&|h| Layer::new(k, s + h, 1.0).over(g), s);
+        let size = 1.0 + s.powi(2);
+        assert!((over_k - by_k).abs() <= 1e-6 * size, "dR/dK {over_k} for {by_k}: {film:?}");
+        assert!((over_s - by_s).abs() <= 1e-6 * size, "dR/dS {over_s} for {by_s}: {film:?}");
+        // Kubelka's equation in thickness, which scales K and S alike.
+        let by_d = s - 2.0 * (k + s) * value + s * value * value;
+        let by_ray = k * over_k + s * over_s;
+        let tolerance = 64.0 * ROUNDING * (1.0 + k + s);
+        assert!((by_ray - by_d).abs() <= tolerance, "dR/dd {by_ray} for {by_d}: {film:?}");
+    }
+}
+
+#[test]
+fn reflectance_is_finite_and_a_fraction_to_the_edges() {
+    let edges = [0.0, 1e-300, 1e-12, 1e-3, 1.0, 50.0];
+    for k in edges {
+        for s in edges {
+            for d in edges.into_iter().chain([100.0]) {
+                let layer = Layer::new(k, s, d);
+                for percent in 0..=100 {
+                    let over = layer.over(f64::from(percent) / 100.0);
+                    assert!(
+                        (0.0..=1.0 + ROUNDING).contains(&over),
+                        "K {k}, S {s}, d {d} over {percent} %: {over}"
+                    );
+                }
+            }
+        }
+    }
+}
