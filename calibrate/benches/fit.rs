@@ -6,7 +6,9 @@
 
 use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitSettings, Method, Problem, Smoothness, fit_qp, fit_refined, fit_weighted};
+use calibrate::fit::{
+    FitSettings, Method, Problem, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
+};
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
 use calibrate::observation::BelowSurface;
@@ -64,7 +66,8 @@ fn refined_at_the_papers_size(bencher: Bencher<'_, '_>, smoothness: &str) {
     let (made, problem) = paper_size();
     let weights = Viewing::default().weights(made.grid).expect("weights");
     let smoothness = if smoothness == "none" { Smoothness::None } else { Smoothness::Auto };
-    bencher.bench_local(|| fit_refined(black_box(&problem), &weights, smoothness, None));
+    bencher
+        .bench_local(|| fit_refined(black_box(&problem), &weights, Refinement::whole(smoothness)));
 }
 
 #[divan::bench]

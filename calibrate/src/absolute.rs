@@ -13,7 +13,8 @@ use crate::digits::rounded;
 use crate::evaluate::{Summary, Viewing, delta_e, percentile};
 use crate::findings;
 use crate::fit::{
-    FiniteProblem, FitError, FitSettings, Refined, SCATTERING_RIDGE, Smoothness, fit_finite,
+    FiniteProblem, FitError, FitSettings, Refined, Refinement, SCATTERING_RIDGE, Smoothness,
+    fit_finite,
 };
 use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
 use crate::measurement::MeasurementError;
@@ -72,7 +73,7 @@ pub fn calibrate_absolute(
     let (problem, names) = films(set)?;
     findings::refuse_below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
-    let fit = fit_finite(&problem, film, &own, settings.smoothness, None)?;
+    let fit = fit_finite(&problem, film, &own, Refinement::whole(settings.smoothness))?;
 
     let weights = viewing.weights(set.grid).expect("the method fits the grid");
     let mut squares = 0.0;
@@ -165,7 +166,12 @@ pub fn chosen_film(
             .map(|left_out| {
                 let kept = all_but(problem.recipes.len(), left_out);
                 let part = problem.of(&kept);
-                let fit = fit_finite(&part, film, &weights, Smoothness::None, None)?;
+                let fit = fit_finite(
+                    &part,
+                    film,
+                    &weights,
+                    Refinement::prediction(Smoothness::None, None),
+                )?;
                 progress();
                 Ok(errors(problem, &fit, film, left_out, &weights))
             })

@@ -6,8 +6,8 @@ use crate::digits::rounded;
 use crate::evaluate::{Summary, Viewing, delta_e};
 use crate::findings;
 use crate::fit::{
-    Condition, FitError, FitSettings, Method, Problem, RefinedState, Unidentified, Unknown,
-    condition, fit_qp, fit_refined, fit_weighted, unidentified,
+    Condition, FitError, FitSettings, Method, Problem, RefinedState, Refinement, Unidentified,
+    Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations, unidentified,
 };
 use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
 use crate::measurement::MeasurementError;
@@ -53,7 +53,7 @@ pub fn calibrate(
     let reference_among =
         identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
     let problem = Problem::new(set.grid, surface, &solvable, reference_among)?;
-    let solution = solve(&problem, settings, None)?;
+    let solution = solve(&problem, settings.method, Refinement::whole(settings.smoothness))?;
     let condition = condition(&problem, &solution.absorption, &solution.scattering);
 
     let mut pigments: Vec<(usize, Pigment)> = identified
@@ -87,27 +87,24 @@ pub fn calibrate(
     Ok(Calibration { library, observations, condition: Some(condition), state: solution.state })
 }
 
-/// K and S by any method, with their deviations where the method gives them.
+/// K and S by any method, with their standard deviations.
 pub(crate) struct Solution {
     pub(crate) absorption: Vec<Vec<f64>>,
     pub(crate) scattering: Vec<Vec<f64>>,
-    deviations: Option<[Vec<Vec<f64>>; 2]>,
+    deviations: [Vec<Vec<f64>>; 2],
     state: Option<RefinedState>,
 }
 
 impl Solution {
     fn pigment(&self, place: usize, name: &str) -> Pigment {
         let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
-        let deviation = |which: usize| {
-            self.deviations.as_ref().map_or_else(Vec::new, |d| rounded(&d[which][place]))
-        };
         Pigment {
             name: name.to_owned(),
             colour_index: None,
             absorption: rounded(&self.absorption[place]),
             scattering: rounded(&self.scattering[place]),
-            absorption_sd: deviation(0),
-            scattering_sd: deviation(1),
+            absorption_sd: rounded(&self.deviations[0][place]),
+            scattering_sd: rounded(&self.deviations[1][place]),
             identified: true,
             notes: Vec::new(),
         }
@@ -116,27 +113,31 @@ impl Solution {
 
 pub(crate) fn solve(
     problem: &Problem,
-    settings: &FitSettings,
-    state: Option<RefinedState>,
+    method: Method,
+    how: Refinement,
 ) -> Result<Solution, FitError> {
     let plain = |[absorption, scattering]: [Vec<Vec<f64>>; 2]| Solution {
+        deviations: if how.deviations {
+            linear_deviations(problem, &absorption, &scattering)
+        } else {
+            [Vec::new(), Vec::new()]
+        },
         absorption,
         scattering,
-        deviations: None,
         state: None,
     };
-    Ok(match settings.method {
+    Ok(match method {
         Method::Qp => plain(fit_qp(problem)?),
         Method::Weighted => plain(fit_weighted(problem)?),
         Method::Refined => {
             // K and S must not depend on the light of the day's comparison.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
-            let refined = fit_refined(problem, &weights, settings.smoothness, state)?;
+            let refined = fit_refined(problem, &weights, how)?;
             Solution {
                 absorption: refined.absorption,
                 scattering: refined.scattering,
-                deviations: Some([refined.absorption_sd, refined.scattering_sd]),
+                deviations: [refined.absorption_sd, refined.scattering_sd],
                 state: Some(refined.state),
             }
         }

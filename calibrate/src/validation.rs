@@ -7,7 +7,9 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, solve, without};
 use crate::evaluate::{Summary, Viewing, delta_e};
-use crate::fit::{FitError, FitSettings, Problem, RefinedState, fit_finite, unidentified};
+use crate::fit::{
+    FitError, FitSettings, Problem, RefinedState, Refinement, fit_finite, unidentified,
+};
 use crate::library::SampleEvidence;
 use crate::mixture::Mixture;
 use crate::observation::{Observation, observations};
@@ -88,7 +90,8 @@ pub fn validate(
         let (solvable, identified) = without(&rest, &unknown);
         let among = identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
         let problem = Problem::new(set.grid, surface, &solvable, among)?;
-        let solution = solve(&problem, plan.settings, plan.state)?;
+        let how = Refinement::prediction(plan.settings.smoothness, plan.state);
+        let solution = solve(&problem, plan.settings.method, how)?;
         let predictions = group.iter().map(|&index| {
             (plan.progress)();
             let target = &observations[index];
@@ -126,8 +129,9 @@ pub fn validate_absolute(
     let count = problem.recipes.len();
     let candidates: Vec<usize> = (0..count).filter(|&i| problem.recipes[i].len() > 1).collect();
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
+        let how = Refinement::prediction(plan.settings.smoothness, plan.state);
         let part = problem.of(&all_but(count, group));
-        let fit = fit_finite(&part, film, &weights, plan.settings.smoothness, plan.state)?;
+        let fit = fit_finite(&part, film, &weights, how)?;
         let predictions = group.iter().map(|&index| {
             (plan.progress)();
             Prediction { index, predicted: Some(problem.predicted(&fit, film, index)) }

@@ -6,8 +6,7 @@ use spectra::{Grid, TristimulusWeights};
 use super::curves::{Curves, Layout};
 use super::forward::{Data, Finite};
 use super::problem::FitError;
-use super::refined::{Refined, RefinedState, refine};
-use super::settings::Smoothness;
+use super::refined::{Refined, Refinement, refine};
 use crate::mixture::Mixture;
 
 /// Films of known amounts over known backings.
@@ -62,8 +61,7 @@ pub fn fit_finite(
     problem: &FiniteProblem,
     film: UnevenFilm,
     weights: &TristimulusWeights,
-    smoothness: Smoothness,
-    state: Option<RefinedState>,
+    how: Refinement,
 ) -> Result<Refined, FitError> {
     if problem.recipes.is_empty() {
         return Err(FitError::Empty);
@@ -94,7 +92,7 @@ pub fn fit_finite(
     let forward = Finite { film, backing: &backing };
     let data = Data::new(layout, forward, &recipes, &problem.reflectance);
     let step = problem.grid.step_nm();
-    let mut refined = refine(&data, &start, weights, step, smoothness, state);
+    let mut refined = refine(&data, &start, weights, step, how);
     for curves in [
         &mut refined.absorption,
         &mut refined.scattering,

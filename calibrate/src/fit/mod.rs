@@ -27,6 +27,8 @@ mod forward;
 
 mod colour_term;
 
+mod noise;
+
 mod objective;
 
 mod refined;
@@ -35,14 +37,17 @@ mod finite;
 
 mod identification;
 
+mod deviations;
+
 mod condition;
 
 pub use condition::{Condition, condition};
+pub use deviations::linear_deviations;
 pub use finite::{FiniteProblem, fit_finite};
 pub use identification::{Unidentified, Unknown, unidentified};
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
 pub(crate) use refined::SCATTERING_RIDGE;
-pub use refined::{Refined, RefinedState, fit_refined};
+pub use refined::{Refined, RefinedState, Refinement, fit_refined};
 pub use settings::{FitSettings, Method, Smoothness};
 pub use weighted::fit_weighted;

@@ -127,6 +127,29 @@ impl<F: Forward> Objective<'_, F> {
         local
     }
 
+    /// The gradient of each sample's spectral part over all unknowns.
+    pub(super) fn gradients_by_sample(&self, unknowns: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+        let layout = self.data.layout;
+        let per = layout.per_wavelength();
+        let linear = self.data.linear(&layout.curves(unknowns));
+        (0..self.data.recipes.len()).map(move |index| {
+            let mut gradient = vec![0.0; layout.len()];
+            let places = self.data.places(index);
+            for at in 0..layout.wavelengths {
+                let (value, weight) = (linear.values[index][at], self.weights[index][at]);
+                let root = value.cbrt();
+                let residual = weight * (root - self.data.target[index][at].cbrt());
+                let (_, share) = robust(residual * residual, self.knee);
+                let pull = share * residual * weight / (3.0 * root * root);
+                let slopes = &linear.slopes[index][at * places.len()..(at + 1) * places.len()];
+                for (&place, slope) in places.iter().zip(slopes) {
+                    gradient[at * per + place] += pull * slope;
+                }
+            }
+            gradient
+        })
+    }
+
     /// Moves `unknowns` downhill until the cost falls by less than `relative`
     /// of itself, or for `iterations` steps.
     pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {

@@ -4,7 +4,9 @@ use spectra::TristimulusWeights;
 
 use super::colour_term::ColourTerm;
 use super::curves::{Curves, Layout};
+use super::deviations::deviations;
 use super::forward::{Data, Forward, Hiding};
+use super::noise::Noise;
 use super::objective::{ColourPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
 use super::settings::Smoothness;
@@ -27,9 +29,9 @@ pub struct Refined {
     pub absorption: Vec<Vec<f64>>,
     /// S by pigment and wavelength.
     pub scattering: Vec<Vec<f64>>,
-    /// Standard deviation of K, from the normal matrix (priors included).
+    /// Standard deviation of K; empty if not asked for.
     pub absorption_sd: Vec<Vec<f64>>,
-    /// Standard deviation of S; 0 for the reference.
+    /// Standard deviation of S, 0 for the reference; empty if not asked for.
     pub scattering_sd: Vec<Vec<f64>>,
     /// What was estimated beside K and S.
     pub state: RefinedState,
@@ -45,6 +47,31 @@ pub struct RefinedState {
     pub smoothness: f64,
 }
 
+/// What a refinement should do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refinement {
+    /// How smooth K and S are over wavelength.
+    pub smoothness: Smoothness,
+    /// What another fit of nearly the same data found out, to be reused.
+    pub state: Option<RefinedState>,
+    /// Whether standard deviations are wanted; a prediction does without.
+    pub deviations: bool,
+}
+
+impl Refinement {
+    /// The whole answer.
+    #[must_use]
+    pub fn whole(smoothness: Smoothness) -> Self {
+        Self { smoothness, state: None, deviations: true }
+    }
+
+    /// K and S alone, for a prediction.
+    #[must_use]
+    pub fn prediction(smoothness: Smoothness, state: Option<RefinedState>) -> Self {
+        Self { smoothness, state, deviations: false }
+    }
+}
+
 /// K and S by `refined`.
 ///
 /// Minimised is a robust loss of the residuals in measured reflectance, on a
@@ -57,7 +84,7 @@ pub struct RefinedState {
 /// The residual's variance is a sum of two: one even to the eye, one constant
 /// in reflectance; their ratio is the one under which the residuals are most
 /// likely (Laplace's law). The smoothness is the one under which the data are
-/// most likely (MacKay 1992, eq. 2.18). Both are taken from `state` instead,
+/// most likely (MacKay 1992, eq. 2.18). Both are taken from `how.state` instead,
 /// where given.
 ///
 /// # Errors
@@ -65,8 +92,7 @@ pub struct RefinedState {
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
-    smoothness: Smoothness,
-    state: Option<RefinedState>,
+    how: Refinement,
 ) -> Result<Refined, FitError> {
     let mut start = weighted(problem)?;
     let layout = Layout {
@@ -82,7 +108,7 @@ pub fn fit_refined(
     off_zero(&mut start.scattering, 1e-3);
     let forward = Hiding { surface: problem.surface };
     let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
-    Ok(refine(&data, &start, weights, problem.grid.step_nm(), smoothness, state))
+    Ok(refine(&data, &start, weights, problem.grid.step_nm(), how))
 }
 
 /// The refinement of `start` under any optical model.
@@ -91,16 +117,16 @@ pub(super) fn refine<F: Forward>(
     start: &Curves,
     weights: &TristimulusWeights,
     step_nm: f64,
-    smoothness: Smoothness,
-    state: Option<RefinedState>,
+    how: Refinement,
 ) -> Refined {
+    let smoothness = how.smoothness;
     let layout = data.layout;
     let term = ColourTerm::new(weights, data.target);
     let noise = Noise::new(&term, data.target);
     let origin = layout.unknowns(start);
     let fixed = |lambda: f64| lambda * (10.0 / step_nm).powi(3);
-    let estimate = state.is_none();
-    let mut state = state.unwrap_or(RefinedState {
+    let estimate = how.state.is_none();
+    let mut state = how.state.unwrap_or(RefinedState {
         noise_ratio: 0.0,
         smoothness: match smoothness {
             Smoothness::None => 0.0,
@@ -153,7 +179,11 @@ pub(super) fn refine<F: Forward>(
     objective.colour = None;
 
     let curves = layout.curves(&unknowns);
-    let (absorption_sd, scattering_sd) = deviations(&objective, &unknowns, &curves);
+    let [absorption_sd, scattering_sd] = if how.deviations {
+        deviations(&objective, &unknowns, &curves)
+    } else {
+        [Vec::new(), Vec::new()]
+    };
     Refined {
         absorption: curves.absorption,
         scattering: curves.scattering,
@@ -186,99 +216,6 @@ fn settle<F: Forward>(
     }
 }
 
-/// How noise spreads over samples and wavelengths.
-struct Noise<'a> {
-    target: &'a [Vec<f64>],
-    /// By sample and wavelength: weight of a cube-root residual that makes it
-    /// even to the eye.
-    even: Vec<Vec<f64>>,
-    /// The same for a residual in reflectance itself.
-    slope: Vec<Vec<f64>>,
-    median_slope: f64,
-}
-
-impl<'a> Noise<'a> {
-    fn new(term: &ColourTerm<'_>, target: &'a [Vec<f64>]) -> Self {
-        let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
-        let mut even = term.sensitivity(target);
-        for (row, reflectances) in even.iter_mut().zip(target) {
-            for (value, &r) in row.iter_mut().zip(reflectances) {
-                *value /= root_slope(r);
-            }
-        }
-        // Only the differences among samples count: no wavelength outweighs
-        // another here, or the dim ends of the band would not be fitted at all.
-        for at in 0..even[0].len() {
-            let mean = even.iter().map(|row| row[at]).sum::<f64>() / even.len() as f64;
-            for row in &mut even {
-                row[at] = if mean > 0.0 { row[at] / mean } else { 1.0 };
-            }
-        }
-        let slope: Vec<Vec<f64>> = even
-            .iter()
-            .zip(target)
-            .map(|(row, rs)| row.iter().zip(rs).map(|(e, &r)| e * root_slope(r)).collect())
-            .collect();
-        let all: Vec<f64> = slope.iter().flatten().copied().collect();
-        Self { target, even, slope, median_slope: crate::evaluate::percentile(&all, 50.0) }
-    }
-
-    /// One over the standard deviation of each residual, and the deviation at a
-    /// typical sample, which is `least` or more.
-    fn weights(&self, ratio: f64, values: &[Vec<f64>], least: f64) -> (Vec<Vec<f64>>, f64) {
-        let at_median = 1.0 + (ratio * self.median_slope).powi(2);
-        let mut weights: Vec<Vec<f64>> = self
-            .even
-            .iter()
-            .zip(&self.slope)
-            .map(|(even, slope)| {
-                let pairs = even.iter().zip(slope);
-                pairs.map(|(e, g)| e * (at_median / (1.0 + (ratio * g).powi(2))).sqrt()).collect()
-            })
-            .collect();
-        let mut sizes = Vec::new();
-        for ((row, values), target) in weights.iter().zip(values).zip(self.target) {
-            for ((w, v), t) in row.iter().zip(values).zip(target) {
-                sizes.push((w * (v.cbrt() - t.cbrt())).abs());
-            }
-        }
-        // The median of |r| is 0.6745 standard deviations of normal noise.
-        let least = if least.is_finite() { least.max(1e-4) } else { 1e-4 };
-        let sd = (1.4826 * crate::evaluate::percentile(&sizes, 50.0)).max(least);
-        weights.iter_mut().flatten().for_each(|w| *w /= sd);
-        (weights, sd)
-    }
-
-    /// The ratio of the two kinds of noise under which the residuals of
-    /// `values` are most likely.
-    fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
-        let score = |ratio: f64| {
-            let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
-            for (index, row) in values.iter().enumerate() {
-                for (at, value) in row.iter().enumerate() {
-                    let residual =
-                        self.even[index][at] * (value.cbrt() - self.target[index][at].cbrt());
-                    let sd = (1.0 + (ratio * self.slope[index][at]).powi(2)).sqrt();
-                    sum += (residual / sd).abs();
-                    logs += sd.ln();
-                    count += 1.0;
-                }
-            }
-            count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
-        };
-        // 0, then 25 steps of equal ratio from 0.02 to 200.
-        let candidates = (0..25).map(|i| 0.02 * 10f64.powf(4.0 * f64::from(i) / 24.0));
-        let mut best = (score(0.0), 0.0);
-        for ratio in candidates {
-            let score = score(ratio);
-            if score < best.0 {
-                best = (score, ratio);
-            }
-        }
-        best.1
-    }
-}
-
 /// MacKay's update: the number of well-determined second differences over
 /// their sum of squares.
 fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f64]) -> f64 {
@@ -300,35 +237,4 @@ fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f6
     }
     let determined = (count - objective.smoothness * trace).max(1.0);
     determined / objective.roughness(unknowns).max(f64::MIN_POSITIVE)
-}
-
-/// Standard deviations of K and S.
-fn deviations<F: Forward>(
-    objective: &Objective<'_, F>,
-    unknowns: &[f64],
-    curves: &Curves,
-) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
-    let layout = objective.data.layout;
-    let per = layout.per_wavelength();
-    let factor = objective.local(unknowns).matrix.cholesky();
-    let inverse = factor.map(|factor| factor.inverse_band());
-    // Without data the ridge alone is left.
-    let sd = |place: usize| {
-        inverse.as_ref().map_or(RIDGE.sqrt().recip(), |inverse| inverse.at(place, place).sqrt())
-    };
-    let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
-        curve.iter().enumerate().map(|(at, value)| value * sd(at * per + place)).collect()
-    };
-    let absorption =
-        curves.absorption.iter().enumerate().map(|(p, curve)| of_logs(p, curve)).collect();
-    let scattering = curves
-        .scattering
-        .iter()
-        .enumerate()
-        .map(|(p, curve)| match layout.scattering(p) {
-            Some(place) => of_logs(place, curve),
-            None => vec![0.0; curve.len()],
-        })
-        .collect();
-    (absorption, scattering)
 }

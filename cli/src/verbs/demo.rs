@@ -55,14 +55,7 @@ impl Demo {
         let evidence = library.evidence.as_ref().expect("a fit has evidence");
         let seconds = start.elapsed().as_secs_f64();
         if self.json {
-            return console.json(&fit_report::to_json(
-                library.pigments.len(),
-                evidence.rms,
-                &evidence.delta_e,
-                &evidence.per_sample,
-                &evidence.warnings,
-                seconds,
-            ));
+            return console.json(&fit_report::library_json(&library, evidence, seconds));
         }
         console.line(format!("{} ({})", library.title, library.licence))?;
         console.line("")?;

@@ -57,12 +57,9 @@ impl Fit {
             output.write(&text)?;
         }
         if self.json {
-            return console.json(&fit_report::to_json(
-                library.pigments.len(),
-                evidence.rms,
-                &evidence.delta_e,
-                &evidence.per_sample,
-                &evidence.warnings,
+            return console.json(&fit_report::library_json(
+                &library,
+                evidence,
                 start.elapsed().as_secs_f64(),
             ));
         }

@@ -27,6 +27,12 @@ pub(super) fn to_json(
     })
 }
 
+/// [`to_json`] of a library's own evidence.
+pub(super) fn library_json(library: &PigmentLibrary, evidence: &Evidence, seconds: f64) -> Value {
+    let Evidence { rms, delta_e, per_sample, warnings, .. } = evidence;
+    to_json(library.pigments.len(), *rms, delta_e, per_sample, warnings, seconds)
+}
+
 /// How the films hid, how far repeated readings spread, and how well the
 /// mixtures determine the unknowns.
 pub(super) fn remark_films(

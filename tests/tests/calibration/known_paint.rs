@@ -1,7 +1,9 @@
 //! Paint of known K and S.
 
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitError, Problem, Refined, Smoothness, fit_qp, fit_refined, fit_weighted};
+use calibrate::fit::{
+    FitError, Problem, Refined, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
+};
 use calibrate::observation::Observation;
 use calibrate::synthetic::SyntheticMixtures;
 
@@ -11,7 +13,7 @@ fn problem(made: &SyntheticMixtures) -> Problem {
 
 fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
     let weights = Viewing::default().weights(made.grid).unwrap();
-    fit_refined(&problem(made), &weights, smoothness, None).unwrap()
+    fit_refined(&problem(made), &weights, Refinement::whole(smoothness)).unwrap()
 }
 
 /// The largest error of log K and log S where the pigment shows at all.
@@ -122,7 +124,7 @@ fn any_number_of_wavelengths_will_do() {
         let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
         let problem = Problem::new(grid, made.surface, &observations, 0).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
-        let fit = fit_refined(&problem, &weights, Smoothness::Auto, None).unwrap();
+        let fit = fit_refined(&problem, &weights, Refinement::whole(Smoothness::Auto)).unwrap();
         assert!(fit.absorption.iter().flatten().all(|v| v.is_finite() && *v >= 0.0), "{count}");
     }
 }

@@ -1,0 +1,117 @@
+//! Standard deviations of K and S.
+
+use nalgebra::DMatrix;
+
+use super::curves::{Curves, Layout};
+use super::forward::{Data, Forward, Hiding};
+use super::objective::{Objective, RIDGE};
+use super::problem::Problem;
+
+/// Standard deviations of K and S at the minimum of `objective`.
+///
+/// The larger of two: from the normal matrix, priors included, as if every
+/// residual were independent; and from the spread of the samples' own pulls,
+/// H^-1 (sum of g g') H^-1 with g a sample's gradient over all wavelengths
+/// (Liang and Zeger 1986), which knows that a sample painted wrongly is wrong
+/// everywhere, but sees nothing where a pigment's few samples are fitted exactly.
+pub(super) fn deviations<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+    curves: &Curves,
+) -> [Vec<Vec<f64>>; 2] {
+    let layout = objective.data.layout;
+    let per = layout.per_wavelength();
+    // Without data the ridge alone is left.
+    let mut variances = vec![RIDGE.recip(); layout.len()];
+    if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
+        let inverse = factor.inverse_band();
+        let mut spread = vec![0.0; layout.len()];
+        for gradient in objective.gradients_by_sample(unknowns) {
+            for (total, pull) in spread.iter_mut().zip(factor.solve(&gradient)) {
+                *total += pull * pull;
+            }
+        }
+        for (i, variance) in variances.iter_mut().enumerate() {
+            *variance = f64::max(inverse.at(i, i), spread[i]);
+        }
+    }
+    let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
+        let sd = |at: usize| variances[at * per + place].sqrt();
+        curve.iter().enumerate().map(|(at, value)| value * sd(at)).collect()
+    };
+    let absorption =
+        curves.absorption.iter().enumerate().map(|(p, curve)| of_logs(p, curve)).collect();
+    let scattering = curves
+        .scattering
+        .iter()
+        .enumerate()
+        .map(|(p, curve)| match layout.scattering(p) {
+            Some(place) => of_logs(place, curve),
+            None => vec![0.0; curve.len()],
+        })
+        .collect();
+    [absorption, scattering]
+}
+
+/// Standard deviations of K and S after a fit that has none of its own, by
+/// pigment and wavelength.
+///
+/// Each wavelength by itself: the variance of its residuals of measured
+/// reflectance times the inverse of the normal matrix of their derivatives over
+/// K and S. What no mixture determines gets a deviation of its own size or
+/// more; the reference's S, which is given, gets 0.
+#[must_use]
+pub fn linear_deviations(
+    problem: &Problem,
+    absorption: &[Vec<f64>],
+    scattering: &[Vec<f64>],
+) -> [Vec<Vec<f64>>; 2] {
+    let layout = Layout {
+        pigments: problem.pigments,
+        reference: Some(problem.reference),
+        wavelengths: problem.grid.count(),
+    };
+    // A program may put a pigment at 0, where the slopes are not finite.
+    let off_zero = |curves: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        curves.iter().map(|curve| curve.iter().map(|v| v.max(1e-4)).collect()).collect()
+    };
+    let curves = Curves { absorption: off_zero(absorption), scattering: off_zero(scattering) };
+    let forward = Hiding { surface: problem.surface };
+    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    let linear = data.linear(&curves);
+    let unknowns = layout.per_wavelength();
+    let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
+    let mut deviations =
+        [absorption, scattering].map(|c| vec![vec![0.0; layout.wavelengths]; c.len()]);
+    for at in 0..layout.wavelengths {
+        let mut normal: DMatrix<f64> = DMatrix::zeros(unknowns, unknowns);
+        let mut squares = 0.0;
+        for (index, slopes) in linear.slopes.iter().enumerate() {
+            let places = data.places(index);
+            let slopes = &slopes[at * places.len()..(at + 1) * places.len()];
+            squares += (linear.values[index][at] - problem.reflectance[index][at]).powi(2);
+            for (a, &row) in places.iter().enumerate() {
+                for (b, &column) in places.iter().enumerate() {
+                    normal[(row, column)] += slopes[a] * slopes[b];
+                }
+            }
+        }
+        let variance = squares / freedom;
+        // In logarithms, so that a deviation of 1 is as much as nothing known.
+        for i in 0..unknowns {
+            normal[(i, i)] += variance.max(f64::MIN_POSITIVE);
+        }
+        let Some(inverse) = normal.cholesky().map(|factor| factor.inverse()) else { continue };
+        let sd = |place: usize| (variance * inverse[(place, place)]).sqrt();
+        let [of_absorption, of_scattering] = &mut deviations;
+        for (pigment, curve) in of_absorption.iter_mut().enumerate() {
+            curve[at] = curves.absorption[pigment][at] * sd(pigment);
+        }
+        for (pigment, curve) in of_scattering.iter_mut().enumerate() {
+            if let Some(place) = layout.scattering(pigment) {
+                curve[at] = curves.scattering[pigment][at] * sd(place);
+            }
+        }
+    }
+    deviations
+}
