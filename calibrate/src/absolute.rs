@@ -14,7 +14,7 @@ use crate::evaluate::{Summary, Viewing, delta_e, percentile};
 use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, Refined, Refinement, SCATTERING_RIDGE, Smoothness,
-    fit_finite,
+    fit_finite, root_mean_square,
 };
 use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
 use crate::measurement::MeasurementError;
@@ -29,6 +29,9 @@ pub fn films(set: &SwatchSet) -> Result<(FiniteProblem, Vec<String>), Measuremen
     let mut problem = FiniteProblem {
         grid: set.grid,
         pigments: set.pigments.len(),
+        reading_sd: root_mean_square(
+            set.swatches.iter().flat_map(|s| &s.films).filter_map(|film| film.spread),
+        ),
         recipes: Vec::new(),
         reflectance: Vec::new(),
         bare: Vec::new(),

@@ -37,11 +37,25 @@ pub(crate) fn warnings(
             condition.rank, condition.unknowns, condition.nm
         ));
     }
-    warnings.extend(below_surface(observations));
-    warnings.extend(assumed_to_hide(observations));
-    for (sample, total) in set.uneven_recipes() {
-        warnings.push(format!("{sample}: the recipe sums to {total:.2} %, taken as shares"));
+    if per_sample.len() <= condition.unknowns {
+        warnings.push(format!(
+            "{} samples for {} unknowns a wavelength: they are fitted exactly, so that errors and deviations tell nothing; add mixtures, and see `validate`",
+            per_sample.len(),
+            condition.unknowns
+        ));
     }
+    warnings.extend(listed(
+        "readings below the surface's own reflection were read as black, a lower k1 would fit these samples",
+        counted(observations, |o| o.below_surface),
+    ));
+    warnings.extend(listed(
+        "readings above a perfect white were read as white",
+        counted(observations, |o| o.above_white),
+    ));
+    warnings.extend(taken_to_hide(observations));
+    let uneven = set.uneven_recipes();
+    let uneven = uneven.iter().map(|(sample, total)| format!("{sample} ({total:.2} %)"));
+    warnings.extend(listed("recipes that do not sum to 100 %, taken as shares", uneven.collect()));
     warnings.extend(outliers(per_sample));
     warnings
 }
@@ -87,32 +101,40 @@ pub(crate) fn refuse_below_surface(
     Ok(())
 }
 
-fn below_surface(observations: &[Observation]) -> Option<String> {
-    let dark: Vec<String> = observations
-        .iter()
-        .filter(|o| o.below_surface > 0)
-        .map(|o| format!("{} ({})", o.sample, o.below_surface))
-        .collect();
-    (!dark.is_empty()).then(|| {
-        format!(
-            "readings below the surface's own reflection were read as black: {}; a lower k1 would fit these samples",
-            dark.join(", ")
-        )
-    })
+/// Samples with a count above 0, the count in brackets.
+fn counted(observations: &[Observation], count: impl Fn(&Observation) -> usize) -> Vec<String> {
+    let some = observations.iter().filter(|o| count(o) > 0);
+    some.map(|o| format!("{} ({})", o.sample, count(o))).collect()
 }
 
-fn assumed_to_hide(observations: &[Observation]) -> Option<String> {
-    let assumed: Vec<&str> = observations
-        .iter()
-        .filter(|o| o.hiding == Hiding::Assumed)
-        .map(|o| o.sample.as_str())
-        .collect();
-    let shown = assumed.iter().take(6).copied().collect::<Vec<_>>().join(", ");
-    let more = assumed.len().saturating_sub(6);
+/// One line for many samples; eight are named.
+fn listed(what: &str, samples: Vec<String>) -> Option<String> {
+    let more = samples.len().saturating_sub(8);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!assumed.is_empty()).then(|| {
-        format!("taken to hide, for want of a second backing with its bare reading: {shown}{rest}")
-    })
+    let shown = samples.iter().take(8).cloned().collect::<Vec<_>>().join(", ");
+    (!samples.is_empty()).then(|| format!("{what}: {shown}{rest}"))
+}
+
+/// Films taken to hide: apart those whose readings deny it.
+fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
+    let difference = |o: &Observation| match o.hiding {
+        Hiding::Assumed(difference) => Some(difference.unwrap_or(0.0)),
+        Hiding::Difference(_) => None,
+    };
+    let assumed: Vec<(&Observation, f64)> =
+        observations.iter().filter_map(|o| Some((o, difference(o)?))).collect();
+    let (denied, plain): (Vec<_>, Vec<_>) = assumed.into_iter().partition(|(_, d)| *d > 0.05);
+    let denied = denied.iter().map(|(o, d)| format!("{} (by {d:.2})", o.sample)).collect();
+    let plain = plain.iter().map(|(o, _)| o.sample.clone()).collect();
+    [
+        listed(
+            "taken to hide though their readings over different backings differ (K/S needs two backings of different reflectance, each read bare, under films of one thickness)",
+            denied,
+        ),
+        listed("taken to hide, for want of a second backing", plain),
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// Samples whose error stands far out: above the median by five times the

@@ -32,8 +32,10 @@ pub enum Hiding {
     /// Read over two backings; the largest difference of the two readings over
     /// wavelength, in measured reflectance.
     Difference(f64),
-    /// Only one backing, or none known: taken to hide.
-    Assumed,
+    /// Taken to hide: there are no two backings of different reflectance, each
+    /// read bare, under films of one thickness. If there are films over several
+    /// backings all the same, the largest difference of their readings.
+    Assumed(Option<f64>),
 }
 
 /// One swatch as the fit sees it.
@@ -54,6 +56,8 @@ pub struct Observation {
     /// How many of its films' readings lay below the surface's own reflection
     /// and were read as black.
     pub below_surface: usize,
+    /// How many of them lay above a perfect white and were read as white.
+    pub above_white: usize,
 }
 
 impl Hiding {
@@ -63,7 +67,7 @@ impl Hiding {
     pub fn hides(self) -> Option<bool> {
         match self {
             Self::Difference(largest) => Some(largest <= 0.05),
-            Self::Assumed => None,
+            Self::Assumed(_) => None,
         }
     }
 }
@@ -72,8 +76,9 @@ impl Hiding {
 ///
 /// Readings are first brought below the surface. A film over two backings of
 /// known reflectance gives K/S by [`film_over_two_backings`], the pair with the
-/// greatest contrast at equal thickness; the thickest such pair where there are
-/// several. Any other swatch is taken to hide.
+/// greatest contrast at one thickness (to 5 %); the thickest such pair where
+/// there are several. Any other swatch is taken to hide, its thickest film
+/// counting.
 ///
 /// # Errors
 /// [`MeasurementError::BelowSurface`] or `AboveWhite`, naming sample and
@@ -140,18 +145,13 @@ impl Door<'_> {
         measured.iter().enumerate().map(at).collect()
     }
 
-    fn count_below(&self, swatch: &Swatch) -> usize {
-        let floor = self.surface.floor();
-        let readings = swatch.films.iter().flat_map(|film| &film.reflectance);
-        readings.filter(|&&r| r < floor).count()
-    }
-
     fn observation(&self, swatch: &Swatch) -> Result<Observation, MeasurementError> {
         let (ratio, hiding) = match two_backings(&swatch.films) {
             Some((light, dark)) => self.over_two_backings(swatch, light, dark)?,
             None => {
-                let internal = self.internal(swatch, &swatch.films[0].reflectance)?;
-                (internal.into_iter().map(absorption_over_scattering).collect(), Hiding::Assumed)
+                let internal = self.internal(swatch, &thickest(&swatch.films).reflectance)?;
+                let ratio = internal.into_iter().map(absorption_over_scattering).collect();
+                (ratio, Hiding::Assumed(largest_difference(&swatch.films)))
             }
         };
         let external = |&q: &f64| {
@@ -164,7 +164,8 @@ impl Door<'_> {
             reflectance: ratio.iter().map(external).collect(),
             ratio,
             hiding,
-            below_surface: self.count_below(swatch),
+            below_surface: count(swatch, |r| r < self.surface.floor()),
+            above_white: count(swatch, |r| r > self.surface.measured_from_internal(1.0) + 1e-9),
             spread: spreads.into_iter().reduce(f64::max),
         })
     }
@@ -207,7 +208,7 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
     let mut best: Option<(f64, f64, Pair<'_>)> = None;
     for (index, (first, first_bare)) in known.iter().enumerate() {
         for (second, second_bare) in &known[index + 1..] {
-            if first.thickness_mm != second.thickness_mm {
+            if !alike(first.thickness_mm, second.thickness_mm) {
                 continue;
             }
             let contrast = (mean(first_bare) - mean(second_bare)).abs();
@@ -223,4 +224,38 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
         }
     }
     best.map(|(_, _, pair)| pair)
+}
+
+/// Two thicknesses that a gauge cannot tell apart, or two that nobody measured.
+fn alike(first: Option<f64>, second: Option<f64>) -> bool {
+    match (first, second) {
+        (Some(a), Some(b)) => (a - b).abs() <= 0.05 * a.max(b),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+/// The first of the thickest films; films of unknown thickness count as thin.
+fn thickest(films: &[SwatchFilm]) -> &SwatchFilm {
+    let thickness = |film: &SwatchFilm| film.thickness_mm.unwrap_or(0.0);
+    let thicker = |a, b| if thickness(b) > thickness(a) { b } else { a };
+    films.iter().reduce(thicker).expect("a swatch has films")
+}
+
+/// The largest difference of readings over different backings.
+fn largest_difference(films: &[SwatchFilm]) -> Option<f64> {
+    let mut largest: Option<f64> = None;
+    for (index, first) in films.iter().enumerate() {
+        for second in films[index + 1..].iter().filter(|f| f.backing != first.backing) {
+            let pairs = first.reflectance.iter().zip(&second.reflectance);
+            let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            largest = Some(largest.unwrap_or(0.0).max(difference));
+        }
+    }
+    largest
+}
+
+fn count(swatch: &Swatch, condition: impl Fn(f64) -> bool) -> usize {
+    let readings = swatch.films.iter().flat_map(|film| &film.reflectance);
+    readings.filter(|&&reading| condition(reading)).count()
 }

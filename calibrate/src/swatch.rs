@@ -58,7 +58,8 @@ impl SwatchSet {
     ///
     /// # Errors
     /// [`MeasurementError::Contradiction`] if rows of one sample disagree on the
-    /// recipe, [`MeasurementError::NoRecipe`] for paint without a pigment.
+    /// recipe, [`MeasurementError::NoRecipe`] for paint without a pigment,
+    /// [`MeasurementError::NoFilms`] if there are bare cards only.
     pub fn from_table(table: &MeasurementTable) -> Result<Self, MeasurementError> {
         let cards = BareCards::of(table);
         let mut order: Vec<&str> = Vec::new();
@@ -70,11 +71,16 @@ impl SwatchSet {
             }
             readings.push(reading);
         }
-        let swatches = order
+        let swatches: Vec<Swatch> = order
             .into_iter()
             .map(|sample| swatch(table, sample, &by_sample[sample], &cards))
             .collect::<Result<_, _>>()?;
-        Ok(Self { grid: table.grid, pigments: table.pigments.clone(), swatches })
+        if swatches.is_empty() {
+            return Err(MeasurementError::NoFilms);
+        }
+        let all = Self { grid: table.grid, pigments: table.pigments.clone(), swatches };
+        // A column without any amount is no pigment of these swatches.
+        Ok(all.retaining(|_| true))
     }
 
     /// The set without some swatches; pigments that then occur nowhere go too.
@@ -100,15 +106,18 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Swatches whose amounts do not sum to 100 % (or 1), with their sum in
+    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in
     /// percent; nothing where the file plainly counts parts instead.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
-        let totals: Vec<f64> = self.swatches.iter().map(|s| s.amounts.iter().sum()).collect();
+        // A masstone may be written as 1 where mixtures are counted in parts.
+        let is_mixture = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
+        let mixtures: Vec<&Swatch> = self.swatches.iter().filter(is_mixture).collect();
+        let totals: Vec<f64> = mixtures.iter().map(|s| s.amounts.iter().sum()).collect();
         for whole in [100.0, 1.0] {
             let even = |total: f64| (total / whole - 1.0).abs() < 1e-3;
             if 2 * totals.iter().filter(|t| even(**t)).count() > totals.len() {
-                let pairs = self.swatches.iter().zip(totals);
+                let pairs = mixtures.into_iter().zip(totals);
                 return pairs
                     .filter(|(_, total)| !even(*total))
                     .map(|(swatch, total)| (swatch.sample.as_str(), 100.0 * total / whole))

@@ -73,9 +73,10 @@ impl SyntheticMixtures {
                 shares,
                 reflectance: ratio.iter().map(measured).collect(),
                 ratio,
-                hiding: Hiding::Assumed,
+                hiding: Hiding::Assumed(None),
                 spread: None,
                 below_surface: 0,
+                above_white: 0,
             });
             mixtures.truth.push(truth);
         }

@@ -55,11 +55,21 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(CalibrationError::Measurement(error)) = cause.downcast_ref() {
         return error.hint();
     }
+    let fit = match cause.downcast_ref() {
+        Some(CalibrationError::Fit(error)) => Some(error),
+        _ => cause.downcast_ref::<FitError>(),
+    };
+    if matches!(fit, Some(FitError::Empty | FitError::Reference)) {
+        return Some("measure the white by itself and mixtures with it, or name another white with --reference".to_owned());
+    }
     if let Some(error) = cause.downcast_ref::<MeasurementError>() {
         return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<LibraryError>() {
+        return error.hint().map(str::to_owned);
     }
     if let Some(error) = cause.downcast_ref::<LightError>() {
         return error.hint().map(str::to_owned);

@@ -9,7 +9,10 @@ use calibrate::measurement::{MeasurementTable, Scale, ScaleChoice};
 use clap::Args;
 use sha2::{Digest, Sha256};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
-use spectra::{Observer, light_from_text};
+use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
+
+use crate::console::Console;
+use crate::failure::Refusal;
 
 /// The unit of reflectance.
 #[derive(Debug, Clone, Copy, Args)]
@@ -60,20 +63,104 @@ pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
     RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford)
 }
 
-/// The readings of one or more measurement files, with the files' hashes.
+/// The readings of one or more measurement files, with the files' hashes. Says
+/// what was read.
 pub(crate) fn measurements(
     paths: &[PathBuf],
     scale: ScaleChoice,
+    console: &mut Console<'_>,
 ) -> anyhow::Result<(MeasurementTable, Vec<Input>)> {
     let mut tables = Vec::new();
     let mut inputs = Vec::new();
     for path in paths {
         let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
         let name = path.display().to_string();
-        tables.push(MeasurementTable::from_csv(&name, &bytes, scale)?);
+        let table = MeasurementTable::from_csv(&name, &bytes, scale)?;
+        remark_table(&name, &table, console)?;
+        tables.push(table);
         inputs.push(input(&name, &bytes));
     }
     Ok((MeasurementTable::joined(tables)?, inputs))
+}
+
+/// The spectra of files whose other columns do not matter.
+pub(crate) fn spectra(
+    paths: &[PathBuf],
+    scale: ScaleChoice,
+    console: &mut Console<'_>,
+) -> anyhow::Result<MeasurementTable> {
+    let mut tables = Vec::new();
+    for path in paths {
+        let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
+        let name = path.display().to_string();
+        let table = MeasurementTable::spectra_from_csv(&name, &bytes, scale)?;
+        remark_table(&name, &table, console)?;
+        tables.push(table);
+    }
+    Ok(MeasurementTable::joined(tables)?)
+}
+
+fn remark_table(
+    name: &str,
+    table: &MeasurementTable,
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    let unit = match table.scale {
+        Scale::Percent => "percent",
+        Scale::Fraction => "fractions",
+    };
+    console.remark(format!(
+        "{name}: {} readings in {unit}, {}",
+        table.readings.len(),
+        table.grid
+    ))?;
+    if let Some(count) = table.resampled_from {
+        console.remark(format!(
+            "{count} irregular wavelengths brought to that grid by straight lines"
+        ))?;
+    }
+    Ok(())
+}
+
+/// The weights for colours of spectra on `grid`; warns where much of the visible
+/// band is not measured.
+pub(crate) fn colour_weights(
+    viewing: &Viewing,
+    grid: Grid,
+    console: &mut Console<'_>,
+) -> anyhow::Result<TristimulusWeights> {
+    remark_coverage(grid, console)?;
+    Ok(viewing.weights(grid)?)
+}
+
+/// Refuses a grid that misses the visible band, and warns of one that covers
+/// little of it.
+pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> anyhow::Result<()> {
+    let (start, end) = (grid.start_nm(), grid.end_nm());
+    if end < 400.0 || start > 700.0 {
+        return Err(Refusal::data(
+            format!("spectra from {start} to {end} nm have no colour"),
+            "measure from 400 to 700 nm or more",
+        ));
+    }
+    if start > 420.0 || end < 680.0 {
+        console.warnings(&[format!(
+            "spectra from {start} to {end} nm; colours take the end values for the rest of the visible band"
+        )])?;
+    }
+    Ok(())
+}
+
+/// The index of the name that `wanted` is: exactly, else without regard to case.
+pub(crate) fn named(names: &[String], wanted: &str, what: &str) -> anyhow::Result<usize> {
+    let lower = wanted.to_lowercase();
+    let exact = names.iter().position(|name| name == wanted);
+    exact.or_else(|| names.iter().position(|name| name.to_lowercase() == lower)).ok_or_else(|| {
+        Refusal::data(
+            format!("no {what} is called `{wanted}`"),
+            format!("{what}s: {}", names.join(", ")),
+        )
+    })
 }
 
 /// The record of an input file.

@@ -10,6 +10,8 @@ mod failure;
 
 mod input;
 
+mod named_spectra;
+
 mod output;
 
 mod progress;

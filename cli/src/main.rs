@@ -1,6 +1,6 @@
 //! The program `impasto`.
 
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
 use impasto::Screen;
@@ -11,7 +11,12 @@ fn main() -> ExitCode {
     let mut out = std::io::BufWriter::new(stdout().lock());
     let screen = Screen { colours, progress: stderr().is_terminal() };
     let code = impasto::run(std::env::args_os(), &mut out, &mut stderr(), screen);
-    // A reader that closed the pipe has seen enough.
-    let _ = out.flush();
-    ExitCode::from(code)
+    // A reader that closed the pipe has seen enough; a full disk has not.
+    match out.flush() {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            let _ = writeln!(stderr(), "error: the results cannot be written: {error}");
+            ExitCode::from(2)
+        }
+        _ => ExitCode::from(code),
+    }
 }

@@ -6,21 +6,55 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use tempfile::NamedTempFile;
 
-/// A file to be. Opened before the slow part, so that a path that cannot be
-/// written is told at once; if dropped unwritten it leaves nothing behind.
+use crate::failure::Refusal;
+
+/// A file to be, known to be writable.
 pub(crate) struct Output {
+    /// Where the user wants it.
     path: PathBuf,
-    file: NamedTempFile,
+    /// The same with links followed: a link keeps pointing where it does.
+    target: PathBuf,
 }
 
 impl Output {
-    /// Opens a temporary file beside `path`.
-    pub(crate) fn open(path: &Path) -> anyhow::Result<Self> {
-        let cannot = || format!("{}: cannot be written", path.display());
-        if path.is_dir() {
-            anyhow::bail!("{}: is a folder, a file is wanted", path.display());
+    /// Checks, before the slow part, that `path` can be written and is none of
+    /// `inputs`.
+    pub(crate) fn open(path: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
+        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        if target.exists() && !target.is_file() {
+            return Err(Refusal::usage(
+                format!("{}: an ordinary file is wanted", path.display()),
+                "leave out --output and redirect what --json prints",
+            ));
         }
-        let folder = match path.parent() {
+        let same = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == target);
+        if inputs.iter().any(same) {
+            return Err(Refusal::usage(
+                format!("{}: is an input, which is never written over", path.display()),
+                "give the library a name of its own",
+            ));
+        }
+        let output = Self { path: path.to_owned(), target };
+        output.beside()?;
+        Ok(output)
+    }
+
+    /// Writes `text` to a temporary file and gives that the wanted name.
+    pub(crate) fn write(self, text: &str) -> anyhow::Result<()> {
+        let mut file = self.beside()?;
+        let cannot = || self.unwritable();
+        file.write_all(text.as_bytes()).with_context(cannot)?;
+        file.as_file().sync_all().with_context(cannot)?;
+        if let Ok(before) = std::fs::metadata(&self.target) {
+            file.as_file().set_permissions(before.permissions()).with_context(cannot)?;
+        }
+        file.persist(&self.target).with_context(cannot)?;
+        Ok(())
+    }
+
+    /// A temporary file in the same folder; gone when dropped.
+    fn beside(&self) -> anyhow::Result<NamedTempFile> {
+        let folder = match self.target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
@@ -32,17 +66,10 @@ impl Output {
             // As for any new file; the user's mask takes its share.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder).with_context(cannot)?;
-        Ok(Self { path: path.to_owned(), file })
+        builder.tempfile_in(folder).with_context(|| self.unwritable())
     }
 
-    /// Writes `text` and gives the file its name.
-    pub(crate) fn write(mut self, text: &str) -> anyhow::Result<()> {
-        let path = self.path;
-        let cannot = || format!("{}: cannot be written", path.display());
-        self.file.write_all(text.as_bytes()).with_context(cannot)?;
-        self.file.as_file().sync_all().with_context(cannot)?;
-        self.file.persist(&path).with_context(cannot)?;
-        Ok(())
+    fn unwritable(&self) -> String {
+        format!("{}: cannot be written", self.path.display())
     }
 }

@@ -1,5 +1,6 @@
 //! A progress bar, where a terminal waits for more than a second.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -36,6 +37,39 @@ impl Progress {
 
     /// Clears the bar.
     pub(crate) fn done(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A spinner for work that cannot be counted; shows itself as [`Progress`] does,
+/// and clears itself when dropped.
+pub(crate) struct Waiting {
+    bar: ProgressBar,
+    done: Arc<AtomicBool>,
+}
+
+impl Waiting {
+    pub(crate) fn new(label: &'static str, terminal: bool) -> Self {
+        let bar =
+            ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_message(label);
+        let done = Arc::new(AtomicBool::new(!terminal));
+        if terminal {
+            let (bar, done) = (bar.clone(), Arc::clone(&done));
+            std::thread::spawn(move || {
+                std::thread::sleep(Duration::from_secs(1));
+                if !done.load(Ordering::Relaxed) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(Duration::from_millis(200));
+                }
+            });
+        }
+        Self { bar, done }
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
 }

@@ -10,12 +10,12 @@ pub const SECOND_RADIATION_CONSTANT: f64 = 1.4388e-2;
 /// Baxter, Wendt and Lin 2004 is `black_body(5600.0)`.
 ///
 /// # Errors
-/// [`IlluminantError::Unknown`] unless the temperature is finite and at least
+/// [`IlluminantError::Temperature`] unless the temperature is finite and at least
 /// 500 K (below, nothing visible is left in double precision).
 pub fn black_body(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("black body {kelvin} K");
     if !(kelvin.is_finite() && kelvin >= 500.0) {
-        return Err(IlluminantError::Unknown { name });
+        return Err(IlluminantError::Temperature { kelvin });
     }
     let planck =
         |nm: f64| nm.powi(-5) / (SECOND_RADIATION_CONSTANT / (nm * 1e-9 * kelvin)).exp_m1();

@@ -16,12 +16,12 @@ use crate::table;
 /// 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
 ///
 /// # Errors
-/// [`IlluminantError::Unknown`] outside 4000 to 25000 K, where the CIE defines
+/// [`IlluminantError::Temperature`] outside 4000 to 25000 K, where the CIE defines
 /// no daylight.
 pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("daylight {kelvin} K");
     if !(4000.0..=25000.0).contains(&kelvin) {
-        return Err(IlluminantError::Unknown { name });
+        return Err(IlluminantError::Temperature { kelvin });
     }
     let (x, y) = daylight_chromaticity(kelvin);
     let m = 0.0241 + 0.2562 * x - 0.7341 * y;

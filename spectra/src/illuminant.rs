@@ -96,6 +96,14 @@ pub enum IlluminantError {
         /// The name that was given.
         name: String,
     },
+    /// No such daylight or black body.
+    #[error(
+        "daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{kelvin}`"
+    )]
+    Temperature {
+        /// The temperature in kelvin.
+        kelvin: f64,
+    },
     /// The power is 0 at every wavelength.
     #[error("the light has no power at any wavelength from 360 to 830 nm: `{name}`")]
     Dark {

@@ -107,25 +107,29 @@ impl TristimulusWeights {
         let planes: [Vec<f64>; 3] =
             std::array::from_fn(|channel| self.weights.iter().map(|w| w[channel]).collect());
         for (values, out) in reflectances.chunks_exact(count).zip(xyz) {
-            let [x, y, z] = [0, 1, 2].map(|channel: usize| dot(values, &planes[channel]));
-            *out = Xyz { x, y, z };
+            *out = three_dots(values, [&planes[0], &planes[1], &planes[2]]).into();
         }
     }
 }
 
-/// The dot product in eight running sums.
+/// The dot products of `a` with three others at once, in running sums of four.
 #[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (a_blocks, a_rest) = a.as_chunks::<8>();
-    let (b_blocks, b_rest) = b.as_chunks::<8>();
-    for (a, b) in a_blocks.iter().zip(b_blocks) {
-        for lane in 0..8 {
-            sums[lane] += a[lane] * b[lane];
+fn three_dots(a: &[f64], others: [&[f64]; 3]) -> [f64; 3] {
+    let mut sums = [[0.0; 4]; 3];
+    let (blocks, rest) = a.as_chunks::<4>();
+    let others_blocks = others.map(|o| o.as_chunks::<4>());
+    for (index, a) in blocks.iter().enumerate() {
+        for (sums, (blocks, _)) in sums.iter_mut().zip(&others_blocks) {
+            let b = &blocks[index];
+            for lane in 0..4 {
+                sums[lane] += a[lane] * b[lane];
+            }
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    std::array::from_fn(|channel| {
+        let tail: f64 = rest.iter().zip(others_blocks[channel].1).map(|(a, b)| a * b).sum();
+        sums[channel].iter().sum::<f64>() + tail
+    })
 }
 
 /// The light as the observer weights it, k E x, k E y, k E z, at each whole

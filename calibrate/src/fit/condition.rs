@@ -32,7 +32,8 @@ pub fn condition(problem: &Problem, absorption: &[Vec<f64>], scattering: &[Vec<f
     };
     let curves = Curves { absorption: absorption.to_vec(), scattering: scattering.to_vec() };
     let forward = Hiding { surface: problem.surface };
-    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    let data =
+        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
     let linear = data.linear(&curves);
     let unknowns = layout.per_wavelength();
     let mut worst =

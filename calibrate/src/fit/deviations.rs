@@ -77,7 +77,8 @@ pub fn linear_deviations(
     };
     let curves = Curves { absorption: off_zero(absorption), scattering: off_zero(scattering) };
     let forward = Hiding { surface: problem.surface };
-    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    let data =
+        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
     let linear = data.linear(&curves);
     let unknowns = layout.per_wavelength();
     let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;

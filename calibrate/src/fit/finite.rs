@@ -16,6 +16,8 @@ pub struct FiniteProblem {
     pub grid: Grid,
     /// How many pigments.
     pub pigments: usize,
+    /// Root mean square spread of repeated readings; 0 if none were repeated.
+    pub reading_sd: f64,
     /// By film: its pigments and the amounts of each on the area.
     pub recipes: Vec<Vec<(usize, f64)>>,
     /// By film and wavelength: measured reflectance.
@@ -32,6 +34,7 @@ impl FiniteProblem {
         Self {
             grid: self.grid,
             pigments: self.pigments,
+            reading_sd: self.reading_sd,
             recipes: kept.iter().map(|&i| self.recipes[i].clone()).collect(),
             reflectance: rows(&self.reflectance),
             bare: rows(&self.bare),
@@ -90,7 +93,7 @@ pub fn fit_finite(
         scattering: curves.iter().map(|(_, s)| vec![*s; layout.wavelengths]).collect(),
     };
     let forward = Finite { film, backing: &backing };
-    let data = Data::new(layout, forward, &recipes, &problem.reflectance);
+    let data = Data::new(layout, forward, &recipes, &problem.reflectance, problem.reading_sd);
     let step = problem.grid.step_nm();
     let mut refined = refine(&data, &start, weights, step, how);
     for curves in [

@@ -58,6 +58,8 @@ pub(super) struct Data<'a, F> {
     pub(super) recipes: &'a [Vec<(usize, f64)>],
     /// By sample and wavelength: what was measured.
     pub(super) target: &'a [Vec<f64>],
+    /// Spread of repeated readings in measured reflectance; 0 if unknown.
+    pub(super) reading_sd: f64,
     /// By sample: where its unknowns stand in a wavelength.
     places: Vec<Vec<usize>>,
 }
@@ -76,6 +78,7 @@ impl<'a, F: Forward> Data<'a, F> {
         forward: F,
         recipes: &'a [Vec<(usize, f64)>],
         target: &'a [Vec<f64>],
+        reading_sd: f64,
     ) -> Self {
         let places = recipes
             .iter()
@@ -85,7 +88,7 @@ impl<'a, F: Forward> Data<'a, F> {
                 absorption.chain(scattering).collect()
             })
             .collect();
-        Self { layout, forward, recipes, target, places }
+        Self { layout, forward, recipes, target, reading_sd, places }
     }
 
     /// Where the unknowns of sample `index` stand in a wavelength.

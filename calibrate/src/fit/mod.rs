@@ -45,6 +45,7 @@ pub use condition::{Condition, condition};
 pub use deviations::linear_deviations;
 pub use finite::{FiniteProblem, fit_finite};
 pub use identification::{Unidentified, Unknown, unidentified};
+pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
 pub(crate) use refined::SCATTERING_RIDGE;

@@ -15,10 +15,13 @@ pub(super) struct Noise<'a> {
     /// The same for a residual in reflectance itself.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
+    /// The least standard deviation of a residual: what repeated readings show.
+    /// Few samples may be fitted nearer than that, but not known nearer.
+    least_sd: f64,
 }
 
 impl<'a> Noise<'a> {
-    pub(super) fn new(term: &ColourTerm<'_>, target: &'a [Vec<f64>]) -> Self {
+    pub(super) fn new(term: &ColourTerm<'_>, target: &'a [Vec<f64>], reading_sd: f64) -> Self {
         let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
         let mut even = term.sensitivity(target);
         for (row, reflectances) in even.iter_mut().zip(target) {
@@ -40,7 +43,9 @@ impl<'a> Noise<'a> {
             .map(|(row, rs)| row.iter().zip(rs).map(|(e, &r)| e * root_slope(r)).collect())
             .collect();
         let all: Vec<f64> = slope.iter().flatten().copied().collect();
-        Self { target, even, slope, median_slope: percentile(&all, 50.0) }
+        let median_slope = percentile(&all, 50.0);
+        let least_sd = (reading_sd * median_slope).max(1e-4);
+        Self { target, even, slope, median_slope, least_sd }
     }
 
     /// One over the standard deviation of each residual, and the deviation at a
@@ -68,7 +73,7 @@ impl<'a> Noise<'a> {
             }
         }
         // The median of |r| is 0.6745 standard deviations of normal noise.
-        let least = if least.is_finite() { least.max(1e-4) } else { 1e-4 };
+        let least = if least.is_finite() { least.max(self.least_sd) } else { self.least_sd };
         let sd = (1.4826 * percentile(&sizes, 50.0)).max(least);
         weights.iter_mut().flatten().for_each(|w| *w /= sd);
         (weights, sd)

@@ -17,6 +17,8 @@ pub struct Problem {
     pub pigments: usize,
     /// The pigment whose S is 1.
     pub reference: usize,
+    /// Root mean square spread of repeated readings; 0 if none were repeated.
+    pub(crate) reading_sd: f64,
     /// By mixture: the pigments in it and their shares.
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
     /// By mixture and wavelength: K/S.
@@ -61,6 +63,7 @@ impl Problem {
             surface,
             pigments,
             reference,
+            reading_sd: root_mean_square(observations.iter().filter_map(|o| o.spread)),
             recipes: observations.iter().map(recipe).collect(),
             ratio: observations.iter().map(|o| o.ratio.clone()).collect(),
             reflectance: observations.iter().map(|o| o.reflectance.clone()).collect(),
@@ -87,11 +90,17 @@ impl Problem {
     }
 }
 
+/// 0 for no values.
+pub(crate) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let (squares, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
+    f64::sqrt(squares / f64::max(count, 1.0))
+}
+
 /// Why a fit could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// Nothing to fit.
-    #[error("there is no mixture to fit")]
+    #[error("no sample can be fitted: none ties its pigments to the reference white")]
     Empty,
     /// The reference pigment occurs in no mixture.
     #[error("the reference pigment occurs in no mixture")]

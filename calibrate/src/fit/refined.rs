@@ -107,7 +107,8 @@ pub fn fit_refined(
     off_zero(&mut start.absorption, 1e-4);
     off_zero(&mut start.scattering, 1e-3);
     let forward = Hiding { surface: problem.surface };
-    let data = Data::new(layout, forward, &problem.recipes, &problem.reflectance);
+    let data =
+        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
     Ok(refine(&data, &start, weights, problem.grid.step_nm(), how))
 }
 
@@ -122,7 +123,7 @@ pub(super) fn refine<F: Forward>(
     let smoothness = how.smoothness;
     let layout = data.layout;
     let term = ColourTerm::new(weights, data.target);
-    let noise = Noise::new(&term, data.target);
+    let noise = Noise::new(&term, data.target, data.reading_sd);
     let origin = layout.unknowns(start);
     let fixed = |lambda: f64| lambda * (10.0 / step_nm).powi(3);
     let estimate = how.state.is_none();

@@ -31,6 +31,13 @@ impl PigmentLibrary {
     /// [`LibraryError`]: no JSON, another format, a newer version, an unknown or
     /// missing key, or figures that are no K and S.
     pub fn from_json(file: &str, text: &str) -> Result<Self, LibraryError> {
+        let text = text.trim_start_matches('\u{feff}');
+        if !text.trim_start().starts_with('{') {
+            return Err(LibraryError::Format {
+                file: file.to_owned(),
+                found: "no JSON object".to_owned(),
+            });
+        }
         let syntax = |error: serde_json::Error| LibraryError::Syntax {
             file: file.to_owned(),
             reason: error.to_string(),
@@ -49,16 +56,14 @@ impl PigmentLibrary {
                 });
             }
         }
-        match object.remove("version").and_then(|v| v.as_u64()) {
-            // Older versions will be upgraded here, one step each.
-            Some(VERSION) => {}
-            version => {
-                return Err(LibraryError::Version {
-                    file: file.to_owned(),
-                    found: version.unwrap_or(0),
-                    newest: VERSION,
-                });
-            }
+        let version = object.remove("version").unwrap_or(Value::Null);
+        // Older versions will be upgraded here, one step each.
+        if version != VERSION {
+            return Err(LibraryError::Version {
+                file: file.to_owned(),
+                found: version.to_string(),
+                newest: VERSION,
+            });
         }
         let library: Self = serde_json::from_value(value).map_err(syntax)?;
         library.checked(file)
@@ -72,6 +77,11 @@ impl PigmentLibrary {
         };
         if self.pigments.is_empty() {
             return Err(fault("", "a library holds at least one pigment".into()));
+        }
+        if let Some(name) = &self.reference
+            && self.pigments.iter().all(|pigment| pigment.name != *name)
+        {
+            return Err(fault(name, "the reference is not in the library".into()));
         }
         for (index, pigment) in self.pigments.iter().enumerate() {
             let name = pigment.name.as_str();
@@ -130,7 +140,7 @@ pub enum LibraryError {
         /// The file.
         file: String,
         /// Its version.
-        found: u64,
+        found: String,
         /// The newest known.
         newest: u64,
     },
@@ -144,4 +154,18 @@ pub enum LibraryError {
         /// What is wrong.
         what: String,
     },
+}
+
+impl LibraryError {
+    /// What to try, where there is something.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Format { .. } => {
+                Some("`impasto fit READINGS.csv --output LIBRARY.json` makes a pigment library")
+            }
+            Self::Version { .. } => Some("a newer impasto may read it"),
+            _ => None,
+        }
+    }
 }

@@ -176,14 +176,14 @@ impl PigmentLibrary {
     /// normalised to sum 1, so that its thickness keeps its meaning.
     ///
     /// # Errors
-    /// [`RecipeError`] unless every part is finite and 0 and up, with one above.
+    /// [`RecipeError`] unless every part is 0 to 1e12 and they sum to 1e-12 or
+    /// more.
     pub fn mix(&self, parts: &[(usize, f64)]) -> Result<Mixture, RecipeError> {
-        if let Some((_, part)) = parts.iter().find(|(_, part)| !(part.is_finite() && *part >= 0.0))
-        {
+        if let Some((_, part)) = parts.iter().find(|(_, part)| !(0.0..=1e12).contains(part)) {
             return Err(RecipeError::Parts { parts: *part });
         }
         let total: f64 = parts.iter().map(|(_, part)| part).sum();
-        if total <= 0.0 {
+        if total < 1e-12 {
             return Err(RecipeError::Parts { parts: total });
         }
         let scale = if self.amounts == AmountKind::Relative { 1.0 / total } else { 1.0 };
@@ -217,7 +217,7 @@ pub enum RecipeError {
         second: String,
     },
     /// Parts that make no mixture.
-    #[error("parts are 0 and up, with at least one above 0, found `{parts}`")]
+    #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{parts}`")]
     Parts {
         /// What was given.
         parts: f64,

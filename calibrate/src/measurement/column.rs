@@ -34,6 +34,13 @@ pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, Measu
                 second: index + 1,
             });
         }
+        if name.contains(char::is_control) {
+            return Err(MeasurementError::Cell {
+                place: place(index),
+                wanted: "a name without control characters",
+                text: name.escape_default().to_string(),
+            });
+        }
         columns.push(
             column(name)
                 .ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,

@@ -43,7 +43,7 @@ pub enum MeasurementError {
         byte: u8,
     },
     /// The columns are not parted by commas.
-    #[error("{file}, row 1: columns must be parted by commas, found `{separator}`")]
+    #[error("{file}, row 1: columns must be parted by commas, found `{}`", separator.escape_default())]
     Separator {
         /// The file.
         file: String,
@@ -230,8 +230,16 @@ pub enum MeasurementError {
         /// Its wavelengths.
         wanted: String,
     },
-    /// The amounts do not belong to one known backing.
-    #[error("no film has an amount of paint on a known backing")]
+    /// Another kind of file.
+    #[error("{file}: a table of readings (CSV) is wanted, found `{found}`")]
+    NoTable {
+        /// The file.
+        file: String,
+        /// What it seems to be.
+        found: &'static str,
+    },
+    /// Bare cards only.
+    #[error("no row is a film of paint")]
     NoFilms,
 }
 
@@ -240,6 +248,9 @@ impl MeasurementError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
+            Self::Encoding { byte: 0xfe | 0xff, row: 1, .. } => {
+                "the file looks like UTF-16; save it as CSV in UTF-8".into()
+            }
             Self::Encoding { .. } => {
                 "save the file as UTF-8 (`iconv -f latin1 -t utf-8 OLD.csv > NEW.csv`)".into()
             }
@@ -264,6 +275,19 @@ impl MeasurementError {
             Self::Cell { text, .. } if text.contains(',') => {
                 "numbers take a decimal point, not a comma".into()
             }
+            Self::Cell { wanted: "an amount of pigment", .. } => {
+                "a column that is neither known nor a wavelength is read as a pigment; remove it if it is none".into()
+            }
+            Self::NoTable { .. } => {
+                "a pigment library goes to mix, quadrature and library; fit, validate and color read CSV".into()
+            }
+            Self::Contradiction { .. } => {
+                "one name is one sample; rename one of the two, or give both the same amounts".into()
+            }
+            Self::WavelengthRange { .. } => {
+                "a pigment's name must not be a number".into()
+            }
+            Self::Grid { .. } => "fit files of different wavelengths one by one".into(),
             Self::MixedScale { .. } => {
                 "write all readings in one unit, or say `--percent` if this sample really is that dark".into()
             }
@@ -277,9 +301,7 @@ impl MeasurementError {
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
             ),
-            Self::NoFilms => {
-                "give every film a backing, and the bare backing a row with film `none`".into()
-            }
+            Self::NoFilms => "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into(),
             Self::NoRecipe { .. } => {
                 "write the amounts in the pigment columns, or film `none` for a bare card".into()
             }

@@ -64,7 +64,32 @@ impl MeasurementTable {
         bytes: &[u8],
         scale: ScaleChoice,
     ) -> Result<Self, MeasurementError> {
+        Self::read(file, bytes, scale, false)
+    }
+
+    /// The spectra alone: whatever stands in other columns is passed over, and
+    /// the table has no pigments.
+    ///
+    /// # Errors
+    /// As [`MeasurementTable::from_csv`].
+    pub fn spectra_from_csv(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+    ) -> Result<Self, MeasurementError> {
+        Self::read(file, bytes, scale, true)
+    }
+
+    fn read(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+        spectra_only: bool,
+    ) -> Result<Self, MeasurementError> {
         let text = decoded(file, bytes)?;
+        if text.trim_start().starts_with('{') {
+            return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
+        }
         let first_line = text.lines().next().unwrap_or_default();
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
@@ -81,19 +106,24 @@ impl MeasurementTable {
             .from_reader(text.as_bytes());
         let mut records = reader.records().map(|r| r.expect("checked text is always records"));
         let header = records.next().unwrap_or_default();
-        let headers: Vec<&str> = header.iter().collect();
+        let mut headers: Vec<&str> = header.iter().collect();
+        // Spreadsheets like to leave empty columns at the right.
+        let width =
+            headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
+        headers.truncate(width);
         let columns = columns(file, &headers)?;
         let rows: Vec<csv::StringRecord> =
             records.filter(|record| record.iter().any(|cell| !cell.is_empty())).collect();
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let sheet = Sheet { file: &file.into(), headers: &headers, columns: &columns };
+        let sheet =
+            Sheet { file: &file.into(), headers: &headers, columns: &columns, spectra_only };
         let mut readings =
             rows.iter().map(|row| sheet.reading(row)).collect::<Result<Vec<_>, _>>()?;
         let scale = sheet.scaled(&mut readings, scale)?;
         let names = columns.iter().filter_map(|column| match column {
-            Column::Pigment(name) => Some(name.clone()),
+            Column::Pigment(name) if !spectra_only => Some(name.clone()),
             _ => None,
         });
         let wavelengths = columns.iter().filter_map(|column| match column {
@@ -164,12 +194,13 @@ impl MeasurementTable {
 }
 
 /// The regular grid for irregular wavelengths: inside their band, at the
-/// smallest of 1, 2, 5, 10 and 20 nm that is not finer than their median step.
+/// smallest of 1, 2, 5, 10 and 20 nm that is not finer than their median step (by
+/// more than 5 %).
 fn regular_grid(wavelengths_nm: &[f64]) -> Grid {
     let mut steps: Vec<f64> = wavelengths_nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
     let median = steps[steps.len() / 2];
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| *s >= median - 1e-9).unwrap_or(20.0);
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| 1.05 * s >= median).unwrap_or(20.0);
     let start = (wavelengths_nm[0] / step).ceil() * step;
     let last = wavelengths_nm[wavelengths_nm.len() - 1];
     let count = ((last - start) / step).floor().max(0.0) as usize + 1;
@@ -186,17 +217,22 @@ fn decoded<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, MeasurementError>
     })
 }
 
+/// Beyond it sums of amounts lose their small parts.
+const LARGEST_AMOUNT: f64 = 1e12;
+
 /// The header row, for reading the others.
 struct Sheet<'a> {
     file: &'a Arc<str>,
     headers: &'a [&'a str],
     columns: &'a [Column],
+    spectra_only: bool,
 }
 
 impl Sheet<'_> {
     fn reading(&self, record: &csv::StringRecord) -> Result<Reading, MeasurementError> {
         let row = record.position().map_or(0, csv::Position::line);
-        if record.len() != self.columns.len() {
+        let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
+        if record.len() < self.columns.len() || !surplus_is_empty {
             return Err(MeasurementError::RowLength {
                 file: self.file.to_string(),
                 row,
@@ -226,9 +262,12 @@ impl Sheet<'_> {
             };
             match column {
                 Column::Sample if cell.is_empty() => return Err(wrong("the sample's name")),
+                Column::Sample | Column::Backing if cell.contains(char::is_control) => {
+                    return Err(wrong("a name without control characters"));
+                }
                 Column::Sample => cell.clone_into(&mut reading.sample),
                 Column::Film => {
-                    reading.film = match cell {
+                    reading.film = match cell.to_ascii_lowercase().as_str() {
                         "paint" | "" => Film::Paint,
                         "none" => Film::None,
                         _ => return Err(wrong("`paint` or `none`")),
@@ -244,11 +283,12 @@ impl Sheet<'_> {
                     reading.thickness_mm = Some(thickness);
                 }
                 Column::Replicate => {}
+                Column::Pigment(_) if self.spectra_only => {}
                 Column::Pigment(_) if cell.is_empty() => reading.amounts.push(0.0),
                 Column::Pigment(_) => {
                     let amount = number("an amount of pigment")?;
-                    if amount < 0.0 {
-                        return Err(wrong("an amount of 0 and up"));
+                    if !(0.0..=LARGEST_AMOUNT).contains(&amount) {
+                        return Err(wrong("an amount from 0 to 1e12"));
                     }
                     reading.amounts.push(amount);
                 }

@@ -7,7 +7,6 @@ use calibrate::calibration::{Calibration, calibrate};
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{FitSettings, Method, Smoothness};
 use calibrate::library::Input;
-use calibrate::measurement::MeasurementTable;
 use calibrate::observation::BelowSurface;
 use calibrate::swatch::SwatchSet;
 use clap::{Args, ValueEnum};
@@ -15,7 +14,7 @@ use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ScaleOptions, measurements};
+use crate::input::{ScaleOptions, measurements, named, remark_coverage};
 use crate::progress::Progress;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -76,10 +75,10 @@ pub(super) struct CalibrationOptions {
     #[arg(long, value_enum)]
     below_surface: Option<Below>,
     /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10
-    #[arg(long, value_name = "WEIGHT", default_value = "auto")]
+    #[arg(long, value_name = "WEIGHT", default_value = "auto", allow_hyphen_values = true)]
     smoothness: String,
     /// Unevenness of films of absolute amounts: auto, or the deviation of log thickness (0.25)
-    #[arg(long, value_name = "DEVIATION", default_value = "auto")]
+    #[arg(long, value_name = "DEVIATION", default_value = "auto", allow_hyphen_values = true)]
     unevenness: String,
     /// A sample to leave out (may be repeated)
     #[arg(long, value_name = "SAMPLE")]
@@ -104,13 +103,18 @@ pub(super) enum Kind {
 }
 
 impl CalibrationOptions {
+    /// The measurement files.
+    pub(super) fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
     /// Reads the files and settles every option.
     pub(super) fn job(&self, console: &mut Console<'_>) -> anyhow::Result<Job> {
         let surface = self.surface()?;
         let smoothness = self.smoothness()?;
         let unevenness = self.unevenness()?;
-        let (table, inputs) = measurements(&self.files, self.scale.choice())?;
-        remark_reading(&table, console)?;
+        let (table, inputs) = measurements(&self.files, self.scale.choice(), console)?;
+        remark_coverage(table.grid, console)?;
         let set = self.without_excluded(SwatchSet::from_table(&table)?)?;
         let below_surface = match (self.below_surface, surface) {
             (Some(Below::Refuse), _) | (None, Some(_)) => BelowSurface::Refuse,
@@ -189,26 +193,21 @@ impl CalibrationOptions {
         if self.exclude.is_empty() {
             return Ok(set);
         }
-        for name in &self.exclude {
-            if !set.swatches.iter().any(|swatch| swatch.sample == *name) {
-                let known: Vec<&str> = set.swatches.iter().map(|s| s.sample.as_str()).collect();
-                return Err(Refusal::data(
-                    format!("no sample is called `{name}`"),
-                    format!("samples: {}", known.join(", ")),
-                ));
-            }
+        let samples: Vec<String> = set.swatches.iter().map(|s| s.sample.clone()).collect();
+        let excluded = self
+            .exclude
+            .iter()
+            .map(|name| Ok(&samples[named(&samples, name, "sample")?]))
+            .collect::<anyhow::Result<Vec<_>>>()?;
+        if excluded.len() >= samples.len() {
+            return Err(Refusal::data("every sample is excluded", "leave out some --exclude"));
         }
-        Ok(set.retaining(|swatch| !self.exclude.contains(&swatch.sample)))
+        Ok(set.retaining(|swatch| !excluded.contains(&&swatch.sample)))
     }
 
     fn reference(&self, set: &SwatchSet) -> anyhow::Result<usize> {
         if let Some(name) = &self.reference {
-            return set.pigments.iter().position(|p| p == name).ok_or_else(|| {
-                Refusal::data(
-                    format!("no pigment is called `{name}`"),
-                    format!("pigments: {}", set.pigments.join(", ")),
-                )
-            });
+            return named(&set.pigments, name, "pigment");
         }
         let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
         let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
@@ -263,20 +262,6 @@ impl Job {
         calibration.library.inputs = self.inputs.clone();
         Ok(calibration)
     }
-}
-
-fn remark_reading(table: &MeasurementTable, console: &mut Console<'_>) -> anyhow::Result<()> {
-    let unit = match table.scale {
-        calibrate::measurement::Scale::Percent => "percent",
-        calibrate::measurement::Scale::Fraction => "fractions",
-    };
-    console.remark(format!("{} readings in {unit}, {}", table.readings.len(), table.grid))?;
-    if let Some(count) = table.resampled_from {
-        console.remark(format!(
-            "{count} irregular wavelengths brought to that grid by straight lines"
-        ))?;
-    }
-    Ok(())
 }
 
 fn at_least_zero(option: &str, text: &str) -> anyhow::Result<f64> {

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use calibrate::evaluate::Viewing;
-use calibrate::measurement::{Film, MeasurementTable, Reading};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use spectra::color::{
@@ -14,7 +13,8 @@ use spectra::color::{
 use super::mix::gamut_note;
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ScaleOptions, measurements, viewing};
+use crate::input::{ScaleOptions, remark_coverage, spectra, viewing};
+use crate::named_spectra::{NamedSpectrum, matching, named_spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SpaceName {
@@ -65,6 +65,7 @@ pub(crate) struct Color {
 
 /// One spectrum with its colours, one for each light.
 struct Row {
+    sample: String,
     name: String,
     colours: Vec<Colour>,
 }
@@ -82,8 +83,8 @@ impl Color {
             .iter()
             .map(|light| viewing(light, &self.observer))
             .collect::<anyhow::Result<Vec<Viewing>>>()?;
-        let (table, _) = measurements(&self.files, self.scale.choice())?;
-        let spectra = named_spectra(&table);
+        let table = spectra(&self.files, self.scale.choice(), console)?;
+        remark_coverage(table.grid, console)?;
         let weights = lights
             .iter()
             .map(|viewing| viewing.weights(table.grid))
@@ -96,9 +97,10 @@ impl Color {
             AdaptationName::Bradford => Adaptation::Bradford,
             AdaptationName::Cat16 => Adaptation::Cat16,
         };
-        let rows: Vec<Row> = spectra
+        let rows: Vec<Row> = named_spectra(&table)
             .into_iter()
-            .map(|(name, reflectance)| Row {
+            .map(|NamedSpectrum { sample, name, reflectance }| Row {
+                sample,
                 name,
                 colours: weights
                     .iter()
@@ -114,12 +116,26 @@ impl Color {
                     .collect(),
             })
             .collect();
-        let standard = self.compare.as_deref().map(|name| find(&rows, name)).transpose()?;
-        let chosen: Vec<&Row> = if self.sample.is_empty() {
-            rows.iter().collect()
-        } else {
-            self.sample.iter().map(|name| find(&rows, name)).collect::<anyhow::Result<_>>()?
+        let standard = match &self.compare {
+            None => None,
+            Some(name) => match find(&rows, name)?.as_slice() {
+                [one] => Some(*one),
+                several => {
+                    let names: Vec<&str> = several.iter().map(|row| row.name.as_str()).collect();
+                    return Err(Refusal::data(
+                        format!("`{name}` has several spectra"),
+                        format!("name one: {}", names.join(", ")),
+                    ));
+                }
+            },
         };
+        let mut chosen: Vec<&Row> = Vec::new();
+        for name in &self.sample {
+            chosen.extend(find(&rows, name)?);
+        }
+        if self.sample.is_empty() {
+            chosen.extend(&rows);
+        }
         let whites: Vec<Xyz> = weights.iter().map(spectra::TristimulusWeights::white).collect();
         if self.json {
             let mut list = Vec::new();
@@ -142,52 +158,11 @@ impl Color {
     }
 }
 
-/// The averaged spectra, each by its sample's name and, where one sample has
-/// several, its backing.
-fn named_spectra(table: &MeasurementTable) -> Vec<(String, Vec<f64>)> {
-    let same = |a: &Reading, b: &Reading| {
-        (&a.sample, a.film, &a.backing, a.thickness_mm)
-            == (&b.sample, b.film, &b.backing, b.thickness_mm)
-    };
-    let mut groups: Vec<Vec<&Reading>> = Vec::new();
-    for reading in &table.readings {
-        match groups.iter_mut().find(|group| same(group[0], reading)) {
-            Some(group) => group.push(reading),
-            None => groups.push(vec![reading]),
-        }
-    }
-    groups
-        .iter()
-        .map(|group| {
-            let first = group[0];
-            let alone = groups.iter().filter(|g| g[0].sample == first.sample).count() == 1;
-            let name = match (alone, first.film) {
-                (true, _) => first.sample.clone(),
-                (_, Film::None) => format!("{} bare {}", first.sample, first.backing),
-                (_, Film::Paint) => match first.thickness_mm {
-                    Some(mm) => format!("{} on {}, {mm} mm", first.sample, first.backing),
-                    None => format!("{} on {}", first.sample, first.backing),
-                },
-            };
-            let mean = |at: usize| {
-                group.iter().map(|r| r.reflectance[at]).sum::<f64>() / group.len() as f64
-            };
-            (name, (0..table.grid.count()).map(mean).collect())
-        })
-        .collect()
-}
-
-fn find<'a>(rows: &'a [Row], name: &str) -> anyhow::Result<&'a Row> {
-    rows.iter().find(|row| row.name == name).ok_or_else(|| {
-        let mut names: Vec<&str> = rows.iter().take(20).map(|row| row.name.as_str()).collect();
-        if rows.len() > names.len() {
-            names.push("..");
-        }
-        Refusal::data(
-            format!("no spectrum is called `{name}`"),
-            format!("spectra: {}", names.join(", ")),
-        )
-    })
+/// The spectra called `name`: by itself, or all of the sample of that name.
+fn find<'a>(rows: &'a [Row], name: &str) -> anyhow::Result<Vec<&'a Row>> {
+    let names: Vec<(&str, &str)> =
+        rows.iter().map(|row| (row.name.as_str(), row.sample.as_str())).collect();
+    Ok(matching(&names, name)?.into_iter().map(|index| &rows[index]).collect())
 }
 
 fn entry(

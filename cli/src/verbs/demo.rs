@@ -48,7 +48,7 @@ impl Demo {
         std::fs::create_dir_all(&self.out)
             .with_context(|| format!("{}: cannot be made", self.out.display()))?;
         let path = self.out.join("van-gogh-oils.pigments.json");
-        let output = Output::open(&path)?;
+        let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
         let library = fitted(&viewing)?;
         output.write(&library.to_json())?;

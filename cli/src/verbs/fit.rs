@@ -10,6 +10,7 @@ use super::fit_report;
 use crate::console::Console;
 use crate::input::ViewingOptions;
 use crate::output::Output;
+use crate::progress::Waiting;
 
 /// Fit K and S of every pigment to measured mixtures, and write the library
 ///
@@ -43,9 +44,12 @@ impl Fit {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let start = Instant::now();
         let viewing = self.viewing.viewing()?;
-        let output = self.output.as_deref().map(Output::open).transpose()?;
+        let open = |path| Output::open(path, self.options.files());
+        let output = self.output.as_deref().map(open).transpose()?;
         let job = self.options.job(console)?;
+        let waiting = Waiting::new("fitting", console.screen.progress);
         let calibration = job.calibrate(&viewing)?;
+        drop(waiting);
         fit_report::remark_films(&calibration, console)?;
         let mut library = calibration.library;
         library.title = self.title.unwrap_or_else(|| job.inputs[0].path.clone());

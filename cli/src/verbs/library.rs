@@ -106,8 +106,10 @@ pub(super) fn print_pigments(
     let white = library.reference.as_deref().and_then(|name| library.find(name).ok());
     let width = library.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
     let tints = white.is_some() && library.amounts == AmountKind::Relative;
-    let heading = if tints { "masstone      tint 1:9" } else { "masstone" };
-    console.line(format!("{:width$}  {heading}", "pigment"))?;
+    // A patch of colour takes seven columns more.
+    let column = if console.screen.colours { 21 } else { 14 };
+    let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
+    console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;
     for (index, pigment) in library.pigments.iter().enumerate() {
         let colour = |recipe: &[(usize, f64)]| -> anyhow::Result<String> {
             let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));

@@ -11,7 +11,8 @@ use spectra::{Ends, Interpolation, Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, library, measurements, srgb};
+use crate::input::{ViewingOptions, colour_weights, library, spectra, srgb};
+use crate::named_spectra::{matching, named_spectra};
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
@@ -26,11 +27,11 @@ pub(crate) struct Mix {
     recipe: Vec<String>,
     /// Thickness of the film; 1 is where the reference white has S d = 1 (for absolute amounts,
     /// the amounts as given) [default: hiding]
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     thickness: Option<f64>,
     /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a CSV of spectra,
-    /// FILE or FILE#SAMPLE [default: white]
-    #[arg(long, value_name = "GROUND")]
+    /// FILE or FILE#SAMPLE, named as `color` names it [default: white]
+    #[arg(long, value_name = "GROUND", allow_hyphen_values = true)]
     over: Option<String>,
     #[command(flatten)]
     viewing: ViewingOptions,
@@ -47,19 +48,25 @@ impl Mix {
         let mixture = library.mix(&recipe)?;
         let absolute = library.amounts == AmountKind::Absolute;
         let thickness = match self.thickness {
-            Some(t) if !(t.is_finite() && t > 0.0) => {
+            Some(t) if !(t > 0.0 && t <= 1e9) => {
                 return Err(Refusal::usage(
-                    format!("--thickness must be above 0, found `{t}`"),
+                    format!("--thickness must be above 0 and up to 1e9, found `{t}`"),
                     "leave it out for a film that hides",
                 ));
             }
-            None if absolute || self.over.is_some() => Some(1.0),
+            None if absolute => Some(1.0),
+            None if self.over.is_some() => {
+                return Err(Refusal::usage(
+                    "a film that hides shows no ground",
+                    "give --over a --thickness, such as 1",
+                ));
+            }
             given => given,
         };
         let reflectance = match thickness {
             None => mixture.hiding(library.saunderson),
             Some(thickness) => {
-                let ground = ground(self.over.as_deref().unwrap_or("white"), &library)?;
+                let ground = ground(self.over.as_deref().unwrap_or("white"), &library, console)?;
                 mixture.film(thickness, &ground, library.film())
             }
         };
@@ -70,7 +77,7 @@ impl Mix {
                 console.warnings(&[format!("{}: {notes}", pigment.name)])?;
             }
         }
-        let weights = viewing.weights(library.grid)?;
+        let weights = colour_weights(&viewing, library.grid, console)?;
         let xyz = weights.xyz(&reflectance);
         let lab = Lab::from_xyz(xyz, weights.white());
         let rgb = srgb(xyz, weights.white());
@@ -135,7 +142,11 @@ fn parsed_recipe(library: &PigmentLibrary, texts: &[String]) -> anyhow::Result<V
 }
 
 /// The ground's measured reflectance on the library's grid.
-fn ground(text: &str, library: &PigmentLibrary) -> anyhow::Result<Vec<f64>> {
+fn ground(
+    text: &str,
+    library: &PigmentLibrary,
+    console: &mut Console<'_>,
+) -> anyhow::Result<Vec<f64>> {
     let even = match text {
         "white" => Some(1.0),
         "black" => Some(0.0),
@@ -144,9 +155,10 @@ fn ground(text: &str, library: &PigmentLibrary) -> anyhow::Result<Vec<f64>> {
     if let Some(value) = even {
         return Ok(vec![value; library.grid.count()]);
     }
+    // A whole name that is a file wins over the part before a `#`.
     let (file, sample) = match text.rsplit_once('#') {
-        Some((file, sample)) => (file, Some(sample)),
-        None => (text, None),
+        Some((file, sample)) if !Path::new(text).is_file() => (file, Some(sample)),
+        _ => (text, None),
     };
     if !Path::new(file).is_file() {
         return Err(Refusal::usage(
@@ -154,16 +166,34 @@ fn ground(text: &str, library: &PigmentLibrary) -> anyhow::Result<Vec<f64>> {
             "try --over 0.85 or --over paper.csv#SAMPLE",
         ));
     }
-    let (table, _) = measurements(&[PathBuf::from(file)], ScaleChoice::ByFile)?;
-    let found = table.readings.iter().find(|r| sample.is_none_or(|name| r.sample == name));
-    let reading = found.ok_or_else(|| {
-        let names: Vec<&str> = table.readings.iter().map(|r| r.sample.as_str()).collect();
-        Refusal::data(
-            format!("{file}: no sample is called `{}`", sample.unwrap_or_default()),
-            format!("samples: {}", names.join(", ")),
-        )
-    })?;
-    let spectrum = Spectrum::<Reflectance>::new(table.grid, reading.reflectance.clone())?;
+    let table = spectra(&[PathBuf::from(file)], ScaleChoice::ByFile, console)?;
+    let found = named_spectra(&table);
+    let names: Vec<(&str, &str)> =
+        found.iter().map(|s| (s.name.as_str(), s.sample.as_str())).collect();
+    let chosen = match sample {
+        Some(sample) => matching(&names, sample)?,
+        None => (0..found.len()).collect(),
+    };
+    let &[one] = chosen.as_slice() else {
+        let names: Vec<&str> = chosen.iter().take(8).map(|&i| found[i].name.as_str()).collect();
+        return Err(Refusal::data(
+            format!("{file}: one ground is wanted, found `{}` spectra", chosen.len()),
+            format!("name one: --over \"{file}#{}\"", names.join("\" or \"#")),
+        ));
+    };
+    let spectrum = Spectrum::<Reflectance>::new(table.grid, found[one].reflectance.clone())?;
+    let (start, end) = (table.grid.start_nm(), table.grid.end_nm());
+    if start > library.grid.end_nm() || end < library.grid.start_nm() {
+        return Err(Refusal::data(
+            format!("{file}: the ground is measured from {start} to {end} nm only"),
+            format!("the library stands on {}", library.grid),
+        ));
+    }
+    if start > library.grid.start_nm() || end < library.grid.end_nm() {
+        console.warnings(&[format!(
+            "the ground is measured from {start} to {end} nm; beyond, its end values are held"
+        )])?;
+    }
     let method = Interpolation::best_for(table.grid);
     Ok(spectrum.resampled(library.grid, method, Ends::Hold)?.into_values())
 }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, library};
+use crate::input::{ViewingOptions, colour_weights, library};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -35,7 +35,7 @@ pub(crate) struct Quadrature {
     #[arg(short = 'n', long, value_name = "N", default_value_t = 8)]
     nodes: usize,
     /// Seed of the random mixtures
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
     /// How many random mixtures
     #[arg(long, value_name = "N", default_value_t = 1000)]
@@ -68,7 +68,7 @@ impl Quadrature {
         };
         let error = match &library {
             Some(library) if self.mixtures > 0 => {
-                let weights = viewing.weights(library.grid)?;
+                let weights = colour_weights(&viewing, library.grid, console)?;
                 let mixtures = MixtureSet::random(library, &weights, self.mixtures, self.seed);
                 Some(rule.error(&mixtures))
             }

@@ -11,7 +11,7 @@ use super::calibration_options::{CalibrationOptions, Job, Kind};
 use super::fit_report;
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::ViewingOptions;
+use crate::input::{ViewingOptions, named};
 use crate::progress::Progress;
 
 /// Leave each mixture out in turn, refit, and predict it
@@ -45,9 +45,11 @@ impl Validate {
         let job = self.options.job(console)?;
         let with = self.with(&job)?;
         let fitted = job.calibrate(&viewing)?;
-        let mixtures =
-            job.set.swatches.iter().filter(|s| s.amounts.iter().filter(|a| **a > 0.0).count() > 1);
-        let progress = Progress::new(mixtures.count(), "leaving out", console.screen.progress);
+        let is_chosen = |amounts: &[f64]| with.is_empty() || with.iter().any(|&p| amounts[p] > 0.0);
+        let is_mixture = |amounts: &[f64]| amounts.iter().filter(|a| **a > 0.0).count() > 1;
+        let amounts = job.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
+        let count = amounts.filter(|a| is_mixture(a) && is_chosen(a)).count();
+        let progress = Progress::new(count, "leaving out", console.screen.progress);
         let step = || progress.step();
         let plan = ValidationPlan {
             settings: &job.settings,
@@ -58,8 +60,7 @@ impl Validate {
         };
         let validation = match job.kind {
             Kind::Relative(reference, surface) => {
-                let chosen =
-                    |o: &Observation| with.is_empty() || with.iter().any(|&p| o.shares[p] > 0.0);
+                let chosen = |o: &Observation| is_chosen(&o.shares);
                 validate(&job.set, reference, surface, &plan, chosen)?
             }
             Kind::Absolute(film) => {
@@ -70,8 +71,16 @@ impl Validate {
         progress.done();
         let Validation { rms, delta_e, per_sample, needed } = &validation;
         if per_sample.is_empty() {
+            let what = if needed.is_empty() {
+                "there is no mixture to leave out".to_owned()
+            } else {
+                format!(
+                    "no mixture can be left out: without it a pigment would not be identified ({})",
+                    needed.join(", ")
+                )
+            };
             return Err(Refusal::data(
-                "no mixture can be left out",
+                what,
                 "measure more mixtures of each pigment (masstone, two tints, a shade)",
             ));
         }
@@ -90,12 +99,17 @@ impl Validate {
         }
         console.warnings(&warnings)?;
         let manner = match (self.folds, &job.kind) {
-            (Some(folds), _) => format!("in {folds} groups"),
+            (Some(folds), _) => format!("in {} groups", folds.min(per_sample.len())),
             (None, Kind::Absolute(_)) => "in 10 groups".to_owned(),
             (None, Kind::Relative(..)) => "one by one".to_owned(),
         };
         console.line(format!("{} mixtures, left out {manner}", per_sample.len()))?;
         fit_report::print_errors(delta_e, *rms, console)?;
+        console.line(format!(
+            "(CIEDE2000 under {}, observer {}; rms of reflectance)",
+            viewing.illuminant.name(),
+            viewing.observer
+        ))?;
         fit_report::print_samples(per_sample, usize::MAX, console)
     }
 
@@ -106,14 +120,6 @@ impl Validate {
             films(&job.set)?;
             return Err(Refusal::usage("--with needs relative amounts", "leave out --with"));
         }
-        let index = |name: &String| {
-            job.set.pigments.iter().position(|p| p == name).ok_or_else(|| {
-                Refusal::data(
-                    format!("no pigment is called `{name}`"),
-                    format!("pigments: {}", job.set.pigments.join(", ")),
-                )
-            })
-        };
-        self.with.iter().map(index).collect()
+        self.with.iter().map(|name| named(&job.set.pigments, name, "pigment")).collect()
     }
 }

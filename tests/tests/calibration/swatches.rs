@@ -75,7 +75,7 @@ fn a_card_of_another_sample_serves_where_a_sample_has_none() {
 fn without_a_second_backing_a_film_is_taken_to_hide() {
     let set = SwatchSet::from_table(&table("sample,W,400\na,1,0.5\n")).unwrap();
     let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
-    assert_eq!(observed[0].hiding, Hiding::Assumed);
+    assert_eq!(observed[0].hiding, Hiding::Assumed(None));
     assert!((observed[0].ratio[0] - 0.25).abs() < 1e-12, "(1 - 0.5)^2 / (2 x 0.5)");
 }
 
@@ -110,4 +110,69 @@ fn recipes_counted_in_parts_are_no_fault() {
     let percent = table("sample,W,B,400\na,75,25,0.5\nb,50,50,0.5\nc,90,9,0.5\n");
     let set = SwatchSet::from_table(&percent).unwrap();
     assert_eq!(set.uneven_recipes(), [("c", 99.0)]);
+}
+
+#[test]
+fn films_whose_readings_deny_that_they_hide_are_told_apart() {
+    let text =
+        "sample,backing,W,400\na,white,1,0.5\na,black,1,0.3\nb,white,1,0.5\nb,black,1,0.49\n";
+    let set = SwatchSet::from_table(&table(text)).unwrap();
+    let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
+    let difference = |index: usize| match observed[index].hiding {
+        Hiding::Assumed(Some(difference)) => difference,
+        other => panic!("{other:?}"),
+    };
+    assert!((difference(0) - 0.2).abs() < 1e-12 && (difference(1) - 0.01).abs() < 1e-12);
+}
+
+#[test]
+fn thicknesses_that_a_gauge_cannot_tell_apart_are_one() {
+    let text = |second: &str| {
+        format!(
+            "sample,film,backing,thickness_mm,W,400\na,paint,white,0.101,1,0.5\na,paint,black,{second},1,0.4\na,none,white,,,0.9\na,none,black,,,0.04\n"
+        )
+    };
+    let hiding = |second: &str| {
+        let set = SwatchSet::from_table(&table(&text(second))).unwrap();
+        observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap()[0].hiding
+    };
+    assert!(matches!(hiding("0.099"), Hiding::Difference(_)), "{:?}", hiding("0.099"));
+    assert!(matches!(hiding("0.080"), Hiding::Assumed(Some(_))), "{:?}", hiding("0.080"));
+}
+
+#[test]
+fn the_thickest_film_counts_where_one_is_taken_to_hide() {
+    let text = "sample,thickness_mm,W,400\na,0.1,1,0.5\na,0.3,1,0.4\na,0.2,1,0.45\n";
+    let set = SwatchSet::from_table(&table(text)).unwrap();
+    let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
+    assert!((observed[0].reflectance[0] - 0.4).abs() < 1e-12, "{:?}", observed[0].reflectance);
+}
+
+#[test]
+fn a_column_without_any_amount_is_no_pigment() {
+    let set = SwatchSet::from_table(&table("sample,W,Unused,400\na,1,,0.5\nb,2,0,0.5\n")).unwrap();
+    assert_eq!(set.pigments, ["W"]);
+    assert_eq!(set.swatches[1].amounts, [2.0]);
+}
+
+#[test]
+fn bare_cards_alone_are_no_swatches() {
+    let error = SwatchSet::from_table(&table("sample,film,W,400\na,none,,0.9\n")).unwrap_err();
+    assert_eq!(error, MeasurementError::NoFilms);
+}
+
+#[test]
+fn readings_above_white_are_counted() {
+    let set = SwatchSet::from_table(&table("sample,W,400,410\na,1,1.02,0.9\n")).unwrap();
+    let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
+    assert_eq!((observed[0].above_white, observed[0].ratio[0]), (1, 0.0));
+    let far = SwatchSet::from_table(&table("sample,W,400\na,1,1.2\n")).unwrap();
+    let error = observations(&far, Surface::NONE, BelowSurface::Refuse).unwrap_err();
+    assert!(matches!(error, MeasurementError::AboveWhite { nm: 400.0, .. }), "{error}");
+}
+
+#[test]
+fn masstones_counted_as_one_beside_mixtures_in_parts_are_no_fault() {
+    let mixed = table("sample,W,B,400\na,1,,0.5\nb,,1,0.5\nc,1,,0.5\nd,3,2,0.5\ne,2,5,0.5\n");
+    assert!(SwatchSet::from_table(&mixed).unwrap().uneven_recipes().is_empty());
 }

@@ -126,6 +126,23 @@ fn amount_that_is_no_number() {
 }
 
 #[test]
+fn amount_beyond_any_measure() {
+    refused(&changed("90,10,40", "90,1.7e308,40"), &["row 5", "`Red`", "`1.7e308`"]);
+}
+
+#[test]
+fn bare_cards_alone() {
+    let run = fit(SOUND.replace("paint", "none").as_bytes());
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("no row is a film of paint"), "{}", run.err);
+}
+
+#[test]
+fn control_characters_in_a_name() {
+    refused(&changed("b,paint", "b\x1b[31m,paint"), &["row 3", "control characters"]);
+}
+
+#[test]
 fn paint_without_a_recipe() {
     refused(&changed("50,50,20", ",,20"), &["row 4", "sample c"]);
 }

@@ -73,7 +73,7 @@ fn wrong_options_could_not_run() {
         vec!["fit", oils.as_str(), "--smoothness", "-1"],
         vec!["mix", library.as_str(), "Zinc White"],
         vec!["mix", library.as_str(), "Zinc White=1", "--thickness", "0"],
-        vec!["mix", library.as_str(), "Zinc White=1", "--over", "grey"],
+        vec!["mix", library.as_str(), "Zinc White=1", "--thickness", "1", "--over", "grey"],
         vec!["mix", library.as_str(), "Zinc White=1", "--illuminant", "D64"],
         vec!["mix", library.as_str(), "Zinc White=1", "--observer", "3"],
         vec!["quadrature", "--method", "library"],
@@ -108,9 +108,10 @@ fn a_library_with_a_fault_is_refused_with_the_reason() {
         ("\"title\"", "\"tittle\"", "unknown field `tittle`"),
         ("\"count\": 31", "\"count\": 30", "`31` values for 30 wavelengths"),
         ("\"absorption\": [", "\"absorption\": [-", "must be 0 and up"),
-        ("\"name\": \"Zinc White\"", "\"name\": \"Bone Black\"", "stands twice"),
+        ("\"name\": \"Bone Black\"", "\"name\": \"Viridian\"", "stands twice"),
         ("\"k2\": 0.6", "\"k2\": 1.6", "1.6"),
-        ("{", "[", "expected"),
+        ("\"reference\": \"Zinc White\"", "\"reference\": \"Chalk\"", "not in the library"),
+        ("{", "[", "`format`"),
     ] {
         assert!(sound.contains(from), "{from}");
         std::fs::write(&path, sound.replacen(from, to, 1)).unwrap();
@@ -137,4 +138,95 @@ fn help_is_a_result() {
         assert_eq!((run.status, run.err.as_str()), (0, ""), "{arguments:?}");
         assert!(run.out.contains("Usage"), "{}", run.out);
     }
+}
+
+#[test]
+fn an_input_is_never_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("oils.csv");
+    std::fs::copy(oils(), &file).unwrap();
+    let before = std::fs::read(&file).unwrap();
+    // The same file by another path.
+    let round_about = folder.path().join("./oils.csv");
+    let run = impasto(&["fit", file.to_str().unwrap(), "--output", round_about.to_str().unwrap()]);
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("never written over"), "{}", run.err);
+    assert_eq!(std::fs::read(&file).unwrap(), before);
+}
+
+#[test]
+fn an_output_that_is_a_folder_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = impasto(&["fit", &oils(), "--output", folder.path().to_str().unwrap()]);
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("an ordinary file is wanted"), "{}", run.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_keeps_pointing_and_a_file_keeps_its_mode() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("real.json");
+    std::fs::write(&target, "old").unwrap();
+    std::fs::set_permissions(&target, std::fs::Permissions::from_mode(0o640)).unwrap();
+    let link = folder.path().join("link.json");
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    let run = impasto(&["fit", &oils(), "--output", link.to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink(), "the link is still one");
+    assert!(std::fs::read_to_string(&target).unwrap().starts_with('{'), "its target was written");
+    assert_eq!(std::fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o640);
+}
+
+#[test]
+fn a_file_of_the_other_kind_is_told_so() {
+    let run = impasto(&["fit", &library()]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("found `JSON`") && run.err.contains("hint"), "{}", run.err);
+    let run = impasto(&["mix", &oils(), "Viridian=1"]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("impasto fit"), "{}", run.err);
+}
+
+#[test]
+fn spectra_beyond_the_visible_have_no_colour() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("uv.csv");
+    std::fs::write(&file, "sample,220,270,320\na,0.1,0.2,0.3\n").unwrap();
+    let run = impasto(&["color", file.to_str().unwrap()]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    std::fs::write(&file, "sample,500,510,520\na,0.1,0.2,0.3\n").unwrap();
+    let run = impasto(&["color", file.to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("warning: spectra from 500 to 520 nm"), "{}", run.err);
+}
+
+#[test]
+fn a_ground_must_be_one_spectrum() {
+    let over = |ground: &str| {
+        impasto(&["mix", &library(), "Viridian=1", "--thickness", "1", "--over", ground])
+    };
+    let run = over(&oils());
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("one ground is wanted"), "{}", run.err);
+    let run = over(&format!("{}#01A", oils()));
+    assert!(run.status == 1 && run.err.contains("01A bare white"), "{}", run.err);
+    assert_eq!(over(&format!("{}#01A bare white", oils())).status, 0);
+    let hiding = impasto(&["mix", &library(), "Viridian=1", "--over", "black"]);
+    assert_eq!(hiding.status, 2, "{}", hiding.err);
+}
+
+#[test]
+fn samples_fitted_exactly_are_no_proof_and_this_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("few.csv");
+    std::fs::write(&file, "sample,White,Red,400,700\na,1,,0.9,0.9\nb,,1,0.1,0.6\nc,1,1,0.2,0.7\n")
+        .unwrap();
+    let run = impasto(&["fit", file.to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("3 samples for 3 unknowns"), "{}", run.err);
+    let run = impasto(&["validate", file.to_str().unwrap()]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("would not be identified (c)"), "{}", run.err);
 }

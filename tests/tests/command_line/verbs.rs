@@ -99,6 +99,20 @@ fn color_prints_its_keys_with_white_at_100() {
 }
 
 #[test]
+fn color_passes_over_other_columns_and_takes_all_spectra_of_a_sample() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("export.csv");
+    let text = "sample,L*,comment,backing,400,700\na,-3,dull,white,0.1,0.2\na,-4,,black,0.1,0.2\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let list = json(&["color", file, "--sample", "a", "--json"]);
+    assert_eq!(list.as_array().unwrap().len(), 2);
+    assert_eq!(list[1]["sample"], "a on black");
+    let several = impasto(&["color", file, "--compare", "a"]);
+    assert!(several.status == 1 && several.err.contains("a on white"), "{}", several.err);
+}
+
+#[test]
 fn color_tells_differences_and_metamerism() {
     let list = json(&[
         "color",
@@ -159,12 +173,12 @@ fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
 
 #[test]
 fn a_ground_may_come_from_a_file() {
-    let ground = format!("{}#01A", oils());
+    let ground = format!("{}#01A bare white", oils());
     let over =
         ["mix", &library(), "Zinc White=1", "--thickness", "0.1", "--over", &ground, "--json"];
     assert!(json(&over)["reflectance"].is_array());
     let missing = format!("{}#99Z", oils());
-    let run = impasto(&["mix", &library(), "Zinc White=1", "--over", &missing]);
+    let run = impasto(&["mix", &library(), "Zinc White=1", "--thickness", "1", "--over", &missing]);
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("`99Z`"), "{}", run.err);
 }
