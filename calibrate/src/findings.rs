@@ -44,10 +44,7 @@ pub(crate) fn warnings(
             condition.unknowns
         ));
     }
-    warnings.extend(listed(
-        "readings below the surface's own reflection were read as black, a lower k1 would fit these samples",
-        counted(observations, |o| o.below_surface),
-    ));
+    warnings.extend(listed(READ_AS_BLACK, counted(observations, |o| o.below_surface)));
     warnings.extend(listed(
         "readings above a perfect white were read as white",
         counted(observations, |o| o.above_white),
@@ -64,6 +61,7 @@ pub(crate) fn warnings(
 pub(crate) fn absolute_warnings(
     set: &SwatchSet,
     undetermined: &[usize],
+    dark: Option<String>,
     per_sample: &[SampleEvidence],
 ) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -81,25 +79,36 @@ pub(crate) fn absolute_warnings(
             set.pigments[index]
         ));
     }
+    warnings.extend(dark);
     warnings.extend(outliers(per_sample));
     warnings
 }
 
-/// Refuses readings below the surface's own reflection, unless they may be read
-/// as black.
-pub(crate) fn refuse_below_surface(
+/// Refuses readings below the surface's own reflection, of films and of bare
+/// backings, unless they may be read as black; then says so.
+pub(crate) fn below_surface(
     set: &SwatchSet,
     surface: Surface,
     below: BelowSurface,
-) -> Result<(), MeasurementError> {
+) -> Result<Option<String>, MeasurementError> {
     let door = Door { set, surface, below };
+    let mut dark = Vec::new();
     for swatch in &set.swatches {
+        let mut count = 0;
         for film in &swatch.films {
-            door.internal(swatch, &film.reflectance)?;
+            for readings in std::iter::once(&film.reflectance).chain(&film.bare) {
+                door.internal(swatch, readings)?;
+                count += readings.iter().filter(|&&r| r < surface.floor()).count();
+            }
+        }
+        if count > 0 {
+            dark.push(format!("{} ({count})", swatch.sample));
         }
     }
-    Ok(())
+    Ok(listed(READ_AS_BLACK, dark))
 }
+
+const READ_AS_BLACK: &str = "readings below the surface's own reflection were read as black, a lower k1 would fit these samples";
 
 /// Samples with a count above 0, the count in brackets.
 fn counted(observations: &[Observation], count: impl Fn(&Observation) -> usize) -> Vec<String> {

@@ -126,6 +126,7 @@ impl Door<'_> {
                         nm: self.set.grid.nm(index),
                         measured: value,
                         k1: self.surface.k1,
+                        k2: self.surface.k2,
                         least: least_reading(self.set),
                     });
                 }

@@ -167,8 +167,9 @@ fn swatch(
             return Err(MeasurementError::Contradiction {
                 place: Place::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
+                first_file: first.file.to_string(),
                 first_row: first.row,
-                text: reading.amounts[index].to_string(),
+                amount: reading.amounts[index],
             });
         }
     }

@@ -14,15 +14,15 @@ pub struct Condition {
     pub unknowns: usize,
     /// The least rank over wavelength.
     pub rank: usize,
-    /// The largest condition number over wavelength.
+    /// The largest condition number among the wavelengths of that rank.
     pub number: f64,
     /// Where that is, in nm.
     pub nm: f64,
 }
 
 /// Rank and condition of the derivatives of measured reflectance over log K and
-/// log S, columns scaled to length 1. A singular value below 1e-8 of the
-/// largest counts as 0.
+/// log S, columns scaled to length 1. A singular value below 3e-7 of the
+/// largest counts as 0: that is where rounding of the normal matrix ends.
 #[must_use]
 pub fn condition(problem: &Problem, absorption: &[Vec<f64>], scattering: &[Vec<f64>]) -> Condition {
     let layout = Layout {
@@ -55,11 +55,10 @@ pub fn condition(problem: &Problem, absorption: &[Vec<f64>], scattering: &[Vec<f
             DMatrix::from_fn(unknowns, unknowns, |i, j| normal[(i, j)] / (unit(i) * unit(j)));
         let eigenvalues = SymmetricEigen::new(scaled).eigenvalues;
         let largest = eigenvalues.max();
-        let rank = eigenvalues.iter().filter(|&&v| v > 1e-16 * largest).count();
+        let rank = eigenvalues.iter().filter(|&&v| v > 1e-13 * largest).count();
         let number = (largest / eigenvalues.min().max(1e-16 * largest)).sqrt();
-        worst.rank = worst.rank.min(rank);
-        if number > worst.number {
-            (worst.number, worst.nm) = (number, problem.grid.nm(at));
+        if rank < worst.rank || (rank == worst.rank && number > worst.number) {
+            (worst.rank, worst.number, worst.nm) = (rank, number, problem.grid.nm(at));
         }
     }
     worst

@@ -6,6 +6,7 @@ use super::curves::{Curves, Layout};
 use super::forward::{Data, Forward, Hiding};
 use super::objective::{Objective, RIDGE};
 use super::problem::Problem;
+use crate::evaluate::percentile;
 
 /// Standard deviations of K and S at the minimum of `objective`.
 ///
@@ -51,6 +52,34 @@ pub(super) fn deviations<F: Forward>(
         })
         .collect();
     [absorption, scattering]
+}
+
+/// By pigment, the share of what is known of its log S that comes from the data
+/// rather than from the prior, 0 to 1; the median over wavelength.
+///
+/// The data's information on log S, with the pigment's own K unknown, against
+/// the ridge. `objective` must have no smoothness, which would count one
+/// wavelength's prior as its neighbours' data.
+pub(super) fn scattering_known<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+) -> Vec<f64> {
+    let layout = objective.data.layout;
+    let matrix = objective.local(unknowns).matrix;
+    let share = |pigment: usize, at: usize| {
+        let Some(place) = layout.scattering(pigment) else { return 1.0 };
+        let (k, s) = (at * layout.per_wavelength() + pigment, at * layout.per_wavelength() + place);
+        let of_k = (matrix.diagonal(k) - objective.ridge(k)).max(f64::MIN_POSITIVE);
+        let of_s = matrix.diagonal(s) - objective.ridge(s);
+        let information = (of_s - matrix.at(s, k).powi(2) / of_k).max(0.0);
+        information / (information + objective.ridge(s))
+    };
+    (0..layout.pigments)
+        .map(|pigment| {
+            let shares: Vec<f64> = (0..layout.wavelengths).map(|at| share(pigment, at)).collect();
+            percentile(&shares, 50.0)
+        })
+        .collect()
 }
 
 /// Standard deviations of K and S after a fit that has none of its own, by

@@ -48,7 +48,6 @@ pub use identification::{Unidentified, Unknown, unidentified};
 pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
-pub(crate) use refined::SCATTERING_RIDGE;
 pub use refined::{Refined, RefinedState, Refinement, fit_refined};
 pub use settings::{FitSettings, Method, Smoothness};
 pub use weighted::fit_weighted;

@@ -224,7 +224,7 @@ impl<F: Forward> Objective<'_, F> {
     }
 
     /// Strength of the pull of unknown number `place` towards its start.
-    fn ridge(&self, place: usize) -> f64 {
+    pub(super) fn ridge(&self, place: usize) -> f64 {
         let layout = self.data.layout;
         let is_scattering = place % layout.per_wavelength() >= layout.pigments;
         if is_scattering { self.scattering_ridge } else { RIDGE }

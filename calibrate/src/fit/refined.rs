@@ -4,7 +4,7 @@ use spectra::TristimulusWeights;
 
 use super::colour_term::ColourTerm;
 use super::curves::{Curves, Layout};
-use super::deviations::deviations;
+use super::deviations::{deviations, scattering_known};
 use super::forward::{Data, Forward, Hiding};
 use super::noise::Noise;
 use super::objective::{ColourPart, Objective, RIDGE};
@@ -20,7 +20,7 @@ const COLOUR_STRENGTH: f64 = 10.0;
 
 /// Pull of log S towards a pigment's start where amounts are absolute: a
 /// standard deviation of 0.32.
-pub(crate) const SCATTERING_RIDGE: f64 = 10.0;
+const SCATTERING_RIDGE: f64 = 10.0;
 
 /// The fit's answer, with what it found out about the noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +33,24 @@ pub struct Refined {
     pub absorption_sd: Vec<Vec<f64>>,
     /// Standard deviation of S, 0 for the reference; empty if not asked for.
     pub scattering_sd: Vec<Vec<f64>>,
+    /// By pigment, the share of what is known of S that comes from the data
+    /// rather than from the prior, 0 to 1; empty if not asked for.
+    pub scattering_known: Vec<f64>,
     /// What was estimated beside K and S.
     pub state: RefinedState,
+}
+
+impl Refined {
+    fn of(curves: Curves) -> Self {
+        Self {
+            absorption: curves.absorption,
+            scattering: curves.scattering,
+            absorption_sd: Vec::new(),
+            scattering_sd: Vec::new(),
+            scattering_known: Vec::new(),
+            state: RefinedState { noise_ratio: 0.0, smoothness: 0.0 },
+        }
+    }
 }
 
 /// Two numbers estimated from the data, which a leave-one-out fit may reuse.
@@ -180,18 +196,14 @@ pub(super) fn refine<F: Forward>(
     objective.colour = None;
 
     let curves = layout.curves(&unknowns);
-    let [absorption_sd, scattering_sd] = if how.deviations {
-        deviations(&objective, &unknowns, &curves)
-    } else {
-        [Vec::new(), Vec::new()]
-    };
-    Refined {
-        absorption: curves.absorption,
-        scattering: curves.scattering,
-        absorption_sd,
-        scattering_sd,
-        state,
+    let mut refined = Refined { state, ..Refined::of(curves) };
+    if how.deviations {
+        [refined.absorption_sd, refined.scattering_sd] =
+            deviations(&objective, &unknowns, &layout.curves(&unknowns));
+        objective.smoothness = 0.0;
+        refined.scattering_known = scattering_known(&objective, &unknowns);
     }
+    refined
 }
 
 /// Descends while the residuals' scale is set anew from their median, until

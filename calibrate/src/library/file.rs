@@ -78,6 +78,10 @@ impl PigmentLibrary {
         if self.pigments.is_empty() {
             return Err(fault("", "a library holds at least one pigment".into()));
         }
+        if !(0.0..=2.0).contains(&self.unevenness) {
+            let what = format!("unevenness is 0 to 2, found `{}`", self.unevenness);
+            return Err(fault("", what));
+        }
         if let Some(name) = &self.reference
             && self.pigments.iter().all(|pigment| pigment.name != *name)
         {

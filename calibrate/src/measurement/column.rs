@@ -18,6 +18,12 @@ pub(super) enum Column {
 /// wavelengths rising.
 pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, MeasurementError> {
     let place = |index: usize| Place::new(file, 1, headers[index]);
+    // Pigment Red 254 is R254 to some.
+    let plain = |header: &&str| {
+        let lower = header.trim().to_ascii_lowercase();
+        !lower.starts_with('r') && wavelength(&lower).is_some()
+    };
+    let letters = !headers.iter().any(plain);
     let mut columns = Vec::with_capacity(headers.len());
     for (index, header) in headers.iter().enumerate() {
         let name = header.trim();
@@ -42,7 +48,7 @@ pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, Measu
             });
         }
         columns.push(
-            column(name)
+            column(name, letters)
                 .ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,
         );
     }
@@ -75,20 +81,30 @@ pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, Measu
     Ok(columns)
 }
 
-/// `None` for a wavelength that no instrument for paint measures.
-fn column(name: &str) -> Option<Column> {
-    Some(match name.to_ascii_lowercase().as_str() {
-        "sample" => Column::Sample,
-        "film" => Column::Film,
-        "backing" => Column::Backing,
-        "thickness_mm" => Column::Thickness,
-        "replicate" => Column::Replicate,
-        lower => match wavelength(lower) {
-            Some(nm) if (200.0..=2500.0).contains(&nm) => Column::Wavelength(nm),
-            Some(_) => return None,
-            None => Column::Pigment(name.to_owned()),
+/// `None` for a number that no instrument for paint measures at. `letters` tells
+/// whether `R400` is a wavelength here: beside plain numbers it is a pigment.
+fn column(name: &str, letters: bool) -> Option<Column> {
+    let lower = name.to_ascii_lowercase();
+    let pigment = || Some(Column::Pigment(name.to_owned()));
+    let in_range = |nm: &f64| (200.0..=2500.0).contains(nm);
+    match lower.as_str() {
+        "sample" => Some(Column::Sample),
+        "film" => Some(Column::Film),
+        "backing" => Some(Column::Backing),
+        "thickness_mm" => Some(Column::Thickness),
+        "replicate" => Some(Column::Replicate),
+        _ => match wavelength(&lower) {
+            Some(nm) if lower.starts_with('r') => {
+                if letters && in_range(&nm) {
+                    Some(Column::Wavelength(nm))
+                } else {
+                    pigment()
+                }
+            }
+            Some(nm) => in_range(&nm).then_some(Column::Wavelength(nm)),
+            None => pigment(),
         },
-    })
+    }
 }
 
 /// The number in `400`, `400nm`, `R400`, `SPEC_400` or `nm400`.
@@ -109,11 +125,20 @@ mod tests {
     #[test]
     fn wavelengths_are_read_in_every_spelling() {
         for header in ["400", "400nm", "400 nm", "R400", "SPEC_400", "nm400", "400.0"] {
-            assert_eq!(column(header), Some(Column::Wavelength(400.0)), "{header}");
+            assert_eq!(column(header, true), Some(Column::Wavelength(400.0)), "{header}");
         }
-        assert_eq!(column("381.2"), Some(Column::Wavelength(381.2)));
-        assert_eq!(column("Red Ochre"), Some(Column::Pigment("Red Ochre".into())));
-        assert_eq!(column("PB29"), Some(Column::Pigment("PB29".into())));
-        assert_eq!(column("99999"), None);
+        assert_eq!(column("381.2", true), Some(Column::Wavelength(381.2)));
+        assert_eq!(column("Red Ochre", true), Some(Column::Pigment("Red Ochre".into())));
+        assert_eq!(column("PB29", true), Some(Column::Pigment("PB29".into())));
+        assert_eq!(column("99999", true), None);
+    }
+
+    #[test]
+    fn a_letter_and_a_number_beside_plain_numbers_is_a_pigment() {
+        let beside = columns("f", &["sample", "R254", "R101", "400"]).unwrap();
+        assert_eq!(beside[1], Column::Pigment("R254".into()));
+        let alone = columns("f", &["sample", "R101", "R400", "R500"]).unwrap();
+        assert_eq!(alone[1], Column::Pigment("R101".into()));
+        assert_eq!(alone[2], Column::Wavelength(400.0));
     }
 }

@@ -145,16 +145,20 @@ pub enum MeasurementError {
         largest: f64,
     },
     /// Two readings of one sample carry different recipes.
-    #[error("{place}: sample {sample} has another amount than in row {first_row}: `{text}`")]
+    #[error(
+        "{place}: sample {sample} has another amount than in {first_file}, row {first_row}: `{amount}`"
+    )]
     Contradiction {
         /// Where.
         place: Place,
         /// The sample.
         sample: String,
         /// Where the other amount stands.
+        first_file: String,
+        /// Its row there.
         first_row: u64,
         /// The amount found.
-        text: String,
+        amount: f64,
     },
     /// A film has no recipe.
     #[error("{file}, row {row}: sample {sample} is paint, but no pigment has an amount")]
@@ -183,6 +187,8 @@ pub enum MeasurementError {
         measured: f64,
         /// The surface's share.
         k1: f64,
+        /// Its other share.
+        k2: f64,
         /// The least reading of the whole file, as a fraction.
         least: f64,
     },
@@ -294,8 +300,8 @@ impl MeasurementError {
             Self::Reflectance { .. } => {
                 "say `--percent` or `--fraction` if the unit was told apart wrongly; a dark reading below 0 means that the instrument's zero is off".into()
             }
-            Self::BelowSurface { least, .. } => format!(
-                "give a k1 below every reading, such as `--saunderson {:.3},0.6`, or `--below-surface floor` to read such samples as black",
+            Self::BelowSurface { least, k2, .. } => format!(
+                "give a k1 below every reading, such as `--saunderson {:.3},{k2}`, or `--below-surface floor` to read such samples as black",
                 (least * 0.95 * 1000.0).floor() / 1000.0
             ),
             Self::NoBareBacking { backing, .. } => format!(

@@ -90,7 +90,7 @@ impl MeasurementTable {
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
-        let first_line = text.lines().next().unwrap_or_default();
+        let first_line = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
@@ -201,8 +201,9 @@ fn regular_grid(wavelengths_nm: &[f64]) -> Grid {
     steps.sort_by(f64::total_cmp);
     let median = steps[steps.len() / 2];
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| 1.05 * s >= median).unwrap_or(20.0);
-    let start = (wavelengths_nm[0] / step).ceil() * step;
     let last = wavelengths_nm[wavelengths_nm.len() - 1];
+    let round = (wavelengths_nm[0] / step).ceil() * step;
+    let start = if round <= last { round } else { wavelengths_nm[0] };
     let count = ((last - start) / step).floor().max(0.0) as usize + 1;
     Grid::from_nm(start, step, count).expect("rising wavelengths span a grid")
 }

@@ -4,6 +4,7 @@ use calibrate::absolute::{calibrate_absolute, chosen_film, films};
 use calibrate::evaluate::Viewing;
 use calibrate::fit::FitSettings;
 use calibrate::measurement::MeasurementError;
+use calibrate::observation::BelowSurface;
 use calibrate::validation::{ValidationPlan, validate_absolute};
 use spectra::optics::{Surface, UnevenFilm};
 use suite::watercolors::Watercolors;
@@ -54,6 +55,10 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
     let chosen = validate_absolute(&set, film, &plan).unwrap();
     assert_eq!(chosen.per_sample.len(), 702, "234 unseen at a time");
     assert!(chosen.delta_e.mean < 2.0, "{:?}", chosen.delta_e);
+    // What was left out is predicted worse than what was fitted.
+    let fitted = calibrate_absolute(&set, film, &settings, &viewing).unwrap().library;
+    let fitted = fitted.evidence.unwrap().delta_e;
+    assert!(chosen.delta_e.mean > 1.05 * fitted.mean, "{:?} {fitted:?}", chosen.delta_e);
     let plain = validate_absolute(&set, EVEN, &plan).unwrap();
     assert!(chosen.delta_e.mean < plain.delta_e.mean, "{:?}", plain.delta_e);
 }
@@ -82,4 +87,53 @@ fn a_film_without_its_bare_backing_is_refused() {
     let error = films(&set).unwrap_err();
     let MeasurementError::NoBareBacking { sample, .. } = &error else { panic!("{error}") };
     assert_eq!(*sample, set.swatches[2].sample);
+}
+
+#[test]
+fn a_reading_below_the_surface_is_refused_or_named_also_of_the_bare_backing() {
+    let mut set = Watercolors::exact().swatches();
+    let film = UnevenFilm { surface: Surface { k1: 0.03, k2: 0.5, ..Surface::NONE }, ..EVEN };
+    set.swatches.retain(|s| s.films[0].reflectance.iter().all(|r| *r > 0.03));
+    let fit = |set: &calibrate::swatch::SwatchSet, below| {
+        let settings = FitSettings { below_surface: below, ..FitSettings::default() };
+        calibrate_absolute(set, film, &settings, &Viewing::default())
+    };
+    assert!(fit(&set, BelowSurface::Refuse).is_ok());
+    set.swatches[0].films[0].bare.as_mut().unwrap()[3] = 0.01;
+    let error = fit(&set, BelowSurface::Refuse).unwrap_err();
+    assert!(error.to_string().contains("430 nm"), "{error}");
+    let warnings = fit(&set, BelowSurface::Floor).unwrap().library.evidence.unwrap().warnings;
+    assert!(warnings.iter().any(|w| w.contains("W000 (1)")), "{warnings:?}");
+}
+
+#[test]
+fn few_films_are_fitted_without_holding_any_back() {
+    let mut set = Watercolors::exact().swatches();
+    set.swatches.truncate(3);
+    let set = set.retaining(|_| true);
+    let (problem, _) = films(&set).unwrap();
+    assert_eq!(chosen_film(&problem, Surface::NONE, &|| ()).unwrap(), EVEN);
+    assert!(calibrate_absolute(&set, EVEN, &FitSettings::default(), &Viewing::default()).is_ok());
+}
+
+#[test]
+fn thin_films_that_tell_little_of_scattering_are_told() {
+    let set = Watercolors::hard(2).swatches();
+    let white = set.pigments.iter().position(|p| p == "chinese white").unwrap();
+    // White in its thinnest washes on white paper: nothing but noise to see.
+    let kept = |s: &calibrate::swatch::Swatch| {
+        let alone = s.amounts.iter().filter(|a| **a > 0.0).count() == 1;
+        alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)
+    };
+    let ladders = set.retaining(kept);
+    let library =
+        calibrate_absolute(&ladders, EVEN, &FitSettings::default(), &Viewing::default()).unwrap();
+    let library = library.library;
+    let warnings = &library.evidence.as_ref().unwrap().warnings;
+    let said = |name: &str| {
+        warnings.iter().any(|w| w.starts_with(&format!("{name}: these films tell little")))
+    };
+    assert!(said("chinese white"), "{warnings:?}");
+    assert!(!said("cadmium red"), "{warnings:?}");
+    assert!(!library.pigments[white].notes.is_empty(), "the pigment carries the note");
 }

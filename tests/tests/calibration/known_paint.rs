@@ -2,7 +2,8 @@
 
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
-    FitError, Problem, Refined, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
+    FitError, Problem, Refined, Refinement, Smoothness, condition, fit_qp, fit_refined,
+    fit_weighted,
 };
 use calibrate::observation::Observation;
 use calibrate::synthetic::SyntheticMixtures;
@@ -142,4 +143,26 @@ fn wrong_shapes_are_refused() {
         made.observations.iter().filter(|o| o.shares[0] == 0.0).cloned().collect();
     let lost = Problem::new(made.grid, made.surface, &only_black, 0).unwrap_err();
     assert_eq!(lost, FitError::Reference);
+}
+
+#[test]
+fn pigments_always_mixed_alike_lower_the_rank() {
+    let made = SyntheticMixtures::paper_size(6, 0.0);
+    let tied: Vec<Observation> = made
+        .observations
+        .iter()
+        .map(|o| {
+            let mut shares = o.shares.clone();
+            let both = shares[1] + shares[2];
+            (shares[1], shares[2]) = (both / 2.0, both / 2.0);
+            Observation { shares, ..o.clone() }
+        })
+        .collect();
+    let rank = |observations: &[Observation]| {
+        let problem = Problem::new(made.grid, made.surface, observations, 0).unwrap();
+        condition(&problem, &made.absorption, &made.scattering).rank
+    };
+    assert_eq!(rank(&made.observations), 21);
+    // K of the two always adds up, and so does S: two unknowns fewer.
+    assert_eq!(rank(&tied), 19);
 }

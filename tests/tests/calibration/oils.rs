@@ -50,6 +50,9 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
     assert_eq!(found.per_sample.len(), 52);
     let error = found.delta_e;
     assert!(error.mean < 2.8 && error.p90 < 6.0 && error.max < 9.0, "{error:?}");
+    // What was left out is predicted worse than what was fitted.
+    let fitted = fitted(Method::Refined, SURFACE).library.evidence.unwrap().delta_e;
+    assert!(error.mean > 1.3 * fitted.mean, "{error:?} {fitted:?}");
 }
 
 #[test]

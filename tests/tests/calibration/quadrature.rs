@@ -92,3 +92,24 @@ fn none_or_too_many_wavelengths_are_refused() {
         assert_eq!(refused, QuadratureFailure::Count { count });
     }
 }
+
+#[test]
+fn unseen_mixtures_are_other_mixtures_for_another_seed() {
+    let library = library();
+    let weights = Viewing::default().weights(library.grid).unwrap();
+    let set = |seed| MixtureSet::random(&library, &weights, 50, seed);
+    assert_eq!(set(1), set(1));
+    assert_ne!(set(1), set(2));
+    assert_eq!(set(1).len(), 50);
+}
+
+#[test]
+fn names_are_found_exactly_then_without_case_then_by_their_start() {
+    let mut library = library();
+    let (red, lake) = (2, 5);
+    library.pigments[lake].name = "Red Lake".to_owned();
+    library.pigments[red].name = "Red".to_owned();
+    assert_eq!(library.find("Red"), Ok(red));
+    assert_eq!(library.find("red"), Ok(red));
+    assert_eq!(library.find("red l"), Ok(lake));
+}

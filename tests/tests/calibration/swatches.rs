@@ -11,7 +11,7 @@ fn table(text: &str) -> MeasurementTable {
 
 #[test]
 fn columns_stand_in_any_order_and_empty_amounts_are_none() {
-    let table = table("R400,Blue,sample,White,500nm\n0.5,,a,2,0.25\n0.1,1,b,1,0.2\n");
+    let table = table("R400,Blue,sample,White,R500\n0.5,,a,2,0.25\n0.1,1,b,1,0.2\n");
     assert_eq!(table.pigments, ["Blue", "White"]);
     assert_eq!(table.scale, Scale::Fraction);
     assert_eq!((table.grid.start_nm(), table.grid.step_nm()), (400.0, 100.0));
@@ -41,10 +41,12 @@ fn percent_is_told_from_the_whole_file_and_can_be_forced() {
 
 #[test]
 fn irregular_wavelengths_are_brought_to_a_grid_by_straight_lines() {
-    let table = table("sample,W,401,404,411,419,431\na,1,0.1,0.4,0.4,0.4,0.4\n");
+    let table = table("sample,W,401,404,411,419,431\na,1,0.401,0.404,0.411,0.419,0.431\n");
     assert_eq!(table.resampled_from, Some(5));
     assert_eq!((table.grid.start_nm(), table.grid.step_nm(), table.grid.count()), (410.0, 10.0, 3));
-    assert_eq!(table.readings[0].reflectance, [0.4; 3]);
+    for (value, wanted) in table.readings[0].reflectance.iter().zip([0.41, 0.42, 0.43]) {
+        assert!((value - wanted).abs() < 1e-12, "{value} for {wanted}");
+    }
 }
 
 #[test]
@@ -69,6 +71,14 @@ fn a_card_of_another_sample_serves_where_a_sample_has_none() {
     let set = SwatchSet::from_table(&table(text)).unwrap();
     let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
     assert!(matches!(observed[0].hiding, Hiding::Difference(_)), "{:?}", observed[0].hiding);
+}
+
+#[test]
+fn a_sample_prefers_its_own_card() {
+    let text = "sample,film,backing,W,400\na,paint,white,1,0.5\na,paint,black,1,0.4\na,none,white,,0.8\nx,none,white,,0.9\nx,none,black,,0.04\n";
+    let set = SwatchSet::from_table(&table(text)).unwrap();
+    assert_eq!(set.swatches[0].films[0].bare, Some(vec![0.8]));
+    assert_eq!(set.swatches[0].films[1].bare, Some(vec![0.04]));
 }
 
 #[test]

@@ -48,21 +48,28 @@ fn excluded_samples_take_their_lone_pigments_along() {
 }
 
 #[test]
-fn every_method_and_surface_runs() {
+fn every_option_of_the_fit_changes_the_fit() {
+    let oils = oils();
+    let mean = |options: &[&str]| {
+        let fit = json(&[&["fit", oils.as_str(), "--json"], options].concat());
+        fit["delta_e"]["mean"].as_f64().unwrap()
+    };
+    let usual = mean(&[]);
+    let qp = mean(&["--method", "qp", "--saunderson", "none"]);
+    let weighted = mean(&["--method", "weighted"]);
+    assert!(qp > 11.0 && weighted < 3.0 && usual < 1.4, "{qp} {weighted} {usual}");
     for options in [
-        vec!["--method", "qp", "--saunderson", "none"],
-        vec!["--method", "weighted"],
-        vec!["--smoothness", "none"],
-        vec!["--smoothness", "10"],
-        vec!["--specular", "excluded"],
-        vec!["--saunderson", "0.019,0.5"],
-        vec!["--reference", "Lead White"],
+        ["--smoothness", "none"],
+        ["--smoothness", "10"],
+        ["--specular", "excluded"],
+        ["--saunderson", "0.019,0.5"],
+        ["--reference", "lead white"],
+        ["--exclude", "17d"],
+        ["--illuminant", "A"],
+        ["--observer", "10"],
     ] {
-        let oils = oils();
-        let mut arguments = vec!["fit", oils.as_str(), "--json"];
-        arguments.extend(&options);
-        let mean = json(&arguments)["delta_e"]["mean"].as_f64().unwrap();
-        assert!((0.5..13.0).contains(&mean), "{options:?}: {mean}");
+        let found = mean(&options);
+        assert!(found < 3.0 && (found - usual).abs() > 1e-5, "{options:?}: {found} {usual}");
     }
 }
 
@@ -70,6 +77,8 @@ fn every_method_and_surface_runs() {
 fn validate_prints_its_keys() {
     let found = json(&["validate", &oils(), "--folds", "4", "--method", "weighted", "--json"]);
     assert_eq!(keys(&found), FIT_KEYS);
+    let other = json(&["validate", &oils(), "--folds", "9", "--method", "weighted", "--json"]);
+    assert_ne!(other["delta_e"], found["delta_e"], "other groups");
     let with = json(&[
         "validate",
         &oils(),
@@ -94,6 +103,9 @@ fn color_prints_its_keys_with_white_at_100() {
     assert_eq!(keys(&list[0]), ["sample", "xyz", "lab", "srgb", "hex"]);
     assert_eq!(list[0]["sample"], "white");
     assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
+    // The white of A for 10 degrees, CIE 15: 111.14, 100, 35.20.
+    assert!((list[0]["xyz"][0].as_f64().unwrap() - 111.14).abs() < 0.02, "{}", list[0]);
+    assert!((list[0]["xyz"][2].as_f64().unwrap() - 35.20).abs() < 0.02, "{}", list[0]);
     assert_eq!(list[0]["hex"], "#ffffff");
     assert!((list[1]["xyz"][1].as_f64().unwrap() - 20.0).abs() < 1e-9, "{}", list[1]);
 }
@@ -134,7 +146,9 @@ fn color_tells_differences_and_metamerism() {
     assert_eq!(keys(difference), ["from", "ciede2000", "cie1976", "cie94", "cmc_2_1"]);
     assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
     assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
-    assert!(list[1]["metamerism"].as_f64().unwrap() > 0.1, "{}", list[1]);
+    // As computed from the four XYZ with colour-science's CIEDE2000.
+    let index = list[1]["metamerism"].as_f64().unwrap();
+    assert!((index - 4.6387).abs() < 5e-4, "{index}");
     assert!(list[0].get("metamerism").is_none(), "the first light is the reference");
 }
 
@@ -169,6 +183,13 @@ fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
     assert!((film("1000", "white") - hiding).abs() < 1e-6);
     assert!((film("0.000001", "0.5") - 0.5).abs() < 1e-3, "{}", film("0.000001", "0.5"));
     assert!(film("0.2", "white") > film("0.2", "black") + 0.01);
+}
+
+#[test]
+fn parts_are_shares_so_that_thickness_keeps_its_meaning() {
+    let film = |parts: &str| json(&["mix", &library(), parts, "--thickness", "0.2", "--json"]);
+    let (one, seven) = (film("Viridian=1"), film("Viridian=7"));
+    assert_eq!(one["reflectance"], seven["reflectance"]);
 }
 
 #[test]
@@ -238,6 +259,10 @@ fn absolute_amounts_are_fitted_validated_and_mixed() {
     // W000 is 0.01 mL of cadmium red on the paper.
     let over = format!("{csv}#bare");
     let mix = json(&["mix", path, "cadmium red=0.01", "--over", &over, "--json"]);
+    let on_white = json(&["mix", path, "cadmium red=0.01", "--json"]);
+    let white = json(&["mix", path, "cadmium red=0.01", "--over", "white", "--json"]);
+    assert_eq!(on_white, white, "amounts lie on something, white if nothing is told");
+    assert_ne!(white, mix);
     let colour = json(&["color", csv, "--sample", "W000", "--json"]);
     for channel in 0..3 {
         let (a, b) = (&mix["lab"][channel], &colour[0]["lab"][channel]);
