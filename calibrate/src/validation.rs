@@ -59,6 +59,19 @@ impl ValidationPlan<'_> {
         let dealt = folds(candidates.len(), count);
         dealt.into_iter().map(|group| group.into_iter().map(|i| candidates[i]).collect()).collect()
     }
+
+    /// What `predict` makes of each group left out, on all cores, in order.
+    fn predictions(
+        &self,
+        candidates: &[usize],
+        predict: impl Fn(&Vec<usize>) -> Result<Vec<Prediction>, CalibrationError> + Sync,
+    ) -> Result<Vec<Prediction>, CalibrationError> {
+        let groups = self.groups(candidates);
+        let predicted = groups.par_iter().map(&predict).collect::<Result<Vec<_>, _>>()?;
+        let mut predictions: Vec<Prediction> = predicted.into_iter().flatten().collect();
+        predictions.sort_by_key(|prediction| prediction.index);
+        Ok(predictions)
+    }
 }
 
 /// Refits without each mixture (two pigments or more) that `chosen` admits, on
@@ -105,11 +118,7 @@ pub fn validate(
         });
         Ok(predictions.collect())
     };
-    let predictions = plan
-        .groups(&candidates)
-        .par_iter()
-        .map(predict)
-        .collect::<Result<Vec<_>, CalibrationError>>()?;
+    let predictions = plan.predictions(&candidates, predict)?;
     let sample =
         |index: usize| (observations[index].sample.clone(), &observations[index].reflectance);
     Ok(summary(set, plan, predictions, sample))
@@ -138,11 +147,7 @@ pub fn validate_absolute(
         });
         Ok(predictions.collect())
     };
-    let predictions = plan
-        .groups(&candidates)
-        .par_iter()
-        .map(predict)
-        .collect::<Result<Vec<_>, CalibrationError>>()?;
+    let predictions = plan.predictions(&candidates, predict)?;
     let sample = |index: usize| (names[index].clone(), &problem.reflectance[index]);
     Ok(summary(set, plan, predictions, sample))
 }
@@ -156,12 +161,10 @@ struct Prediction {
 fn summary<'a>(
     set: &SwatchSet,
     plan: &ValidationPlan<'_>,
-    predictions: Vec<Vec<Prediction>>,
+    predictions: Vec<Prediction>,
     sample: impl Fn(usize) -> (String, &'a Vec<f64>),
 ) -> Validation {
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
-    let mut predictions: Vec<Prediction> = predictions.into_iter().flatten().collect();
-    predictions.sort_by_key(|prediction| prediction.index);
     let (mut squares, mut count) = (0.0, 0.0);
     let mut per_sample = Vec::new();
     let mut needed = Vec::new();

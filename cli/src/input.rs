@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use calibrate::evaluate::Viewing;
 use calibrate::library::{Input, PigmentLibrary};
-use calibrate::measurement::{MeasurementTable, Scale, ScaleChoice};
+use calibrate::measurement::{MeasurementError, MeasurementTable, Scale, ScaleChoice};
 use clap::Args;
 use sha2::{Digest, Sha256};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
@@ -70,17 +70,12 @@ pub(crate) fn measurements(
     scale: ScaleChoice,
     console: &mut Console<'_>,
 ) -> anyhow::Result<(MeasurementTable, Vec<Input>)> {
-    let mut tables = Vec::new();
     let mut inputs = Vec::new();
-    for path in paths {
-        let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
-        let name = path.display().to_string();
-        let table = MeasurementTable::from_csv(&name, &bytes, scale)?;
-        remark_table(&name, &table, console)?;
-        tables.push(table);
-        inputs.push(input(&name, &bytes));
-    }
-    Ok((MeasurementTable::joined(tables)?, inputs))
+    let table = joined(paths, console, |name, bytes| {
+        inputs.push(input(name, bytes));
+        MeasurementTable::from_csv(name, bytes, scale)
+    })?;
+    Ok((table, inputs))
 }
 
 /// The spectra of files whose other columns do not matter.
@@ -89,11 +84,19 @@ pub(crate) fn spectra(
     scale: ScaleChoice,
     console: &mut Console<'_>,
 ) -> anyhow::Result<MeasurementTable> {
+    joined(paths, console, |name, bytes| MeasurementTable::spectra_from_csv(name, bytes, scale))
+}
+
+fn joined(
+    paths: &[PathBuf],
+    console: &mut Console<'_>,
+    mut read: impl FnMut(&str, &[u8]) -> Result<MeasurementTable, MeasurementError>,
+) -> anyhow::Result<MeasurementTable> {
     let mut tables = Vec::new();
     for path in paths {
         let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
         let name = path.display().to_string();
-        let table = MeasurementTable::spectra_from_csv(&name, &bytes, scale)?;
+        let table = read(&name, &bytes)?;
         remark_table(&name, &table, console)?;
         tables.push(table);
     }
