@@ -10,14 +10,15 @@ use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError};
 use crate::digits::rounded;
-use crate::evaluate::{Summary, Viewing, delta_e};
+use crate::evaluate::{Viewing, delta_e};
 use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, Refined, Refinement, Smoothness, fit_finite,
     root_mean_square,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
+use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 use crate::measurement::MeasurementError;
+use crate::scores::Scores;
 use crate::swatch::SwatchSet;
 
 /// Every film of `set` that lies on a backing of known reflectance, by name.
@@ -79,22 +80,17 @@ pub fn calibrate_absolute(
     let fit = fit_finite(&problem, film, &own, Refinement::whole(settings.smoothness))?;
 
     let weights = viewing.weights(set.grid).expect("the method fits the grid");
-    let mut squares = 0.0;
-    let mut per_sample = Vec::new();
-    for (index, name) in names.into_iter().enumerate() {
+    let films = names.into_iter().enumerate().map(|(index, name)| {
         let predicted = problem.predicted(&fit, film, index);
-        let measured = &problem.reflectance[index];
-        squares += predicted.iter().zip(measured).map(|(p, m)| (p - m).powi(2)).sum::<f64>();
-        let error = delta_e(&weights, measured, &predicted);
-        per_sample.push(SampleEvidence { sample: name, delta_e: rounded(error) });
-    }
-    let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
+        (name, problem.reflectance[index].as_slice(), predicted)
+    });
+    let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films).rounded();
     let undetermined = undetermined(&fit);
     let evidence = Evidence {
         illuminant: viewing.illuminant.name().to_owned(),
         observer: viewing.observer.name().to_owned(),
-        rms: rounded((squares / (errors.len() * set.grid.count()) as f64).sqrt()),
-        delta_e: Summary::of(&errors).rounded(),
+        rms,
+        delta_e,
         warnings: findings::absolute_warnings(set, &undetermined, dark, &per_sample),
         per_sample,
     };
@@ -144,9 +140,10 @@ fn undetermined(fit: &Refined) -> Vec<usize> {
 ///
 /// Tried are the share k2 that the surface turns back (0, 0.3, 0.6; k1 as
 /// given), then the unevenness of the films (0, 0.25, 0.5), each by five-fold
-/// cross-validation over seeded folds, scored by mean CIEDE2000. The plain model
-/// (0 and 0) stays unless another is 3 % better, and for fewer than 20 films. Such a k2 serves prediction;
-/// it is no measurement of the surface, which unevenness imitates.
+/// cross-validation over seeded folds, scored by mean CIEDE2000. A model gives
+/// way to a better one only for a gain of 3 %; for fewer than 20 films the plain
+/// one (0 and 0) is taken untried. Such a k2 serves prediction; it is no
+/// measurement of the surface, which unevenness imitates.
 ///
 /// # Errors
 /// [`FitError`] as [`fit_finite`].
@@ -183,21 +180,20 @@ pub fn chosen_film(
     };
     let with =
         |k2: f64, unevenness: f64| UnevenFilm { surface: Surface { k2, ..surface }, unevenness };
-    let mut best = (0.97 * score(plain)?, plain);
-    for k2 in [0.3, 0.6] {
-        let score = score(with(k2, 0.0))?;
-        if score < best.0 {
-            best = (score, with(k2, 0.0));
+    // The best of some models replaces the one kept if it gains 3 %.
+    let replaced = |kept: (f64, UnevenFilm), models: [UnevenFilm; 2]| {
+        let mut best = (0.97 * kept.0, None);
+        for model in models {
+            let score = score(model)?;
+            if score < best.0 {
+                best = (score, Some(model));
+            }
         }
-    }
-    let k2 = best.1.surface.k2;
-    for unevenness in [0.25, 0.5] {
-        let score = score(with(k2, unevenness))?;
-        if score < 0.97 * best.0 {
-            best = (score, with(k2, unevenness));
-        }
-    }
-    Ok(best.1)
+        Ok(best.1.map_or(kept, |model| (best.0, model)))
+    };
+    let kept = replaced((score(plain)?, plain), [with(0.3, 0.0), with(0.6, 0.0)])?;
+    let k2 = kept.1.surface.k2;
+    Ok(replaced(kept, [with(k2, 0.25), with(k2, 0.5)])?.1)
 }
 
 /// Fits that [`chosen_film`] makes.

@@ -3,15 +3,16 @@
 use spectra::optics::Surface;
 
 use crate::digits::rounded;
-use crate::evaluate::{Summary, Viewing, delta_e};
+use crate::evaluate::Viewing;
 use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, RefinedState, Refinement, Unidentified,
     Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations, unidentified,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary, SampleEvidence};
+use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
+use crate::scores::Scores;
 use crate::swatch::SwatchSet;
 
 /// A library, and what its making showed.
@@ -195,30 +196,19 @@ fn evidence(
         .iter()
         .map(|&p| library.find(&set.pigments[p]).expect("every identified pigment is in it"))
         .collect();
-    let mut squares = 0.0;
-    let mut per_sample = Vec::new();
-    for observation in solvable {
-        let recipe: Vec<(usize, f64)> =
-            in_library.iter().copied().zip(observation.shares.iter().copied()).collect();
+    let films = solvable.iter().map(|observation| {
+        let shares = observation.shares.iter().copied();
+        let recipe: Vec<(usize, f64)> = in_library.iter().copied().zip(shares).collect();
         let mixture = library.mix(&recipe).expect("shares sum to 1");
         let predicted = mixture.hiding(library.saunderson);
-        squares += predicted
-            .iter()
-            .zip(&observation.reflectance)
-            .map(|(p, r)| (p - r).powi(2))
-            .sum::<f64>();
-        per_sample.push(SampleEvidence {
-            sample: observation.sample.clone(),
-            delta_e: rounded(delta_e(&weights, &observation.reflectance, &predicted)),
-        });
-    }
-    let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
-    let count = (solvable.len() * library.grid.count()) as f64;
+        (observation.sample.clone(), observation.reflectance.as_slice(), predicted)
+    });
+    let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films).rounded();
     Evidence {
         illuminant: viewing.illuminant.name().to_owned(),
         observer: viewing.observer.name().to_owned(),
-        rms: rounded((squares / count).sqrt()),
-        delta_e: Summary::of(&errors).rounded(),
+        rms,
+        delta_e,
         per_sample,
         warnings: Vec::new(),
     }

@@ -1,7 +1,7 @@
 //! Colour errors, and their summary.
 
 use serde::{Deserialize, Serialize};
-use spectra::color::{Lab, Xyz, delta_e_ciede2000};
+use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::{Grid, Illuminant, InterpolateError, Interpolation, Observer, TristimulusWeights};
 
 /// Light and observer under which colours are compared.
@@ -42,12 +42,6 @@ pub fn lab(weights: &TristimulusWeights, reflectance: &[f64]) -> Lab {
 #[must_use]
 pub fn delta_e(weights: &TristimulusWeights, first: &[f64], second: &[f64]) -> f64 {
     delta_e_ciede2000(lab(weights, first), lab(weights, second))
-}
-
-/// CIEDE2000 between two XYZ under one white.
-#[must_use]
-pub fn delta_e_xyz(first: Xyz, second: Xyz, white: Xyz) -> f64 {
-    delta_e_ciede2000(Lab::from_xyz(first, white), Lab::from_xyz(second, white))
 }
 
 /// A set of errors in four numbers.

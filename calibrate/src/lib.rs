@@ -25,6 +25,8 @@ pub mod fit;
 
 pub mod library;
 
+mod scores;
+
 mod findings;
 
 pub mod calibration;

@@ -6,13 +6,14 @@ use spectra::optics::{Surface, UnevenFilm};
 
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, solve, without};
-use crate::evaluate::{Summary, Viewing, delta_e};
+use crate::evaluate::{Summary, Viewing};
 use crate::fit::{
     FitError, FitSettings, Problem, RefinedState, Refinement, fit_finite, unidentified,
 };
 use crate::library::SampleEvidence;
 use crate::mixture::Mixture;
 use crate::observation::{Observation, observations};
+use crate::scores::Scores;
 use crate::swatch::SwatchSet;
 
 /// Errors of mixtures predicted without their own measurement.
@@ -119,8 +120,9 @@ pub fn validate(
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let sample =
-        |index: usize| (observations[index].sample.clone(), &observations[index].reflectance);
+    let sample = |index: usize| {
+        (observations[index].sample.clone(), observations[index].reflectance.as_slice())
+    };
     Ok(summary(set, plan, predictions, sample))
 }
 
@@ -148,7 +150,7 @@ pub fn validate_absolute(
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let sample = |index: usize| (names[index].clone(), &problem.reflectance[index]);
+    let sample = |index: usize| (names[index].clone(), problem.reflectance[index].as_slice());
     Ok(summary(set, plan, predictions, sample))
 }
 
@@ -162,28 +164,18 @@ fn summary<'a>(
     set: &SwatchSet,
     plan: &ValidationPlan<'_>,
     predictions: Vec<Prediction>,
-    sample: impl Fn(usize) -> (String, &'a Vec<f64>),
+    sample: impl Fn(usize) -> (String, &'a [f64]),
 ) -> Validation {
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
-    let (mut squares, mut count) = (0.0, 0.0);
-    let mut per_sample = Vec::new();
+    let mut films = Vec::new();
     let mut needed = Vec::new();
     for Prediction { index, predicted } in predictions {
         let (name, measured) = sample(index);
-        let Some(predicted) = predicted else {
-            needed.push(name);
-            continue;
-        };
-        squares += predicted.iter().zip(measured).map(|(p, m)| (p - m).powi(2)).sum::<f64>();
-        count += measured.len() as f64;
-        let delta_e = delta_e(&weights, measured, &predicted);
-        per_sample.push(SampleEvidence { sample: name, delta_e });
+        match predicted {
+            Some(predicted) => films.push((name, measured, predicted)),
+            None => needed.push(name),
+        }
     }
-    let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
-    Validation {
-        rms: (squares / f64::max(count, 1.0)).sqrt(),
-        delta_e: Summary::of(&errors),
-        per_sample,
-        needed,
-    }
+    let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films);
+    Validation { rms, delta_e, per_sample, needed }
 }

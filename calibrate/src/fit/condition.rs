@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::curves::{Curves, Layout};
-use super::forward::{Data, Hiding};
+use super::curves::Curves;
+use super::forward::Data;
 use super::problem::Problem;
 
 /// How well the mixtures determine K and S at the wavelength where they do so
@@ -25,30 +25,14 @@ pub struct Condition {
 /// largest counts as 0: that is where rounding of the normal matrix ends.
 #[must_use]
 pub fn condition(problem: &Problem, absorption: &[Vec<f64>], scattering: &[Vec<f64>]) -> Condition {
-    let layout = Layout {
-        pigments: problem.pigments,
-        reference: Some(problem.reference),
-        wavelengths: problem.grid.count(),
-    };
     let curves = Curves { absorption: absorption.to_vec(), scattering: scattering.to_vec() };
-    let forward = Hiding { surface: problem.surface };
-    let data =
-        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
+    let data = Data::hiding(problem);
     let linear = data.linear(&curves);
-    let unknowns = layout.per_wavelength();
+    let unknowns = data.layout.per_wavelength();
     let mut worst =
         Condition { unknowns, rank: unknowns, number: 0.0, nm: problem.grid.start_nm() };
-    for at in 0..layout.wavelengths {
-        let mut normal: DMatrix<f64> = DMatrix::zeros(unknowns, unknowns);
-        for (index, slopes) in linear.slopes.iter().enumerate() {
-            let places = data.places(index);
-            let slopes = &slopes[at * places.len()..(at + 1) * places.len()];
-            for (a, &row) in places.iter().enumerate() {
-                for (b, &column) in places.iter().enumerate() {
-                    normal[(row, column)] += slopes[a] * slopes[b];
-                }
-            }
-        }
+    for at in 0..data.layout.wavelengths {
+        let normal = data.normal(&linear, at);
         let lengths: Vec<f64> = (0..unknowns).map(|i| normal[(i, i)].sqrt()).collect();
         let unit = |i: usize| if lengths[i] > 0.0 { lengths[i] } else { 1.0 };
         let scaled =

@@ -1,9 +1,7 @@
 //! Standard deviations of K and S.
 
-use nalgebra::DMatrix;
-
-use super::curves::{Curves, Layout};
-use super::forward::{Data, Forward, Hiding};
+use super::curves::Curves;
+use super::forward::{Data, Forward};
 use super::objective::{Objective, RIDGE};
 use super::problem::Problem;
 use crate::evaluate::percentile;
@@ -60,7 +58,7 @@ pub(super) fn deviations<F: Forward>(
 /// The data's information on log S, with the pigment's own K unknown, against
 /// the ridge. `objective` must have no smoothness, which would count one
 /// wavelength's prior as its neighbours' data.
-pub(super) fn scattering_known<F: Forward>(
+pub(super) fn share_of_scattering_known<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
 ) -> Vec<f64> {
@@ -95,37 +93,21 @@ pub fn linear_deviations(
     absorption: &[Vec<f64>],
     scattering: &[Vec<f64>],
 ) -> [Vec<Vec<f64>>; 2] {
-    let layout = Layout {
-        pigments: problem.pigments,
-        reference: Some(problem.reference),
-        wavelengths: problem.grid.count(),
-    };
     // A program may put a pigment at 0, where the slopes are not finite.
     let off_zero = |curves: &[Vec<f64>]| -> Vec<Vec<f64>> {
         curves.iter().map(|curve| curve.iter().map(|v| v.max(1e-4)).collect()).collect()
     };
     let curves = Curves { absorption: off_zero(absorption), scattering: off_zero(scattering) };
-    let forward = Hiding { surface: problem.surface };
-    let data =
-        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
-    let linear = data.linear(&curves);
+    let data = Data::hiding(problem);
+    let (layout, linear) = (data.layout, data.linear(&curves));
     let unknowns = layout.per_wavelength();
     let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
     let mut deviations =
         [absorption, scattering].map(|c| vec![vec![0.0; layout.wavelengths]; c.len()]);
     for at in 0..layout.wavelengths {
-        let mut normal: DMatrix<f64> = DMatrix::zeros(unknowns, unknowns);
-        let mut squares = 0.0;
-        for (index, slopes) in linear.slopes.iter().enumerate() {
-            let places = data.places(index);
-            let slopes = &slopes[at * places.len()..(at + 1) * places.len()];
-            squares += (linear.values[index][at] - problem.reflectance[index][at]).powi(2);
-            for (a, &row) in places.iter().enumerate() {
-                for (b, &column) in places.iter().enumerate() {
-                    normal[(row, column)] += slopes[a] * slopes[b];
-                }
-            }
-        }
+        let mut normal = data.normal(&linear, at);
+        let pairs = linear.values.iter().zip(&problem.reflectance);
+        let squares: f64 = pairs.map(|(value, read)| (value[at] - read[at]).powi(2)).sum();
         let variance = squares / freedom;
         // In logarithms, so that a deviation of 1 is as much as nothing known.
         for i in 0..unknowns {

@@ -1,8 +1,10 @@
 //! The two optical models a fit can see its films through.
 
+use nalgebra::DMatrix;
 use spectra::optics::{Surface, UnevenFilm, infinite_film, ratio_slope};
 
 use super::curves::{Curves, Layout};
+use super::problem::Problem;
 
 /// The measured reflectance of a film, from K and S of its mixture.
 pub(super) trait Forward: Sync {
@@ -72,6 +74,19 @@ pub(super) struct Linear {
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
+impl<'a> Data<'a, Hiding> {
+    /// The mixtures of a problem, in films that hide.
+    pub(super) fn hiding(problem: &'a Problem) -> Self {
+        let layout = Layout {
+            pigments: problem.pigments,
+            reference: Some(problem.reference),
+            wavelengths: problem.grid.count(),
+        };
+        let forward = Hiding { surface: problem.surface };
+        Self::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd)
+    }
+}
+
 impl<'a, F: Forward> Data<'a, F> {
     pub(super) fn new(
         layout: Layout,
@@ -89,6 +104,21 @@ impl<'a, F: Forward> Data<'a, F> {
             })
             .collect();
         Self { layout, forward, recipes, target, reading_sd, places }
+    }
+
+    /// The normal matrix of the slopes at one wavelength, samples alike.
+    pub(super) fn normal(&self, linear: &Linear, at: usize) -> DMatrix<f64> {
+        let unknowns = self.layout.per_wavelength();
+        let mut normal = DMatrix::zeros(unknowns, unknowns);
+        for (places, slopes) in self.places.iter().zip(&linear.slopes) {
+            let slopes = &slopes[at * places.len()..(at + 1) * places.len()];
+            for (a, &row) in places.iter().enumerate() {
+                for (b, &column) in places.iter().enumerate() {
+                    normal[(row, column)] += slopes[a] * slopes[b];
+                }
+            }
+        }
+        normal
     }
 
     /// Where the unknowns of sample `index` stand in a wavelength.

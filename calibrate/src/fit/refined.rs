@@ -3,9 +3,9 @@
 use spectra::TristimulusWeights;
 
 use super::colour_term::ColourTerm;
-use super::curves::{Curves, Layout};
-use super::deviations::{deviations, scattering_known};
-use super::forward::{Data, Forward, Hiding};
+use super::curves::Curves;
+use super::deviations::{deviations, share_of_scattering_known};
+use super::forward::{Data, Forward};
 use super::noise::Noise;
 use super::objective::{ColourPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
@@ -38,19 +38,6 @@ pub struct Refined {
     pub scattering_known: Vec<f64>,
     /// What was estimated beside K and S.
     pub state: RefinedState,
-}
-
-impl Refined {
-    fn of(curves: Curves) -> Self {
-        Self {
-            absorption: curves.absorption,
-            scattering: curves.scattering,
-            absorption_sd: Vec::new(),
-            scattering_sd: Vec::new(),
-            scattering_known: Vec::new(),
-            state: RefinedState { noise_ratio: 0.0, smoothness: 0.0 },
-        }
-    }
 }
 
 /// Two numbers estimated from the data, which a leave-one-out fit may reuse.
@@ -111,20 +98,13 @@ pub fn fit_refined(
     how: Refinement,
 ) -> Result<Refined, FitError> {
     let mut start = weighted(problem)?;
-    let layout = Layout {
-        pigments: problem.pigments,
-        reference: Some(problem.reference),
-        wavelengths: problem.grid.count(),
-    };
     // A weighted fit may put a pigment at 0, where its logarithm has no slope.
     let off_zero = |curves: &mut Vec<Vec<f64>>, least: f64| {
         curves.iter_mut().flatten().for_each(|v| *v = v.max(least));
     };
     off_zero(&mut start.absorption, 1e-4);
     off_zero(&mut start.scattering, 1e-3);
-    let forward = Hiding { surface: problem.surface };
-    let data =
-        Data::new(layout, forward, &problem.recipes, &problem.reflectance, problem.reading_sd);
+    let data = Data::hiding(problem);
     Ok(refine(&data, &start, weights, problem.grid.step_nm(), how))
 }
 
@@ -196,14 +176,21 @@ pub(super) fn refine<F: Forward>(
     objective.colour = None;
 
     let curves = layout.curves(&unknowns);
-    let mut refined = Refined { state, ..Refined::of(curves) };
+    let mut scattering_known = Vec::new();
+    let [mut absorption_sd, mut scattering_sd] = [Vec::new(), Vec::new()];
     if how.deviations {
-        [refined.absorption_sd, refined.scattering_sd] =
-            deviations(&objective, &unknowns, &layout.curves(&unknowns));
+        [absorption_sd, scattering_sd] = deviations(&objective, &unknowns, &curves);
         objective.smoothness = 0.0;
-        refined.scattering_known = scattering_known(&objective, &unknowns);
+        scattering_known = share_of_scattering_known(&objective, &unknowns);
     }
-    refined
+    Refined {
+        absorption: curves.absorption,
+        scattering: curves.scattering,
+        absorption_sd,
+        scattering_sd,
+        scattering_known,
+        state,
+    }
 }
 
 /// Descends while the residuals' scale is set anew from their median, until

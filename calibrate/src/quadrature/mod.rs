@@ -20,4 +20,4 @@ mod rule;
 
 pub use gauss::GaussRule;
 pub use mixtures::MixtureSet;
-pub use rule::{Quadrature, QuadratureError, QuadratureFailure, QuadratureMethod};
+pub use rule::{Quadrature, QuadratureError, QuadratureFailure};

@@ -10,17 +10,6 @@ use super::mixtures::MixtureSet;
 use crate::evaluate::{Viewing, percentile};
 use crate::library::PigmentLibrary;
 
-/// How nodes and weights are chosen; see the module.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum QuadratureMethod {
-    /// The paper's.
-    Gauss,
-    /// The paper's nodes, weights from moments.
-    Moments,
-    /// Fitted to a library.
-    Library,
-}
-
 /// A few wavelengths with the weights that turn reflectances there into XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrature {

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use calibrate::absolute::films;
 use calibrate::observation::Observation;
 use calibrate::validation::{Validation, ValidationPlan, validate, validate_absolute};
 use clap::Args;
@@ -116,8 +115,6 @@ impl Validate {
     /// The indices of the pigments of `--with`.
     fn with(&self, job: &Job) -> anyhow::Result<Vec<usize>> {
         if !self.with.is_empty() && matches!(job.kind, Kind::Absolute(_)) {
-            // Checked here so that a file without bare readings is told first.
-            films(&job.set)?;
             return Err(Refusal::usage("--with needs relative amounts", "leave out --with"));
         }
         self.with.iter().map(|name| named(&job.set.pigments, name, "pigment")).collect()

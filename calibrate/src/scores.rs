@@ -1,0 +1,49 @@
+//! How near predicted films come to measured ones.
+
+use spectra::TristimulusWeights;
+
+use crate::digits::rounded;
+use crate::evaluate::{Summary, delta_e};
+use crate::library::SampleEvidence;
+
+/// The errors of a set of films.
+pub(crate) struct Scores {
+    /// Root mean square error of reflectance.
+    pub(crate) rms: f64,
+    pub(crate) delta_e: Summary,
+    pub(crate) per_sample: Vec<SampleEvidence>,
+}
+
+impl Scores {
+    /// The scores of `(sample, measured, predicted)`.
+    pub(crate) fn of<'a>(
+        weights: &TristimulusWeights,
+        films: impl IntoIterator<Item = (String, &'a [f64], Vec<f64>)>,
+    ) -> Self {
+        let (mut squares, mut count) = (0.0, 0.0);
+        let mut per_sample = Vec::new();
+        for (sample, measured, predicted) in films {
+            squares += predicted.iter().zip(measured).map(|(p, m)| (p - m).powi(2)).sum::<f64>();
+            count += measured.len() as f64;
+            let delta_e = delta_e(weights, measured, &predicted);
+            per_sample.push(SampleEvidence { sample, delta_e });
+        }
+        let rms = f64::sqrt(squares / f64::max(count, 1.0));
+        Self { rms, delta_e: summary(&per_sample), per_sample }
+    }
+
+    /// The same to six significant digits, for a file.
+    pub(crate) fn rounded(mut self) -> Self {
+        self.per_sample.iter_mut().for_each(|s| s.delta_e = rounded(s.delta_e));
+        Self {
+            rms: rounded(self.rms),
+            delta_e: summary(&self.per_sample).rounded(),
+            per_sample: self.per_sample,
+        }
+    }
+}
+
+fn summary(per_sample: &[SampleEvidence]) -> Summary {
+    let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
+    Summary::of(&errors)
+}
