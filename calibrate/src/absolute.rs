@@ -103,6 +103,7 @@ pub fn calibrate_absolute(
         absorption_sd: curve(&fit.absorption_sd[index]),
         scattering_sd: curve(&fit.scattering_sd[index]),
         identified: true,
+        guessed: false,
         notes: if undetermined.contains(&index) {
             vec!["these films tell little of S: the backing outshines its scattering".to_owned()]
         } else {

@@ -107,6 +107,7 @@ impl Solution {
             absorption_sd: rounded(&self.deviations[0][place]),
             scattering_sd: rounded(&self.deviations[1][place]),
             identified: true,
+            guessed: false,
             notes: Vec::new(),
         }
     }
@@ -177,6 +178,7 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
         absorption_sd: Vec::new(),
         scattering_sd: Vec::new(),
         identified: false,
+        guessed: false,
         notes: vec![format!(
             "only K/S is known, from the masstone {}; S = 1 stands for an unknown scattering, so that mixtures with this pigment are a guess",
             sample.sample

@@ -12,6 +12,8 @@ mod input;
 
 mod named_spectra;
 
+mod ground;
+
 mod output;
 
 mod progress;

@@ -39,11 +39,11 @@ impl Output {
         Ok(output)
     }
 
-    /// Writes `text` to a temporary file and gives that the wanted name.
-    pub(crate) fn write(self, text: &str) -> anyhow::Result<()> {
+    /// Writes `content` to a temporary file and gives that the wanted name.
+    pub(crate) fn write(self, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
         let mut file = self.beside()?;
         let cannot = || self.unwritable();
-        file.write_all(text.as_bytes()).with_context(cannot)?;
+        file.write_all(content.as_ref()).with_context(cannot)?;
         file.as_file().sync_all().with_context(cannot)?;
         if let Ok(before) = std::fs::metadata(&self.target) {
             file.as_file().set_permissions(before.permissions()).with_context(cannot)?;

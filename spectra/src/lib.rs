@@ -17,6 +17,8 @@ mod spectrum;
 
 mod samples;
 
+pub mod instrument;
+
 mod table;
 
 mod observer;

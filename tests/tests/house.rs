@@ -105,9 +105,12 @@ fn nothing_is_left_to_do() {
 fn crates_depend_downwards_only() {
     let own = own_crates();
     assert!(own.contains("spectra") && own.contains("calibrate"), "the crates: {own:?}");
-    for (name, below) in
-        [("spectra", &[][..]), ("calibrate", &["spectra"]), ("cli", &["spectra", "calibrate"])]
-    {
+    for (name, below) in [
+        ("spectra", &[][..]),
+        ("calibrate", &["spectra"]),
+        ("reports", &["spectra", "calibrate"]),
+        ("cli", &["spectra", "calibrate", "reports"]),
+    ] {
         let manifest = format!("{name}/Cargo.toml");
         if !root().join(&manifest).exists() {
             continue;

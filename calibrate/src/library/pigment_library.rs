@@ -41,6 +41,9 @@ pub struct Pigment {
     /// Whether S is known; if not, `scattering` is a stand-in (see `notes`).
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub identified: bool,
+    /// Whether K and S were made up from a colour rather than measured.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub guessed: bool,
     /// What a user must know of it, such as an S that was not identified.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -58,6 +61,11 @@ fn yes() -> bool {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
 fn is_yes(value: &bool) -> bool {
     *value
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_no(value: &bool) -> bool {
+    !*value
 }
 
 /// A file that the library was made from.

@@ -1,18 +1,16 @@
 //! `impasto mix`: a recipe to a reflectance and a colour.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::measurement::ScaleChoice;
 use clap::Args;
 use serde_json::json;
 use spectra::color::{Lab, RgbSpace};
-use spectra::{Ends, Interpolation, Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, colour_weights, library, spectra, srgb};
-use crate::named_spectra::{matching, named_spectra};
+use crate::ground::ground;
+use crate::input::{ViewingOptions, colour_weights, library, srgb};
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
@@ -139,61 +137,4 @@ fn parsed_recipe(library: &PigmentLibrary, texts: &[String]) -> anyhow::Result<V
             Ok((library.find(name)?, parts))
         })
         .collect()
-}
-
-/// The ground's measured reflectance on the library's grid.
-fn ground(
-    text: &str,
-    library: &PigmentLibrary,
-    console: &mut Console<'_>,
-) -> anyhow::Result<Vec<f64>> {
-    let even = match text {
-        "white" => Some(1.0),
-        "black" => Some(0.0),
-        _ => text.parse().ok().filter(|v| (0.0..=1.0).contains(v)),
-    };
-    if let Some(value) = even {
-        return Ok(vec![value; library.grid.count()]);
-    }
-    // A whole name that is a file wins over the part before a `#`.
-    let (file, sample) = match text.rsplit_once('#') {
-        Some((file, sample)) if !Path::new(text).is_file() => (file, Some(sample)),
-        _ => (text, None),
-    };
-    if !Path::new(file).is_file() {
-        return Err(Refusal::usage(
-            format!("--over takes 0 to 1, white, black or a file, found `{text}`"),
-            "try --over 0.85 or --over paper.csv#SAMPLE",
-        ));
-    }
-    let table = spectra(&[PathBuf::from(file)], ScaleChoice::ByFile, console)?;
-    let found = named_spectra(&table);
-    let names: Vec<(&str, &str)> =
-        found.iter().map(|s| (s.name.as_str(), s.sample.as_str())).collect();
-    let chosen = match sample {
-        Some(sample) => matching(&names, sample)?,
-        None => (0..found.len()).collect(),
-    };
-    let &[one] = chosen.as_slice() else {
-        let names: Vec<&str> = chosen.iter().take(8).map(|&i| found[i].name.as_str()).collect();
-        return Err(Refusal::data(
-            format!("{file}: one ground is wanted, found `{}` spectra", chosen.len()),
-            format!("name one: --over \"{file}#{}\"", names.join("\" or \"#")),
-        ));
-    };
-    let spectrum = Spectrum::<Reflectance>::new(table.grid, found[one].reflectance.clone())?;
-    let (start, end) = (table.grid.start_nm(), table.grid.end_nm());
-    if start > library.grid.end_nm() || end < library.grid.start_nm() {
-        return Err(Refusal::data(
-            format!("{file}: the ground is measured from {start} to {end} nm only"),
-            format!("the library stands on {}", library.grid),
-        ));
-    }
-    if start > library.grid.start_nm() || end < library.grid.end_nm() {
-        console.warnings(&[format!(
-            "the ground is measured from {start} to {end} nm; beyond, its end values are held"
-        )])?;
-    }
-    let method = Interpolation::best_for(table.grid);
-    Ok(spectrum.resampled(library.grid, method, Ends::Hold)?.into_values())
 }
