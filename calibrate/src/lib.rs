@@ -2,8 +2,8 @@
 //!
 //! In scope: reading measurements of mixtures, K/S of films that hide or not,
 //! fitting each pigment's K and S, what the data cannot tell, validation, the
-//! library file, mixing forward, and quadrature in wavelength. Out of scope:
-//! recipes for a target colour, and anything with a brush.
+//! library file, mixing forward, quadrature in wavelength, and recipes for a
+//! colour. Out of scope: charts, and anything with a brush.
 //!
 //! Files stand in an order of dependence; each uses only what stands above it.
 
@@ -36,5 +36,7 @@ pub mod absolute;
 pub mod validation;
 
 pub mod quadrature;
+
+pub mod matching;
 
 pub mod synthetic;

@@ -5,6 +5,7 @@ use std::io::Write;
 use calibrate::calibration::CalibrationError;
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
+use calibrate::matching::MatchError;
 use calibrate::measurement::MeasurementError;
 use spectra::{LampError, LightError};
 
@@ -72,6 +73,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
         return error.hint().map(str::to_owned);
     }
     if let Some(error) = cause.downcast_ref::<LightError>() {
+        return error.hint().map(str::to_owned);
+    }
+    if let Some(error) = cause.downcast_ref::<MatchError>() {
         return error.hint().map(str::to_owned);
     }
     cause.downcast_ref::<Refusal>()?.hint.clone()

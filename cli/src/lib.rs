@@ -14,6 +14,10 @@ mod named_spectra;
 
 mod ground;
 
+mod targets;
+
+mod costs;
+
 mod output;
 
 mod progress;

@@ -14,6 +14,10 @@ mod color;
 
 mod quadrature;
 
+mod recipe_report;
+
+mod recipe_search;
+
 mod library;
 
 mod demo;
@@ -30,6 +34,7 @@ pub(crate) enum Verb {
     Mix(mix::Mix),
     Color(color::Color),
     Quadrature(quadrature::Quadrature),
+    Match(recipe_search::Match),
     Library(library::Library),
     Demo(demo::Demo),
 }
@@ -42,6 +47,7 @@ impl Verb {
             Self::Mix(verb) => verb.run(console),
             Self::Color(verb) => verb.run(console),
             Self::Quadrature(verb) => verb.run(console),
+            Self::Match(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
         }

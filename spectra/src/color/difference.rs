@@ -87,6 +87,22 @@ pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
 /// side of 0.
 #[must_use]
 pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
+    let [l, c, h, r_t] = ciede2000_terms(first, second);
+    (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
+}
+
+/// Three numbers whose squares sum to that of the CIEDE2000 difference, at any
+/// distance; for least squares in CIEDE2000. They are the differences of
+/// lightness, chroma and hue, the last two turned so that the formula's cross
+/// term vanishes.
+#[must_use]
+pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
+    let [l, c, h, r_t] = ciede2000_terms(first, second);
+    [l, c + r_t / 2.0 * h, h * (1.0 - r_t * r_t / 4.0).max(0.0).sqrt()]
+}
+
+/// The weighted differences of lightness, chroma and hue, and R_T.
+fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     let mean_chroma = f64::midpoint(first.a.hypot(first.b), second.a.hypot(second.b));
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(mean_chroma));
     let (a1, a2) = (first.a * stretch, second.a * stretch);
@@ -115,8 +131,7 @@ pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
     let mean_l = f64::midpoint(first.lightness, second.lightness);
     let [s_l, s_c, s_h, r_t] = ciede2000_weights(mean_l, f64::midpoint(c1, c2), mean_hue);
 
-    let (l, c, h) = (d_l / s_l, d_c / s_c, d_h / s_h);
-    (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
+    [d_l / s_l, d_c / s_c, d_h / s_h, r_t]
 }
 
 /// The linear map M for which `|M (lab - center)|` is the CIEDE2000 difference
@@ -183,6 +198,21 @@ fn hue_degrees(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_residuals_make_up_ciede2000_at_any_distance() {
+        let colours =
+            [(5.0, 8.0, 1.0), (50.0, -30.0, 20.0), (90.0, 3.0, -60.0), (30.0, 60.0, -40.0)];
+        let labs = colours.map(|(lightness, a, b)| Lab { lightness, a, b });
+        for first in labs {
+            for second in labs {
+                let made =
+                    ciede2000_residuals(first, second).iter().map(|r| r * r).sum::<f64>().sqrt();
+                let told = delta_e_ciede2000(first, second);
+                assert!((made - told).abs() < 1e-9, "{first:?} to {second:?}: {made} for {told}");
+            }
+        }
+    }
 
     #[test]
     fn the_metric_is_ciede2000_nearby() {

@@ -64,6 +64,14 @@ impl RgbSpace {
     pub fn encoded_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
         self.linear_from_xyz(xyz, white, adaptation).encoded()
     }
+
+    /// XYZ under `white` of an encoded colour: the inverse of
+    /// [`RgbSpace::encoded_from_xyz`].
+    #[must_use]
+    pub fn xyz_from_encoded(self, rgb: Rgb, white: Xyz, adaptation: Adaptation) -> Xyz {
+        let at_display = self.xyz_from_linear().apply(rgb.linear().0);
+        adapted(at_display.into(), self.white(), white, adaptation)
+    }
 }
 
 impl Rgb {
@@ -78,6 +86,23 @@ impl Rgb {
     #[must_use]
     pub fn linear(self) -> Self {
         Self(self.0.map(<Srgb as IntoLinear<f64, f64>>::into_linear))
+    }
+
+    /// The encoded colour that `text` writes as `#rrggbb`, with or without `#`.
+    ///
+    /// ```
+    /// use spectra::color::Rgb;
+    /// assert_eq!(Rgb::from_hex("#ff0033").unwrap().to_bytes(), [255, 0, 51]);
+    /// assert!(Rgb::from_hex("#ff003").is_none());
+    /// ```
+    #[must_use]
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix('#').unwrap_or(text);
+        if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return None;
+        }
+        let [_, r, g, b] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+        Some(Self([r, g, b].map(|byte| f64::from(byte) / 255.0)))
     }
 
     /// Whether the display can show this colour (to a millionth).

@@ -5,4 +5,5 @@
 mod bad_files;
 mod demo;
 mod errors;
+mod matching;
 mod verbs;

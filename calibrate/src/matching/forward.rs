@@ -1,0 +1,331 @@
+//! From shares of pigments to colour differences, with their derivatives.
+
+use spectra::color::{Lab, Xyz};
+use spectra::optics::UnevenFilm;
+use spectra::{InterpolateError, TristimulusWeights};
+
+use super::film::FilmKind;
+use super::request::MatchRequest;
+use super::sight::{Metric, Target};
+use crate::library::PigmentLibrary;
+
+/// The most pigments of a recipe.
+pub(super) const MOST_PIGMENTS: usize = 8;
+
+/// Unknowns of a recipe: a share for each pigment, and the logarithm of the
+/// thickness.
+pub(super) const UNKNOWNS: usize = MOST_PIGMENTS + 1;
+
+/// A library, a film and lights, ready for many recipes.
+pub(super) struct Forward<'a> {
+    pub(super) library: &'a PigmentLibrary,
+    film: UnevenFilm,
+    metric: Metric,
+    /// The ground below its surface; `None` under a film that hides.
+    ground: Option<Vec<f64>>,
+    pub(super) weights: Vec<TristimulusWeights>,
+    /// The square root of each light's share of all weights.
+    roots: Vec<f64>,
+}
+
+/// Half the sum of weighted squares of colour differences, its gradient over the unknowns
+/// and the Gauss-Newton matrix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cost {
+    pub(super) value: f64,
+    pub(super) gradient: [f64; UNKNOWNS],
+    pub(super) matrix: [[f64; UNKNOWNS]; UNKNOWNS],
+}
+
+/// Room for one evaluation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Scratch {
+    reflectance: Vec<f64>,
+    over_absorption: Vec<f64>,
+    over_scattering: Vec<f64>,
+    by_unknown: Vec<f64>,
+}
+
+impl<'a> Forward<'a> {
+    pub(super) fn new(
+        library: &'a PigmentLibrary,
+        request: &MatchRequest,
+    ) -> Result<Self, InterpolateError> {
+        let sights = &request.sights;
+        let ground = match &request.film {
+            FilmKind::Hiding => None,
+            FilmKind::Over { ground, .. } => {
+                let surface = library.saunderson;
+                let below = |bare: &f64| surface.internal_from_measured(*bare).unwrap_or(0.0);
+                Some(ground.iter().map(|bare| below(bare).min(1.0)).collect())
+            }
+        };
+        let total: f64 = sights.iter().map(|sight| sight.weight).sum();
+        Ok(Self {
+            library,
+            film: library.film(),
+            metric: request.metric,
+            ground,
+            weights: sights
+                .iter()
+                .map(|sight| sight.viewing.weights(library.grid))
+                .collect::<Result<_, _>>()?,
+            roots: sights.iter().map(|sight| (sight.weight / total).sqrt()).collect(),
+        })
+    }
+
+    /// Measured reflectance of `shares` of `pigments` at a thickness, left in
+    /// `scratch` with its slopes over K d and S d (K and S for a film that hides).
+    fn reflect(&self, pigments: &[usize], shares: &[f64], thickness: f64, scratch: &mut Scratch) {
+        let count = self.library.grid.count();
+        let Scratch { reflectance, over_absorption, over_scattering, .. } = scratch;
+        for plane in [&mut *reflectance, &mut *over_absorption, &mut *over_scattering] {
+            plane.clear();
+            plane.resize(count, 0.0);
+        }
+        for (&pigment, &share) in pigments.iter().zip(shares) {
+            let pigment = &self.library.pigments[pigment];
+            let amount = share * thickness;
+            for (sum, k) in over_absorption.iter_mut().zip(&pigment.absorption) {
+                *sum += amount * k;
+            }
+            for (sum, s) in over_scattering.iter_mut().zip(&pigment.scattering) {
+                *sum += amount * s;
+            }
+        }
+        let surface = self.film.surface;
+        for at in 0..count {
+            let (k, s) = (over_absorption[at], over_scattering[at]);
+            let [value, by_k, by_s] = match &self.ground {
+                Some(ground) => self.film.with_slopes(k, s, ground[at]),
+                None => {
+                    let [internal, by_k, by_s] = infinite_film_with_slopes(k, s);
+                    let slope = surface.measured_slope(internal);
+                    [surface.measured_from_internal(internal), slope * by_k, slope * by_s]
+                }
+            };
+            (reflectance[at], over_absorption[at], over_scattering[at]) = (value, by_k, by_s);
+        }
+    }
+
+    /// Measured reflectance of a recipe.
+    pub(super) fn reflectance(
+        &self,
+        pigments: &[usize],
+        shares: &[f64],
+        thickness: f64,
+        scratch: &mut Scratch,
+    ) -> Vec<f64> {
+        self.reflect(pigments, shares, thickness, scratch);
+        scratch.reflectance.clone()
+    }
+
+    /// The weighted root mean square of the differences over the lights.
+    pub(super) fn distance(
+        &self,
+        target: &Target,
+        pigments: &[usize],
+        shares: &[f64],
+        thickness: f64,
+        scratch: &mut Scratch,
+    ) -> f64 {
+        self.reflect(pigments, shares, thickness, scratch);
+        let lights = self.weights.iter().zip(&self.roots).zip(&target.lab);
+        let squares = lights.map(|((weights, root), &wanted)| {
+            let lab = Lab::from_xyz(weights.xyz(&scratch.reflectance), weights.white());
+            let residuals = self.metric.residuals(wanted, lab);
+            residuals.iter().map(|r| (root * r).powi(2)).sum::<f64>()
+        });
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// The cost of `unknowns`, a share for each of `pigments`, then, where
+    /// `chooses_thickness`, the logarithm of the thickness.
+    pub(super) fn cost(
+        &self,
+        target: &Target,
+        pigments: &[usize],
+        unknowns: &[f64],
+        thickness: f64,
+        chooses_thickness: bool,
+        scratch: &mut Scratch,
+    ) -> Cost {
+        let shares = &unknowns[..pigments.len()];
+        self.reflect(pigments, shares, thickness, scratch);
+        let count = self.library.grid.count();
+        let columns = pigments.len() + usize::from(chooses_thickness);
+        let Scratch { reflectance, over_absorption, over_scattering, by_unknown } = scratch;
+        by_unknown.clear();
+        by_unknown.resize(columns * count, 0.0);
+        for (column, &pigment) in by_unknown.chunks_exact_mut(count).zip(pigments) {
+            let pigment = &self.library.pigments[pigment];
+            for (at, value) in column.iter_mut().enumerate() {
+                *value = thickness
+                    * (over_absorption[at] * pigment.absorption[at]
+                        + over_scattering[at] * pigment.scattering[at]);
+            }
+        }
+        if chooses_thickness {
+            // d/d log t is the sum of every share's own slope.
+            let (by_share, by_thickness) = by_unknown.split_at_mut(pigments.len() * count);
+            for (column, share) in by_share.chunks_exact(count).zip(shares) {
+                for (sum, value) in by_thickness.iter_mut().zip(column) {
+                    *sum += share * value;
+                }
+            }
+        }
+        let mut cost =
+            Cost { value: 0.0, gradient: [0.0; UNKNOWNS], matrix: [[0.0; UNKNOWNS]; UNKNOWNS] };
+        for ((weights, root), &wanted) in self.weights.iter().zip(&self.roots).zip(&target.lab) {
+            let xyz = weights.xyz(reflectance);
+            let (residuals, over_xyz) =
+                residuals_with_slopes(self.metric, wanted, xyz, weights.white());
+            let mut slopes = [[0.0; UNKNOWNS]; 3];
+            for (unknown, column) in by_unknown.chunks_exact(count).enumerate() {
+                let moved = weights.xyz(column).to_array();
+                for (row, over) in slopes.iter_mut().zip(&over_xyz) {
+                    row[unknown] = root * (0..3).map(|c| over[c] * moved[c]).sum::<f64>();
+                }
+            }
+            for (residual, row) in residuals.iter().zip(&slopes) {
+                let residual = root * residual;
+                cost.value += 0.5 * residual * residual;
+                for i in 0..columns {
+                    cost.gradient[i] += residual * row[i];
+                    for j in 0..columns {
+                        cost.matrix[i][j] += row[i] * row[j];
+                    }
+                }
+            }
+        }
+        cost
+    }
+}
+
+/// The residuals of a difference and their derivatives over X, Y and Z (rows by
+/// residual). CIELAB's slopes are exact, those of the difference formula are
+/// quotients over a thousandth of a unit.
+fn residuals_with_slopes(
+    metric: Metric,
+    wanted: Lab,
+    xyz: Xyz,
+    white: Xyz,
+) -> ([f64; 3], [[f64; 3]; 3]) {
+    const STEP: f64 = 1e-3;
+    let lab = Lab::from_xyz(xyz, white);
+    let residuals = metric.residuals(wanted, lab);
+    let moved = [
+        Lab { lightness: lab.lightness + STEP, ..lab },
+        Lab { a: lab.a + STEP, ..lab },
+        Lab { b: lab.b + STEP, ..lab },
+    ];
+    let moved = moved.map(|near| metric.residuals(wanted, near));
+    let over_lab: [[f64; 3]; 3] =
+        std::array::from_fn(|i| std::array::from_fn(|j| (moved[j][i] - residuals[i]) / STEP));
+    let lab_over_xyz = Lab::slopes_over_xyz(xyz, white).0;
+    let over_xyz = std::array::from_fn(|i| {
+        std::array::from_fn(|c| (0..3).map(|j| over_lab[i][j] * lab_over_xyz[j][c]).sum())
+    });
+    (residuals, over_xyz)
+}
+
+/// The reflectance of a film that hides, with its slopes over K and S.
+fn infinite_film_with_slopes(k: f64, s: f64) -> [f64; 3] {
+    // At K = 0 the slope over K is infinite; a hair above it is only steep.
+    let k = k.max(1e-9 * s).max(1e-300);
+    let alpha = (k * (k + 2.0 * s)).sqrt();
+    let rest = k + s + alpha;
+    [s / rest, -s / (rest * alpha), k / (rest * alpha)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluate::Viewing;
+    use crate::library::Pigment;
+    use crate::matching::{Sight, Thickness};
+    use spectra::{Grid, Illuminant, Observer};
+
+    fn library() -> PigmentLibrary {
+        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
+        let pigment = |name: &str, k: &dyn Fn(f64) -> f64, s: f64| Pigment {
+            name: name.to_owned(),
+            colour_index: None,
+            absorption: grid.wavelengths_nm().map(k).collect(),
+            scattering: vec![s; 16],
+            absorption_sd: Vec::new(),
+            scattering_sd: Vec::new(),
+            identified: true,
+            guessed: false,
+            notes: Vec::new(),
+        };
+        PigmentLibrary {
+            title: String::new(),
+            licence: String::new(),
+            source: String::new(),
+            grid,
+            amounts: crate::library::AmountKind::Relative,
+            reference: Some("white".to_owned()),
+            saunderson: spectra::optics::Surface::new(
+                0.03,
+                0.6,
+                spectra::optics::Specular::Included,
+            )
+            .unwrap(),
+            unevenness: 0.0,
+            inputs: Vec::new(),
+            settings: None,
+            pigments: vec![
+                pigment("white", &|_| 0.002, 1.0),
+                pigment("red", &|nm| if nm < 580.0 { 2.0 } else { 0.02 }, 0.3),
+                pigment("blue", &|nm| (nm / 500.0).powi(8), 0.1),
+            ],
+            evidence: None,
+        }
+    }
+
+    #[test]
+    fn slopes_of_the_cost_are_those_of_difference_quotients() {
+        let library = library();
+        let sight = |name: &str, weight| Sight {
+            viewing: Viewing {
+                illuminant: Illuminant::named(name).unwrap(),
+                observer: Observer::default(),
+            },
+            weight,
+        };
+        let sights = vec![sight("D65", 1.0), sight("A", 0.5)];
+        let wanted = Lab { lightness: 48.0, a: 22.0, b: -9.0 };
+        let target = Target::from_lab("", wanted, &sights);
+        let thickness = Thickness::Between(0.1, 9.0);
+        let over = FilmKind::Over { ground: vec![0.7; 16], thickness };
+        for (film, count) in [(FilmKind::Hiding, 3), (over, 4)] {
+            for metric in [Metric::Ciede2000, Metric::Cie1976] {
+                let request = MatchRequest {
+                    metric,
+                    ..MatchRequest::new(&library, sights.clone(), film.clone())
+                };
+                let forward = Forward::new(&library, &request).unwrap();
+                let mut scratch = Scratch::default();
+                let point = [0.5, 0.2, 0.3, 0.4];
+                let mut cost = |point: &[f64]| {
+                    let thickness = if count == 4 { point[3].exp() } else { 1.0 };
+                    let chooses = count == 4;
+                    let unknowns = &point[..count];
+                    forward.cost(&target, &[0, 1, 2], unknowns, thickness, chooses, &mut scratch)
+                };
+                let told = cost(&point).gradient;
+                for unknown in 0..count {
+                    let mut moved = |by: f64| {
+                        let mut near = point;
+                        near[unknown] += by;
+                        cost(&near).value
+                    };
+                    let quotient = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                    let off = (told[unknown] - quotient).abs() / quotient.abs().max(1.0);
+                    assert!(off < 1e-3, "{metric:?} {unknown}: {} for {quotient}", told[unknown]);
+                }
+            }
+        }
+    }
+}

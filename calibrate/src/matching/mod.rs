@@ -1,0 +1,32 @@
+//! Recipes for a colour.
+//!
+//! Which pigments of a library, and how much of each, come nearest to a target
+//! under one light or several? Every set of pigments is tried, from one pigment
+//! up to the wanted number; the shares of each are found by least squares in
+//! the colour difference itself, started from the best recipe of a set with one pigment
+//! fewer.
+
+mod sight;
+
+mod film;
+
+mod forward;
+
+mod bounded_step;
+
+mod descent;
+
+mod request;
+
+mod candidate;
+
+mod search;
+
+mod whole_parts;
+
+mod ranking;
+
+pub use film::{FilmKind, Thickness};
+pub use ranking::{Recipe, recipes};
+pub use request::{MatchError, MatchRequest};
+pub use sight::{Metric, Sight, Target};

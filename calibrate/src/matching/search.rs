@@ -1,0 +1,147 @@
+//! Every set of pigments, and its nearest recipe.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use super::descent::descend;
+use super::forward::{Forward, Scratch};
+use super::request::MatchRequest;
+use super::sight::Target;
+
+/// The most sets of one size that are tried: all sets of four out of 30. Of a
+/// greater library only the nearest smaller recipes are built upon.
+const MOST_SETS: usize = 30_000;
+
+/// The nearest recipe of each set of pigments that was tried, nearest first.
+pub(super) fn search(
+    forward: &Forward<'_>,
+    request: &MatchRequest,
+    target: &Target,
+) -> Vec<Candidate> {
+    let strength = strengths(forward);
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut sets = first_sets(request);
+    let mut size = sets.keys().next().map_or(0, Vec::len);
+    loop {
+        let nearest = |(set, parent): (&Vec<usize>, &Option<Candidate>), scratch: &mut Scratch| {
+            let starts = starts(request, set, parent.as_ref(), &strength);
+            let ends = starts.iter().map(|s| descend(forward, request, target, s, scratch));
+            ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
+        };
+        let tried: Vec<(Vec<usize>, Option<Candidate>)> = sets
+            .par_iter()
+            .map_init(Scratch::default, |scratch, set| (set.0.clone(), nearest(set, scratch)))
+            .collect();
+        size += 1;
+        let grown = if size <= request.at_most { grown(request, &tried) } else { BTreeMap::new() };
+        found.extend(tried.into_iter().filter_map(|(_, candidate)| candidate));
+        if grown.is_empty() {
+            break;
+        }
+        sets = grown;
+    }
+    found.sort_by(|a, b| {
+        a.distance.total_cmp(&b.distance).then_with(|| a.pigments.cmp(&b.pigments))
+    });
+    found
+}
+
+type Sets = BTreeMap<Vec<usize>, Option<Candidate>>;
+
+/// What every recipe holds; each pigment by itself where nothing is required.
+fn first_sets(request: &MatchRequest) -> Sets {
+    let mut required: Vec<usize> = request.required.iter().map(|(pigment, _)| *pigment).collect();
+    required.sort_unstable();
+    required.dedup();
+    if required.is_empty() {
+        return request.allowed.iter().map(|&pigment| (vec![pigment], None)).collect();
+    }
+    BTreeMap::from([(required, None)])
+}
+
+/// Every set with one pigment more, each with its nearest smaller recipe.
+fn grown(request: &MatchRequest, tried: &[(Vec<usize>, Option<Candidate>)]) -> Sets {
+    let distance = |candidate: &Option<Candidate>| {
+        candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
+    };
+    let mut parents: Vec<_> = tried.iter().collect();
+    parents.sort_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)).then_with(|| a.0.cmp(&b.0)));
+    let mut sets = BTreeMap::new();
+    for (set, candidate) in parents {
+        for &pigment in request.allowed.iter().filter(|pigment| !set.contains(pigment)) {
+            if sets.len() >= MOST_SETS {
+                return sets;
+            }
+            let mut larger = set.clone();
+            larger.insert(larger.partition_point(|&p| p < pigment), pigment);
+            sets.entry(larger).or_insert_with(|| candidate.clone());
+        }
+    }
+    sets
+}
+
+/// The mean of K + S over wavelength: how much a pigment's share tells.
+fn strengths(forward: &Forward<'_>) -> Vec<f64> {
+    let mean = |pigment: &crate::library::Pigment| {
+        let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
+        (sum / pigment.absorption.len() as f64).max(1e-6)
+    };
+    forward.library.pigments.iter().map(mean).collect()
+}
+
+/// Where the descent of a set starts: the smaller recipe with a little of what is
+/// new, and shares of equal strength. None if bounds leave no recipe.
+fn starts(
+    request: &MatchRequest,
+    set: &[usize],
+    parent: Option<&Candidate>,
+    strength: &[f64],
+) -> Vec<Candidate> {
+    let (thinnest, thickest) = request.thickness();
+    let middle = (thinnest * thickest).sqrt();
+    let even: Vec<f64> = set.iter().map(|&p| 1.0 / strength[p]).collect();
+    let mut starts: Vec<Candidate> = Vec::new();
+    if let Some(parent) = parent {
+        let wished: Vec<f64> = set.iter().map(|&p| parent.share(p).max(0.01)).collect();
+        starts.extend(candidate(request, set, &wished, parent.thickness));
+    }
+    starts.extend(candidate(request, set, &even, middle));
+    starts
+}
+
+/// Shares inside their bounds, as near to the proportions of `wished` as those
+/// allow.
+fn candidate(
+    request: &MatchRequest,
+    set: &[usize],
+    wished: &[f64],
+    thickness: f64,
+) -> Option<Candidate> {
+    let bounds: Vec<(f64, f64)> = set.iter().map(|&p| request.share_bounds(p)).collect();
+    let least: f64 = bounds.iter().map(|(least, _)| least).sum();
+    let total: f64 = wished.iter().sum();
+    let above: Vec<f64> = wished
+        .iter()
+        .zip(&bounds)
+        .map(
+            |(wish, (least, most))| {
+                if least < most { (wish / total - least).max(1e-3) } else { 0.0 }
+            },
+        )
+        .collect();
+    let spread: f64 = above.iter().sum();
+    let rest = 1.0 - least;
+    if rest < -1e-9 || (spread == 0.0 && rest > 1e-9) {
+        return None;
+    }
+    let scale = if spread > 0.0 { rest.max(0.0) / spread } else { 0.0 };
+    let shares = above.iter().zip(&bounds).map(|(above, (least, _))| least + scale * above);
+    Some(Candidate {
+        pigments: set.to_vec(),
+        shares: shares.collect(),
+        thickness,
+        distance: f64::INFINITY,
+    })
+}

@@ -1,0 +1,183 @@
+//! Recipes in small whole parts.
+
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use super::forward::{Forward, Scratch};
+use super::request::MatchRequest;
+use super::sight::Target;
+
+/// Recipes of one set that are tried one by one, at most: four pigments in up to
+/// 19 parts.
+const MOST_RECIPES: u64 = 4_000;
+
+/// The nearest recipe in whole parts, `most` together, of each candidate's
+/// pigments; candidates of which the least share allows none are gone.
+///
+/// First the shares are rounded for every total and parts moved from pigment to
+/// pigment while that helps. Then every recipe is tried of those sets that could
+/// still be among the `wanted` nearest, since shares of any size come no farther
+/// than whole parts; unless a set has more than 4000 recipes.
+pub(super) fn in_whole_parts(
+    forward: &Forward<'_>,
+    request: &MatchRequest,
+    target: &Target,
+    candidates: &[Candidate],
+    most: u32,
+    wanted: usize,
+) -> Vec<(Vec<u32>, Candidate)> {
+    let search = |scratch: &mut Scratch, candidate: &Candidate, every: bool| {
+        let mut set = Set { forward, request, target, candidate, scratch };
+        let parts = if every { set.nearest_of_all(most) } else { set.nearest_rounded(most) };
+        parts.map(|(parts, distance)| {
+            let shares = shares(&parts);
+            (parts, Candidate { shares, distance, ..candidate.clone() })
+        })
+    };
+    let rounded: Vec<Option<(Vec<u32>, Candidate)>> = candidates
+        .par_iter()
+        .map_init(Scratch::default, |scratch, candidate| search(scratch, candidate, false))
+        .collect();
+    let mut distances: Vec<f64> = rounded.iter().flatten().map(|found| found.1.distance).collect();
+    distances.sort_by(f64::total_cmp);
+    let enough = distances.get(wanted.max(1) - 1).copied().unwrap_or(f64::INFINITY);
+    let nearest = |scratch: &mut Scratch, (candidate, rounded): (&Candidate, _)| {
+        let few = count(candidate.pigments.len() as u32, most) <= MOST_RECIPES;
+        if few && candidate.distance <= enough { search(scratch, candidate, true) } else { rounded }
+    };
+    let all = candidates.par_iter().zip(rounded).map_init(Scratch::default, nearest);
+    all.flatten().collect()
+}
+
+/// How many recipes `pigments` have in up to `most` parts: the binomial
+/// coefficient.
+fn count(pigments: u32, most: u32) -> u64 {
+    (0..u64::from(pigments))
+        .fold(1, |count: u64, i| count.saturating_mul(u64::from(most).saturating_sub(i)) / (i + 1))
+}
+
+/// One set of pigments, to be laid in whole parts.
+struct Set<'a> {
+    forward: &'a Forward<'a>,
+    request: &'a MatchRequest,
+    target: &'a Target,
+    candidate: &'a Candidate,
+    scratch: &'a mut Scratch,
+}
+
+impl Set<'_> {
+    fn distance(&mut self, parts: &[u32]) -> f64 {
+        let Candidate { pigments, thickness, .. } = self.candidate;
+        self.forward.distance(self.target, pigments, &shares(parts), *thickness, self.scratch)
+    }
+
+    fn allows(&self, parts: &[u32]) -> bool {
+        shares(parts).iter().all(|share| *share >= self.request.least_share - 1e-12)
+    }
+
+    fn nearest_rounded(&mut self, most: u32) -> Option<(Vec<u32>, f64)> {
+        let mut best: Option<(Vec<u32>, f64)> = None;
+        for total in self.candidate.pigments.len() as u32..=most {
+            let mut parts = rounded(&self.candidate.shares, total);
+            if !self.allows(&parts) {
+                continue;
+            }
+            let mut here = self.distance(&parts);
+            loop {
+                let mut moved: Option<(Vec<u32>, f64)> = None;
+                for near in neighbours(&parts) {
+                    if self.allows(&near) {
+                        let at = self.distance(&near);
+                        if at < moved.as_ref().map_or(here, |(_, least)| *least) {
+                            moved = Some((near, at));
+                        }
+                    }
+                }
+                let Some(nearer) = moved else { break };
+                (parts, here) = nearer;
+            }
+            keep_nearer(&mut best, &parts, here);
+        }
+        best
+    }
+
+    fn nearest_of_all(&mut self, most: u32) -> Option<(Vec<u32>, f64)> {
+        let mut best: Option<(Vec<u32>, f64)> = None;
+        let pigments = self.candidate.pigments.len();
+        for total in pigments as u32..=most {
+            // Every composition of the total, in order of the first parts.
+            let mut parts = vec![1; pigments];
+            parts[pigments - 1] = total - (pigments as u32 - 1);
+            loop {
+                if self.allows(&parts) {
+                    let here = self.distance(&parts);
+                    keep_nearer(&mut best, &parts, here);
+                }
+                let Some(from) = (1..pigments).rev().find(|&i| parts[i] > 1) else { break };
+                let rest = parts[from] - 1;
+                parts[from] = 1;
+                parts[from - 1] += 1;
+                parts[pigments - 1] = rest;
+            }
+        }
+        best
+    }
+}
+
+/// Of equals the first stays: it has the fewest parts.
+fn keep_nearer(best: &mut Option<(Vec<u32>, f64)>, parts: &[u32], distance: f64) {
+    if best.as_ref().is_none_or(|(_, least)| distance < least - 1e-9) {
+        *best = Some((parts.to_vec(), distance));
+    }
+}
+
+fn shares(parts: &[u32]) -> Vec<f64> {
+    let total = f64::from(parts.iter().sum::<u32>());
+    parts.iter().map(|part| f64::from(*part) / total).collect()
+}
+
+/// `total` parts in proportion to `shares`, at least one each, by largest
+/// remainder (Hamilton).
+fn rounded(shares: &[f64], total: u32) -> Vec<u32> {
+    let wished: Vec<f64> = shares.iter().map(|share| share * f64::from(total)).collect();
+    let mut parts: Vec<u32> = wished.iter().map(|w| (w.floor() as u32).max(1)).collect();
+    let lack = |parts: &[u32], i: usize| wished[i] - f64::from(parts[i]);
+    while parts.iter().sum::<u32>() != total {
+        let short = parts.iter().sum::<u32>() < total;
+        let places = (0..parts.len()).filter(|&i| short || parts[i] > 1);
+        let by_lack = |a: &usize, b: &usize| lack(&parts, *a).total_cmp(&lack(&parts, *b));
+        let place = if short { places.max_by(by_lack) } else { places.min_by(by_lack) };
+        let Some(place) = place else { break };
+        parts[place] = if short { parts[place] + 1 } else { parts[place] - 1 };
+    }
+    parts
+}
+
+/// The recipes with one part moved from one pigment to another.
+fn neighbours(parts: &[u32]) -> impl Iterator<Item = Vec<u32>> {
+    let count = parts.len();
+    let pairs = (0..count).flat_map(move |from| (0..count).map(move |to| (from, to)));
+    pairs.filter(|(from, to)| from != to && parts[*from] > 1).map(|(from, to)| {
+        let mut moved = parts.to_vec();
+        (moved[from], moved[to]) = (moved[from] - 1, moved[to] + 1);
+        moved
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recipes_are_counted() {
+        assert_eq!((count(1, 9), count(2, 9), count(4, 12), count(4, 3)), (9, 36, 495, 0));
+    }
+
+    #[test]
+    fn parts_are_rounded_to_their_sum() {
+        assert_eq!(rounded(&[0.5, 0.3, 0.2], 10), [5, 3, 2]);
+        assert_eq!(rounded(&[0.98, 0.01, 0.01], 4), [2, 1, 1]);
+        assert_eq!(rounded(&[0.4, 0.6], 2), [1, 1]);
+        assert_eq!(rounded(&[1.0], 7), [7]);
+    }
+}

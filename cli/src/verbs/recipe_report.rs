@@ -1,0 +1,189 @@
+//! How recipes are told: by `match`, for people and for programs.
+
+use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::matching::{FilmKind, MatchRequest, Recipe, Target};
+use serde_json::{Map, Value, json};
+use spectra::color::{Lab, Rgb};
+
+use crate::console::Console;
+use crate::input::srgb;
+
+/// A difference above this is plain to see side by side.
+const REACHED: f64 = 1.0;
+
+/// A target and its recipes, the best first; at least one.
+pub(super) struct Matched {
+    pub(super) target: Target,
+    pub(super) recipes: Vec<Recipe>,
+    /// For a target far out of reach, the nearest by CIE 1976.
+    pub(super) by_cie1976: Vec<Recipe>,
+}
+
+/// What all recipes of a run share.
+pub(super) struct Sheet<'a> {
+    pub(super) library: &'a PigmentLibrary,
+    pub(super) request: &'a MatchRequest,
+    /// The mass to be shared out.
+    pub(super) grams: Option<f64>,
+}
+
+impl Matched {
+    /// The least distance of any recipe.
+    pub(super) fn nearest(&self) -> f64 {
+        self.recipes.iter().map(|recipe| recipe.distance).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Sheet<'_> {
+    fn lights(&self) -> impl Iterator<Item = &str> {
+        self.request.sights.iter().map(|sight| sight.viewing.illuminant.name())
+    }
+
+    /// The display colour of `lab` under the first light.
+    fn shown(&self, lab: Lab) -> Rgb {
+        // Lab is relative to its white, whichever that is.
+        let white = spectra::color::RgbSpace::Srgb.white();
+        srgb(lab.to_xyz(white), white)
+    }
+
+    fn absolute(&self) -> bool {
+        self.library.amounts == AmountKind::Absolute
+    }
+
+    /// The amount of one share: grams, or absolute amounts.
+    fn amount(&self, recipe: &Recipe, share: f64) -> Option<f64> {
+        match (self.grams, recipe.thickness) {
+            (_, Some(thickness)) if self.absolute() => Some(share * thickness),
+            (grams, _) => grams.map(|grams| share * grams),
+        }
+    }
+
+    pub(super) fn print(&self, matched: &Matched, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let target = &matched.target;
+        let wanted = target.lab[0];
+        let rgb = self.shown(wanted);
+        let patch = console.patch(rgb);
+        let [l, a, b] = wanted.to_array();
+        let light = self.lights().next().unwrap_or_default();
+        console.line(format!("{patch}{}  Lab {l:.2} {a:.2} {b:.2} ({light})", target.name))?;
+        let nearest = matched.nearest();
+        if nearest > REACHED {
+            console.line(format!(
+                "out of reach of these pigments: the nearest is {nearest:.2} CIEDE2000 away"
+            ))?;
+        }
+        let lights: Vec<String> = self.lights().map(|light| format!("{light:>8}")).collect();
+        console.line(format!("     {}  (CIEDE2000)", lights.join(" ")))?;
+        for (rank, recipe) in matched.recipes.iter().enumerate() {
+            self.print_recipe(&(rank + 1).to_string(), recipe, console)?;
+        }
+        if !matched.by_cie1976.is_empty() {
+            console.line("     so far off CIEDE2000 misleads; by CIE 1976 the nearest is")?;
+        }
+        for recipe in &matched.by_cie1976 {
+            self.print_recipe("", recipe, console)?;
+        }
+        Ok(())
+    }
+
+    fn print_recipe(
+        &self,
+        rank: &str,
+        recipe: &Recipe,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<()> {
+        let differences: Vec<String> =
+            recipe.delta_e.iter().map(|difference| format!("{difference:8.2}")).collect();
+        let rgb = self.shown(recipe.lab[0]);
+        let mut line =
+            format!("{rank:>3}  {}  {}{}", differences.join(" "), console.patch(rgb), rgb.to_hex());
+        if let Some(thickness) = recipe.thickness {
+            let word = if self.absolute() { "in all" } else { "thickness" };
+            line += &format!("  {word} {thickness:.4}");
+        }
+        if let Some(cost) = recipe.cost {
+            line += &format!("  costs {:.2}", cost * self.grams.unwrap_or(1.0));
+        }
+        console.line(line)?;
+        for part in self.parts(recipe) {
+            console.line(format!("       {part}"))?;
+        }
+        Ok(())
+    }
+
+    /// A line for each pigment of a recipe.
+    fn parts(&self, recipe: &Recipe) -> Vec<String> {
+        let names = recipe.shares.iter().map(|(index, _)| &self.library.pigments[*index]);
+        let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
+        let mut lines = Vec::new();
+        for (place, ((_, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
+            let mut line = match &recipe.parts {
+                Some(parts) => format!("{:4}  {:width$}", parts[place], pigment.name),
+                None => format!("{:6.2} %  {:width$}", 100.0 * share, pigment.name),
+            };
+            match self.amount(recipe, *share) {
+                Some(amount) if self.absolute() => line += &format!("  {amount:.5}"),
+                Some(grams) => line += &format!("  {grams:8.2} g"),
+                None => {}
+            }
+            if pigment.guessed {
+                line += "  (guessed, not measured)";
+            }
+            lines.push(line.trim_end().to_owned());
+        }
+        lines
+    }
+
+    pub(super) fn json(&self, matched: &Matched) -> Value {
+        let list = |recipes: &[Recipe]| -> Vec<Value> {
+            recipes.iter().map(|recipe| self.recipe_json(recipe)).collect()
+        };
+        let lab = |labs: &[Lab]| self.by_light(labs.iter().map(|lab| json!(lab.to_array())));
+        json!({
+            "target": matched.target.name,
+            "lab": lab(&matched.target.lab),
+            "hex": self.shown(matched.target.lab[0]).to_hex(),
+            "reached": matched.nearest() <= REACHED,
+            "nearest": matched.nearest(),
+            "recipes": list(&matched.recipes),
+            "by_cie1976": list(&matched.by_cie1976),
+        })
+    }
+
+    fn recipe_json(&self, recipe: &Recipe) -> Value {
+        let pigments = recipe.shares.iter().enumerate().map(|(place, (index, share))| {
+            let mut entry = json!({ "name": self.library.pigments[*index].name, "share": share });
+            if let Some(parts) = &recipe.parts {
+                entry["parts"] = json!(parts[place]);
+            }
+            if let Some(amount) = self.amount(recipe, *share) {
+                entry[if self.absolute() { "amount" } else { "grams" }] = json!(amount);
+            }
+            if self.library.pigments[*index].guessed {
+                entry["guessed"] = json!(true);
+            }
+            entry
+        });
+        let wavelengths: Vec<f64> = self.library.grid.wavelengths_nm().collect();
+        let mut entry = json!({
+            "pigments": pigments.collect::<Vec<Value>>(),
+            "distance": recipe.distance,
+            "delta_e": self.by_light(recipe.delta_e.iter().map(|d| json!(d))),
+            "lab": self.by_light(recipe.lab.iter().map(|lab| json!(lab.to_array()))),
+            "hex": self.shown(recipe.lab[0]).to_hex(),
+            "wavelengths_nm": wavelengths,
+            "reflectance": recipe.reflectance,
+        });
+        if self.request.film != FilmKind::Hiding {
+            entry["thickness"] = json!(recipe.thickness);
+        }
+        if let Some(cost) = recipe.cost {
+            entry["cost"] = json!(cost * self.grams.unwrap_or(1.0));
+        }
+        entry
+    }
+
+    fn by_light(&self, values: impl Iterator<Item = Value>) -> Value {
+        Value::Object(self.lights().map(str::to_owned).zip(values).collect::<Map<_, _>>())
+    }
+}

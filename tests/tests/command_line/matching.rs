@@ -1,0 +1,155 @@
+//! `impasto match`.
+
+use serde_json::Value;
+use suite::program::{impasto, repository};
+
+fn library() -> String {
+    repository("measurements/van-gogh-oils.pigments.json")
+}
+
+fn matched(arguments: &[&str]) -> Value {
+    let library = library();
+    let all: Vec<&str> =
+        ["match", library.as_str()].into_iter().chain(arguments.iter().copied()).collect();
+    let run = impasto(&[all.as_slice(), &["--json"]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    run.json()
+}
+
+fn refused(arguments: &[&str]) -> (u8, String) {
+    let library = library();
+    let all: Vec<&str> =
+        ["match", library.as_str()].into_iter().chain(arguments.iter().copied()).collect();
+    let run = impasto(&all);
+    assert!(run.out.is_empty(), "{}", run.out);
+    (run.status, run.err)
+}
+
+#[test]
+fn a_hex_colour_and_its_lab_are_one_target() {
+    let both = matched(&["#7a6a50", "7A6A50"]);
+    assert_eq!(both[0]["hex"], "#7a6a50");
+    assert_eq!(both[0]["recipes"], both[1]["recipes"]);
+    let lab: Vec<String> = both[0]["lab"]["D65"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v.as_f64().unwrap().to_string())
+        .collect();
+    let again = matched(&[&lab.join(",")]);
+    let name = |value: &Value| value[0]["recipes"][0]["pigments"][0]["name"].clone();
+    assert_eq!(name(&both), name(&again));
+    assert_eq!(again[0]["reached"], true);
+}
+
+#[test]
+fn grams_sum_to_what_is_wanted_and_parts_are_whole() {
+    let told = matched(&["#7a6a50", "--grams", "40", "--parts", "12", "--count", "3"]);
+    let recipes = told[0]["recipes"].as_array().unwrap();
+    assert_eq!(recipes.len(), 3);
+    for recipe in recipes {
+        let pigments = recipe["pigments"].as_array().unwrap();
+        let sum = |key: &str| pigments.iter().map(|p| p[key].as_f64().unwrap()).sum::<f64>();
+        assert!((sum("grams") - 40.0).abs() < 1e-9, "{recipe}");
+        let parts = sum("parts");
+        assert!((1.0..=12.0).contains(&parts) && parts.fract() == 0.0, "{recipe}");
+        for pigment in pigments {
+            let share = pigment["share"].as_f64().unwrap();
+            assert!((pigment["parts"].as_f64().unwrap() / parts - share).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn every_spectrum_of_a_file_is_a_target_of_a_batch() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("targets.csv");
+    let text = "sample,400,500,600,700\nsand,0.3,0.4,0.5,0.55\nslate,0.15,0.17,0.16,0.15\n";
+    std::fs::write(&path, text).unwrap();
+    let path = path.display().to_string();
+    let told = matched(&[&path, "--illuminant", "D65", "--illuminant", "A=0.5"]);
+    let names: Vec<&str> =
+        told.as_array().unwrap().iter().map(|t| t["target"].as_str().unwrap()).collect();
+    assert_eq!(names, ["sand", "slate"]);
+    let first = &told[0]["recipes"][0]["delta_e"];
+    assert!(first["D65"].is_f64() && first["A"].is_f64(), "{first}");
+    let one = matched(&[&format!("{path}#slate"), "--illuminant", "D65", "--illuminant", "A=0.5"]);
+    assert_eq!(one[0], told[1]);
+}
+
+#[test]
+fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
+    let told = matched(&["#ff00ff"]);
+    assert_eq!(told[0]["reached"], false);
+    assert!(told[0]["nearest"].as_f64().unwrap() > 5.0);
+    let run = impasto(&["match", &library(), "#ff00ff"]);
+    assert!(run.out.contains("out of reach"), "{}", run.out);
+    // CIEDE2000 alone would hold a grey to be the nearest to a brilliant magenta.
+    let lab = &told[0]["by_cie1976"][0]["lab"]["D65"];
+    assert!(lab[1].as_f64().unwrap() > 30.0, "{lab}");
+    assert!(matched(&["#7a6a50"])[0]["by_cie1976"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn prices_decide_among_equals() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("prices.csv");
+    let text = "pigment,price\nZinc White,0.1\nUltramarine,0.4\nCobalt Blue,2\nVermilion,3\n";
+    std::fs::write(&path, text).unwrap();
+    let path = path.display().to_string();
+    let only = [
+        "--only",
+        "Zinc White",
+        "--only",
+        "Ultramarine",
+        "--only",
+        "Cobalt Blue",
+        "--only",
+        "Vermilion",
+    ];
+    let arguments = [&["#8090a8"], &only[..], &["--cost", &path, "--tolerance", "5"]].concat();
+    let told = matched(&arguments);
+    let most = told[0]["nearest"].as_f64().unwrap() + 5.0;
+    let costs: Vec<f64> = told[0]["recipes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|recipe| recipe["distance"].as_f64().unwrap() <= most)
+        .map(|recipe| recipe["cost"].as_f64().unwrap())
+        .collect();
+    assert!(costs.len() > 1 && costs.is_sorted(), "{costs:?}");
+    std::fs::write(folder.path().join("prices.csv"), "pigment,price\nZinc White,dear\n").unwrap();
+    let (status, err) = refused(&arguments);
+    assert_eq!(status, 1);
+    assert!(err.contains("row 2") && err.contains("`dear`"), "{err}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_a_way_out() {
+    for (arguments, status, words) in [
+        (&["nonsense"][..], 2, "#rrggbb"),
+        (&["#12345"], 2, "#12345"),
+        (&["#123456", "--only", "Unobtainium"], 1, "Unobtainium"),
+        (&["#123456", "--least", "2"], 2, "--least"),
+        (&["#123456", "--least", "1/0"], 2, "--least"),
+        (&["#123456", "--with", "Viridian", "--without", "Viridian"], 2, "--without"),
+        (&["#123456", "--cost", "Viridian=1"], 1, "no price"),
+        (&["#123456", "--over", "0.5"], 2, "--thickness"),
+        (&["#123456", "--thickness", "3:1"], 2, "3:1"),
+        (&["#123456", "--grams", "-1"], 2, "--grams"),
+        (&["#123456", "--count", "0"], 2, "--count"),
+        (&["#123456", "--with", "Viridian=0.5", "--parts", "8"], 2, "--parts"),
+        (
+            &[
+                "#123456", "--parts", "3", "--least", "0.9", "--with", "Viridian", "--with",
+                "Minium",
+            ],
+            1,
+            "--least",
+        ),
+    ] {
+        let (found, err) = refused(arguments);
+        assert!(err.contains(words) && err.contains("hint: "), "{arguments:?}: {err}");
+        assert_eq!(found, status, "{arguments:?}: {err}");
+    }
+}

@@ -1,0 +1,77 @@
+//! Mixtures laid over a ground, and amounts on an area.
+
+use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::matching::{FilmKind, MatchError, MatchRequest, Thickness, recipes};
+use spectra::color::Lab;
+
+use super::{oils, sights, target_of};
+
+#[test]
+fn a_glaze_over_a_ground_is_found_with_its_thickness() {
+    let library = oils();
+    let sights = sights(&["D65", "A"]);
+    let (white, blue) = (library.find("Zinc White").unwrap(), library.find("Cobalt Blue").unwrap());
+    let ground: Vec<f64> = library.grid.wavelengths_nm().map(|nm| 0.3 + nm / 1400.0).collect();
+    let recipe = [(white, 0.7), (blue, 0.3)];
+    let film = library.mix(&recipe).unwrap().film(0.6, &ground, library.film());
+    let target = target_of(&library, &film, &sights);
+    let kind = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Between(0.05, 5.0) };
+    let mut request = MatchRequest::new(&library, sights.clone(), kind);
+    request.allowed = vec![white, blue];
+    let found = recipes(&library, &target, &request).unwrap().remove(0);
+    assert!(found.distance < 1e-3, "{found:?}");
+    assert!((found.thickness.unwrap() - 0.6).abs() < 1e-3, "{:?}", found.thickness);
+    assert!((found.shares[0].1 - 0.7).abs() < 1e-3, "{:?}", found.shares);
+
+    request.film = FilmKind::Over { ground, thickness: Thickness::Fixed(2.0) };
+    let other = recipes(&library, &target, &request).unwrap().remove(0);
+    assert_eq!(other.thickness, Some(2.0));
+    assert!(other.distance > 0.5, "a film of another thickness has another colour: {other:?}");
+}
+
+#[test]
+fn the_reflectance_told_is_that_of_the_recipe() {
+    let library = oils();
+    let sights = sights(&["D65"]);
+    let wanted = Lab { lightness: 40.0, a: 20.0, b: 10.0 };
+    let target = calibrate::matching::Target::from_lab("", wanted, &sights);
+    let ground = vec![0.5; library.grid.count()];
+    let over = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Fixed(0.8) };
+    for film in [FilmKind::Hiding, over] {
+        let request = MatchRequest::new(&library, sights.clone(), film.clone());
+        for recipe in recipes(&library, &target, &request).unwrap() {
+            let mixture = library.mix(&recipe.shares).unwrap();
+            let mixed = match film {
+                FilmKind::Hiding => mixture.hiding(library.saunderson),
+                FilmKind::Over { .. } => mixture.film(0.8, &ground, library.film()),
+            };
+            suite::near::assert_near("reflectance", &recipe.reflectance, &mixed, 1e-9);
+            let told = recipe.delta_e[0];
+            assert!((told - recipe.distance).abs() < 1e-9, "{told} for {}", recipe.distance);
+        }
+    }
+}
+
+/// The oils with K and S taken as those of a unit amount.
+fn absolute() -> PigmentLibrary {
+    PigmentLibrary { amounts: AmountKind::Absolute, reference: None, ..oils() }
+}
+
+#[test]
+fn absolute_amounts_are_found_over_paper() {
+    let library = absolute();
+    let sights = sights(&["D65", "FL11"]);
+    let paper = vec![0.85; library.grid.count()];
+    let (red, blue) = (library.find("Vermilion").unwrap(), library.find("Ultramarine").unwrap());
+    let wash = library.mix(&[(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
+    let target = target_of(&library, &wash, &sights);
+    let film = MatchRequest::usual_film(&library, paper);
+    let mut request = MatchRequest::new(&library, sights, film);
+    request.allowed = vec![red, blue];
+    let found = recipes(&library, &target, &request).unwrap().remove(0);
+    let amounts: Vec<f64> =
+        found.shares.iter().map(|(_, share)| share * found.thickness.unwrap()).collect();
+    suite::near::assert_near("amounts", &amounts, &[0.5, 0.3], 1e-3);
+    request.film = FilmKind::Hiding;
+    assert_eq!(recipes(&library, &target, &request), Err(MatchError::AbsoluteHiding));
+}
