@@ -16,6 +16,8 @@ mod quadrature;
 
 mod library;
 
+mod plan_report;
+
 mod plan;
 
 mod demo;

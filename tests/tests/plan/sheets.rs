@@ -49,15 +49,15 @@ fn a_plan_names_recipes_that_can_be_weighed() {
 #[test]
 fn more_paint_or_a_finer_balance_allows_weaker_tints() {
     let weakest = |more: &[&str]| {
-        let json = plan(&[more, &["--swatches", "60", "--json"]].concat()).json();
+        let json = plan(&[more, &["--json"]].concat()).json();
         let swatches = json["swatches"].as_array().unwrap().clone();
         let white = |s: &serde_json::Value| s["parts"]["Zinc White"].as_u64().unwrap_or(0);
         swatches.iter().map(white).max().unwrap()
     };
-    assert_eq!(weakest(&[]), 19);
-    assert_eq!(weakest(&["--grams", "40"]), 79);
-    assert_eq!(weakest(&["--balance", "0.001"]), 159);
-    assert_eq!(weakest(&["--grams", "5"]), 9);
+    assert_eq!(weakest(&["--swatches", "50"]), 19);
+    assert_eq!(weakest(&["--swatches", "52", "--grams", "40"]), 79);
+    assert_eq!(weakest(&["--swatches", "52", "--balance", "0.001"]), 159);
+    assert_eq!(weakest(&["--swatches", "50", "--grams", "5"]), 9);
 }
 
 #[test]
@@ -92,6 +92,11 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
         table.pigments,
         ["Zinc White", "Cobalt Blue", "Viridian", "Vermilion", "Bone Black"]
     );
+    let again = impasto(&[&["plan"], &PAINTS[..], &["--output", &path]].concat());
+    assert_eq!(again.status, 2, "{}", again.err);
+    assert!(again.err.contains("not written over"), "{}", again.err);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), empty);
+    let path = folder.path().join("fine.csv").display().to_string();
     let fine = plan(&["--output", &path, "--grid", "380,730,5"]);
     let header = std::fs::read_to_string(&path).unwrap();
     let header = header.lines().next().unwrap();
