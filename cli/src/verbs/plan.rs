@@ -171,10 +171,8 @@ impl Plan {
         };
         let [first, last, step] = numbers(&self.grid).ok_or_else(wrong)?;
         let steps = (last - first) / step;
-        let whole = (steps - steps.round()).abs() < 1e-6;
-        if !(first >= 200.0 && last <= 2500.0 && step > 0.0 && whole)
-            || !(0.0..=5000.0).contains(&steps)
-        {
+        let whole = (steps - steps.round()).abs() < 1e-6 && (0.0..=5000.0).contains(&steps);
+        if !(first >= 200.0 && last <= 2500.0 && step > 0.0 && whole) {
             return Err(wrong());
         }
         Ok(Grid::from_nm(first, step, steps.round() as usize + 1)?)
