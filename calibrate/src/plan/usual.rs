@@ -9,6 +9,12 @@ use super::recipe::{Purpose, Recipe};
 /// weighed), then a shade with black at 9:1, then each colour with its
 /// neighbour 1:1, then what is left of the pool from the strong tints on.
 ///
+/// The ratios come from the Van Gogh oils: let to choose two tints of one
+/// pigment with zinc white, the optimal design took 4:1, 1:4 and 1:19 most often,
+/// and shades of 4:1 and 9:1 with bone black. With masstones and the two tints
+/// 11 of 17 pigments had a D-efficiency above 0.9; weak ones, which ask for 4:1,
+/// had 0.56 to 0.72.
+///
 /// # Errors
 /// [`PlanError::Swatches`] for fewer than there are unknowns a wavelength, or
 /// more than the pool holds.

@@ -63,7 +63,7 @@ pub(crate) struct Plan {
     /// The empty measurement file to write (CSV)
     #[arg(short, long, value_name = "CSV")]
     output: Option<PathBuf>,
-    /// Print JSON: swatches, totals_g, identified, prior (null without)
+    /// Print JSON: swatches, totals_g, unknowns, identified, prior (null without)
     #[arg(long)]
     json: bool,
 }
