@@ -35,6 +35,8 @@ pub mod absolute;
 
 pub mod validation;
 
+pub mod plan;
+
 pub mod quadrature;
 
 pub mod matching;

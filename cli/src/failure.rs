@@ -7,6 +7,7 @@ use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
 use calibrate::matching::MatchError;
 use calibrate::measurement::MeasurementError;
+use calibrate::plan::PlanError;
 use spectra::{LampError, LightError};
 
 /// An error of the user's request, with what to try.
@@ -71,6 +72,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     }
     if let Some(error) = cause.downcast_ref::<LibraryError>() {
         return error.hint().map(str::to_owned);
+    }
+    if let Some(error) = cause.downcast_ref::<PlanError>() {
+        return Some(error.hint());
     }
     if let Some(error) = cause.downcast_ref::<LightError>() {
         return error.hint().map(str::to_owned);

@@ -35,6 +35,8 @@ mod refined;
 
 mod finite;
 
+mod expected;
+
 mod identification;
 
 mod deviations;
@@ -43,6 +45,8 @@ mod condition;
 
 pub use condition::{Condition, condition};
 pub use deviations::linear_deviations;
+pub use expected::ExpectedNoise;
+pub(crate) use expected::{Belief, PRIOR_INFORMATION, Slopes};
 pub use finite::{FiniteProblem, fit_finite};
 pub use identification::{Unidentified, Unknown, unidentified};
 pub(crate) use problem::root_mean_square;

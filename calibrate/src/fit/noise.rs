@@ -4,6 +4,7 @@
 //! otherwise), part is constant in reflectance (the instrument's).
 
 use super::colour_term::ColourTerm;
+use super::expected::ExpectedNoise;
 use crate::evaluate::percentile;
 
 /// How noise spreads over samples and wavelengths.
@@ -77,6 +78,13 @@ impl<'a> Noise<'a> {
         let sd = (1.4826 * percentile(&sizes, 50.0)).max(least);
         weights.iter_mut().flatten().for_each(|w| *w /= sd);
         (weights, sd)
+    }
+
+    /// One over the standard deviation of each reading, in measured
+    /// reflectance, where both parts of the noise are known.
+    pub(super) fn precision(&self, noise: ExpectedNoise) -> Vec<Vec<f64>> {
+        let sd = |slope: &f64| noise.constant.hypot(noise.even * self.median_slope / slope);
+        self.slope.iter().map(|row| row.iter().map(|slope| sd(slope).recip()).collect()).collect()
     }
 
     /// The ratio of the two kinds of noise under which the residuals of

@@ -107,6 +107,14 @@ fn column(name: &str, letters: bool) -> Option<Column> {
     }
 }
 
+/// Whether a column headed `name`, beside wavelengths written as plain numbers,
+/// is read as a pigment.
+#[must_use]
+pub fn names_a_pigment(name: &str) -> bool {
+    let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
+    plain && matches!(column(name, false), Some(Column::Pigment(_)))
+}
+
 /// The number in `400`, `400nm`, `R400`, `SPEC_400` or `nm400`.
 fn wavelength(lower: &str) -> Option<f64> {
     let bare =

@@ -281,6 +281,9 @@ impl MeasurementError {
             Self::Cell { text, .. } if text.contains(',') => {
                 "numbers take a decimal point, not a comma".into()
             }
+            Self::Cell { wanted: "a reflectance", text, .. } if text.is_empty() => {
+                "fill in the reading, or remove the row of a sample that was not read".into()
+            }
             Self::Cell { wanted: "an amount of pigment", .. } => {
                 "a column that is neither known nor a wavelength is read as a pigment; remove it if it is none".into()
             }

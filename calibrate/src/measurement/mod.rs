@@ -12,6 +12,7 @@ mod scale;
 
 mod table;
 
+pub use column::names_a_pigment;
 pub use error::{MeasurementError, Place};
 pub use scale::{Scale, ScaleChoice};
 pub use table::{Film, MeasurementTable, Reading};

@@ -20,6 +20,10 @@ mod recipe_search;
 
 mod library;
 
+mod plan_report;
+
+mod plan;
+
 mod demo;
 
 use clap::Subcommand;
@@ -36,6 +40,7 @@ pub(crate) enum Verb {
     Quadrature(quadrature::Quadrature),
     Match(recipe_search::Match),
     Library(library::Library),
+    Plan(plan::Plan),
     Demo(demo::Demo),
 }
 
@@ -49,6 +54,7 @@ impl Verb {
             Self::Quadrature(verb) => verb.run(console),
             Self::Match(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
+            Self::Plan(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
         }
     }

@@ -1,0 +1,119 @@
+//! The design of most information, by exchange.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::information::Information;
+
+/// Sweeps over the design; it settles in fewer.
+const SWEEPS: usize = 30;
+/// The least gain of log det, over all wavelengths and unknowns, worth a change.
+const LEAST_GAIN: f64 = 1e-9;
+
+/// A design of as many recipes as `start`, each taken once, that no exchange of
+/// one recipe for another improves; the `kept` first of `start` stay. In order
+/// of the pool, the kept ones first.
+///
+/// Fedorov's exchange: each recipe in turn gives way to the one that adds most
+/// to log det of the information, from two starts, `start` itself and a greedy
+/// one; the better end is kept, so that the answer is never worse than `start`.
+/// Nothing is random.
+#[must_use]
+pub fn optimal(information: &Information, start: &[usize], kept: usize) -> Vec<usize> {
+    let mut greedy = start[..kept].to_vec();
+    let mut state = State::of(information, &greedy);
+    while greedy.len() < start.len() {
+        let (best, _) = state.best(&greedy).expect("the pool holds the start");
+        state.change(best, 1.0);
+        greedy.push(best);
+    }
+    let mut ends = [start.to_vec(), greedy].map(|design| exchanged(information, design, kept));
+    ends.iter_mut().for_each(|design| design[kept..].sort_unstable());
+    let [first, second] = ends;
+    let better = information.log_determinant(&second) > information.log_determinant(&first);
+    if better { second } else { first }
+}
+
+fn exchanged(information: &Information, mut design: Vec<usize>, kept: usize) -> Vec<usize> {
+    for _ in 0..SWEEPS {
+        // Anew each sweep, so that rounding does not add up.
+        let mut state = State::of(information, &design);
+        let mut changed = false;
+        for place in kept..design.len() {
+            let leaving = design[place];
+            state.change(leaving, -1.0);
+            let stay = state.gain(leaving);
+            design.swap_remove(place);
+            let entering = match state.best(&design) {
+                Some((index, gain)) if gain > stay + LEAST_GAIN => index,
+                _ => leaving,
+            };
+            state.change(entering, 1.0);
+            design.push(entering);
+            let last = design.len() - 1;
+            design.swap(place, last);
+            changed |= entering != leaving;
+        }
+        if !changed {
+            break;
+        }
+    }
+    design
+}
+
+/// A design's covariances, kept up to date.
+struct State<'a> {
+    information: &'a Information,
+    covariances: Vec<DMatrix<f64>>,
+}
+
+impl<'a> State<'a> {
+    fn of(information: &'a Information, design: &[usize]) -> Self {
+        Self { information, covariances: information.covariances(design) }
+    }
+
+    /// By how much recipe `index` would raise log det: the matrix determinant
+    /// lemma, at each wavelength.
+    fn gain(&self, index: usize) -> f64 {
+        let places = &self.information.slopes.places[index];
+        let at_wavelength = |(at, covariance): (usize, &DMatrix<f64>)| {
+            let slopes = self.information.slopes.at(index, at);
+            let mut variance = 0.0;
+            for (&row, a) in places.iter().zip(slopes) {
+                for (&column, b) in places.iter().zip(slopes) {
+                    variance += a * b * covariance[(row, column)];
+                }
+            }
+            variance.ln_1p()
+        };
+        self.covariances.iter().enumerate().map(at_wavelength).sum()
+    }
+
+    /// The recipe outside `design` of most gain; the first of equals.
+    fn best(&self, design: &[usize]) -> Option<(usize, f64)> {
+        let pool = self.information.slopes.places.len();
+        let gains: Vec<Option<f64>> = (0..pool)
+            .into_par_iter()
+            .map(|index| (!design.contains(&index)).then(|| self.gain(index)))
+            .collect();
+        let gains = gains.into_iter().enumerate().filter_map(|(i, gain)| Some((i, gain?)));
+        gains.reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    /// Adds recipe `index` (`sign` 1) or takes it away (-1): Sherman and
+    /// Morrison 1950.
+    fn change(&mut self, index: usize, sign: f64) {
+        let slopes = &self.information.slopes;
+        let places = &slopes.places[index];
+        for (at, covariance) in self.covariances.iter_mut().enumerate() {
+            let row = slopes.at(index, at);
+            let mut image = nalgebra::DVector::zeros(covariance.nrows());
+            for (&place, slope) in places.iter().zip(row) {
+                image.axpy(*slope, &covariance.column(place), 1.0);
+            }
+            let variance: f64 =
+                places.iter().zip(row).map(|(&place, slope)| slope * image[place]).sum();
+            covariance.ger(-sign / (1.0 + sign * variance), &image, &image, 1.0);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! What a design tells, against fits of made-up readings.
+
+use calibrate::evaluate::Viewing;
+use calibrate::fit::{
+    ExpectedNoise, Problem, Refined, Refinement, Smoothness, fit_refined, unidentified,
+};
+use calibrate::library::PigmentLibrary;
+use calibrate::observation::{BLACK, Hiding, Observation};
+use calibrate::plan::{Information, Palette, Recipe, candidates, optimal, usual};
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use spectra::optics::absorption_over_scattering;
+
+use crate::painted::oils;
+
+const NOISE: f64 = 0.004;
+
+struct Bench {
+    oils: PigmentLibrary,
+    palette: Palette,
+    pigments: Vec<usize>,
+    pool: Vec<Recipe>,
+    information: Information,
+}
+
+fn bench() -> Bench {
+    let oils = oils();
+    let colours = ["Cobalt Blue", "Viridian", "Vermilion", "Chrome Yellow"].map(str::to_owned);
+    let palette = Palette::new(&colours, "Zinc White", Some("Bone Black")).unwrap();
+    let pigments: Vec<usize> = palette.names.iter().map(|n| oils.find(n).unwrap()).collect();
+    let pool = candidates(&palette, 0.05);
+    let noise = ExpectedNoise { constant: NOISE, even: 0.0 };
+    let information = Information::new(&oils, &pigments, &pool, noise);
+    Bench { oils, palette, pigments, pool, information }
+}
+
+impl Bench {
+    /// A fit of `design`, painted by the oils and read with noise.
+    fn fit(&self, design: &[usize], seed: u64) -> Refined {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let surface = self.oils.saunderson;
+        let observations: Vec<Observation> = design
+            .iter()
+            .map(|&index| {
+                let mut shares = vec![0.0; self.pigments.len()];
+                self.pool[index].shares().into_iter().for_each(|(p, share)| shares[p] = share);
+                let parts: Vec<(usize, f64)> =
+                    self.pigments.iter().copied().zip(shares.iter().copied()).collect();
+                let truth = self.oils.mix(&parts).unwrap().hiding(surface);
+                let read = |value: &f64| {
+                    let error: f64 = StandardNormal.sample(&mut random);
+                    let internal = surface.internal_from_measured(value + NOISE * error);
+                    internal.unwrap_or(BLACK).clamp(BLACK, 1.0)
+                };
+                let internal: Vec<f64> = truth.iter().map(read).collect();
+                Observation {
+                    sample: index.to_string(),
+                    shares,
+                    ratio: internal.iter().map(|&r| absorption_over_scattering(r)).collect(),
+                    reflectance: internal
+                        .iter()
+                        .map(|&r| surface.measured_from_internal(r))
+                        .collect(),
+                    hiding: Hiding::Assumed(None),
+                    spread: Some(NOISE),
+                    below_surface: 0,
+                    above_white: 0,
+                }
+            })
+            .collect();
+        let problem = Problem::new(self.oils.grid, surface, &observations, Palette::WHITE).unwrap();
+        let weights = Viewing::default().weights(self.oils.grid).unwrap();
+        fit_refined(&problem, &weights, Refinement::prediction(Smoothness::None, None)).unwrap()
+    }
+
+    /// Errors of log K, then of log S, by pigment and wavelength, each with the
+    /// deviation predicted of `design`; the white's S left out.
+    fn errors(&self, design: &[usize], seed: u64) -> Vec<(f64, f64)> {
+        let fit = self.fit(design, seed);
+        let [of_k, of_s] = self.information.log_deviations(design);
+        let mut errors = Vec::new();
+        for (paint, &pigment) in self.pigments.iter().enumerate() {
+            let truth = &self.oils.pigments[pigment];
+            for at in 0..self.oils.grid.count() {
+                let k = (fit.absorption[paint][at] / truth.absorption[at].max(1e-5)).ln();
+                errors.push((k, of_k[paint][at]));
+                if paint != Palette::WHITE {
+                    let s = (fit.scattering[paint][at] / truth.scattering[at].max(1e-5)).ln();
+                    errors.push((s, of_s[paint][at]));
+                }
+            }
+        }
+        errors
+    }
+
+    /// The geometric mean of the errors of log K and log S over eight readings:
+    /// what D-optimality makes small. Where a paint hardly absorbs, no design
+    /// tells its K, and a plain mean would be of those errors alone.
+    fn typical_error(&self, design: &[usize]) -> f64 {
+        let logs: Vec<f64> = (0..8)
+            .flat_map(|seed| self.errors(design, 100 + seed))
+            .map(|(error, _)| error.abs().max(1e-6).ln())
+            .collect();
+        (logs.iter().sum::<f64>() / logs.len() as f64).exp()
+    }
+
+    fn random(&self, count: usize, seed: u64) -> Vec<usize> {
+        let mut others: Vec<usize> = (1..self.pool.len()).collect();
+        others.shuffle(&mut ChaCha8Rng::seed_from_u64(seed));
+        others.truncate(count - 1);
+        others.insert(0, 0);
+        others
+    }
+}
+
+#[test]
+fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_chance() {
+    let bench = bench();
+    let start = usual(&bench.palette, &bench.pool, 20).unwrap();
+    let best = optimal(&bench.information, &start, 1);
+    let random: Vec<Vec<usize>> = (0..6).map(|seed| bench.random(20, seed)).collect();
+    let chance = random.iter().map(|design| bench.typical_error(design)).sum::<f64>() / 6.0;
+    let (best_error, usual_error) = (bench.typical_error(&best), bench.typical_error(&start));
+    assert!(best_error < 0.97 * usual_error, "{best_error} for {usual_error}");
+    assert!(usual_error < chance, "{usual_error} for {chance}");
+    assert!(best_error < 0.9 * chance, "{best_error} for {chance}");
+    for (seed, design) in random.iter().enumerate() {
+        let efficiency = bench.information.efficiency(design, &best);
+        assert!(efficiency < 0.95, "random design {seed} has {efficiency}");
+    }
+}
+
+#[test]
+fn the_predicted_deviations_are_of_the_size_of_the_errors() {
+    let bench = bench();
+    let start = usual(&bench.palette, &bench.pool, 24).unwrap();
+    for design in [optimal(&bench.information, &start, 1), start] {
+        let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
+        // Beyond a third of its size a logarithm's error is no longer linear.
+        let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
+        let mut pulls: Vec<f64> = known.map(|(e, deviation)| (e / deviation).powi(2)).collect();
+        assert!(pulls.len() > 800, "{} errors", pulls.len());
+        pulls.sort_by(f64::total_cmp);
+        // Of a squared normal deviate the median is 0.455, and 95 % lie below 3.84.
+        let (median, high) = (pulls[pulls.len() / 2], pulls[pulls.len() * 95 / 100]);
+        assert!((0.25..0.8).contains(&median), "median squared error in deviations: {median}");
+        assert!((2.0..8.0).contains(&high), "95 % of squared errors below {high}");
+    }
+}
+
+#[test]
+fn no_single_exchange_improves_the_optimal_plan() {
+    let bench = bench();
+    let start = usual(&bench.palette, &bench.pool, 14).unwrap();
+    let best = optimal(&bench.information, &start, 1);
+    let reached = bench.information.log_determinant(&best);
+    assert!(reached > bench.information.log_determinant(&start), "{reached}");
+    assert_eq!(best[0], 0, "the white by itself stays");
+    for place in 1..best.len() {
+        for entering in (0..bench.pool.len()).filter(|index| !best.contains(index)) {
+            let mut other = best.clone();
+            other[place] = entering;
+            let value = bench.information.log_determinant(&other);
+            assert!(value < reached + 1e-8, "{entering} for {}: {value}", best[place]);
+        }
+    }
+    assert_eq!(best, optimal(&bench.information, &start, 1), "the same again");
+}
+
+#[test]
+fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
+    let bench = bench();
+    let shares = |design: &[usize]| -> Vec<Vec<f64>> {
+        let of = |&index: &usize| {
+            let mut shares = vec![0.0; bench.palette.names.len()];
+            bench.pool[index].shares().into_iter().for_each(|(p, share)| shares[p] = share);
+            shares
+        };
+        design.iter().map(of).collect()
+    };
+    for count in bench.palette.unknowns()..40 {
+        let start = usual(&bench.palette, &bench.pool, count).unwrap();
+        assert_eq!(start.len(), count);
+        assert!(unidentified(&shares(&start), Palette::WHITE).is_empty(), "usual of {count}");
+        let best = optimal(&bench.information, &start, 1);
+        assert!(unidentified(&shares(&best), Palette::WHITE).is_empty(), "optimal of {count}");
+    }
+}
