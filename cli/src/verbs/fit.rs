@@ -58,7 +58,7 @@ impl Fit {
         let text = library.to_json();
         let evidence = library.evidence.as_ref().expect("a fit has evidence");
         if let Some(output) = output {
-            output.write(&text)?;
+            output.write(text)?;
         }
         if self.json {
             return console.json(&fit_report::library_json(

@@ -56,8 +56,8 @@ fn lights_that_count_rank_metameric_recipes_lower() {
         (best.delta_e[0], (squares / 3.0).sqrt())
     };
     let (daylight, all) = (apart([1.0, 1e-9, 1e-9]), apart([1.0, 1.0, 1.0]));
-    assert!(daylight.0 < 0.1 && daylight.0 < all.0, "{daylight:?} {all:?}");
-    assert!(all.1 < 0.8 * daylight.1, "over three lights: {all:?} for {daylight:?}");
+    assert!(daylight.0 < all.0, "under daylight: {daylight:?} {all:?}");
+    assert!(all.1 < 0.9 * daylight.1, "over three lights: {all:?} for {daylight:?}");
 }
 
 #[test]
