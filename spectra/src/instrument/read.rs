@@ -4,7 +4,7 @@ use super::error::InstrumentError;
 use super::format::Format;
 use super::record::Record;
 use super::text::decoded;
-use super::{avantes, bruker, columns, ocean_optics, qtx};
+use super::{avantes, bruker, cgats, columns, jcamp, ocean_optics, qtx};
 
 /// An instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,15 +29,15 @@ pub fn read(
         .or_else(|| Format::detected(file, &text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
     let records = match format {
+        Format::Cgats => cgats::read(file, &text),
+        Format::Jcamp => jcamp::read(file, &text),
         Format::Qtx => qtx::read(file, &text),
         Format::OceanOptics => ocean_optics::read(file, &text),
         Format::Avantes => avantes::read(file, &text),
         Format::Bruker => bruker::read(file, &text),
         Format::Columns => columns::read(file, &text),
         // Each becomes a line like those above.
-        Format::Cgats | Format::Jcamp | Format::Cxf | Format::Tm27 | Format::Sekonic => {
-            Ok(Vec::new())
-        }
+        Format::Cxf | Format::Tm27 | Format::Sekonic => Ok(Vec::new()),
     }?;
     if records.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
