@@ -8,8 +8,9 @@ use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ScaleOptions, remark_coverage, spectra};
+use crate::input::remark_coverage;
 use crate::named_spectra::{matching, named_spectra};
+use crate::readings::{ReadingOptions, spectra};
 
 /// The targets that `text` names: one colour, or the spectra of FILE or
 /// FILE#SAMPLE.
@@ -19,7 +20,7 @@ use crate::named_spectra::{matching, named_spectra};
 pub(crate) fn targets(
     text: &str,
     sights: &[Sight],
-    scale: ScaleOptions,
+    reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Vec<Target>> {
     let (file, sample) = match text.rsplit_once('#') {
@@ -27,7 +28,7 @@ pub(crate) fn targets(
         _ => (text, None),
     };
     if Path::new(file).is_file() {
-        return measured(file, sample, sights, scale, console);
+        return measured(file, sample, sights, reading, console);
     }
     if let Some(rgb) = Rgb::from_hex(text) {
         // Any white: Lab is relative to it.
@@ -62,10 +63,10 @@ fn measured(
     file: &str,
     sample: Option<&str>,
     sights: &[Sight],
-    scale: ScaleOptions,
+    reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Vec<Target>> {
-    let table = spectra(&[PathBuf::from(file)], scale.choice(), console)?;
+    let table = spectra(&[PathBuf::from(file)], reading, console)?;
     remark_coverage(table.grid, console)?;
     let found = named_spectra(&table);
     let names: Vec<(&str, &str)> =

@@ -12,8 +12,9 @@ use crate::console::Console;
 use crate::costs::costs;
 use crate::failure::Refusal;
 use crate::ground::ground;
-use crate::input::{ScaleOptions, colour_weights, library, viewing};
+use crate::input::{colour_weights, library, viewing};
 use crate::progress::Progress;
+use crate::readings::ReadingOptions;
 use crate::targets::targets;
 
 /// Find recipes for a colour or a measured spectrum
@@ -76,7 +77,7 @@ pub(crate) struct Match {
     #[arg(long, value_name = "NAME", default_value = "1931-2")]
     observer: String,
     #[command(flatten)]
-    scale: ScaleOptions,
+    reading: ReadingOptions,
     /// Print JSON: a list of targets, each with its recipes
     #[arg(long)]
     json: bool,
@@ -92,7 +93,7 @@ impl Match {
         }
         let mut wanted: Vec<Target> = Vec::new();
         for text in &self.targets {
-            wanted.extend(targets(text, &sights, self.scale, console)?);
+            wanted.extend(targets(text, &sights, &self.reading, console)?);
         }
         let sheet = Sheet { library: &library, request: &request, grams: self.grams };
         let progress = Progress::new(wanted.len(), "matching", console.screen.progress);
