@@ -19,6 +19,8 @@ mod samples;
 
 pub mod instrument;
 
+pub mod referencing;
+
 mod table;
 
 mod observer;

@@ -27,10 +27,19 @@ mod ocean_optics;
 
 mod qtx;
 
+mod xml;
+
+mod cxf;
+
+mod tm27;
+
+mod sekonic;
+
 mod format;
 
 mod read;
 
+pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;
 pub use read::{InstrumentFile, read};

@@ -4,7 +4,7 @@ use super::error::InstrumentError;
 use super::format::Format;
 use super::record::Record;
 use super::text::decoded;
-use super::{avantes, bruker, columns, ocean_optics, qtx};
+use super::{avantes, bruker, columns, cxf, ocean_optics, qtx, sekonic, tm27};
 
 /// An instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,10 +34,11 @@ pub fn read(
         Format::Avantes => avantes::read(file, &text),
         Format::Bruker => bruker::read(file, &text),
         Format::Columns => columns::read(file, &text),
+        Format::Cxf => cxf::read(file, &text),
+        Format::Tm27 => tm27::read(file, &text),
+        Format::Sekonic => sekonic::read(file, &text),
         // Each becomes a line like those above.
-        Format::Cgats | Format::Jcamp | Format::Cxf | Format::Tm27 | Format::Sekonic => {
-            Ok(Vec::new())
-        }
+        Format::Cgats | Format::Jcamp => Ok(Vec::new()),
     }?;
     if records.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
