@@ -27,6 +27,16 @@ mod ocean_optics;
 
 mod qtx;
 
+mod cgats;
+
+mod cgats_fields;
+
+mod cgats_words;
+
+mod jcamp;
+
+mod jcamp_data;
+
 mod xml;
 
 mod cxf;

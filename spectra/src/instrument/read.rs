@@ -4,7 +4,7 @@ use super::error::InstrumentError;
 use super::format::Format;
 use super::record::Record;
 use super::text::decoded;
-use super::{avantes, bruker, columns, cxf, ocean_optics, qtx, sekonic, tm27};
+use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
 
 /// An instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,8 @@ pub fn read(
         .or_else(|| Format::detected(file, &text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
     let records = match format {
+        Format::Cgats => cgats::read(file, &text),
+        Format::Jcamp => jcamp::read(file, &text),
         Format::Qtx => qtx::read(file, &text),
         Format::OceanOptics => ocean_optics::read(file, &text),
         Format::Avantes => avantes::read(file, &text),
@@ -37,8 +39,6 @@ pub fn read(
         Format::Cxf => cxf::read(file, &text),
         Format::Tm27 => tm27::read(file, &text),
         Format::Sekonic => sekonic::read(file, &text),
-        // Each becomes a line like those above.
-        Format::Cgats | Format::Jcamp => Ok(Vec::new()),
     }?;
     if records.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
