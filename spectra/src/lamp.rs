@@ -2,14 +2,13 @@
 
 use crate::grid::Grid;
 use crate::illuminant::{Illuminant, IlluminantError};
-use crate::instrument::{Format, InstrumentError, MeasuredQuantity, Record, read};
+use crate::instrument::{
+    ChoiceError, Format, InstrumentError, MeasuredQuantity, Record, chosen, read,
+};
 use crate::samples::Samples;
 
 /// A power below zero by no more than this share of the peak is a spectrometer's noise.
 const NEGATIVE_NOISE: f64 = 0.01;
-
-/// How many names an error lists.
-const LISTED: usize = 8;
 
 /// A light from `bytes`, the content of `file`: any format of [`Format`], found by its content, or
 /// two columns `nm, power`.
@@ -41,32 +40,6 @@ pub fn lamp_from_bytes(
     Ok(Illuminant::from_samples(&name, &power(file, record)?)?)
 }
 
-fn chosen<'a>(
-    file: &str,
-    records: &'a [Record],
-    spectrum: Option<&str>,
-) -> Result<&'a Record, LampError> {
-    let wanted = |record: &&Record| spectrum.is_none_or(|name| record.name == name);
-    let found: Vec<&Record> = records.iter().filter(wanted).collect();
-    let file = file.to_owned();
-    let names = |records: &mut dyn Iterator<Item = &Record>| {
-        records.take(LISTED).map(|record| record.name.clone()).collect()
-    };
-    match (found.as_slice(), spectrum) {
-        ([one], _) => Ok(one),
-        ([], Some(wanted)) => Err(LampError::Unknown {
-            file,
-            wanted: wanted.to_owned(),
-            names: names(&mut records.iter()),
-        }),
-        _ => Err(LampError::Several {
-            file,
-            count: found.len(),
-            names: names(&mut found.iter().copied()),
-        }),
-    }
-}
-
 fn power(file: &str, record: &Record) -> Result<Samples, LampError> {
     let (file, name) = (file.to_owned(), record.name.clone());
     if !matches!(record.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
@@ -96,26 +69,9 @@ pub enum LampError {
     /// The file is faulty.
     #[error(transparent)]
     Instrument(#[from] InstrumentError),
-    /// No spectrum of the file is called so.
-    #[error("{file}: no spectrum is called `{wanted}`")]
-    Unknown {
-        /// The file.
-        file: String,
-        /// The name that was given.
-        wanted: String,
-        /// What there is; the first few.
-        names: Vec<String>,
-    },
-    /// One of several spectra must be named.
-    #[error("{file}: one lamp is wanted, found `{count}` spectra")]
-    Several {
-        /// The file.
-        file: String,
-        /// How many there are.
-        count: usize,
-        /// Their names; the first few.
-        names: Vec<String>,
-    },
+    /// Which spectrum of the file is meant is not clear.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
     /// The spectrum is none of a light.
     #[error("{file}: `{name}` must be the power of a lamp, found `{}`", found.word())]
     Quantity {
@@ -168,10 +124,7 @@ impl LampError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         let fixed = match self {
-            Self::Unknown { names, .. } => return Some(format!("spectra: {}", names.join(", "))),
-            Self::Several { file, names, .. } => {
-                return Some(format!("name one: \"{file}#{}\"", names.join("\" or \"#")));
-            }
+            Self::Choice(error) => return Some(error.hint()),
             Self::Instrument(
                 InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. },
             ) => "a lamp is a file of an instrument, or two columns `nm,power`",

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::black_body::black_body;
 use crate::daylight::daylight;
 use crate::illuminant::{Illuminant, IlluminantError};
+use crate::instrument::file_and_name;
 use crate::lamp::{LampError, lamp_from_bytes};
 
 /// The light that `text` names.
@@ -35,11 +36,7 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
             return Ok(daylight(kelvin)?);
         }
     }
-    // A whole name that is a file wins over the part before a `#`.
-    let (file, spectrum) = match text.rsplit_once('#') {
-        Some((file, spectrum)) if !Path::new(text).is_file() => (file, Some(spectrum)),
-        _ => (text, None),
-    };
+    let (file, spectrum) = file_and_name(text);
     if !Path::new(file).is_file() {
         return Err(LightError::Unknown { text: text.to_owned() });
     }

@@ -7,6 +7,8 @@ mod error;
 
 mod record;
 
+mod choice;
+
 mod points;
 
 mod text;
@@ -49,6 +51,7 @@ mod format;
 
 mod read;
 
+pub use choice::{ChoiceError, chosen, file_and_name};
 pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;

@@ -131,8 +131,8 @@ impl Light<'_> {
             let (role, name) = (self.role, self.record.name.clone());
             return Err(ReferencingError::Saturated { role, name, nm, value: ceiling });
         }
-        let dark = self.dark.as_ref().map_or(Ok(0.0), |dark| value(dark, "dark"))?;
-        Ok(value(&self.signal, self.role)? - dark)
+        let light = value(&self.signal, self.role)?;
+        Ok(light - self.dark.as_ref().map_or(Ok(0.0), |dark| value(dark, "dark"))?)
     }
 
     /// The larger of the two pixels between which `nm` lies.
