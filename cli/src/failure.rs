@@ -5,7 +5,8 @@ use std::io::Write;
 use calibrate::calibration::CalibrationError;
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
-use calibrate::measurement::MeasurementError;
+use calibrate::measurement::{MeasurementError, RecipesError};
+use spectra::instrument::InstrumentError;
 use spectra::{LampError, LightError};
 
 /// An error of the user's request, with what to try.
@@ -65,6 +66,12 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<MeasurementError>() {
         return error.hint();
     }
+    if let Some(error) = cause.downcast_ref::<RecipesError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<InstrumentError>() {
+        return error.hint().map(str::to_owned);
+    }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
@@ -83,6 +90,8 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     }
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
     let data = cause.is::<MeasurementError>()
+        || cause.is::<InstrumentError>()
+        || cause.is::<RecipesError>()
         || cause.is::<CalibrationError>()
         || cause.is::<FitError>()
         || cause.is::<LibraryError>()

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::library::PigmentLibrary;
-use calibrate::measurement::ScaleChoice;
 use spectra::{Ends, Interpolation, Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::spectra;
 use crate::named_spectra::{matching, named_spectra};
+use crate::readings::{ReadingOptions, spectra};
 
 /// The ground's measured reflectance on the library's grid.
 pub(crate) fn ground(
@@ -36,7 +35,7 @@ pub(crate) fn ground(
             "try --over 0.85 or --over paper.csv#SAMPLE",
         ));
     }
-    let table = spectra(&[PathBuf::from(file)], ScaleChoice::ByFile, console)?;
+    let table = spectra(&[PathBuf::from(file)], &ReadingOptions::default(), console)?;
     let found = named_spectra(&table);
     let names: Vec<(&str, &str)> =
         found.iter().map(|s| (s.name.as_str(), s.sample.as_str())).collect();

@@ -1,11 +1,10 @@
-//! Options that several verbs share, and what they read.
+//! Options that several verbs share, and what they read; for measurements see `readings`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Context;
 use calibrate::evaluate::Viewing;
 use calibrate::library::{Input, PigmentLibrary};
-use calibrate::measurement::{MeasurementError, MeasurementTable, Scale, ScaleChoice};
 use clap::Args;
 use sha2::{Digest, Sha256};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
@@ -13,27 +12,6 @@ use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-
-/// The unit of reflectance.
-#[derive(Debug, Clone, Copy, Args)]
-pub(crate) struct ScaleOptions {
-    /// Readings are in percent (found by the file as a whole if not told)
-    #[arg(long, conflicts_with = "fraction")]
-    percent: bool,
-    /// Readings are fractions, white near 1
-    #[arg(long)]
-    fraction: bool,
-}
-
-impl ScaleOptions {
-    pub(crate) fn choice(self) -> ScaleChoice {
-        match (self.percent, self.fraction) {
-            (true, _) => ScaleChoice::Told(Scale::Percent),
-            (_, true) => ScaleChoice::Told(Scale::Fraction),
-            _ => ScaleChoice::ByFile,
-        }
-    }
-}
 
 /// Light and observer.
 #[derive(Debug, Clone, Args)]
@@ -61,68 +39,6 @@ pub(crate) fn viewing(illuminant: &str, observer: &str) -> anyhow::Result<Viewin
 /// sRGB of a colour, for a patch and a hex code.
 pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
     RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford)
-}
-
-/// The readings of one or more measurement files, with the files' hashes. Says
-/// what was read.
-pub(crate) fn measurements(
-    paths: &[PathBuf],
-    scale: ScaleChoice,
-    console: &mut Console<'_>,
-) -> anyhow::Result<(MeasurementTable, Vec<Input>)> {
-    let mut inputs = Vec::new();
-    let table = joined(paths, console, |name, bytes| {
-        inputs.push(input(name, bytes));
-        MeasurementTable::from_csv(name, bytes, scale)
-    })?;
-    Ok((table, inputs))
-}
-
-/// The spectra of files whose other columns do not matter.
-pub(crate) fn spectra(
-    paths: &[PathBuf],
-    scale: ScaleChoice,
-    console: &mut Console<'_>,
-) -> anyhow::Result<MeasurementTable> {
-    joined(paths, console, |name, bytes| MeasurementTable::spectra_from_csv(name, bytes, scale))
-}
-
-fn joined(
-    paths: &[PathBuf],
-    console: &mut Console<'_>,
-    mut read: impl FnMut(&str, &[u8]) -> Result<MeasurementTable, MeasurementError>,
-) -> anyhow::Result<MeasurementTable> {
-    let mut tables = Vec::new();
-    for path in paths {
-        let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
-        let name = path.display().to_string();
-        let table = read(&name, &bytes)?;
-        remark_table(&name, &table, console)?;
-        tables.push(table);
-    }
-    Ok(MeasurementTable::joined(tables)?)
-}
-
-fn remark_table(
-    name: &str,
-    table: &MeasurementTable,
-    console: &mut Console<'_>,
-) -> anyhow::Result<()> {
-    let unit = match table.scale {
-        Scale::Percent => "percent",
-        Scale::Fraction => "fractions",
-    };
-    console.remark(format!(
-        "{name}: {} readings in {unit}, {}",
-        table.readings.len(),
-        table.grid
-    ))?;
-    if let Some(count) = table.resampled_from {
-        console.remark(format!(
-            "{count} irregular wavelengths brought to that grid by straight lines"
-        ))?;
-    }
-    Ok(())
 }
 
 /// The weights for colours of spectra on `grid`; warns where much of the visible
@@ -179,6 +95,6 @@ pub(crate) fn library(path: &Path) -> anyhow::Result<PigmentLibrary> {
     Ok(PigmentLibrary::from_json(&name, &String::from_utf8_lossy(&text))?)
 }
 
-fn unreadable(path: &Path) -> String {
+pub(crate) fn unreadable(path: &Path) -> String {
     format!("{}: cannot be read", path.display())
 }

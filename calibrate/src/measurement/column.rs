@@ -10,20 +10,37 @@ pub(super) enum Column {
     Backing,
     Thickness,
     Replicate,
+    /// Of a file of recipes: the name in the measurement file.
+    Reading,
+    /// What an instrument or its user notes, and no pigment.
+    Passed,
     Pigment(String),
     Wavelength(f64),
 }
 
+/// What a file is to hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Rows of readings, with wavelengths.
+    Readings,
+    /// Rows of recipes, without.
+    Recipes,
+}
+
 /// Every column of a header row, checked: a sample column, no name twice,
 /// wavelengths rising.
-pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, MeasurementError> {
-    let place = |index: usize| Place::new(file, 1, headers[index]);
+pub(super) fn columns(
+    file: &str,
+    headers: &[String],
+    wanted: Wanted,
+) -> Result<Vec<Column>, MeasurementError> {
+    let place = |index: usize| Place::new(file, 1, &headers[index]);
     // Pigment Red 254 is R254 to some.
-    let plain = |header: &&str| {
+    let plain = |header: &String| {
         let lower = header.trim().to_ascii_lowercase();
         !lower.starts_with('r') && wavelength(&lower).is_some()
     };
-    let letters = !headers.iter().any(plain);
+    let letters = wanted == Wanted::Readings && !headers.iter().any(plain);
     let mut columns = Vec::with_capacity(headers.len());
     for (index, header) in headers.iter().enumerate() {
         let name = header.trim();
@@ -47,10 +64,12 @@ pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, Measu
                 text: name.escape_default().to_string(),
             });
         }
-        columns.push(
-            column(name, letters)
-                .ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,
-        );
+        let column = match name.to_ascii_lowercase().as_str() {
+            "reading" if wanted == Wanted::Recipes => Some(Column::Reading),
+            _ => column(name, letters),
+        };
+        let out_of_range = || MeasurementError::WavelengthRange { place: place(index) };
+        columns.push(column.ok_or_else(out_of_range)?);
     }
     if !columns.contains(&Column::Sample) {
         return Err(MeasurementError::MissingColumn { file: file.to_owned(), column: "sample" });
@@ -72,7 +91,7 @@ pub(super) fn columns(file: &str, headers: &[&str]) -> Result<Vec<Column>, Measu
             _ => before = Some(nm),
         }
     }
-    if before.is_none() {
+    if before.is_none() && wanted == Wanted::Readings {
         return Err(MeasurementError::MissingColumn {
             file: file.to_owned(),
             column: "400 (a wavelength in nm)",
@@ -93,6 +112,7 @@ fn column(name: &str, letters: bool) -> Option<Column> {
         "backing" => Some(Column::Backing),
         "thickness_mm" => Some(Column::Thickness),
         "replicate" => Some(Column::Replicate),
+        lower if NO_PIGMENTS.contains(&lower) => Some(Column::Passed),
         _ => match wavelength(&lower) {
             Some(nm) if lower.starts_with('r') => {
                 if letters && in_range(&nm) {
@@ -106,6 +126,46 @@ fn column(name: &str, letters: bool) -> Option<Column> {
         },
     }
 }
+
+/// Headings of instruments' tables and of notes beside them, which no pigment is called.
+const NO_PIGMENTS: [&str; 36] = [
+    "l*",
+    "a*",
+    "b*",
+    "c*",
+    "h*",
+    "hue",
+    "chroma",
+    "lab_l",
+    "lab_a",
+    "lab_b",
+    "xyz_x",
+    "xyz_y",
+    "xyz_z",
+    "rgb_r",
+    "rgb_g",
+    "rgb_b",
+    "cie l*",
+    "cie a*",
+    "cie b*",
+    "sample_id",
+    "sample_name",
+    "date",
+    "time",
+    "datetime",
+    "instrument",
+    "serial",
+    "serial number",
+    "operator",
+    "user",
+    "comment",
+    "comments",
+    "illuminant",
+    "observer",
+    "geometry",
+    "aperture",
+    "filter",
+];
 
 /// The number in `400`, `400nm`, `R400`, `SPEC_400` or `nm400`.
 fn wavelength(lower: &str) -> Option<f64> {
@@ -135,10 +195,17 @@ mod tests {
 
     #[test]
     fn a_letter_and_a_number_beside_plain_numbers_is_a_pigment() {
-        let beside = columns("f", &["sample", "R254", "R101", "400"]).unwrap();
+        let columns = |names: &[&str], wanted| {
+            let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+            columns("f", &names, wanted).unwrap()
+        };
+        let beside = columns(&["sample", "R254", "R101", "400"], Wanted::Readings);
         assert_eq!(beside[1], Column::Pigment("R254".into()));
-        let alone = columns("f", &["sample", "R101", "R400", "R500"]).unwrap();
+        let alone = columns(&["sample", "R101", "R400", "R500"], Wanted::Readings);
         assert_eq!(alone[1], Column::Pigment("R101".into()));
         assert_eq!(alone[2], Column::Wavelength(400.0));
+        let recipe = columns(&["sample", "R254", "a*"], Wanted::Recipes);
+        assert_eq!(recipe[1], Column::Pigment("R254".into()));
+        assert_eq!(recipe[2], Column::Passed);
     }
 }

@@ -1,5 +1,7 @@
 //! What can be wrong with a measurement file, and where.
 
+use spectra::instrument::MeasuredQuantity;
+
 /// A cell of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
@@ -31,24 +33,6 @@ pub enum MeasurementError {
     Empty {
         /// The file.
         file: String,
-    },
-    /// The bytes are not UTF-8.
-    #[error("{file}, row {row}: text must be UTF-8, found byte `0x{byte:02x}`")]
-    Encoding {
-        /// The file.
-        file: String,
-        /// The row.
-        row: u64,
-        /// The first byte that does not fit.
-        byte: u8,
-    },
-    /// The columns are not parted by commas.
-    #[error("{file}, row 1: columns must be parted by commas, found `{}`", separator.escape_default())]
-    Separator {
-        /// The file.
-        file: String,
-        /// What parts them.
-        separator: char,
     },
     /// A column that must be there is not.
     #[error("{file}, row 1: no column `{column}`")]
@@ -244,6 +228,50 @@ pub enum MeasurementError {
         /// What it seems to be.
         found: &'static str,
     },
+    /// No spectrum of a file is one of reflectance.
+    #[error("{file}, line {line}: {sample} is {quantity}; reflectance is wanted")]
+    NoReflectance {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The first spectrum.
+        sample: String,
+        /// What it is.
+        quantity: MeasuredQuantity,
+    },
+    /// A spectrum has no wavelength that a reading of paint has.
+    #[error(
+        "{file}, line {line}: {sample} is measured from {first_nm} to {last_nm} nm; wavelengths from 200 to 2500 nm are wanted"
+    )]
+    Band {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The spectrum.
+        sample: String,
+        /// Its shortest wavelength.
+        first_nm: f64,
+        /// Its longest.
+        last_nm: f64,
+    },
+    /// Two spectra of one file have no wavelength in common.
+    #[error(
+        "{file}: the spectra must overlap; {first} ends at {end_nm} nm, and {second} begins at {start_nm} nm"
+    )]
+    Apart {
+        /// The file.
+        file: String,
+        /// One spectrum.
+        first: String,
+        /// Its longest wavelength.
+        end_nm: f64,
+        /// Another.
+        second: String,
+        /// Its shortest wavelength.
+        start_nm: f64,
+    },
     /// Bare cards only.
     #[error("no row is a film of paint")]
     NoFilms,
@@ -254,15 +282,6 @@ impl MeasurementError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::Encoding { byte: 0xfe | 0xff, row: 1, .. } => {
-                "the file looks like UTF-16; save it as CSV in UTF-8".into()
-            }
-            Self::Encoding { .. } => {
-                "save the file as UTF-8 (`iconv -f latin1 -t utf-8 OLD.csv > NEW.csv`)".into()
-            }
-            Self::Separator { .. } => {
-                "save as comma-separated values with decimal points, not decimal commas".into()
-            }
             Self::MissingColumn { .. } => {
                 "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
             }
@@ -309,8 +328,16 @@ impl MeasurementError {
             ),
             Self::NoFilms => "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into(),
             Self::NoRecipe { .. } => {
-                "write the amounts in the pigment columns, or film `none` for a bare card".into()
+                "write the amounts in the pigment columns, or in a file of recipes (--recipes FILE.csv); film `none` is a bare card".into()
             }
+            Self::NoReflectance { quantity, .. } => match quantity {
+                MeasuredQuantity::Counts => "counts need a white and a dark reading: --white FILE --dark FILE",
+                MeasuredQuantity::Power => "the light of a lamp goes to --illuminant FILE",
+                MeasuredQuantity::Transmittance => "if it was read over a white tile, say --as-reflectance",
+                _ => "export reflectance from the instrument's program",
+            }
+            .into(),
+            Self::Apart { .. } => "read them as files of their own".into(),
             Self::AboveWhite { .. } => "say `--percent` or `--fraction` if the unit was told apart wrongly".into(),
             _ => return None,
         })

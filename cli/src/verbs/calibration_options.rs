@@ -14,8 +14,9 @@ use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ScaleOptions, measurements, named, remark_coverage};
+use crate::input::{named, remark_coverage};
 use crate::progress::Progress;
+use crate::readings::{ReadingOptions, measurements};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -52,9 +53,17 @@ enum Below {
 /// What is measured, and how it is fitted.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationOptions {
-    /// Measurement files (CSV): columns sample, film, backing, one per pigment, then wavelengths
+    /// Measurement files: CSV (columns sample, film, backing, one per pigment, then wavelengths), or
+    /// an instrument's files with --recipes
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Recipes of samples whose files tell none (CSV): columns sample, one per pigment
+    ///
+    /// Joined to the readings by name. Further columns: film, backing, thickness_mm as in the
+    /// measurement CSV, and `reading`, the name in the measurement file, where one sample was read
+    /// several times (over white, over black, bare).
+    #[arg(long, value_name = "FILE")]
+    recipes: Option<PathBuf>,
     /// What is minimised
     #[arg(long, value_enum, default_value = "refined")]
     method: MethodName,
@@ -84,7 +93,7 @@ pub(super) struct CalibrationOptions {
     #[arg(long, value_name = "SAMPLE")]
     exclude: Vec<String>,
     #[command(flatten)]
-    scale: ScaleOptions,
+    reading: ReadingOptions,
 }
 
 /// A calibration to be: readings, and how to fit them.
@@ -103,9 +112,9 @@ pub(super) enum Kind {
 }
 
 impl CalibrationOptions {
-    /// The measurement files.
-    pub(super) fn files(&self) -> &[PathBuf] {
-        &self.files
+    /// The files that are read.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.files.iter().chain(&self.recipes).cloned().collect()
     }
 
     /// Reads the files and settles every option.
@@ -113,7 +122,8 @@ impl CalibrationOptions {
         let surface = self.surface()?;
         let smoothness = self.smoothness()?;
         let unevenness = self.unevenness()?;
-        let (table, inputs) = measurements(&self.files, self.scale.choice(), console)?;
+        let recipes = self.recipes.as_deref();
+        let (table, inputs) = measurements(&self.files, recipes, &self.reading, console)?;
         remark_coverage(table.grid, console)?;
         let set = self.without_excluded(SwatchSet::from_table(&table)?)?;
         let below_surface = match (self.below_surface, surface) {

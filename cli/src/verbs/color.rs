@@ -13,8 +13,9 @@ use spectra::color::{
 use super::mix::gamut_note;
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ScaleOptions, remark_coverage, spectra, viewing};
+use crate::input::{remark_coverage, viewing};
 use crate::named_spectra::{NamedSpectrum, matching, named_spectra};
+use crate::readings::{ReadingOptions, spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SpaceName {
@@ -30,12 +31,13 @@ enum AdaptationName {
 
 /// Colour of measured spectra under any light, and differences between them
 ///
-/// Reads the CSV of `fit`; pigment columns do not matter here. Repeated readings of one sample on
+/// Reads what `fit` reads: the CSV, whose pigment columns do not matter here, or an instrument's
+/// file (see --format). Repeated readings of one sample on
 /// one backing are averaged. Several lights may be given; with --compare the metamerism index
 /// (change of illuminant from the first) is told for each later one.
 #[derive(Debug, Args)]
 pub(crate) struct Color {
-    /// Spectra (CSV): a column `sample`, then wavelengths
+    /// Spectra: a CSV (column `sample`, then wavelengths), or an instrument's file
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or a file of a lamp
@@ -57,7 +59,7 @@ pub(crate) struct Color {
     #[arg(long, value_enum, default_value = "bradford")]
     adaptation: AdaptationName,
     #[command(flatten)]
-    scale: ScaleOptions,
+    reading: ReadingOptions,
     /// Print JSON: a list of sample, xyz, lab, srgb, hex
     #[arg(long)]
     json: bool,
@@ -83,7 +85,7 @@ impl Color {
             .iter()
             .map(|light| viewing(light, &self.observer))
             .collect::<anyhow::Result<Vec<Viewing>>>()?;
-        let table = spectra(&self.files, self.scale.choice(), console)?;
+        let table = spectra(&self.files, &self.reading, console)?;
         remark_coverage(table.grid, console)?;
         let weights = lights
             .iter()

@@ -44,7 +44,7 @@ impl Fit {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let start = Instant::now();
         let viewing = self.viewing.viewing()?;
-        let open = |path| Output::open(path, self.options.files());
+        let open = |path| Output::open(path, &self.options.files());
         let output = self.output.as_deref().map(open).transpose()?;
         let job = self.options.job(console)?;
         let waiting = Waiting::new("fitting", console.screen.progress);

@@ -27,8 +27,8 @@ pub(crate) struct Mix {
     /// the amounts as given) [default: hiding]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     thickness: Option<f64>,
-    /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a CSV of spectra,
-    /// FILE or FILE#SAMPLE, named as `color` names it [default: white]
+    /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a file of
+    /// spectra as `color` reads it, FILE or FILE#SAMPLE, named as there [default: white]
     #[arg(long, value_name = "GROUND", allow_hyphen_values = true)]
     over: Option<String>,
     #[command(flatten)]

@@ -60,7 +60,7 @@ fn spectrum(
     let table = table(file, data)?;
     let announced = said("Number of Pixels").and_then(|count| count.parse::<usize>().ok());
     let found = table.rows.len();
-    if let Some(wanted) = announced.filter(|count| *count != found) {
+    if let Some(wanted) = announced.filter(|count| *count > found) {
         let (file, what) = (file.to_owned(), "pixels");
         return Err(InstrumentError::Count { file, line: end, what, wanted, found });
     }
@@ -74,6 +74,10 @@ fn spectrum(
     let quantity = if raw { MeasuredQuantity::Counts } else { MeasuredQuantity::Unstated };
     let named = Named { name: stem(file), quantity, unit: Unit::Unstated };
     let mut record = table.record(file, column, Axis::Nanometres, named)?;
+    // OceanView splices spectra and announces the pixels of the first.
+    if let Some(count) = announced.filter(|count| *count < found) {
+        record.remarks.push(format!("the file announces {count} pixels and has {found}"));
+    }
     record.details = details;
     Ok(Some(record))
 }

@@ -71,6 +71,8 @@ impl Section {
         let (count, low, step) = (count?, low?, step?);
         let mut points = Vec::new();
         for &(line, list) in lists {
+            // Files joined without a line end have the next section's heading here.
+            let list = list.split('[').next().unwrap_or_default();
             for cell in list.trim().trim_end_matches(',').split(',') {
                 if list.trim().is_empty() {
                     continue;

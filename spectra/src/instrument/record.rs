@@ -36,18 +36,18 @@ impl MeasuredQuantity {
             Self::Unstated
         }
     }
+}
 
-    /// The quantity in a word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
+impl std::fmt::Display for MeasuredQuantity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
             Self::Reflectance => "reflectance",
             Self::Transmittance => "transmittance",
             Self::Absorbance => "absorbance",
-            Self::Power => "power",
-            Self::Counts => "counts",
+            Self::Power => "the power of a light",
+            Self::Counts => "a detector's counts",
             Self::Unstated => "an unstated quantity",
-        }
+        })
     }
 }
 

@@ -1,0 +1,294 @@
+//! Reading a measurement CSV, and a CSV of recipes.
+
+use std::sync::Arc;
+
+use spectra::Grid;
+use spectra::instrument::decoded;
+
+use super::column::{Column, Wanted, columns};
+use super::common_grid::{grid_of, on_grid};
+use super::error::{MeasurementError, Place};
+use super::scale::{Scale, ScaleChoice};
+use super::table::{Film, MeasurementTable, Reading};
+
+impl MeasurementTable {
+    /// The readings in `bytes`, the content of `file`.
+    ///
+    /// # Errors
+    /// [`MeasurementError`], with row and column.
+    pub fn from_csv(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+    ) -> Result<Self, MeasurementError> {
+        Self::read(file, bytes, scale, false)
+    }
+
+    /// The spectra alone: whatever stands in other columns is passed over, and
+    /// the table has no pigments.
+    ///
+    /// # Errors
+    /// As [`MeasurementTable::from_csv`].
+    pub fn spectra_from_csv(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+    ) -> Result<Self, MeasurementError> {
+        Self::read(file, bytes, scale, true)
+    }
+
+    fn read(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+        spectra_only: bool,
+    ) -> Result<Self, MeasurementError> {
+        let sheet = Sheet { spectra_only, ..Sheet::open(file, bytes, Wanted::Readings)? };
+        let mut readings = sheet.readings()?;
+        let scale = sheet.scaled(&mut readings, scale)?;
+        let wavelengths = sheet.columns.iter().filter_map(|column| match column {
+            Column::Wavelength(nm) => Some(*nm),
+            _ => None,
+        });
+        let wavelengths: Vec<f64> = wavelengths.collect();
+        let grid = grid_of(&wavelengths);
+        let resampled_from = Grid::through(&wavelengths).is_none().then_some(wavelengths.len());
+        for reading in &mut readings {
+            let values = std::mem::take(&mut reading.reflectance);
+            reading.reflectance = on_grid(grid, &wavelengths, values);
+        }
+        let pigments = if spectra_only { Vec::new() } else { sheet.pigments() };
+        let remarks = if spectra_only { Vec::new() } else { sheet.remarks() };
+        Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
+    }
+}
+
+/// Whether a text is the CSV of this module rather than some instrument's: its first line names a
+/// column `sample`.
+#[must_use]
+pub fn is_measurement_csv(text: &str) -> bool {
+    [',', ';', '\t'].into_iter().any(|separator| names_sample(first_line(text), separator))
+}
+
+fn first_line(text: &str) -> &str {
+    text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default()
+}
+
+fn names_sample(header: &str, separator: char) -> bool {
+    let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_ascii_lowercase();
+    header.split(separator).any(|cell| plain(cell) == "sample")
+}
+
+/// Beyond it sums of amounts lose their small parts.
+const LARGEST_AMOUNT: f64 = 1e12;
+
+/// A sheet: its header row, what the columns mean, and the rows below.
+pub(super) struct Sheet {
+    pub(super) file: Arc<str>,
+    pub(super) headers: Vec<String>,
+    pub(super) columns: Vec<Column>,
+    pub(super) rows: Vec<csv::StringRecord>,
+    /// Numbers have a decimal comma. Only where a comma does not part cells.
+    decimal_comma: bool,
+    spectra_only: bool,
+}
+
+impl Sheet {
+    /// The sheet in `bytes`. Cells are parted by commas, or by semicolons or tabs as
+    /// spreadsheets do where a comma is the decimal sign.
+    pub(super) fn open(file: &str, bytes: &[u8], wanted: Wanted) -> Result<Self, MeasurementError> {
+        let (text, _) = decoded(bytes);
+        if text.trim_start().starts_with('{') {
+            return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
+        }
+        if text.trim().is_empty() {
+            return Err(MeasurementError::Empty { file: file.to_owned() });
+        }
+        let header = first_line(&text);
+        let other = [';', '\t'].into_iter().find(|&separator| names_sample(header, separator));
+        let separator = other.filter(|_| !names_sample(header, ',')).map_or(b',', |c| c as u8);
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .delimiter(separator)
+            .from_reader(text.as_bytes());
+        let mut records = reader.records().map(|r| r.expect("decoded text is always records"));
+        let header = records.next().unwrap_or_default();
+        // `400,5` is a wavelength where commas do not part cells.
+        let plain = |name: &str| {
+            let pointed = name.replace(',', ".");
+            if pointed.parse::<f64>().is_ok() { pointed } else { name.to_owned() }
+        };
+        let mut headers: Vec<String> = header.iter().map(plain).collect();
+        // Spreadsheets like to leave empty columns at the right.
+        let width =
+            headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
+        headers.truncate(width);
+        let columns = columns(file, &headers, wanted)?;
+        let rows: Vec<csv::StringRecord> =
+            records.filter(|record| record.iter().any(|cell| !cell.is_empty())).collect();
+        if rows.is_empty() {
+            return Err(MeasurementError::Empty { file: file.to_owned() });
+        }
+        let is_number = |column: &Column| {
+            matches!(column, Column::Wavelength(_) | Column::Pigment(_) | Column::Thickness)
+        };
+        let has_comma = |row: &csv::StringRecord| {
+            row.iter().zip(&columns).any(|(cell, column)| is_number(column) && cell.contains(','))
+        };
+        let decimal_comma = separator != b',' && rows.iter().any(has_comma);
+        let file = file.into();
+        Ok(Self { file, headers, columns, rows, decimal_comma, spectra_only: false })
+    }
+
+    /// The names of the pigment columns.
+    pub(super) fn pigments(&self) -> Vec<String> {
+        let names = self.columns.iter().filter_map(|column| match column {
+            Column::Pigment(name) => Some(name.clone()),
+            _ => None,
+        });
+        names.collect()
+    }
+
+    /// What was passed over.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let named = self.headers.iter().zip(&self.columns);
+        let passed: Vec<&str> = named
+            .filter(|(_, column)| **column == Column::Passed)
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let what = || {
+            format!(
+                "{}: columns that name no pigment are passed over: {}",
+                self.file,
+                passed.join(", ")
+            )
+        };
+        (!passed.is_empty()).then(what).into_iter().collect()
+    }
+
+    /// A reading for every row.
+    pub(super) fn readings(&self) -> Result<Vec<Reading>, MeasurementError> {
+        self.rows.iter().map(|row| self.reading(row)).collect()
+    }
+
+    fn reading(&self, record: &csv::StringRecord) -> Result<Reading, MeasurementError> {
+        let row = record.position().map_or(0, csv::Position::line);
+        let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
+        if record.len() < self.columns.len() || !surplus_is_empty {
+            return Err(MeasurementError::RowLength {
+                file: self.file.to_string(),
+                row,
+                wanted: self.columns.len(),
+                found: record.len(),
+            });
+        }
+        let mut reading = Reading {
+            file: Arc::clone(&self.file),
+            row,
+            sample: String::new(),
+            film: Film::Paint,
+            backing: String::new(),
+            thickness_mm: None,
+            amounts: Vec::new(),
+            reflectance: Vec::new(),
+        };
+        for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
+            let wrong = |wanted| MeasurementError::Cell {
+                place: Place::new(&self.file, row, &self.headers[index]),
+                wanted,
+                text: cell.to_owned(),
+            };
+            let number = |wanted| {
+                // With decimal commas a point may part thousands.
+                let value = match self.decimal_comma {
+                    true if cell.contains('.') => None,
+                    true => cell.replace(',', ".").parse::<f64>().ok(),
+                    false => cell.parse::<f64>().ok(),
+                };
+                value.filter(|value| value.is_finite()).ok_or_else(|| wrong(wanted))
+            };
+            match column {
+                Column::Sample if cell.is_empty() => return Err(wrong("the sample's name")),
+                Column::Sample | Column::Backing if cell.contains(char::is_control) => {
+                    return Err(wrong("a name without control characters"));
+                }
+                Column::Sample => cell.clone_into(&mut reading.sample),
+                Column::Film => {
+                    reading.film = match cell.to_ascii_lowercase().as_str() {
+                        "paint" | "" => Film::Paint,
+                        "none" => Film::None,
+                        _ => return Err(wrong("`paint` or `none`")),
+                    }
+                }
+                Column::Backing => cell.clone_into(&mut reading.backing),
+                Column::Thickness if cell.is_empty() => {}
+                Column::Thickness => {
+                    let thickness = number("a thickness in mm")?;
+                    if thickness <= 0.0 {
+                        return Err(wrong("a thickness above 0 mm"));
+                    }
+                    reading.thickness_mm = Some(thickness);
+                }
+                Column::Replicate | Column::Passed | Column::Reading => {}
+                Column::Pigment(_) if self.spectra_only => {}
+                Column::Pigment(_) if cell.is_empty() => reading.amounts.push(0.0),
+                Column::Pigment(_) => {
+                    let amount = number("an amount of pigment")?;
+                    if !(0.0..=LARGEST_AMOUNT).contains(&amount) {
+                        return Err(wrong("an amount from 0 to 1e12"));
+                    }
+                    reading.amounts.push(amount);
+                }
+                Column::Wavelength(_) => reading.reflectance.push(number("a reflectance")?),
+            }
+        }
+        Ok(reading)
+    }
+
+    /// Makes fractions of the readings, and says what they were.
+    fn scaled(
+        &self,
+        readings: &mut [Reading],
+        choice: ScaleChoice,
+    ) -> Result<Scale, MeasurementError> {
+        let largest = |reading: &Reading| reading.reflectance.iter().copied().fold(0.0, f64::max);
+        let scale = match choice {
+            ScaleChoice::Told(scale) => scale,
+            ScaleChoice::ByFile => {
+                let scale = Scale::of_largest(readings.iter().map(largest).fold(0.0, f64::max));
+                // No film, not even bone black, reflects below 1 % throughout.
+                let mixed = readings.iter().find(|r| scale == Scale::Percent && largest(r) <= 1.0);
+                if let Some(reading) = mixed {
+                    return Err(MeasurementError::MixedScale {
+                        file: self.file.to_string(),
+                        row: reading.row,
+                        largest: largest(reading),
+                    });
+                }
+                scale
+            }
+        };
+        let names = self
+            .headers
+            .iter()
+            .zip(&self.columns)
+            .filter(|(_, column)| matches!(column, Column::Wavelength(_)));
+        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        for reading in readings {
+            for (value, name) in reading.reflectance.iter_mut().zip(&names) {
+                let fraction = *value * scale.to_fraction();
+                if !(0.0..=2.0).contains(&fraction) {
+                    return Err(MeasurementError::Reflectance {
+                        place: Place::new(&self.file, reading.row, name),
+                        range: scale.range(),
+                        value: *value,
+                    });
+                }
+                *value = fraction;
+            }
+        }
+        Ok(scale)
+    }
+}

@@ -1,0 +1,274 @@
+//! Spectra of an instrument's file as readings of paint.
+
+use std::ops::RangeInclusive;
+
+use spectra::Grid;
+use spectra::instrument::{MeasuredQuantity, Record, Unit};
+
+use super::common_grid::{grid_of, on_grid};
+use super::error::{MeasurementError, Place};
+use super::scale::{Scale, ScaleChoice};
+use super::table::{Film, MeasurementTable, Reading};
+
+/// Wavelengths that a table of readings may have, in nm, as in a CSV.
+const BAND: RangeInclusive<f64> = 200.0..=2500.0;
+
+/// Wavelengths that make colour, in nm: a reading there must be sound. Spectrometers read noise
+/// at the ends of their range.
+const VISIBLE: RangeInclusive<f64> = 360.0..=830.0;
+
+/// How an instrument's spectra are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RecordChoice {
+    /// Percent or fractions; if not told, what the file says, else by the file as a whole.
+    pub scale: ScaleChoice,
+    /// Transmittance is reflectance: the instrument's program was not told that it looks at a
+    /// surface over a white tile.
+    pub transmittance_is_reflectance: bool,
+}
+
+impl MeasurementTable {
+    /// The readings in `records`, the spectra of `file`: those of reflectance, and those of which
+    /// the file does not say what they are. The sample is the record's name; records of one name
+    /// are one sample, read again. There are no pigments and no backings.
+    ///
+    /// Wavelengths beyond 200 to 2500 nm are cut off, and so are, beyond 360 to 830 nm, the ends
+    /// of a spectrum up to its last value that no surface reflects. Spectra on different
+    /// wavelengths are brought by straight lines to the grid of the coarsest, where all overlap.
+    ///
+    /// # Errors
+    /// [`MeasurementError`], with the line on which the spectrum begins.
+    pub fn from_records(
+        file: &str,
+        records: &[Record],
+        choice: RecordChoice,
+    ) -> Result<Self, MeasurementError> {
+        let mut remarks = Vec::new();
+        let mut spectra = reflectances(file, records, choice, &mut remarks)?;
+        for spectrum in &mut spectra {
+            spectrum.cut_to_band(file)?;
+        }
+        let scale = scale(file, &mut spectra, choice.scale)?;
+        for spectrum in &mut spectra {
+            spectrum.cut_noise(file, &mut remarks)?;
+        }
+        let first = &spectra[0];
+        let alike = spectra.iter().all(|s| s.wavelengths_nm == first.wavelengths_nm);
+        let (grid, count) = if alike {
+            (grid_of(&first.wavelengths_nm), first.wavelengths_nm.len())
+        } else {
+            let (grid, count) = overlap(file, &spectra)?;
+            remarks.push(format!("spectra on different wavelengths brought to {grid}"));
+            (grid, count)
+        };
+        let resampled = alike && Grid::through(&first.wavelengths_nm).is_none();
+        let readings = spectra.into_iter().map(|spectrum| Reading {
+            file: file.into(),
+            row: spectrum.record.line as u64,
+            sample: name(&spectrum.record.name),
+            film: Film::Paint,
+            backing: String::new(),
+            thickness_mm: None,
+            amounts: Vec::new(),
+            reflectance: on_grid(grid, &spectrum.wavelengths_nm, spectrum.values),
+        });
+        Ok(Self {
+            pigments: Vec::new(),
+            grid,
+            resampled_from: resampled.then_some(count),
+            scale,
+            readings: readings.collect(),
+            remarks,
+        })
+    }
+}
+
+/// A name fit for a table: without control characters.
+fn name(raw: &str) -> String {
+    let plain: String = raw.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let plain = plain.trim();
+    if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
+}
+
+/// A record on its way to a reading.
+struct Spectrum<'a> {
+    record: &'a Record,
+    wavelengths_nm: Vec<f64>,
+    values: Vec<f64>,
+    /// What the record's values are written in; that of `values` until they are fractions.
+    scale: Scale,
+}
+
+/// The records that are readings; the others are said, or refused where there is nothing else.
+fn reflectances<'a>(
+    file: &str,
+    records: &'a [Record],
+    choice: RecordChoice,
+    remarks: &mut Vec<String>,
+) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
+    let is_reading = |record: &&Record| match record.quantity {
+        MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
+        MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
+        MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
+    };
+    let (kept, others): (Vec<&Record>, Vec<&Record>) = records.iter().partition(is_reading);
+    if kept.is_empty() {
+        let Some(record) = others.first() else {
+            return Err(MeasurementError::Empty { file: file.to_owned() });
+        };
+        return Err(MeasurementError::NoReflectance {
+            file: file.to_owned(),
+            line: record.line as u64,
+            sample: name(&record.name),
+            quantity: record.quantity,
+        });
+    }
+    for record in others {
+        remarks.push(format!("{} is left out, it is {}", name(&record.name), record.quantity));
+    }
+    for record in &kept {
+        for remark in &record.remarks {
+            if !remarks.contains(remark) {
+                remarks.push(remark.clone());
+            }
+        }
+    }
+    let spectrum = |record: &'a Record| Spectrum {
+        record,
+        wavelengths_nm: record.wavelengths_nm.clone(),
+        values: record.values.clone(),
+        scale: Scale::Fraction,
+    };
+    Ok(kept.into_iter().map(spectrum).collect())
+}
+
+/// Finds the unit of every spectrum; gives that of the first.
+fn scale(
+    file: &str,
+    spectra: &mut [Spectrum<'_>],
+    choice: ScaleChoice,
+) -> Result<Scale, MeasurementError> {
+    let told = |record: &Record| match (choice, record.unit) {
+        (ScaleChoice::Told(scale), _) => Some(scale),
+        (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
+        (ScaleChoice::ByFile, Unit::Fraction) => Some(Scale::Fraction),
+        (ScaleChoice::ByFile, Unit::Unstated) => None,
+    };
+    let untold = spectra.iter().filter(|s| told(s.record).is_none()).map(Spectrum::largest);
+    let found = Scale::of_largest(untold.fold(0.0, f64::max));
+    for spectrum in &mut *spectra {
+        let largest = spectrum.largest();
+        spectrum.scale = told(spectrum.record).unwrap_or(found);
+        if told(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
+            let (file, row) = (file.to_owned(), spectrum.record.line as u64);
+            return Err(MeasurementError::MixedScale { file, row, largest });
+        }
+    }
+    Ok(spectra[0].scale)
+}
+
+impl Spectrum<'_> {
+    /// The largest value where it makes colour; of all, where none does.
+    fn largest(&self) -> f64 {
+        let all = || self.wavelengths_nm.iter().zip(&self.values);
+        let visible = all().filter(|(nm, _)| VISIBLE.contains(nm)).map(|(_, value)| *value);
+        let largest = visible.reduce(f64::max);
+        largest.unwrap_or_else(|| self.values.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Keeps the points from `from` up to, but without, `to`.
+    fn keep(&mut self, from: usize, to: usize) {
+        self.wavelengths_nm = self.wavelengths_nm[from..to].to_vec();
+        self.values = self.values[from..to].to_vec();
+    }
+
+    fn cut_to_band(&mut self, file: &str) -> Result<(), MeasurementError> {
+        let (start, end) = (*BAND.start(), *BAND.end());
+        let from = self.wavelengths_nm.partition_point(|nm| *nm < start);
+        let to = self.wavelengths_nm.partition_point(|nm| *nm <= end);
+        if from >= to {
+            return Err(self.no_band(file));
+        }
+        self.keep(from, to);
+        Ok(())
+    }
+
+    fn no_band(&self, file: &str) -> MeasurementError {
+        let all = &self.record.wavelengths_nm;
+        MeasurementError::Band {
+            file: file.to_owned(),
+            line: self.record.line as u64,
+            sample: name(&self.record.name),
+            first_nm: all.first().copied().unwrap_or_default(),
+            last_nm: all.last().copied().unwrap_or_default(),
+        }
+    }
+
+    /// Makes fractions of the values. Cuts off the ends up to their last value that is no
+    /// reflectance, where that makes no colour.
+    fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
+        let is_sound = |value: f64| (0.0..=2.0).contains(&(value * self.scale.to_fraction()));
+        let (mut from, mut to) = (0, self.values.len());
+        for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
+            if is_sound(value) {
+                continue;
+            } else if nm < *VISIBLE.start() {
+                from = index + 1;
+            } else if nm > *VISIBLE.end() {
+                to = to.min(index);
+            } else {
+                let row = self.record.line as u64;
+                return Err(MeasurementError::Reflectance {
+                    place: Place::new(file, row, &format!("{nm} nm")),
+                    range: self.scale.range(),
+                    value,
+                });
+            }
+        }
+        if from >= to {
+            return Err(self.no_band(file));
+        }
+        let cut = self.values.len() - (to - from);
+        if cut > 0 {
+            remarks.push(format!(
+                "{}: {cut} wavelengths at the ends are cut off, where readings are not {}; {} to {} nm are kept",
+                name(&self.record.name),
+                self.scale.range(),
+                self.wavelengths_nm[from],
+                self.wavelengths_nm[to - 1],
+            ));
+        }
+        self.keep(from, to);
+        let factor = self.scale.to_fraction();
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        Ok(())
+    }
+}
+
+/// The grid of the coarsest spectrum where all overlap, and how many wavelengths it has there.
+fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), MeasurementError> {
+    let first_nm = |s: &Spectrum<'_>| s.wavelengths_nm[0];
+    let last_nm = |s: &Spectrum<'_>| s.wavelengths_nm[s.wavelengths_nm.len() - 1];
+    let mut latest = &spectra[0];
+    let mut earliest = &spectra[0];
+    let mut coarsest = &spectra[0];
+    let step = |s: &Spectrum<'_>| (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64;
+    for spectrum in spectra {
+        latest = if first_nm(spectrum) > first_nm(latest) { spectrum } else { latest };
+        earliest = if last_nm(spectrum) < last_nm(earliest) { spectrum } else { earliest };
+        coarsest = if step(spectrum) > step(coarsest) { spectrum } else { coarsest };
+    }
+    let (start_nm, end_nm) = (first_nm(latest), last_nm(earliest));
+    let shared = coarsest.wavelengths_nm.iter().filter(|nm| (start_nm..=end_nm).contains(*nm));
+    let shared: Vec<f64> = shared.copied().collect();
+    if shared.is_empty() {
+        return Err(MeasurementError::Apart {
+            file: file.to_owned(),
+            first: name(&earliest.record.name),
+            end_nm,
+            second: name(&latest.record.name),
+            start_nm,
+        });
+    }
+    Ok((grid_of(&shared), shared.len()))
+}
