@@ -6,7 +6,8 @@ use calibrate::calibration::CalibrationError;
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
 use calibrate::measurement::{MeasurementError, RecipesError};
-use spectra::instrument::InstrumentError;
+use spectra::instrument::{ChoiceError, InstrumentError};
+use spectra::referencing::ReferencingError;
 use spectra::{LampError, LightError};
 
 /// An error of the user's request, with what to try.
@@ -72,6 +73,12 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<InstrumentError>() {
         return error.hint().map(str::to_owned);
     }
+    if let Some(error) = cause.downcast_ref::<ReferencingError>() {
+        return error.hint().map(str::to_owned);
+    }
+    if let Some(error) = cause.downcast_ref::<ChoiceError>() {
+        return Some(error.hint());
+    }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
@@ -91,6 +98,8 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
     let data = cause.is::<MeasurementError>()
         || cause.is::<InstrumentError>()
+        || cause.is::<ReferencingError>()
+        || cause.is::<ChoiceError>()
         || cause.is::<RecipesError>()
         || cause.is::<CalibrationError>()
         || cause.is::<FitError>()

@@ -1,5 +1,7 @@
 //! Why counts give no reflectance.
 
+use crate::instrument::MeasuredQuantity;
+
 /// What is wrong between a sample, its white and its dark.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReferencingError {
@@ -11,7 +13,7 @@ pub enum ReferencingError {
         /// The reading.
         name: String,
         /// What it is.
-        found: &'static str,
+        found: MeasuredQuantity,
     },
     /// The white's own reflectance is given as something else.
     #[error("the tile `{name}` must be a reflectance, found `{found}`")]
@@ -19,7 +21,7 @@ pub enum ReferencingError {
         /// The record.
         name: String,
         /// What it is.
-        found: &'static str,
+        found: MeasuredQuantity,
     },
     /// Counts against power.
     #[error("the {role} `{name}` must be {wanted} as the sample is, found `{found}`")]
@@ -29,9 +31,9 @@ pub enum ReferencingError {
         /// The reading.
         name: String,
         /// What the sample is.
-        wanted: &'static str,
+        wanted: MeasuredQuantity,
         /// What the reading is.
-        found: &'static str,
+        found: MeasuredQuantity,
     },
     /// Counts hold the detector's own signal.
     #[error("counts of the {role} `{name}` need a dark reading")]

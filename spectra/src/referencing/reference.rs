@@ -85,7 +85,7 @@ impl Tile {
     /// [`ReferencingError`] if the record is no reflectance, or is 0 or above 1.2 somewhere.
     pub fn measured(record: &Record) -> Result<Self, ReferencingError> {
         if !matches!(record.quantity, MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated) {
-            let (name, found) = (record.name.clone(), record.quantity.word());
+            let (name, found) = (record.name.clone(), record.quantity);
             return Err(ReferencingError::TileQuantity { name, found });
         }
         let percent = match record.unit {
@@ -204,7 +204,7 @@ impl Referencing<'_> {
         let others =
             std::iter::once(("white", self.white)).chain(darks.iter().map(|d| ("dark", d)));
         for (role, record) in std::iter::once(("sample", sample)).chain(others) {
-            let (name, found) = (record.name.clone(), record.quantity.word());
+            let (name, found) = (record.name.clone(), record.quantity);
             if !matches!(record.quantity, Counts | Power | Unstated) {
                 return Err(ReferencingError::Quantity { role, name, found });
             }
@@ -212,7 +212,7 @@ impl Referencing<'_> {
                 && record.quantity != Unstated
                 && sample.quantity != Unstated
             {
-                let wanted = sample.quantity.word();
+                let wanted = sample.quantity;
                 return Err(ReferencingError::Mixed { role, name, wanted, found });
             }
         }

@@ -1,4 +1,4 @@
-//! Lamps from instruments' files, and counts against a white, on the command line.
+//! Lamps from instruments' files.
 
 use std::path::Path;
 
@@ -61,7 +61,7 @@ fn a_refused_lamp_says_what_to_do() {
     assert!(run.err.contains("hint: a lamp is told by its power"), "{}", run.err);
 }
 
-pub(crate) fn write(folder: &Path, name: &str, text: &str) -> String {
+fn write(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);
     std::fs::write(&path, text).unwrap();
     path.to_str().unwrap().to_owned()

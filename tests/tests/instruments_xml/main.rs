@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+mod counts;
 mod cxf;
 mod fuzz;
 mod lamps;
