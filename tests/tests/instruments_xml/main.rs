@@ -12,7 +12,7 @@ use spectra::instrument::{InstrumentError, Record, read};
 
 /// The content of a fixture.
 fn fixture(name: &str) -> Vec<u8> {
-    let path = suite::program::repository(&format!("tests/fixtures/instruments/{name}"));
+    let path = suite::program::repository(&format!("tests/fixtures/instruments_xml/{name}"));
     std::fs::read(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
