@@ -8,7 +8,8 @@ use calibrate::library::{LibraryError, RecipeError};
 use calibrate::matching::MatchError;
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
-use spectra::instrument::InstrumentError;
+use spectra::instrument::{ChoiceError, InstrumentError};
+use spectra::referencing::ReferencingError;
 use spectra::{LampError, LightError};
 
 /// An error of the user's request, with what to try.
@@ -74,6 +75,12 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<InstrumentError>() {
         return error.hint().map(str::to_owned);
     }
+    if let Some(error) = cause.downcast_ref::<ReferencingError>() {
+        return error.hint().map(str::to_owned);
+    }
+    if let Some(error) = cause.downcast_ref::<ChoiceError>() {
+        return Some(error.hint());
+    }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
@@ -84,7 +91,7 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
         return Some(error.hint());
     }
     if let Some(error) = cause.downcast_ref::<LightError>() {
-        return error.hint().map(str::to_owned);
+        return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<MatchError>() {
         return error.hint().map(str::to_owned);
@@ -99,6 +106,8 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
     let data = cause.is::<MeasurementError>()
         || cause.is::<InstrumentError>()
+        || cause.is::<ReferencingError>()
+        || cause.is::<ChoiceError>()
         || cause.is::<RecipesError>()
         || cause.is::<CalibrationError>()
         || cause.is::<FitError>()

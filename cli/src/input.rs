@@ -17,7 +17,9 @@ use crate::failure::Refusal;
 #[derive(Debug, Clone, Args)]
 pub(crate) struct ViewingOptions {
     /// Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), a black body (5600K), daylight (D5600K),
-    /// or a file with lines `nm,power`
+    /// or a lamp's file: an instrument's (FILE#NAME for one of several spectra), or lines `nm,power`
+    ///
+    /// Power of any unit. Noise below zero, down to -1 % of the peak, counts as no power.
     #[arg(long, value_name = "LIGHT", default_value = "D65")]
     illuminant: String,
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10

@@ -10,6 +10,8 @@ mod failure;
 
 mod input;
 
+mod referencing;
+
 mod readings;
 
 mod named_spectra;

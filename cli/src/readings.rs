@@ -12,7 +12,9 @@ use clap::builder::PossibleValuesParser;
 use spectra::instrument::{Format, InstrumentError, InstrumentFile, decoded, read};
 
 use crate::console::Console;
+use crate::failure::Refusal;
 use crate::input::{input, unreadable};
+use crate::referencing::{References, ReferencingOptions};
 
 /// The CSV's name among formats.
 const CSV: &str = "csv";
@@ -41,6 +43,8 @@ pub(crate) struct ReadingOptions {
     /// the power of lamps are never taken as reflectance.
     #[arg(long)]
     as_reflectance: bool,
+    #[command(flatten)]
+    referencing: ReferencingOptions,
 }
 
 fn format_names() -> PossibleValuesParser {
@@ -49,6 +53,11 @@ fn format_names() -> PossibleValuesParser {
 }
 
 impl ReadingOptions {
+    /// The files that are read beside the measurements.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        self.referencing.files()
+    }
+
     fn scale(&self) -> ScaleChoice {
         match (self.percent, self.fraction) {
             (true, _) => ScaleChoice::Told(Scale::Percent),
@@ -82,10 +91,19 @@ impl ReadingOptions {
         name: &str,
         bytes: &[u8],
         spectra_only: bool,
+        references: Option<&References>,
         console: &mut Console<'_>,
     ) -> anyhow::Result<MeasurementTable> {
         let scale = self.scale();
-        let Some(file) = self.instrument_file(name, bytes)? else {
+        let Some(mut file) = self.instrument_file(name, bytes)? else {
+            if references.is_some() {
+                return Err(Refusal::usage(
+                    format!(
+                        "--white needs counts as an instrument writes them, found a CSV: `{name}`"
+                    ),
+                    "give the spectrometer's own file, or two columns `nm counts`",
+                ));
+            }
             let table = if spectra_only {
                 MeasurementTable::spectra_from_csv(name, bytes, scale)?
             } else {
@@ -101,6 +119,9 @@ impl ReadingOptions {
             )?;
             return Ok(table);
         };
+        if let Some(references) = references {
+            file.records = references.reflectances(name, &file.records)?;
+        }
         let choice = RecordChoice { scale, transmittance_is_reflectance: self.as_reflectance };
         let table = MeasurementTable::from_records(name, &file.records, choice)?;
         let count = table.readings.len();
@@ -157,12 +178,15 @@ fn joined(
     console: &mut Console<'_>,
     mut seen: impl FnMut(&str, &[u8]),
 ) -> anyhow::Result<MeasurementTable> {
+    let references = options.referencing.read(console)?;
     let mut tables = Vec::new();
     for path in paths {
         let (name, bytes) = content(path)?;
         seen(&name, &bytes);
-        tables.push(options.table(&name, &bytes, spectra_only, console)?);
+        let references = references.as_ref();
+        tables.push(options.table(&name, &bytes, spectra_only, references, console)?);
     }
+    references.iter().flat_map(|it| &it.files).for_each(|(name, bytes)| seen(name, bytes));
     Ok(MeasurementTable::joined(tables)?)
 }
 

@@ -114,7 +114,7 @@ pub(super) enum Kind {
 impl CalibrationOptions {
     /// The files that are read.
     pub(super) fn files(&self) -> Vec<PathBuf> {
-        self.files.iter().chain(&self.recipes).cloned().collect()
+        self.files.iter().chain(&self.recipes).cloned().chain(self.reading.files()).collect()
     }
 
     /// Reads the files and settles every option.

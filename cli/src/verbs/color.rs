@@ -40,7 +40,8 @@ pub(crate) struct Color {
     /// Spectra: a CSV (column `sample`, then wavelengths), or an instrument's file
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or a file of a lamp
+    /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or a lamp's file (an instrument's,
+    /// FILE#NAME for one of several spectra, or lines `nm,power`)
     #[arg(long, value_name = "LIGHT", default_value = "D65")]
     illuminant: Vec<String>,
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10

@@ -52,6 +52,22 @@ pub enum InstrumentError {
         /// The wavelength.
         nm: f64,
     },
+    /// A spectrum without what gives its wavelengths.
+    #[error(
+        "{file}, line {line}: {element} has no {missing}, nor has the specification `{specification}`"
+    )]
+    Incomplete {
+        /// The file.
+        file: String,
+        /// Counted from 1.
+        line: usize,
+        /// The spectrum's element.
+        element: String,
+        /// The attribute.
+        missing: &'static str,
+        /// The specification that it names.
+        specification: String,
+    },
     /// More or fewer values than the file announces.
     #[error("{file}, line {line}: the file announces {wanted} {what}, found `{found}`")]
     Count {
@@ -93,6 +109,9 @@ impl InstrumentError {
                 "see that the export holds spectra, or name the format with --format"
             }
             Self::Duplicate { .. } => "remove one of the two",
+            Self::Incomplete { .. } => {
+                "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
+            }
             Self::Count { .. } => "the file may be cut off; export it again",
             Self::Line { .. } | Self::Order { .. } => return None,
         })

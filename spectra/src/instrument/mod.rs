@@ -7,6 +7,8 @@ mod error;
 
 mod record;
 
+mod choice;
+
 mod points;
 
 mod text;
@@ -37,10 +39,20 @@ mod jcamp;
 
 mod jcamp_data;
 
+mod xml;
+
+mod cxf;
+
+mod tm27;
+
+mod sekonic;
+
 mod format;
 
 mod read;
 
+pub use choice::{ChoiceError, chosen, file_and_name};
+pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;
 pub use read::{InstrumentFile, read};

@@ -78,6 +78,16 @@ pub(super) fn ordered(
     Ok(ordered)
 }
 
+/// Points in any order, for formats that give every value its own wavelength: sorted, a pair that
+/// stands twice once, and what had to be done for it. Two values at one wavelength stay.
+pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
+    let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);
+    points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
+    points.dedup_by(|a, b| a.nm == b.nm && a.value == b.value);
+    let remark = || "its wavelengths stand in no order; they were sorted".to_owned();
+    (points, (!rising).then(remark))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,5 +122,15 @@ mod tests {
         assert!(matches!(found, Err(InstrumentError::Order { line: 5, .. })), "{found:?}");
         let found = ordered("f", points(&[(-400.0, 1.0)]), Duplicates::Average);
         assert!(matches!(found, Err(InstrumentError::Line { line: 3, .. })), "{found:?}");
+    }
+
+    #[test]
+    fn points_in_no_order_are_sorted_and_equal_pairs_count_once() {
+        let (found, remark) =
+            sorted(points(&[(500.0, 2.0), (400.0, 1.0), (500.0, 2.0), (450.0, 3.0)]));
+        let nm: Vec<f64> = found.iter().map(|point| point.nm).collect();
+        assert_eq!((nm, remark.is_some()), (vec![400.0, 450.0, 500.0], true));
+        let (found, remark) = sorted(points(&[(400.0, 2.0), (400.0, 1.0)]));
+        assert_eq!((found.len(), remark), (2, None));
     }
 }

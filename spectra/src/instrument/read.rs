@@ -4,7 +4,7 @@ use super::error::InstrumentError;
 use super::format::Format;
 use super::record::Record;
 use super::text::decoded;
-use super::{avantes, bruker, cgats, columns, jcamp, ocean_optics, qtx};
+use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
 
 /// An instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +36,9 @@ pub fn read(
         Format::Avantes => avantes::read(file, &text),
         Format::Bruker => bruker::read(file, &text),
         Format::Columns => columns::read(file, &text),
-        // Each becomes a line like those above.
-        Format::Cxf | Format::Tm27 | Format::Sekonic => Ok(Vec::new()),
+        Format::Cxf => cxf::read(file, &text),
+        Format::Tm27 => tm27::read(file, &text),
+        Format::Sekonic => sekonic::read(file, &text),
     }?;
     if records.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });

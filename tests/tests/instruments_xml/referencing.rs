@@ -1,0 +1,218 @@
+//! Made-up counts of a grey of known reflectance, and what must come out.
+
+use spectra::instrument::{MeasuredQuantity, Record, Unit};
+use spectra::referencing::{Dark, Referencing, ReferencingError, Tile};
+
+/// A reading of `counts(nm)` at uneven pixels from 340 to 860 nm.
+fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Record {
+    let wavelengths_nm: Vec<f64> =
+        (0..260).map(|i| 340.0 + 2.0 * f64::from(i) + 0.3 * f64::from(i % 3)).collect();
+    let time = time_ms.map(|ms| ("Integration Time (ms)".to_owned(), ms.to_string()));
+    Record {
+        name: name.to_owned(),
+        quantity: MeasuredQuantity::Counts,
+        unit: Unit::Unstated,
+        values: wavelengths_nm.iter().map(|&nm| counts(nm)).collect(),
+        wavelengths_nm,
+        line: 1,
+        details: time.into_iter().collect(),
+        remarks: Vec::new(),
+    }
+}
+
+const TILE: f64 = 0.98;
+
+/// Counts a millisecond that a perfect white would give.
+fn lamp(nm: f64) -> f64 {
+    400.0 + 1.5 * (nm - 340.0)
+}
+
+/// Offset, and current for `ms`.
+fn dark(ms: f64, nm: f64) -> f64 {
+    1000.0 + 0.1 * nm + 3.0 * ms
+}
+
+fn grey(nm: f64) -> f64 {
+    0.2 + 0.3 * (nm - 340.0) / 520.0
+}
+
+/// Sample, white and darks: integrated for `sample_ms` and `white_ms`.
+fn measured(sample_ms: f64, white_ms: f64) -> (Record, Record, Vec<Record>) {
+    let light = |ms: f64, reflectance: &dyn Fn(f64) -> f64, nm: f64| {
+        reflectance(nm) * lamp(nm) * ms + dark(ms, nm)
+    };
+    (
+        reading("grey", Some(sample_ms), |nm| light(sample_ms, &grey, nm)),
+        reading("white", Some(white_ms), |nm| light(white_ms, &|_| TILE, nm)),
+        [sample_ms, white_ms].map(|ms| reading("dark", Some(ms), |nm| dark(ms, nm))).into(),
+    )
+}
+
+fn against<'a>(white: &'a Record, darks: &'a [Record]) -> Referencing<'a> {
+    Referencing {
+        white,
+        dark: Dark::Readings(darks),
+        tile: Tile::even(TILE).unwrap(),
+        full_scale: Some(65535.0),
+        least_light: 0.01,
+    }
+}
+
+#[test]
+fn a_grey_comes_out_as_it_went_in() {
+    for (sample_ms, white_ms) in [(10.0, 10.0), (40.0, 10.0)] {
+        let (sample, white, darks) = measured(sample_ms, white_ms);
+        let found = against(&white, &darks).reflectance(&sample).unwrap();
+        assert_eq!(found.wavelengths_nm, sample.wavelengths_nm, "{sample_ms} ms");
+        for (&nm, &value) in found.wavelengths_nm.iter().zip(&found.values) {
+            assert!((value - grey(nm)).abs() < 1e-12, "{sample_ms} ms, {nm} nm: {value}");
+        }
+        let kind = (found.quantity, found.unit, found.remarks.len());
+        let remarks = usize::from(sample_ms != white_ms);
+        assert_eq!(kind, (MeasuredQuantity::Reflectance, Unit::Fraction, remarks), "{found:?}");
+    }
+}
+
+#[test]
+fn other_pixels_are_joined_by_straight_lines() {
+    let (sample, mut white, mut darks) = measured(10.0, 10.0);
+    for record in std::iter::once(&mut white).chain(&mut darks) {
+        // Light and dark are straight, so that every second pixel tells them all.
+        let keep = |values: &[f64]| values.iter().copied().step_by(2).collect::<Vec<f64>>();
+        (record.wavelengths_nm, record.values) =
+            (keep(&record.wavelengths_nm), keep(&record.values));
+    }
+    let found = against(&white, &darks).reflectance(&sample).unwrap();
+    for (&nm, &value) in found.wavelengths_nm.iter().zip(&found.values) {
+        assert!((value - grey(nm)).abs() < 1e-12, "{nm} nm: {value}");
+    }
+    // The sample's last pixel has no white beside it.
+    assert_eq!(found.values.len() + 1, sample.values.len(), "{:?}", found.remarks);
+    assert!(found.remarks[0].contains("the white has no value"), "{:?}", found.remarks);
+}
+
+#[test]
+fn a_dark_of_another_time_is_refused_with_both_times() {
+    let (sample, white, darks) = measured(40.0, 10.0);
+    let error = against(&white, &darks[1..]).reflectance(&sample).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the sample `grey` was integrated for 40 ms, and a dark of that time is wanted; found `10 ms`"
+    );
+    let none = against(&white, &[]).reflectance(&sample).unwrap_err();
+    assert!(matches!(none, ReferencingError::NoDark { role: "sample", .. }), "{none}");
+    let (mut unsaid, ..) = measured(40.0, 10.0);
+    unsaid.details.clear();
+    let error = against(&white, &darks).reflectance(&unsaid).unwrap_err();
+    assert!(matches!(error, ReferencingError::UnknownTime { darks: 2, .. }), "{error}");
+}
+
+#[test]
+fn a_dark_subtracted_before_is_not_subtracted_again() {
+    let sample = reading("grey", None, |nm| grey(nm) * lamp(nm));
+    let white = reading("white", None, |nm| TILE * lamp(nm));
+    let referencing = Referencing { dark: Dark::Subtracted, ..against(&white, &[]) };
+    let found = referencing.reflectance(&sample).unwrap();
+    assert!((found.values[100] - grey(found.wavelengths_nm[100])).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
+    let (sample, mut white, darks) = measured(10.0, 10.0);
+    let at = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
+    let (seen, beyond) = (at(600.0), at(780.0));
+    let kept = white.values[seen];
+    white.values[seen] = 65535.0;
+    let error = against(&white, &darks).reflectance(&sample).unwrap_err();
+    let wanted = |nm: f64| matches!(error, ReferencingError::Saturated { role: "white", nm: at, .. } if at == nm);
+    assert!(wanted(white.wavelengths_nm[seen]), "{error}");
+    white.values[seen] = kept;
+    white.values[beyond] = 65535.0;
+    let found = against(&white, &darks).reflectance(&sample).unwrap();
+    assert_eq!(found.values.len(), beyond, "{:?}", found.remarks);
+    assert!(found.remarks[0].contains("saturated"), "{:?}", found.remarks);
+    // Not told, a ceiling of some pixels is one too.
+    let flat =
+        reading("grey", Some(10.0), |nm| (grey(nm) * lamp(nm) * 10.0 + dark(10.0, nm)).min(3000.0));
+    let guessing = Referencing { full_scale: None, ..against(&white, &darks) };
+    let error = guessing.reflectance(&flat).unwrap_err();
+    assert!(matches!(error, ReferencingError::Saturated { role: "sample", .. }), "{error}");
+}
+
+#[test]
+fn too_little_light_is_refused_where_the_eye_sees_and_cut_off_beyond() {
+    let (sample, mut white, darks) = measured(10.0, 10.0);
+    let index = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
+    let (below, seen) = (index(360.0), index(500.0));
+    white.values[below] = darks[0].values[below];
+    let found = against(&white, &darks).reflectance(&sample).unwrap();
+    assert_eq!(found.wavelengths_nm[0], white.wavelengths_nm[below + 1], "{:?}", found.remarks);
+    white.values[seen] = darks[0].values[seen] + 20.0;
+    let error = against(&white, &darks).reflectance(&sample).unwrap_err();
+    assert!(error.to_string().contains("too little light at"), "{error}");
+    assert!(error.hint().unwrap().contains("--least-light"), "{error}");
+    let faint = Referencing { least_light: 0.0, ..against(&white, &darks) };
+    assert!(faint.reflectance(&sample).is_ok(), "told that little is enough");
+}
+
+#[test]
+fn a_noisy_dark_asks_for_more_light() {
+    let (sample, white, mut darks) = measured(10.0, 10.0);
+    for dark in &mut darks {
+        for (value, i) in dark.values.iter_mut().zip(0..) {
+            *value += if i % 2 == 0 { 3000.0 } else { -3000.0 };
+        }
+    }
+    let error = against(&white, &darks).reflectance(&sample).unwrap_err();
+    assert!(matches!(error, ReferencingError::Dim { least, .. } if least > 9000.0), "{error}");
+}
+
+#[test]
+fn power_needs_no_dark_and_no_time() {
+    let power = |name: &str, ms: f64, reflectance: &dyn Fn(f64) -> f64| {
+        let mut record = reading(name, Some(ms), |nm| reflectance(nm) * lamp(nm));
+        record.quantity = MeasuredQuantity::Power;
+        record
+    };
+    let (sample, white) = (power("grey", 40.0, &grey), power("white", 10.0, &|_| TILE));
+    let found = against(&white, &[]).reflectance(&sample).unwrap();
+    assert!((found.values[7] - grey(found.wavelengths_nm[7])).abs() < 1e-12, "{found:?}");
+    assert_eq!(found.remarks, ["no dark was subtracted"]);
+    let (counts, ..) = measured(10.0, 10.0);
+    let error = against(&white, &[]).reflectance(&counts).unwrap_err();
+    assert!(matches!(error, ReferencingError::Mixed { role: "white", .. }), "{error}");
+}
+
+#[test]
+fn a_measured_tile_counts_as_it_is() {
+    let (sample, white, darks) = measured(10.0, 10.0);
+    for (unit, scale) in [(Unit::Fraction, 1.0), (Unit::Percent, 100.0), (Unit::Unstated, 100.0)] {
+        let mut tile = reading("tile", None, |nm| scale * (0.5 + 0.0001 * nm));
+        (tile.quantity, tile.unit) = (MeasuredQuantity::Reflectance, unit);
+        let tile = Tile::measured(&tile).unwrap();
+        let found = Referencing { tile, ..against(&white, &darks) }.reflectance(&sample).unwrap();
+        let nm = found.wavelengths_nm[9];
+        let wanted = grey(nm) * (0.5 + 0.0001 * nm) / TILE;
+        assert!((found.values[9] - wanted).abs() < 1e-12, "{unit:?}: {}", found.values[9]);
+    }
+    let mut short = reading("tile", None, |_| 0.9);
+    short.quantity = MeasuredQuantity::Reflectance;
+    short.wavelengths_nm.iter_mut().for_each(|nm| *nm += 60.0);
+    let tile = Tile::measured(&short).unwrap();
+    let error = Referencing { tile, ..against(&white, &darks) }.reflectance(&sample).unwrap_err();
+    assert!(matches!(error, ReferencingError::Uncovered { role: "tile", .. }), "{error}");
+    assert!(Tile::measured(&white).is_err(), "counts are no tile");
+    assert!(Tile::even(99.0).is_err() && Tile::even(0.0).is_err(), "no fraction");
+}
+
+#[test]
+fn a_sample_below_its_dark_is_refused_and_noise_is_black() {
+    let (_, white, darks) = measured(10.0, 10.0);
+    let below = |share: f64| {
+        reading("black", Some(10.0), move |nm| dark(10.0, nm) - share * lamp(nm) * 10.0)
+    };
+    let black = against(&white, &darks).reflectance(&below(0.005)).unwrap();
+    assert!(black.values.iter().all(|&value| value == 0.0), "{:?}", black.values);
+    let error = against(&white, &darks).reflectance(&below(0.02)).unwrap_err();
+    assert!(matches!(error, ReferencingError::BelowDark { .. }), "{error}");
+}
