@@ -2,7 +2,8 @@
 //!
 //! In scope: reading measurements of mixtures, K/S of films that hide or not,
 //! fitting each pigment's K and S, what the data cannot tell, validation, the
-//! library file, mixing forward, and quadrature in wavelength. Out of scope:
+//! library file and what one does with several, mixing forward, and quadrature
+//! in wavelength. Out of scope:
 //! recipes for a target colour, and anything with a brush.
 //!
 //! Files stand in an order of dependence; each uses only what stands above it.
@@ -21,9 +22,13 @@ pub mod mixture;
 
 mod least_squares;
 
+pub mod smooth_reflectance;
+
 pub mod fit;
 
 pub mod library;
+
+pub mod curation;
 
 mod scores;
 

@@ -12,6 +12,7 @@ mod scale;
 
 mod table;
 
+pub(crate) use column::wavelength as wavelength_of_header;
 pub use error::{MeasurementError, Place};
 pub use scale::{Scale, ScaleChoice};
 pub use table::{Film, MeasurementTable, Reading};

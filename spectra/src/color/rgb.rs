@@ -64,6 +64,14 @@ impl RgbSpace {
     pub fn encoded_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
         self.linear_from_xyz(xyz, white, adaptation).encoded()
     }
+
+    /// XYZ under `white` of an encoded RGB: the inverse of
+    /// [`RgbSpace::encoded_from_xyz`].
+    #[must_use]
+    pub fn xyz_from_encoded(self, rgb: Rgb, white: Xyz, adaptation: Adaptation) -> Xyz {
+        let at_display = self.xyz_from_linear().apply(rgb.linear().0);
+        adapted(at_display.into(), self.white(), white, adaptation)
+    }
 }
 
 impl Rgb {
@@ -93,10 +101,53 @@ impl Rgb {
         self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
     }
 
+    /// The encoded RGB of `#rrggbb` or `#rgb`, the mark left out if one likes;
+    /// `None` for any other text.
+    #[must_use]
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix('#').unwrap_or(text);
+        if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+            return None;
+        }
+        let value = |from: usize, to: usize| u8::from_str_radix(&digits[from..to], 16).ok();
+        let bytes = match digits.len() {
+            3 => [17 * value(0, 1)?, 17 * value(1, 2)?, 17 * value(2, 3)?],
+            6 => [value(0, 2)?, value(2, 4)?, value(4, 6)?],
+            _ => return None,
+        };
+        Some(Self(bytes.map(|byte| f64::from(byte) / 255.0)))
+    }
+
     /// `#rrggbb`, from [`Rgb::to_bytes`].
     #[must_use]
     pub fn to_hex(self) -> String {
         let [r, g, b] = self.to_bytes();
         format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hexadecimal_is_read_as_it_is_written() {
+        for text in ["#000000", "#2a5caa", "#ffffff"] {
+            assert_eq!(Rgb::from_hex(text).unwrap().to_hex(), text);
+        }
+        assert_eq!(Rgb::from_hex("fa0"), Rgb::from_hex("#ffaa00"));
+        for text in ["", "#", "#12345", "#12345g", "red", "#+1+1+1", "\u{e9}\u{e9}\u{e9}"] {
+            assert_eq!(Rgb::from_hex(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn rgb_to_xyz_and_back_is_the_same() {
+        let white = Xyz { x: 109.85, y: 100.0, z: 35.58 };
+        for rgb in [[0.0, 0.0, 0.0], [1.0, 0.2, 0.01], [0.5, 0.5, 0.9]] {
+            let xyz = RgbSpace::Srgb.xyz_from_encoded(Rgb(rgb), white, Adaptation::Bradford);
+            let back = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).0;
+            assert!(rgb.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-9), "{rgb:?} {back:?}");
+        }
     }
 }
