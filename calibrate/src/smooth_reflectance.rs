@@ -123,7 +123,9 @@ impl Problem<'_> {
             let step = 2.0 * (z[i] - z[i - 1]);
             residual[i] += step;
             residual[i - 1] -= step;
-            for (a, b, sign) in [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0), (i - 1, i, -1.0)] {
+            for (a, b, sign) in
+                [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0), (i - 1, i, -1.0)]
+            {
                 matrix[(a, b)] += 2.0 * sign;
             }
         }
@@ -205,8 +207,7 @@ mod tests {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let recover = |rgb: Rgb| {
-            let xyz =
-                RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
+            let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
             (rgb, smoothest_reflectance(&weights, surface, xyz))
         };
         colours.map(recover).collect()

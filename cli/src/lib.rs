@@ -14,6 +14,8 @@ mod named_spectra;
 
 mod ground;
 
+mod surface;
+
 mod output;
 
 mod progress;

@@ -1,7 +1,7 @@
 //! A pigment made up from a colour.
 
-use spectra::color::{Adaptation, Lab, Xyz, delta_e_ciede2000};
 use spectra::color::RgbSpace;
+use spectra::color::{Adaptation, Lab, Xyz, delta_e_ciede2000};
 use spectra::optics::{Layer, absorption_over_scattering};
 
 use super::error::CurationError;

@@ -203,11 +203,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
 }
 
 /// Pigments that look alike, alone and with the white.
-fn near_pairs(
-    library: &PigmentLibrary,
-    weights: &TristimulusWeights,
-    findings: &mut Vec<Finding>,
-) {
+fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: &mut Vec<Finding>) {
     let white = library.reference.as_deref();
     let white = white.and_then(|name| library.pigments.iter().position(|p| p.name == name));
     let colours: Vec<[Lab; 2]> = (0..library.pigments.len())

@@ -3,8 +3,8 @@
 use spectra::{Ends, Interpolation};
 
 use super::error::CurationError;
-use super::rescale::with_reference;
 use super::resample::on_grid;
+use super::rescale::with_reference;
 use super::select::renamed;
 use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
@@ -218,10 +218,7 @@ fn check_amounts(
         });
     }
     if base.amounts == AmountKind::Absolute && !same_unit {
-        return Err(CurationError::Units {
-            first: first.file.clone(),
-            file: other.file.clone(),
-        });
+        return Err(CurationError::Units { first: first.file.clone(), file: other.file.clone() });
     }
     Ok(())
 }

@@ -73,9 +73,8 @@ pub fn subset(
         names.iter().map(|name| find(file, library, name)).collect()
     };
     let (kept, dropped) = (found(keep)?, found(without)?);
-    let stays = |index: &usize| {
-        (keep.is_empty() || kept.contains(index)) && !dropped.contains(index)
-    };
+    let stays =
+        |index: &usize| (keep.is_empty() || kept.contains(index)) && !dropped.contains(index);
     let indices: Vec<usize> = (0..library.pigments.len()).filter(stays).collect();
     if indices.is_empty() {
         return Err(CurationError::Empty { file: file.to_owned() });

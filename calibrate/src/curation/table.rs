@@ -61,18 +61,12 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
 ///
 /// # Errors
 /// [`TableError`], with row and column.
-pub fn from_csv(
-    file: &str,
-    text: &str,
-    frame: LibraryFrame,
-) -> Result<PigmentLibrary, TableError> {
+pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLibrary, TableError> {
     let text = text.trim_start_matches('\u{feff}');
     let mut reader =
         csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
-    let broken = |error: csv::Error| TableError::Syntax {
-        file: file.to_owned(),
-        reason: error.to_string(),
-    };
+    let broken =
+        |error: csv::Error| TableError::Syntax { file: file.to_owned(), reason: error.to_string() };
     let header = reader.headers().map_err(broken)?.clone();
     let (grid, columns) = grid(file, &header)?;
     let mut curves: Vec<(String, [Vec<f64>; 4])> = Vec::new();
@@ -106,7 +100,8 @@ pub fn from_csv(
         let values = (0..header.len()).filter(|i| *i != columns.0 && *i != columns.1);
         let values = values
             .map(|column| {
-                let value = record[column].parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0);
+                let value =
+                    record[column].parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0);
                 value.map(rounded).ok_or_else(|| wrong(column, "a number of 0 and up"))
             })
             .collect::<Result<Vec<f64>, TableError>>()?;
@@ -151,7 +146,11 @@ fn pigment(file: &str, name: String, curves: [Vec<f64>; 4]) -> Result<Pigment, T
     let [absorption, scattering, absorption_sd, scattering_sd] = curves;
     for (curve, quantity) in [(&absorption, QUANTITIES[0]), (&scattering, QUANTITIES[1])] {
         if curve.is_empty() {
-            return Err(TableError::MissingCurve { file: file.to_owned(), pigment: name, quantity });
+            return Err(TableError::MissingCurve {
+                file: file.to_owned(),
+                pigment: name,
+                quantity,
+            });
         }
     }
     Ok(Pigment {
