@@ -94,7 +94,9 @@ pub enum CurationError {
         reference: String,
     },
     /// One name for two pigments.
-    #[error("{first} and {file} both have `{pigment}`, {delta_e:.2} CIEDE2000 apart as masstones")]
+    #[error(
+        "{first} and {file} both have `{pigment}` with figures that differ, {delta_e:.2} CIEDE2000 between the masstones"
+    )]
     Clash {
         /// The file of the one.
         first: String,

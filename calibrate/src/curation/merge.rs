@@ -9,6 +9,9 @@ use super::select::renamed;
 use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 
+/// Two batches of one white are nearer than this, in CIEDE2000.
+const SAME_WHITE: f64 = 1.0;
+
 /// A library and the file that it stands in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
@@ -182,6 +185,12 @@ impl Merged {
                 continue;
             }
             let white = self.library.reference.as_ref() == Some(&pigment.name);
+            if white && delta_e > SAME_WHITE {
+                self.warnings.push(format!(
+                    "{}: its {} is {delta_e:.2} CIEDE2000 from the first's; is it the same paint?",
+                    other.file, pigment.name
+                ));
+            }
             match settings.prefer {
                 Some(Prefer::Last) => *before = pigment,
                 None if !white => {

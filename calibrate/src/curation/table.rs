@@ -9,8 +9,10 @@ use crate::digits::rounded;
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
 use crate::measurement::{Place, wavelength_of_header};
 
-/// The names of the curves, in the order in which they are written.
-const QUANTITIES: [&str; 4] = ["absorption", "scattering", "absorption_sd", "scattering_sd"];
+/// The names of the curves, in the order in which they are written; the last is
+/// all that is known of a pigment whose S was not identified.
+const QUANTITIES: [&str; 5] =
+    ["absorption", "scattering", "absorption_sd", "scattering_sd", "absorption_over_scattering"];
 
 /// What a library says of its pigments, and no table of curves does.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,12 +42,13 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     header.extend(library.grid.wavelengths_nm().map(|nm| nm.to_string()));
     writer.write_record(&header).expect("memory takes a record");
     for pigment in &library.pigments {
-        let curves = [
-            &pigment.absorption,
-            &pigment.scattering,
-            &pigment.absorption_sd,
-            &pigment.scattering_sd,
-        ];
+        let ratio = || pigment.absorption.iter().zip(&pigment.scattering).map(|(k, s)| k / s);
+        let curves = if pigment.identified {
+            let (k, s) = (pigment.absorption.clone(), pigment.scattering.clone());
+            [k, s, pigment.absorption_sd.clone(), pigment.scattering_sd.clone(), Vec::new()]
+        } else {
+            [vec![], vec![], vec![], vec![], ratio().map(rounded).collect()]
+        };
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
             let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];
             record.extend(curve.iter().map(f64::to_string));
@@ -57,7 +60,8 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
 }
 
 /// The library whose curves stand in `text`, the content of `file`, as
-/// [`to_csv`] writes them; `K` and `S` are read for `absorption` and `scattering`.
+/// [`to_csv`] writes them; `K`, `S` and `K/S` are read for the words. A pigment of
+/// which only K/S stands there is one whose S is not known.
 ///
 /// # Errors
 /// [`TableError`], with row and column.
@@ -69,7 +73,7 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
         |error: csv::Error| TableError::Syntax { file: file.to_owned(), reason: error.to_string() };
     let header = reader.headers().map_err(broken)?.clone();
     let (grid, columns) = grid(file, &header)?;
-    let mut curves: Vec<(String, [Vec<f64>; 4])> = Vec::new();
+    let mut curves: Vec<(String, [Vec<f64>; 5])> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(broken)?;
         let row = record.position().map_or(0, csv::Position::line);
@@ -92,10 +96,11 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
         let spelled = match quantity {
             "K" => "absorption",
             "S" => "scattering",
+            "K/S" => "absorption_over_scattering",
             other => other,
         };
         let index = QUANTITIES.iter().position(|known| *known == spelled).ok_or_else(|| {
-            wrong(columns.1, "absorption, scattering, absorption_sd or scattering_sd")
+            wrong(columns.1, "absorption (K), scattering (S), either with _sd, or K/S")
         })?;
         let values = (0..header.len()).filter(|i| *i != columns.0 && *i != columns.1);
         let values = values
@@ -142,8 +147,13 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
     Ok((grid.ok_or_else(|| TableError::Irregular { file: file.to_owned() })?, columns))
 }
 
-fn pigment(file: &str, name: String, curves: [Vec<f64>; 4]) -> Result<Pigment, TableError> {
-    let [absorption, scattering, absorption_sd, scattering_sd] = curves;
+fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, TableError> {
+    let [mut absorption, mut scattering, absorption_sd, scattering_sd, ratio] = curves;
+    let identified = !(absorption.is_empty() && scattering.is_empty() && !ratio.is_empty());
+    if !identified {
+        scattering = vec![1.0; ratio.len()];
+        absorption = ratio;
+    }
     for (curve, quantity) in [(&absorption, QUANTITIES[0]), (&scattering, QUANTITIES[1])] {
         if curve.is_empty() {
             return Err(TableError::MissingCurve {
@@ -160,9 +170,13 @@ fn pigment(file: &str, name: String, curves: [Vec<f64>; 4]) -> Result<Pigment, T
         scattering,
         absorption_sd,
         scattering_sd,
-        identified: true,
+        identified,
         guessed: false,
-        notes: Vec::new(),
+        notes: if identified {
+            Vec::new()
+        } else {
+            vec!["only K/S is known; S = 1 stands for an unknown scattering".to_owned()]
+        },
     })
 }
 
@@ -173,7 +187,7 @@ fn framed(
     frame: LibraryFrame,
 ) -> Result<PigmentLibrary, TableError> {
     let whites: Vec<String> = (pigments.iter())
-        .filter(|pigment| pigment.scattering.iter().all(|s| *s == 1.0))
+        .filter(|pigment| pigment.identified && pigment.scattering.iter().all(|s| *s == 1.0))
         .map(|pigment| pigment.name.clone())
         .collect();
     let mut library = PigmentLibrary {

@@ -26,7 +26,8 @@ enum Amounts {
 /// A library on another grid or relative to another white, or one from a table of K and S
 ///
 /// The title, the licence, the source and the surface of a table (CSV: pigment, quantity,
-/// wavelengths) come from the options; K/S without S makes no library.
+/// wavelengths) come from the options; a pigment with K/S alone is one whose S is not known.
+///
 /// A library of absolute amounts becomes one of shares with --reference; how its films look before
 /// they hide is then lost. Shares cannot become amounts: nothing tells how much was laid.
 #[derive(Debug, Args)]

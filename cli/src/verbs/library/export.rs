@@ -170,6 +170,11 @@ fn remark_what_csv_lacks(
     library: &PigmentLibrary,
     console: &mut Console<'_>,
 ) -> anyhow::Result<()> {
+    let guessed = library.pigments.iter().filter(|pigment| pigment.guessed);
+    let guessed: Vec<String> = guessed
+        .map(|pigment| format!("{} is guessed, which the table does not say", pigment.name))
+        .collect();
+    console.warnings(&guessed)?;
     let surface = library.saunderson;
     console.remark(format!(
         "the table does not hold: k1 = {}, k2 = {}, titles, notes, evidence{}",
