@@ -80,7 +80,7 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
         return error.hint().map(str::to_owned);
     }
     if let Some(error) = cause.downcast_ref::<LightError>() {
-        return error.hint().map(str::to_owned);
+        return error.hint();
     }
     cause.downcast_ref::<Refusal>()?.hint.clone()
 }

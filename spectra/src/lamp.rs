@@ -1,101 +1,138 @@
-//! A measured lamp from a two-column text file.
+//! A measured lamp from an instrument's file.
 
 use crate::grid::Grid;
 use crate::illuminant::{Illuminant, IlluminantError};
+use crate::instrument::{Format, InstrumentError, MeasuredQuantity, Record, read};
 use crate::samples::Samples;
 
-/// A light from text with one `wavelength, power` pair a line.
+/// A power below zero by no more than this share of the peak is a spectrometer's noise.
+const NEGATIVE_NOISE: f64 = 0.01;
+
+/// How many names an error lists.
+const LISTED: usize = 8;
+
+/// A light from `bytes`, the content of `file`: any format of [`Format`], found by its content, or
+/// two columns `nm, power`.
 ///
-/// Wavelengths in nm, rising, at any steps; power in any unit. Columns are
-/// parted by comma, semicolon, tab or spaces; lines that start with `#` and one
-/// header line are passed over. `name` is what the light will be called, and
-/// what an error calls the file.
+/// Power in any unit, at any wavelengths; beyond them the end values are held. Negative power is
+/// taken as 0 down to -1 % of the peak from 360 to 830 nm, as noise; more is an error. Of several
+/// spectra `spectrum` names the one that is meant. The light is called `file`, or `file#spectrum`.
 ///
 /// # Errors
-/// [`LampError`], with the line.
-pub fn lamp_from_csv(name: &str, text: &str) -> Result<Illuminant, LampError> {
-    let mut nm = Vec::new();
-    let mut power = Vec::new();
-    let mut header_seen = false;
-    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let trimmed = line.trim();
-        if trimmed.is_empty() || trimmed.starts_with('#') {
-            continue;
-        }
-        let cells: Vec<&str> = trimmed
-            .split([',', ';', '\t', ' '])
-            .map(str::trim)
-            .filter(|cell| !cell.is_empty())
-            .collect();
-        let numbers: Vec<f64> = cells.iter().filter_map(|cell| cell.parse().ok()).collect();
-        match (numbers.as_slice(), cells.len()) {
-            (&[w, p], 2) => {
-                if nm.last().is_some_and(|&before| w <= before) || !w.is_finite() {
-                    return Err(LampError::Order { file: name.to_owned(), line: index + 1, nm: w });
-                }
-                if !(p.is_finite() && p >= 0.0) {
-                    return Err(LampError::Power {
-                        file: name.to_owned(),
-                        line: index + 1,
-                        nm: w,
-                        power: p,
-                    });
-                }
-                nm.push(w);
-                power.push(p);
-            }
-            ([], _) if nm.is_empty() && !header_seen => header_seen = true,
-            _ => {
-                return Err(LampError::Line {
-                    file: name.to_owned(),
-                    line: index + 1,
-                    text: trimmed.to_owned(),
-                });
-            }
-        }
+/// [`LampError`].
+///
+/// ```
+/// let lamp = spectra::lamp_from_bytes("desk.csv", b"nm,power\n400,1\n700,3\n", None).unwrap();
+/// assert_eq!(lamp.name(), "desk.csv");
+/// ```
+pub fn lamp_from_bytes(
+    file: &str,
+    bytes: &[u8],
+    spectrum: Option<&str>,
+) -> Result<Illuminant, LampError> {
+    let records = match read(file, bytes, None) {
+        // Two short columns may not be known as such; read so, they are told what is wrong.
+        Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
+        known => known,
+    }?
+    .records;
+    let record = chosen(file, &records, spectrum)?;
+    let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
+    Ok(Illuminant::from_samples(&name, &power(file, record)?)?)
+}
+
+fn chosen<'a>(
+    file: &str,
+    records: &'a [Record],
+    spectrum: Option<&str>,
+) -> Result<&'a Record, LampError> {
+    let wanted = |record: &&Record| spectrum.is_none_or(|name| record.name == name);
+    let found: Vec<&Record> = records.iter().filter(wanted).collect();
+    let file = file.to_owned();
+    let names = |records: &mut dyn Iterator<Item = &Record>| {
+        records.take(LISTED).map(|record| record.name.clone()).collect()
+    };
+    match (found.as_slice(), spectrum) {
+        ([one], _) => Ok(one),
+        ([], Some(wanted)) => Err(LampError::Unknown {
+            file,
+            wanted: wanted.to_owned(),
+            names: names(&mut records.iter()),
+        }),
+        _ => Err(LampError::Several {
+            file,
+            count: found.len(),
+            names: names(&mut found.iter().copied()),
+        }),
     }
+}
+
+fn power(file: &str, record: &Record) -> Result<Samples, LampError> {
+    let (file, name) = (file.to_owned(), record.name.clone());
+    if !matches!(record.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
+        return Err(LampError::Quantity { file, name, found: record.quantity });
+    }
+    let nm = &record.wavelengths_nm;
     if nm.len() < 2 {
-        return Err(LampError::TooShort { file: name.to_owned(), count: nm.len() });
+        return Err(LampError::TooShort { file, count: nm.len() });
     }
     let (start_nm, end_nm) = (nm[0], nm[nm.len() - 1]);
     let band = Grid::cie();
     if end_nm < band.start_nm() || start_nm > band.end_nm() {
-        return Err(LampError::Band { file: name.to_owned(), start_nm, end_nm });
+        return Err(LampError::Band { file, start_nm, end_nm });
     }
-    let samples = Samples::new(nm, power).map_err(IlluminantError::from)?;
-    Ok(Illuminant::from_samples(name, &samples)?)
+    let within = || nm.iter().zip(&record.values).filter(|(nm, _)| band.covers(**nm));
+    let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
+    if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
+        return Err(LampError::Power { file, name, nm, power });
+    }
+    let values = record.values.iter().map(|power| power.max(0.0)).collect();
+    Ok(Samples::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
 /// Why a lamp's file cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LampError {
-    /// A line is not two numbers.
-    #[error("{file}, line {line}: a wavelength and a power are wanted, found `{text}`")]
-    Line {
+    /// The file is faulty.
+    #[error(transparent)]
+    Instrument(#[from] InstrumentError),
+    /// No spectrum of the file is called so.
+    #[error("{file}: no spectrum is called `{wanted}`")]
+    Unknown {
         /// The file.
         file: String,
-        /// Counted from 1.
-        line: usize,
-        /// What stands there.
-        text: String,
+        /// The name that was given.
+        wanted: String,
+        /// What there is; the first few.
+        names: Vec<String>,
     },
-    /// A wavelength does not rise.
-    #[error("{file}, line {line}: wavelengths must rise, found `{nm}` nm")]
-    Order {
+    /// One of several spectra must be named.
+    #[error("{file}: one lamp is wanted, found `{count}` spectra")]
+    Several {
         /// The file.
         file: String,
-        /// Counted from 1.
-        line: usize,
-        /// The wavelength.
-        nm: f64,
+        /// How many there are.
+        count: usize,
+        /// Their names; the first few.
+        names: Vec<String>,
     },
-    /// A power is negative or no number.
-    #[error("{file}, line {line}: power at {nm} nm must be 0 and up, found `{power}`")]
+    /// The spectrum is none of a light.
+    #[error("{file}: `{name}` must be the power of a lamp, found `{}`", found.word())]
+    Quantity {
+        /// The file.
+        file: String,
+        /// The spectrum.
+        name: String,
+        /// What it is.
+        found: MeasuredQuantity,
+    },
+    /// A power is negative, beyond noise.
+    #[error("{file}: power of `{name}` at {nm} nm must be 0 and up, found `{power}`")]
     Power {
         /// The file.
         file: String,
-        /// Counted from 1.
-        line: usize,
+        /// The spectrum.
+        name: String,
         /// The wavelength.
         nm: f64,
         /// The power.
@@ -126,32 +163,99 @@ pub enum LampError {
     Light(#[from] IlluminantError),
 }
 
+impl LampError {
+    /// What to try instead.
+    #[must_use]
+    pub fn hint(&self) -> Option<String> {
+        let fixed = match self {
+            Self::Unknown { names, .. } => return Some(format!("spectra: {}", names.join(", "))),
+            Self::Several { file, names, .. } => {
+                return Some(format!("name one: \"{file}#{}\"", names.join("\" or \"#")));
+            }
+            Self::Instrument(
+                InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. },
+            ) => "a lamp is a file of an instrument, or two columns `nm,power`",
+            Self::Instrument(error) => return error.hint().map(str::to_owned),
+            Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
+                "counts hold the detector's own response: export irradiance, radiance or power"
+            }
+            Self::Quantity { .. } => {
+                "a lamp is told by its power; for colours of these spectra: impasto color FILE"
+            }
+            Self::Power { .. } => {
+                "only noise down to -1 % of the peak is taken as 0: measure again, or cut the file"
+            }
+            Self::Band { .. } => "wavelengths are in nm",
+            Self::TooShort { .. } | Self::Light(_) => return None,
+        };
+        Some(fixed.to_owned())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn lamp(text: &str) -> Result<Illuminant, LampError> {
+        lamp_from_bytes("l", text.as_bytes(), None)
+    }
+
+    fn at(lamp: &Illuminant, nm: usize) -> f64 {
+        lamp.power().values()[nm - 360]
+    }
+
     #[test]
-    fn header_comments_and_separators_are_read() {
-        let text = "# lamp\nnm;power\n400;1\n500\t2\n 600 , 3\n";
-        let lamp = lamp_from_csv("lamp", text).unwrap();
-        let at = |nm: usize| lamp.power().values()[nm - 360];
-        assert_eq!((at(360), at(450), at(600), at(800)), (1.0, 1.5, 3.0, 3.0));
+    fn two_columns_with_header_and_comments_are_read() {
+        for text in [
+            "# lamp\nnm;power\n400;1\n500;2\n600;3\n",
+            "nm\tpower\n400\t1\n500\t2\n600\t3\n",
+            "400 , 1\n500 , 2\n600 , 3\n",
+            "600,3\n500,2\n400,1\n",
+        ] {
+            let lamp = lamp(text).unwrap();
+            let found = [360, 450, 600, 800].map(|nm| at(&lamp, nm));
+            assert_eq!(found, [1.0, 1.5, 3.0, 3.0], "{text}");
+        }
     }
 
     #[test]
     fn faults_name_the_line() {
-        assert!(matches!(
-            lamp_from_csv("l", "400,1\n390,2\n"),
-            Err(LampError::Order { line: 2, .. })
-        ));
-        assert!(matches!(
-            lamp_from_csv("l", "400,1\n410,-2\n"),
-            Err(LampError::Power { line: 2, .. })
-        ));
-        assert!(matches!(
-            lamp_from_csv("l", "400,1\n410,x\n"),
-            Err(LampError::Line { line: 2, .. })
-        ));
-        assert!(matches!(lamp_from_csv("l", "400,1\n"), Err(LampError::TooShort { count: 1, .. })));
+        for (text, line) in
+            [("400,1\n390,2\n420,1\n", 3), ("400,1\n410,x\n", 2), ("400,1\n400\n", 2)]
+        {
+            let error = lamp(text).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("l, line {line}: ")), "{error}");
+        }
+        assert!(matches!(lamp("400,1\n"), Err(LampError::TooShort { count: 1, .. })));
+        let prose = lamp("dear reader\n").unwrap_err();
+        assert!(prose.hint().is_some_and(|hint| hint.contains("nm,power")), "{prose}");
+    }
+
+    #[test]
+    fn noise_below_zero_is_none_and_more_is_refused() {
+        let noisy = lamp("350,-50\n400,-0.9\n500,100\n600,50\n").unwrap();
+        assert_eq!((at(&noisy, 400), at(&noisy, 500)), (0.0, 100.0));
+        let refused = lamp("400,-1.1\n500,100\n").unwrap_err().to_string();
+        assert_eq!(refused, "l: power of `l` at 400 nm must be 0 and up, found `-1.1`");
+    }
+
+    #[test]
+    fn one_of_several_is_named() {
+        let text = b"nm;desk;shop\n400;1;3\n500;2;6\n";
+        let error = lamp_from_bytes("l", text, None).unwrap_err();
+        assert_eq!(error.hint().unwrap(), "name one: \"l#desk\" or \"#shop\"");
+        let shop = lamp_from_bytes("l", text, Some("shop")).unwrap();
+        assert_eq!((at(&shop, 400), shop.name()), (3.0, "l#shop"));
+        let error = lamp_from_bytes("l", text, Some("hall")).unwrap_err();
+        assert_eq!(error.hint().unwrap(), "spectra: desk, shop");
+    }
+
+    #[test]
+    fn what_is_no_power_is_refused() {
+        for (heading, word) in [("reflectance", "impasto color"), ("counts", "irradiance")] {
+            let error = lamp(&format!("nm,{heading}\n400,1\n500,2\n")).unwrap_err();
+            assert!(error.to_string().ends_with(&format!("found `{heading}`")), "{error}");
+            assert!(error.hint().is_some_and(|hint| hint.contains(word)), "{error}");
+        }
     }
 }

@@ -19,6 +19,8 @@ mod samples;
 
 pub mod instrument;
 
+pub mod referencing;
+
 mod table;
 
 mod observer;
@@ -47,7 +49,7 @@ pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};
 pub use integrate::TristimulusWeights;
 pub use interpolate::{Ends, InterpolateError, Interpolation};
-pub use lamp::{LampError, lamp_from_csv};
+pub use lamp::{LampError, lamp_from_bytes};
 pub use light::{LightError, light_from_text};
 pub use observer::{Observer, ObserverError};
 pub use samples::{Samples, SamplesError};

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::black_body::black_body;
 use crate::daylight::daylight;
 use crate::illuminant::{Illuminant, IlluminantError};
-use crate::lamp::{LampError, lamp_from_csv};
+use crate::lamp::{LampError, lamp_from_bytes};
 
 /// The light that `text` names.
 ///
@@ -14,7 +14,7 @@ use crate::lamp::{LampError, lamp_from_csv};
 /// | `D65`, `FL11`, `LED-B3` .. | a CIE illuminant, [`Illuminant::named`] |
 /// | `5600K` | a black body, [`black_body`] |
 /// | `D5600K` | CIE daylight, [`daylight`] |
-/// | anything else | a file, [`lamp_from_csv`] |
+/// | `FILE`, `FILE#NAME` | a file of an instrument, [`lamp_from_bytes`] |
 ///
 /// # Errors
 /// [`LightError`].
@@ -35,13 +35,17 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
             return Ok(daylight(kelvin)?);
         }
     }
-    let path = Path::new(text);
-    if !path.is_file() {
+    // A whole name that is a file wins over the part before a `#`.
+    let (file, spectrum) = match text.rsplit_once('#') {
+        Some((file, spectrum)) if !Path::new(text).is_file() => (file, Some(spectrum)),
+        _ => (text, None),
+    };
+    if !Path::new(file).is_file() {
         return Err(LightError::Unknown { text: text.to_owned() });
     }
-    let content = std::fs::read_to_string(path)
-        .map_err(|error| LightError::Read { path: text.to_owned(), reason: error.to_string() })?;
-    Ok(lamp_from_csv(text, &content)?)
+    let bytes = std::fs::read(file)
+        .map_err(|error| LightError::Read { path: file.to_owned(), reason: error.to_string() })?;
+    Ok(lamp_from_bytes(file, &bytes, spectrum)?)
 }
 
 /// Why a text names no light.
@@ -72,15 +76,17 @@ pub enum LightError {
 impl LightError {
     /// What to try instead.
     #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::Unknown { .. } => Some(
-                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a two-column file `nm,power`",
-            ),
-            Self::Illuminant(_) => {
-                Some("daylight is defined from D4000K to D25000K, a black body from 500K")
+    pub fn hint(&self) -> Option<String> {
+        let fixed = match self {
+            Self::Unknown { .. } => {
+                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)"
             }
-            _ => None,
-        }
+            Self::Illuminant(_) => {
+                "daylight is defined from D4000K to D25000K, a black body from 500K"
+            }
+            Self::Lamp(error) => return error.hint(),
+            Self::Read { .. } => return None,
+        };
+        Some(fixed.to_owned())
     }
 }

@@ -7,12 +7,48 @@ pub enum MeasuredQuantity {
     Reflectance,
     /// Transmittance.
     Transmittance,
+    /// Absorbance: the negative decimal logarithm of a reflectance or transmittance.
+    Absorbance,
     /// Power of a light: radiance, irradiance or relative power.
     Power,
     /// A detector's counts, to be set against a white and a dark reading.
     Counts,
     /// The file does not say.
     Unstated,
+}
+
+impl MeasuredQuantity {
+    /// The quantity that `words` name, such as the heading of a column.
+    pub(super) fn of_words(words: &str) -> Self {
+        let lower = words.to_ascii_lowercase();
+        let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
+        if has(&["reflect"]) {
+            Self::Reflectance
+        } else if has(&["transmi"]) {
+            Self::Transmittance
+        } else if has(&["absorb", "absorpt"]) {
+            Self::Absorbance
+        } else if has(&["count", "scope", "raw"]) {
+            Self::Counts
+        } else if has(&["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
+            Self::Power
+        } else {
+            Self::Unstated
+        }
+    }
+
+    /// The quantity in a word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Reflectance => "reflectance",
+            Self::Transmittance => "transmittance",
+            Self::Absorbance => "absorbance",
+            Self::Power => "power",
+            Self::Counts => "counts",
+            Self::Unstated => "an unstated quantity",
+        }
+    }
 }
 
 /// The unit of a [`Record`]'s values.
@@ -44,4 +80,13 @@ pub struct Record {
     /// What else the file says of it (geometry, instrument, integration time ..), in its own
     /// words and order.
     pub details: Vec<(String, String)>,
+    /// What had to be decided in reading it, in words for the user.
+    pub remarks: Vec<String>,
+}
+
+/// The name of a spectrum whose file does not name it: that of the file, without folder and
+/// ending.
+pub(super) fn stem(file: &str) -> String {
+    let path = std::path::Path::new(file);
+    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

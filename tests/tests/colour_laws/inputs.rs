@@ -3,7 +3,7 @@
 use spectra::{
     Absorption, Ends, Grid, GridError, Illuminant, InterpolateError, Interpolation, LampError,
     LightError, Observer, Power, Quantity, Reflectance, Response, Samples, SamplesError,
-    Scattering, Spectrum, SpectrumError, lamp_from_csv, light_from_text,
+    Scattering, Spectrum, SpectrumError, lamp_from_bytes, light_from_text,
 };
 
 fn grid() -> Grid {
@@ -131,13 +131,17 @@ fn a_lamp_is_read_from_a_file() {
 
     std::fs::write(&file, "400,1\n600,-3\n").unwrap();
     let error = light_from_text(file.to_str().unwrap()).unwrap_err();
-    assert!(matches!(error, LightError::Lamp(LampError::Power { line: 2, .. })), "{error}");
-    assert!(error.to_string().contains("lamp.csv, line 2"), "{error}");
+    assert!(matches!(error, LightError::Lamp(LampError::Power { nm: 600.0, .. })), "{error}");
+    assert!(error.to_string().contains("lamp.csv: power"), "{error}");
+
+    std::fs::write(&file, "nm,power\n400,1\n600,x\n").unwrap();
+    let error = light_from_text(file.to_str().unwrap()).unwrap_err();
+    assert!(error.to_string().contains("lamp.csv, line 3"), "{error}");
 }
 
 #[test]
 fn a_lamp_in_micrometres_is_refused() {
-    let refused = lamp_from_csv("lamp", "0.4,1\n0.7,3\n");
+    let refused = lamp_from_bytes("lamp", b"0.4,1\n0.7,3\n", None);
     assert!(matches!(refused, Err(LampError::Band { .. })), "{refused:?}");
 }
 

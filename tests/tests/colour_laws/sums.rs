@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use spectra::color::Xyz;
 use spectra::{
     Grid, Illuminant, Interpolation, Observer, TristimulusWeights, black_body, daylight,
-    lamp_from_csv,
+    lamp_from_bytes,
 };
 use suite::near::assert_near;
 
@@ -79,8 +79,8 @@ fn xyz_of_many_reflectances_is_that_of_each() {
 
 #[test]
 fn a_brighter_light_of_the_same_kind_changes_no_colour() {
-    let dim = lamp_from_csv("dim", "400,1\n500,2\n700,4\n").unwrap();
-    let bright = lamp_from_csv("bright", "400,30\n500,60\n700,120\n").unwrap();
+    let dim = lamp_from_bytes("dim", b"400,1\n500,2\n700,4\n", None).unwrap();
+    let bright = lamp_from_bytes("bright", b"400,30\n500,60\n700,120\n", None).unwrap();
     let [dim, bright] = [dim, bright].map(|light| {
         let observer = Observer::Cie1964Deg10;
         TristimulusWeights::new(grids()[1], &light, observer, Interpolation::Linear).unwrap()

@@ -125,13 +125,14 @@ fn a_library_with_a_fault_is_refused_with_the_reason() {
 }
 
 #[test]
-fn a_lamp_with_a_fault_is_refused_with_its_line() {
+fn a_lamp_with_a_fault_is_refused_with_its_place() {
     let folder = tempfile::tempdir().unwrap();
     let lamp = folder.path().join("lamp.csv");
     std::fs::write(&lamp, "nm,power\n400,1\n500,-2\n").unwrap();
     let run = impasto(&["mix", &library(), "Viridian=1", "--illuminant", lamp.to_str().unwrap()]);
     assert_eq!(run.status, 1, "{}", run.err);
-    assert!(run.err.contains("lamp.csv, line 3") && run.err.contains("`-2`"), "{}", run.err);
+    assert!(run.err.contains("lamp.csv: power") && run.err.contains("500 nm"), "{}", run.err);
+    assert!(run.err.contains("`-2`") && run.err.contains("hint: "), "{}", run.err);
 }
 
 #[test]

@@ -1,0 +1,268 @@
+//! CGATS.17 and its kin: Argyll .ti3, .sp and .cie, and the text of GretagMacbeth and X-Rite
+//! (Spectrolino, ProfileMaker, i1Profiler), whose first line is another.
+//!
+//! A file is one table or several, each of keywords, the names of its fields between
+//! `BEGIN_DATA_FORMAT` and `END_DATA_FORMAT`, and its rows between `BEGIN_DATA` and `END_DATA`.
+//! Tables without spectra are passed over.
+
+use super::cgats_fields::Fields;
+use super::cgats_words::words;
+use super::error::InstrumentError;
+use super::record::{MeasuredQuantity, Record, stem};
+use super::text::lines;
+
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+    let mut records = Vec::new();
+    let mut table = Table::default();
+    let mut part = Part::Keywords;
+    let mut last = (1, "");
+    for (number, line) in lines(text) {
+        if line.trim().is_empty() {
+            continue;
+        }
+        last = (number, line);
+        let cells = words(line);
+        let Some(first) = cells.first() else { continue };
+        match (part, first.as_str()) {
+            (Part::Keywords, "BEGIN_DATA_FORMAT") => {
+                // A second table may say no keywords of its own.
+                table.names.clear();
+                part = Part::Names;
+            }
+            (Part::Names, "END_DATA_FORMAT") | (Part::Rows, "END_DATA") => {
+                if part == Part::Rows {
+                    records.extend(table.take(file, number)?);
+                }
+                part = Part::Keywords;
+            }
+            (Part::Keywords, "BEGIN_DATA") => {
+                table.fields = Some(Fields::of(file, &table.names, &table.keywords)?);
+                part = Part::Rows;
+            }
+            (Part::Names, _) => table.names.extend(named(number, line, cells)),
+            (Part::Rows, _) => table.push(file, number, line, cells)?,
+            (Part::Keywords, _) => {
+                let value = cells.get(1).cloned().unwrap_or_default();
+                table.keywords.push((number, first.clone(), value));
+            }
+        }
+    }
+    match part {
+        Part::Keywords => Ok(records),
+        Part::Names | Part::Rows => {
+            let what = if part == Part::Names { "END_DATA_FORMAT" } else { "END_DATA" };
+            Err(InstrumentError::line(file, last.0, what, last.1))
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Keywords,
+    Names,
+    Rows,
+}
+
+/// Names of fields; parted by tabs where there are any.
+fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
+    if line.contains('\t') {
+        let cells = line.trim().split('\t').map(|cell| cell.trim().trim_matches('"'));
+        cells.filter(|cell| !cell.is_empty()).map(|cell| (number, cell.to_owned())).collect()
+    } else {
+        words.into_iter().map(|word| (number, word)).collect()
+    }
+}
+
+/// One cell, with its line.
+pub(super) type Cell = (usize, String);
+
+/// The table that is being read.
+#[derive(Default)]
+struct Table {
+    /// Line, keyword and value.
+    keywords: Vec<(usize, String, String)>,
+    names: Vec<Cell>,
+    fields: Option<Fields>,
+    rows: Vec<Vec<Cell>>,
+    /// A row that goes on in the next line.
+    open: Vec<Cell>,
+}
+
+impl Table {
+    fn push(
+        &mut self,
+        file: &str,
+        number: usize,
+        line: &str,
+        words: Vec<String>,
+    ) -> Result<(), InstrumentError> {
+        let width = self.names.len();
+        // Names with spaces stand without quotes where tabs part the cells.
+        let tabs: Vec<&str> = line.trim_end().split('\t').collect();
+        if self.open.is_empty() && tabs.len() == width && width > 1 {
+            let plain = |cell: &str| (number, cell.trim().trim_matches('"').to_owned());
+            self.rows.push(tabs.into_iter().map(plain).collect());
+            return Ok(());
+        }
+        self.open.extend(words.into_iter().map(|word| (number, word)));
+        if self.open.len() > width {
+            let what = "as many cells as BEGIN_DATA_FORMAT names";
+            return Err(InstrumentError::line(file, number, what, line));
+        }
+        if self.open.len() == width {
+            self.rows.push(std::mem::take(&mut self.open));
+        }
+        Ok(())
+    }
+
+    /// The spectra of the table, which ends in line `end`; what follows is another.
+    fn take(&mut self, file: &str, end: usize) -> Result<Vec<Record>, InstrumentError> {
+        let table = std::mem::take(self);
+        if let Some((line, cell)) = table.open.first() {
+            let what = "as many cells as BEGIN_DATA_FORMAT names";
+            return Err(InstrumentError::line(file, *line, what, cell));
+        }
+        let announced = table.keyword("NUMBER_OF_SETS").and_then(|sets| sets.parse().ok());
+        let found = table.rows.len();
+        if let Some(wanted) = announced.filter(|sets| *sets != found) {
+            let (file, what) = (file.to_owned(), "rows (NUMBER_OF_SETS)");
+            return Err(InstrumentError::Count { file, line: end, what, wanted, found });
+        }
+        let Some(fields) = table.fields.as_ref().filter(|fields| fields.hold_spectra()) else {
+            return Ok(Vec::new());
+        };
+        let quantity = table.quantity();
+        let details: Vec<(String, String)> = table
+            .keywords
+            .iter()
+            .filter(|(_, key, value)| {
+                key != "KEYWORD" && !key.starts_with("NUMBER_OF_") && !value.is_empty()
+            })
+            .map(|(_, key, value)| (key.clone(), value.clone()))
+            .collect();
+        let names = fields.names(&table.rows, &stem(file));
+        let records = table.rows.iter().zip(names).map(|(row, name)| {
+            let (ordered, unit) = fields.spectrum(file, row, quantity)?;
+            Ok(Record {
+                name,
+                quantity,
+                unit,
+                wavelengths_nm: ordered.wavelengths_nm,
+                values: ordered.values,
+                line: row.first().map_or(end, |(line, _)| *line),
+                details: details.clone(),
+                remarks: ordered.remarks,
+            })
+        });
+        records.collect()
+    }
+
+    fn keyword(&self, wanted: &str) -> Option<&str> {
+        let found = self.keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(wanted));
+        found.map(|(_, _, value)| value.as_str())
+    }
+
+    /// What the keywords say was measured.
+    fn quantity(&self) -> MeasuredQuantity {
+        use MeasuredQuantity::{Power, Reflectance, Transmittance, Unstated};
+        let words = ["QUANTITY", "MEAS_TYPE", "MEASUREMENT_TYPE"];
+        for said in words.iter().filter_map(|key| self.keyword(key)) {
+            let upper = said.to_ascii_uppercase();
+            if ["EMISSION", "AMBIENT", "AMBIENT_FLASH", "EMISSION_FLASH"].contains(&upper.as_str())
+            {
+                return Power;
+            } else if upper.starts_with("REFLECTI") {
+                return Reflectance;
+            } else if upper.starts_with("TRANSMI") {
+                return Transmittance;
+            }
+            let quantity = MeasuredQuantity::of_words(said);
+            if quantity != Unstated {
+                return quantity;
+            }
+        }
+        if self.keyword("DEVICE_CLASS").is_some_and(|class| class.starts_with("DISPLAY")) {
+            return Power;
+        }
+        let describes_a_light = |text: &str| text.to_ascii_lowercase().contains("spectral power");
+        if self.keyword("DESCRIPTOR").is_some_and(describes_a_light) { Power } else { Unstated }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::Unit;
+    use super::*;
+
+    const FILE: &str = "CGATS.17\nORIGINATOR \"x # y\" # z\nINSTRUMENTATION \"I1\"\n\
+        NUMBER_OF_FIELDS 4\nBEGIN_DATA_FORMAT\nSAMPLE_ID SAMPLE_NAME SPECTRAL_NM400\nSPECTRAL_NM410\n\
+        END_DATA_FORMAT\nNUMBER_OF_SETS 2\nBEGIN_DATA\n1 \"dark \"\"skin\"\"\" 0.1\n 0.2\n\
+        2 white 0.8 0.9\nEND_DATA\n";
+
+    #[test]
+    fn words_quotes_remarks_and_rows_of_two_lines() {
+        let found = read("f", FILE).unwrap();
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].name.as_str(), found[0].line), ("dark \"skin\"", 11));
+        assert_eq!(
+            (&found[0].wavelengths_nm, &found[0].values),
+            (&vec![400.0, 410.0], &vec![0.1, 0.2])
+        );
+        assert_eq!(found[0].details[0], ("ORIGINATOR".to_owned(), "x # y".to_owned()));
+        assert_eq!((found[1].name.as_str(), &found[1].values), ("white", &vec![0.8, 0.9]));
+        assert_eq!(
+            (found[1].quantity, found[1].unit),
+            (MeasuredQuantity::Unstated, Unit::Unstated)
+        );
+    }
+
+    #[test]
+    fn several_tables_and_names_with_spaces_between_tabs() {
+        let text = format!(
+            "CTI3\nBEGIN_DATA_FORMAT\nSAMPLE_ID RGB_R\nEND_DATA_FORMAT\nBEGIN_DATA\n1 5\nEND_DATA\n\
+             LGOROWLENGTH\t10\r\nBEGIN_DATA_FORMAT\r\nSampleID\tSAMPLE_NAME\tnm400\tnm410\r\n\
+             END_DATA_FORMAT\r\nBEGIN_DATA\r\n1\tlight skin\t0,5\t0,6\r\nEND_DATA\r\n{FILE}"
+        );
+        let found = read("f", &text).unwrap();
+        let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
+        assert_eq!(names, ["light skin", "dark \"skin\"", "white"]);
+        assert_eq!(found[0].values, [0.5, 0.6]);
+    }
+
+    #[test]
+    fn the_measured_quantity_is_what_the_keywords_say() {
+        for (keyword, quantity) in [
+            ("QUANTITY \"reflectance\"", MeasuredQuantity::Reflectance),
+            ("MEAS_TYPE \"EMISSION\"", MeasuredQuantity::Power),
+            ("MEAS_TYPE \"TRANSMISSIVE\"", MeasuredQuantity::Transmittance),
+            ("DEVICE_CLASS \"DISPLAY\"", MeasuredQuantity::Power),
+            ("DESCRIPTOR \"Argyll Spectral Power of F8\"", MeasuredQuantity::Power),
+        ] {
+            let found = read("f", &FILE.replace("CGATS.17", keyword)).unwrap();
+            assert_eq!(found[0].quantity, quantity, "{keyword}");
+        }
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        for (old, new, at) in [
+            ("0.8 0.9", "0.8 nan", 13),
+            ("0.8 0.9", "0.8 0.9 1.0", 13),
+            ("white 0.8 0.9\nEND_DATA\n", "white 0.8", 13),
+            ("2 white 0.8 0.9", "2 white 0.8", 13),
+            ("NUMBER_OF_SETS 2", "NUMBER_OF_SETS 3", 14),
+            ("SPECTRAL_NM410", "SPECTRAL_NM400", 7),
+        ] {
+            let found = read("f", &FILE.replace(old, new));
+            let line = match found {
+                Err(
+                    InstrumentError::Line { line, .. }
+                    | InstrumentError::Count { line, .. }
+                    | InstrumentError::Duplicate { line, .. },
+                ) => line,
+                other => panic!("{other:?}"),
+            };
+            assert_eq!(line, at, "{new}");
+        }
+    }
+}

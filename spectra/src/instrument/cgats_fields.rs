@@ -1,0 +1,228 @@
+//! The fields of a CGATS table: which hold a spectrum, and which the sample's name.
+
+use super::cgats::Cell;
+use super::error::InstrumentError;
+use super::number::{Decimal, number, wanted};
+use super::points::{Duplicates, Ordered, Point, ordered};
+use super::record::{MeasuredQuantity, Unit};
+
+/// Where a value's wavelength stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Wavelength {
+    /// In the field's name.
+    Nm(f64),
+    /// In the field before it.
+    Beside,
+}
+
+/// The fields of a table.
+pub(super) struct Fields {
+    /// Column of each value.
+    values: Vec<(usize, Wavelength)>,
+    unit: Unit,
+    /// What a perfect white reads, where the file says so.
+    norm: Option<f64>,
+    name: Option<usize>,
+    id: Option<usize>,
+    remarks: Vec<String>,
+}
+
+impl Fields {
+    /// The fields called `names`, each with its line; `keywords` are line, keyword and value.
+    pub(super) fn of(
+        file: &str,
+        names: &[Cell],
+        keywords: &[(usize, String, String)],
+    ) -> Result<Self, InstrumentError> {
+        let upper: Vec<String> = names.iter().map(|(_, name)| name.to_ascii_uppercase()).collect();
+        let mut values: Vec<(usize, Wavelength)> = Vec::new();
+        let mut unit = Unit::Unstated;
+        for (column, name) in upper.iter().enumerate() {
+            let beside = column > 0 && upper[column - 1] == "SPECTRAL_NM";
+            match wavelength(name) {
+                Some(nm) => {
+                    let same = |other: &&(usize, Wavelength)| other.1 == Wavelength::Nm(nm);
+                    if let Some((first, _)) = values.iter().find(same) {
+                        let (line, first) = (names[column].0, names[*first].0);
+                        let file = file.to_owned();
+                        return Err(InstrumentError::Duplicate { file, line, nm, first });
+                    }
+                    values.push((column, Wavelength::Nm(nm)));
+                }
+                None if beside => values.push((column, Wavelength::Beside)),
+                None => continue,
+            }
+            if name.starts_with("SPECTRAL_PCT") {
+                unit = Unit::Percent;
+            } else if name.starts_with("SPECTRAL_DEC") {
+                unit = Unit::Fraction;
+            }
+        }
+        let found = |wanted: &[&str]| upper.iter().position(|name| wanted.contains(&name.as_str()));
+        let said = |wanted: &str| {
+            let keyword = keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(wanted))?;
+            number(&keyword.2, Decimal::Point)
+        };
+        let mut fields = Self {
+            values,
+            unit,
+            norm: said("SPECTRAL_NORM").filter(|norm| *norm > 0.0),
+            name: found(&["SAMPLE_NAME", "SAMPLENAME"]),
+            id: found(&["SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC"]),
+            remarks: Vec::new(),
+        };
+        if let (Some(bands), Some(start), Some(end)) =
+            (said("SPECTRAL_BANDS"), said("SPECTRAL_START_NM"), said("SPECTRAL_END_NM"))
+        {
+            fields.unround(bands, start, end);
+        }
+        Ok(fields)
+    }
+
+    /// Argyll rounds wavelengths in the names of fields to whole nm; the exact ones follow
+    /// from the keywords, where these agree with the names.
+    fn unround(&mut self, bands: f64, start: f64, end: f64) {
+        let last = (self.values.len().max(2) - 1) as f64;
+        let exact = |index: usize| start + (end - start) * index as f64 / last;
+        let agrees = |(index, value): (usize, &(usize, Wavelength))| matches!(value.1, Wavelength::Nm(nm) if (nm - exact(index)).abs() <= 0.51);
+        if self.values.is_empty() {
+        } else if bands == self.values.len() as f64 && self.values.iter().enumerate().all(agrees) {
+            for (index, value) in self.values.iter_mut().enumerate() {
+                value.1 = Wavelength::Nm(exact(index));
+            }
+        } else {
+            let what = format!(
+                "the keywords tell {bands} wavelengths from {start} to {end} nm, the names of the fields others; the names hold"
+            );
+            self.remarks.push(what);
+        }
+    }
+
+    pub(super) fn hold_spectra(&self) -> bool {
+        !self.values.is_empty()
+    }
+
+    /// The name of each row: SAMPLE_NAME unless it tells nothing apart, else SAMPLE_ID, else
+    /// `stem` with a number.
+    pub(super) fn names(&self, rows: &[Vec<Cell>], stem: &str) -> Vec<String> {
+        let column = |column: usize| rows.iter().map(move |row| row[column].1.as_str());
+        let tells = |&index: &usize| {
+            let all_named = column(index).all(|name| !name.is_empty());
+            let differs = rows.len() < 2 || column(index).any(|name| name != rows[0][index].1);
+            all_named && differs
+        };
+        match self.name.filter(tells).or(self.id.filter(tells)) {
+            Some(index) => column(index).map(str::to_owned).collect(),
+            None if rows.len() == 1 => vec![stem.to_owned()],
+            None => (1..=rows.len()).map(|row| format!("{stem} {row}")).collect(),
+        }
+    }
+
+    /// The spectrum of one row.
+    pub(super) fn spectrum(
+        &self,
+        file: &str,
+        row: &[Cell],
+        quantity: MeasuredQuantity,
+    ) -> Result<(Ordered, Unit), InstrumentError> {
+        let cells = self.values.iter().map(|(column, _)| row[*column].1.as_str());
+        let decimal = Decimal::of(cells);
+        let is_light = quantity == MeasuredQuantity::Power;
+        let (factor, unit) = match (self.unit, self.norm) {
+            _ if is_light => (1.0, Unit::Unstated),
+            (Unit::Unstated, Some(1.0)) => (1.0, Unit::Fraction),
+            (Unit::Unstated, Some(norm)) => (100.0 / norm, Unit::Percent),
+            (unit, _) => (1.0, unit),
+        };
+        let mut points = Vec::with_capacity(self.values.len());
+        for &(column, place) in &self.values {
+            let (line, text) = &row[column];
+            let value = factor * wanted(file, *line, "a value", text, decimal)?;
+            let nm = match place {
+                Wavelength::Nm(nm) => nm,
+                Wavelength::Beside => {
+                    wanted(file, *line, "a wavelength", &row[column - 1].1, decimal)?
+                }
+            };
+            if !value.is_finite() {
+                return Err(InstrumentError::line(file, *line, "a value", text));
+            }
+            points.push(Point { line: *line, nm, value });
+        }
+        let mut ordered = ordered(file, points, Duplicates::Refuse)?;
+        ordered.remarks.extend(self.remarks.clone());
+        if factor != 1.0 {
+            let what = format!("SPECTRAL_NORM: values multiplied by {factor} to give percent");
+            ordered.remarks.push(what);
+        }
+        Ok((ordered, unit))
+    }
+}
+
+/// The wavelength in the name of a field: `SPECTRAL_NM_400`, `SPECTRAL_NM400`, `SPEC_400`,
+/// `SPECTRAL_PCT_400`, `nm400`, `400nm`, `R400`, `400`.
+fn wavelength(upper: &str) -> Option<f64> {
+    let bare = ["SPECTRAL_NM", "SPECTRAL_PCT", "SPECTRAL_DEC", "SPECTRAL", "SPEC", "NM", "R"]
+        .iter()
+        .find_map(|prefix| upper.strip_prefix(prefix))
+        .unwrap_or(upper);
+    let bare = bare.strip_prefix('_').unwrap_or(bare);
+    let bare = bare.strip_suffix("NM").unwrap_or(bare);
+    let nm = number(bare, Decimal::Point)?;
+    (100.0..=5000.0).contains(&nm).then_some(nm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cgats::read;
+    use super::*;
+
+    #[test]
+    fn wavelengths_are_read_in_every_spelling() {
+        for name in [
+            "SPECTRAL_NM_400",
+            "SPECTRAL_NM400",
+            "SPEC_400",
+            "SPECTRAL_PCT_400",
+            "NM400",
+            "400NM",
+            "R400",
+            "400.0",
+        ] {
+            assert_eq!(wavelength(name), Some(400.0), "{name}");
+        }
+        for name in ["SPECTRAL_NM", "SAMPLE_ID", "RGB_R", "LAB_L", "NM1", "D50"] {
+            assert_eq!(wavelength(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn argylls_rounded_wavelengths_are_made_exact() {
+        let text = |end: &str| {
+            format!(
+                "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\
+                 SPECTRAL_NORM \"50\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\n\
+                 END_DATA_FORMAT\nBEGIN_DATA\n10 20 30 40\nEND_DATA\n"
+            )
+        };
+        let found = &read("a/Red.sp", &text("390.0")).unwrap()[0];
+        assert_eq!(found.wavelengths_nm[1], 380.0 + 10.0 / 3.0);
+        assert_eq!((found.name.as_str(), found.unit), ("Red", Unit::Percent));
+        assert_eq!(found.values, [20.0, 40.0, 60.0, 80.0]);
+        let stale = &read("a/Red.sp", &text("700.0")).unwrap()[0];
+        assert_eq!(stale.wavelengths_nm[1], 383.0);
+        assert!(stale.remarks[0].contains("700"), "{:?}", stale.remarks);
+    }
+
+    #[test]
+    fn wavelengths_beside_their_values_are_read() {
+        let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 400 10,5 410 20\nEND_DATA\n";
+        let found = &read("f", text).unwrap()[0];
+        assert_eq!(
+            (&found.wavelengths_nm, &found.values),
+            (&vec![400.0, 410.0], &vec![10.5, 20.0])
+        );
+        assert_eq!((found.name.as_str(), found.unit), ("A", Unit::Percent));
+    }
+}

@@ -1,0 +1,35 @@
+//! The words of a line of CGATS: parted by blanks, in quotes where they hold some.
+
+/// The words of a line, without their quotes, up to its remark, which starts with `#`.
+pub(super) fn words(line: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut characters = line.chars().peekable();
+    while let Some(&first) = characters.peek() {
+        if first.is_whitespace() {
+            characters.next();
+            continue;
+        }
+        if first == '#' {
+            break;
+        }
+        let mut text = String::new();
+        if first == '"' {
+            characters.next();
+            while let Some(c) = characters.next() {
+                if c != '"' {
+                    text.push(c);
+                } else if characters.next_if_eq(&'"').is_some() {
+                    text.push('"');
+                } else {
+                    break;
+                }
+            }
+        } else {
+            while let Some(c) = characters.next_if(|c| !c.is_whitespace()) {
+                text.push(c);
+            }
+        }
+        found.push(text);
+    }
+    found
+}

@@ -1,0 +1,204 @@
+//! Columns of numbers: a wavelength, then one or more values, under headings or none.
+//!
+//! Cells are parted by semicolon, tab, spaces or comma; a decimal comma is read where a comma
+//! does not part cells. Lines that start with `#` are passed over.
+
+use super::axis::Axis;
+use super::error::InstrumentError;
+use super::layout::Layout;
+use super::points::{Duplicates, Point, ordered};
+use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::text::lines;
+
+/// Whether `text` is such columns: most lines are numbers, the first of each a wavelength.
+pub(super) fn are_in(text: &str) -> bool {
+    let Some(layout) = Layout::of(content(text).map(|(_, line)| line)) else { return false };
+    let (mut rows, mut others) = (0_usize, 0_usize);
+    for (number, line) in content(text) {
+        if !layout.is_row(line) {
+            others += 1;
+        } else {
+            let first = layout.numbers("", number, line, 0).map(|row| row[0]);
+            if !first.is_ok_and(|nm| nm >= 100.0) {
+                return false;
+            }
+            rows += 1;
+        }
+    }
+    rows >= 2 && rows >= others
+}
+
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+    let table = table(file, text)?;
+    let Some(first) = table.rows.first() else { return Ok(Vec::new()) };
+    let width = first.1.len();
+    let headings = table.headings(width);
+    let commas = table.layout.is_some_and(|layout| layout.separator == Some(','));
+    if headings.is_empty() && width > 2 && commas {
+        // `400,0,5` may be a decimal comma.
+        let what = "a wavelength and one value, or a heading for every column,";
+        let line = lines(text).nth(first.0 - 1).map_or("", |(_, line)| line);
+        return Err(InstrumentError::line(file, first.0, what, line));
+    }
+    let words: String = table.above.join(" ");
+    let axis = headings.first().and_then(|heading| Axis::of_words(heading));
+    let axis = axis.or_else(|| Axis::of_words(&words)).unwrap_or(Axis::Nanometres);
+    (1..width)
+        .map(|column| {
+            let heading = headings.get(column).copied().unwrap_or_default();
+            let quantity = match MeasuredQuantity::of_words(heading) {
+                MeasuredQuantity::Unstated => MeasuredQuantity::of_words(&words),
+                stated => stated,
+            };
+            let name = if width > 2 && !heading.is_empty() {
+                heading.to_owned()
+            } else if width > 2 {
+                format!("{} {column}", stem(file))
+            } else if is_name(heading) {
+                heading.to_owned()
+            } else {
+                stem(file)
+            };
+            let unit = if heading.contains('%') || words.contains('%') {
+                Unit::Percent
+            } else {
+                Unit::Unstated
+            };
+            table.record(file, column, axis, Named { name, quantity, unit })
+        })
+        .collect()
+}
+
+/// Whether a heading names a sample rather than what is measured.
+fn is_name(heading: &str) -> bool {
+    let lower = heading.to_ascii_lowercase();
+    let generic = ["", "r", "%r", "y", "v", "value", "values", "intensity", "spd", "spectrum"];
+    !generic.contains(&lower.as_str())
+        && MeasuredQuantity::of_words(heading) == MeasuredQuantity::Unstated
+}
+
+/// What a column is called.
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) quantity: MeasuredQuantity,
+    pub(super) unit: Unit,
+}
+
+/// Rows of numbers, and the lines above them.
+pub(super) struct NumberTable<'a> {
+    pub(super) above: Vec<&'a str>,
+    /// `None` without rows.
+    layout: Option<Layout>,
+    /// Each with its line, all of one width, 2 or more.
+    pub(super) rows: Vec<(usize, Vec<f64>)>,
+}
+
+impl NumberTable<'_> {
+    /// The headings, if a line above has one for every column.
+    fn headings(&self, width: usize) -> Vec<&str> {
+        let Some(layout) = self.layout else { return Vec::new() };
+        let cells = self.above.iter().rev().map(|line| layout.cells(line));
+        cells.into_iter().find(|cells| cells.len() == width).unwrap_or_default()
+    }
+
+    /// The spectrum of one column.
+    pub(super) fn record(
+        &self,
+        file: &str,
+        column: usize,
+        axis: Axis,
+        named: Named,
+    ) -> Result<Record, InstrumentError> {
+        let points = self.rows.iter().map(|(line, row)| Point {
+            line: *line,
+            nm: axis.nm(row[0]),
+            value: row[column],
+        });
+        let ordered = ordered(file, points.collect(), Duplicates::Average)?;
+        Ok(Record {
+            name: named.name,
+            quantity: named.quantity,
+            unit: named.unit,
+            wavelengths_nm: ordered.wavelengths_nm,
+            values: ordered.values,
+            line: self.rows.first().map_or(1, |(line, _)| *line),
+            details: Vec::new(),
+            remarks: ordered.remarks,
+        })
+    }
+}
+
+/// The rows of numbers of a text. After the first row every line must be one.
+pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, InstrumentError> {
+    let layout = Layout::of(content(text).map(|(_, line)| line));
+    let mut table = NumberTable { above: Vec::new(), layout, rows: Vec::new() };
+    for (number, line) in content(text) {
+        let width = table.rows.first().map_or(0, |(_, row)| row.len());
+        match layout {
+            Some(layout) if width > 0 || layout.is_row(line) => {
+                table.rows.push((number, layout.numbers(file, number, line, width)?));
+            }
+            _ => table.above.push(line),
+        }
+    }
+    Ok(table)
+}
+
+/// Lines that are neither empty nor remarks.
+fn content(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
+    let trimmed = lines(text).map(|(number, line)| (number, line.trim_matches([' ', '\0'])));
+    let lines: Vec<_> =
+        trimmed.filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#')).collect();
+    lines.into_iter()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_name_spectra_and_their_unit() {
+        let found = read("a/b.txt", "# x\nnm;Red %;Blue %\n420;1,5;2\n400;1;3\n").unwrap();
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[1].name.as_str(), found[1].unit), ("Blue %", Unit::Percent));
+        assert_eq!(found[0].wavelengths_nm, [400.0, 420.0]);
+        assert_eq!(found[0].values, [1.0, 1.5]);
+        let found = read("a/b.txt", "wavelength,reflectance\n400,0.1\n410,0.2\n").unwrap();
+        assert_eq!((found[0].name.as_str(), found[0].line), ("b", 2));
+        assert_eq!(found[0].quantity, MeasuredQuantity::Reflectance);
+    }
+
+    #[test]
+    fn wavenumbers_become_wavelengths() {
+        let found = read("f", "cm-1,R\n20000,0.1\n25000,0.2\n").unwrap();
+        assert_eq!(
+            (&found[0].wavelengths_nm, &found[0].values),
+            (&vec![400.0, 500.0], &vec![0.2, 0.1])
+        );
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        for (text, at) in [
+            ("400,0.1\n410,x\n", 2),
+            ("400,0.1\n\n410,nan\n", 3),
+            ("400,0.1\n410\n", 2),
+            ("400,0,1\n410,0,2\n", 1),
+            ("400;0,1\n410;0.2\n420;0,3\n", 2),
+        ] {
+            let found = read("f", text);
+            let Err(InstrumentError::Line { line, .. }) = found else { panic!("{found:?}") };
+            assert_eq!(line, at, "{text}");
+        }
+        let found = read("f", "400,0.1\n420,0.1\n410,0.2\n");
+        assert!(matches!(found, Err(InstrumentError::Order { line: 3, .. })), "{found:?}");
+    }
+
+    #[test]
+    fn tables_of_other_things_are_not_columns() {
+        assert!(are_in("nm value\n400 0.1\n410 0.2\n"));
+        assert!(!are_in("name,400,410\nA,0.1,0.2\nB,0.1,0.2\n"));
+        assert!(!are_in("0.1,0.2\n0.3,0.4\n"));
+        assert!(!are_in("hello\n"));
+    }
+}

@@ -1,0 +1,327 @@
+//! The spectra of a CxF3 file.
+//!
+//! Objects of a collection carry spectra; each names a colour specification that
+//! holds the wavelengths' increment, the geometry and the device. Reflectance and
+//! transmittance are fractions, white near 1. Objects that hold colours only are
+//! passed over.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::error::InstrumentError;
+use super::super::number::{Decimal, wanted};
+use super::super::points::{Duplicates, Point, ordered, sorted};
+use super::super::record::{MeasuredQuantity, Record, Unit};
+use super::super::xml::{Element, parse};
+
+/// A reflectance at or above this is no fraction: the schema keeps values below 3.
+const MOST_FRACTION: f64 = 3.0;
+
+/// What a wavelength must be, in errors.
+const NM: &str = "a wavelength in nm";
+
+/// What a value must be, in errors.
+const NUMBER: &str = "a number";
+
+/// Every spectrum of a CxF3 file, in its order.
+pub(in crate::instrument) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+    let root = parse(file, text)?;
+    if root.name != "CxF" {
+        return Err(InstrumentError::line(file, root.line, "a CxF element", &root.name));
+    }
+    let specifications = specifications(&root);
+    let mut found = Vec::new();
+    for object in below(&root, ["Resources", "ObjectCollection", "Object"]) {
+        for element in object.all("ColorValues").flat_map(|values| &values.children) {
+            if let Some(quantity) = quantity(&element.name) {
+                found.push(spectrum(file, object, element, quantity, &specifications)?);
+            }
+        }
+    }
+    name_apart(&mut found);
+    let mut records: Vec<Record> = found.into_iter().map(|found| found.record).collect();
+    let fraction = |record: &Record| record.unit == Unit::Fraction;
+    let above = |record: &Record| record.values.iter().any(|&value| value >= MOST_FRACTION);
+    // Some writers put percent there; one sample shows it for all.
+    if records.iter().any(|record| fraction(record) && above(record)) {
+        for record in records.iter_mut().filter(|record| fraction(record)) {
+            record.unit = Unit::Percent;
+        }
+    }
+    Ok(records)
+}
+
+/// A record, and what it was measured with.
+struct Found {
+    record: Record,
+    specification: String,
+    /// `M0` to `M3` (ISO 13655), where the file says so.
+    condition: Option<String>,
+}
+
+fn spectrum(
+    file: &str,
+    object: &Element,
+    element: &Element,
+    stated: MeasuredQuantity,
+    specifications: &BTreeMap<&str, &Element>,
+) -> Result<Found, InstrumentError> {
+    let id = element.attribute("ColorSpecification").unwrap_or_default();
+    let measurement = specifications.get(id).and_then(|it| it.child("MeasurementSpec"));
+    let name = [object.attribute("Name"), object.attribute("Id")];
+    let name = name.into_iter().flatten().map(str::trim).find(|name| !name.is_empty());
+    let name = name.map_or_else(|| format!("line {}", object.line), str::to_owned);
+    let quantity = match measurement.and_then(|it| it.child("MeasurementType")) {
+        Some(kind) if element.name == "CustomSpectrum" => custom_quantity(kind.text.trim()),
+        _ => stated,
+    };
+    let points = if element.name == "CustomSpectrum" {
+        irregular(file, element)?
+    } else {
+        regular(file, element, id, measurement.and_then(|it| it.child("WavelengthRange")))?
+    };
+    if points.is_empty() {
+        return Err(InstrumentError::line(file, element.line, "a value", &element.name));
+    }
+    let (points, order) = sorted(points);
+    let ordered = ordered(file, points, Duplicates::Refuse)?;
+    let mut details = Vec::new();
+    for (key, holder) in [("ObjectType", object), ("Id", object), ("ColorSpecification", element)] {
+        details.extend(holder.attribute(key).map(|value| (key.to_owned(), value.to_owned())));
+    }
+    for key in ["CreationDate", "Comment"] {
+        details.extend(object.child(key).map(|child| (key.to_owned(), child.text.trim().into())));
+    }
+    let measured = measurement.map_or_else(Vec::new, |it| it.leaves());
+    let condition = measured.iter().find(|(key, _)| key == "DeviceIllumination");
+    let condition = condition
+        .map(|(_, value)| value.split('_').next().unwrap_or_default().to_owned())
+        .filter(|it| matches!(it.as_str(), "M0" | "M1" | "M2" | "M3"));
+    details.extend(measured);
+    let unit = match quantity {
+        MeasuredQuantity::Reflectance | MeasuredQuantity::Transmittance => Unit::Fraction,
+        _ => Unit::Unstated,
+    };
+    let record = Record {
+        name,
+        quantity,
+        unit,
+        wavelengths_nm: ordered.wavelengths_nm,
+        values: ordered.values,
+        line: object.line,
+        details,
+        remarks: order.into_iter().chain(ordered.remarks).collect(),
+    };
+    Ok(Found { record, specification: id.to_owned(), condition })
+}
+
+/// Values at a constant increment, parted by white space.
+fn regular(
+    file: &str,
+    element: &Element,
+    id: &str,
+    range: Option<&Element>,
+) -> Result<Vec<Point>, InstrumentError> {
+    let missing = |what| InstrumentError::Incomplete {
+        file: file.to_owned(),
+        line: element.line,
+        element: element.name.clone(),
+        missing: what,
+        specification: id.to_owned(),
+    };
+    let increment = range.and_then(|range| Some((range.attribute("Increment")?, range.line)));
+    let start = element.attribute("StartWL").map(|start| (start, element.line));
+    let start =
+        start.or_else(|| range.and_then(|range| Some((range.attribute("StartWL")?, range.line))));
+    let (start, line) = start.ok_or_else(|| missing("StartWL"))?;
+    let start = number(file, line, NM, start)?;
+    let (increment, line) = increment.ok_or_else(|| missing("Increment"))?;
+    let increment = number(file, line, NM, increment)?;
+    let mut points = Vec::new();
+    for (offset, text) in element.text.lines().enumerate() {
+        let line = element.line + offset;
+        for token in text.split_ascii_whitespace() {
+            let nm = start + increment * points.len() as f64;
+            points.push(Point { nm, value: number(file, line, NUMBER, token)?, line });
+        }
+    }
+    Ok(points)
+}
+
+fn number(file: &str, line: usize, what: &'static str, text: &str) -> Result<f64, InstrumentError> {
+    wanted(file, line, what, text, Decimal::Point)
+}
+
+/// Values each with its own wavelength.
+fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentError> {
+    let point = |child: &Element| {
+        let nm = number(file, child.line, NM, child.attribute("WL").unwrap_or_default())?;
+        let value = number(file, child.line, NUMBER, &child.text)?;
+        Ok(Point { nm, value, line: child.line })
+    };
+    element.all("SpectralPoint").map(point).collect()
+}
+
+/// Spectra of one object under several specifications (M0 and M1, several angles) are no repeated
+/// readings: their names are told apart.
+fn name_apart(found: &mut [Found]) {
+    let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, found) in found.iter().enumerate() {
+        groups.entry(found.record.name.clone()).or_default().push(index);
+    }
+    for group in groups.values() {
+        let ids: BTreeSet<&str> = group.iter().map(|&i| found[i].specification.as_str()).collect();
+        if ids.len() < 2 {
+            continue;
+        }
+        let conditions: BTreeSet<&str> =
+            group.iter().filter_map(|&i| found[i].condition.as_deref()).collect();
+        let by_condition = conditions.len() == ids.len();
+        for &index in group {
+            let it = &mut found[index];
+            let label = match &it.condition {
+                Some(condition) if by_condition => condition,
+                _ => &it.specification,
+            };
+            it.record.name = format!("{} ({label})", it.record.name);
+        }
+    }
+}
+
+fn quantity(element: &str) -> Option<MeasuredQuantity> {
+    match element {
+        "ReflectanceSpectrum" => Some(MeasuredQuantity::Reflectance),
+        "TransmittanceSpectrum" => Some(MeasuredQuantity::Transmittance),
+        "EmissiveSpectrum" => Some(MeasuredQuantity::Power),
+        "CustomSpectrum" => Some(MeasuredQuantity::Unstated),
+        _ => None,
+    }
+}
+
+/// What a specification says of a spectrum with its own wavelengths.
+fn custom_quantity(measurement_type: &str) -> MeasuredQuantity {
+    match measurement_type {
+        "Spectrum_Reflectance" => MeasuredQuantity::Reflectance,
+        "Spectrum_Transmittance" | "Spectrum_TotalTransmittance" => MeasuredQuantity::Transmittance,
+        "Spectrum_Emissive" => MeasuredQuantity::Power,
+        _ => MeasuredQuantity::Unstated,
+    }
+}
+
+fn specifications(root: &Element) -> BTreeMap<&str, &Element> {
+    let path = ["Resources", "ColorSpecificationCollection", "ColorSpecification"];
+    below(root, path).into_iter().filter_map(|it| Some((it.attribute("Id")?, it))).collect()
+}
+
+/// The elements at the end of `path`.
+fn below<'a>(root: &'a Element, path: [&'a str; 3]) -> Vec<&'a Element> {
+    let mut found = vec![root];
+    for name in path {
+        found = found.into_iter().flat_map(|element| element.all(name)).collect();
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file with `objects`, and specifications s (10 nm), m0 and m1 (100 nm).
+    fn file(objects: &str) -> String {
+        let illuminated = |id: &str, condition: &str| {
+            format!(
+                "<c:ColorSpecification Id='{id}'><c:MeasurementSpec>\
+                 <c:WavelengthRange StartWL='400' Increment='100'/><c:Device>\
+                 <c:DeviceIllumination>{condition}</c:DeviceIllumination></c:Device>\
+                 </c:MeasurementSpec></c:ColorSpecification>"
+            )
+        };
+        format!(
+            "<c:CxF xmlns:c='http://colorexchangeformat.com/CxF3-core'><c:Resources>\
+             <c:ObjectCollection>\n{objects}\n</c:ObjectCollection>\
+             <c:ColorSpecificationCollection><c:ColorSpecification Id='s'><c:MeasurementSpec>\
+             <c:MeasurementType>Spectrum_Reflectance</c:MeasurementType>\
+             <c:WavelengthRange StartWL='380' Increment='10'/>\
+             </c:MeasurementSpec></c:ColorSpecification>{}{}\
+             </c:ColorSpecificationCollection></c:Resources></c:CxF>",
+            illuminated("m0", "M0_Incandescent"),
+            illuminated("m1", "M1_Daylight")
+        )
+    }
+
+    fn object(name: &str, values: &str) -> String {
+        format!("<c:Object Name='{name}' Id='1'><c:ColorValues>{values}</c:ColorValues></c:Object>")
+    }
+
+    fn reflectance(specification: &str, values: &str) -> String {
+        let key = "ColorSpecification";
+        format!("<c:ReflectanceSpectrum {key}='{specification}'>{values}</c:ReflectanceSpectrum>")
+    }
+
+    #[test]
+    fn a_spectrum_takes_its_increment_from_the_specification() {
+        let text = file(&object("a &amp; b", &reflectance("s", "0.1 2e-1\n0.3")));
+        let records = read("f", &text).unwrap();
+        assert_eq!(records.len(), 1);
+        assert_eq!(records[0].name, "a & b");
+        assert_eq!(records[0].wavelengths_nm, [380.0, 390.0, 400.0]);
+        assert_eq!(records[0].values, [0.1, 0.2, 0.3]);
+        assert_eq!((records[0].unit, records[0].line), (Unit::Fraction, 2));
+        let kind = ("MeasurementType".to_owned(), "Spectrum_Reflectance".to_owned());
+        assert!(records[0].details.contains(&kind), "{:?}", records[0].details);
+    }
+
+    #[test]
+    fn a_start_of_its_own_and_own_wavelengths_are_read() {
+        let own =
+            "<c:ReflectanceSpectrum StartWL='360' ColorSpecification='s'>1</c:ReflectanceSpectrum>";
+        let points = "<c:CustomSpectrum ColorSpecification='s'><c:SpectralPoint WL='500.5'>0.5\
+                      </c:SpectralPoint><c:SpectralPoint WL='400'>0.4</c:SpectralPoint>\
+                      </c:CustomSpectrum>";
+        let records = read("f", &file(&(object("x", own) + &object("y", points)))).unwrap();
+        assert_eq!(records[0].wavelengths_nm, [360.0]);
+        assert_eq!(records[1].wavelengths_nm, [400.0, 500.5]);
+        assert_eq!(records[1].values, [0.4, 0.5]);
+        assert_eq!(records[1].quantity, MeasuredQuantity::Reflectance);
+    }
+
+    #[test]
+    fn conditions_are_told_apart_and_repeats_are_not() {
+        let both = reflectance("m0", "0.1 0.2") + &reflectance("m1", "0.3 0.4");
+        let twice = reflectance("s", "0.1") + &reflectance("s", "0.2");
+        let mixed = reflectance("s", "0.1") + &reflectance("m1", "0.2");
+        let text = file(&(object("a", &both) + &object("b", &twice) + &object("c", &mixed)));
+        let names: Vec<_> = read("f", &text).unwrap().into_iter().map(|r| r.name).collect();
+        assert_eq!(names, ["a (M0)", "a (M1)", "b", "b", "c (s)", "c (m1)"]);
+    }
+
+    #[test]
+    fn percent_is_seen_by_the_file_as_a_whole() {
+        let text =
+            file(&(object("a", &reflectance("s", "80")) + &object("b", &reflectance("s", "2"))));
+        let units: Vec<_> = read("f", &text).unwrap().into_iter().map(|r| r.unit).collect();
+        assert_eq!(units, [Unit::Percent, Unit::Percent]);
+    }
+
+    #[test]
+    fn faults_have_a_place() {
+        let lab = object("a", "<c:ColorCIELab ColorSpecification='s'><c:L>5</c:L></c:ColorCIELab>");
+        for (objects, wanted) in [
+            (
+                object("a", &reflectance("s", "0.1\n0.2 x")),
+                "f, line 3: a number is wanted, found `x`",
+            ),
+            (object("a", &reflectance("s", "NaN")), "f, line 2: a number is wanted, found `NaN`"),
+            (object("a", &reflectance("s", " ")), "f, line 2: a value is wanted"),
+            (
+                object("a", &reflectance("none", "1")),
+                "f, line 2: ReflectanceSpectrum has no StartWL, nor has the specification `none`",
+            ),
+        ] {
+            let error = read("f", &file(&objects)).unwrap_err().to_string();
+            assert!(error.starts_with(wanted), "{error}");
+        }
+        assert_eq!(read("f", &file(&lab)).unwrap(), [], "colours only");
+        let error = read("f", "<svg/>").unwrap_err().to_string();
+        assert_eq!(error, "f, line 1: a CxF element is wanted, found `svg`");
+    }
+}

@@ -1,0 +1,124 @@
+//! The formats, their names, and how to know a file of each.
+
+use super::columns;
+use super::text::lines;
+
+/// A format of instruments' files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// CGATS.17 and its kin: Argyll .ti3, .sp and .cie, the text of X-Rite and GretagMacbeth.
+    Cgats,
+    /// Datacolor QTX.
+    Qtx,
+    /// Ocean Optics: SpectraSuite, OceanView, Jaz.
+    OceanOptics,
+    /// JCAMP-DX.
+    Jcamp,
+    /// Avantes AvaSoft text.
+    Avantes,
+    /// Bruker OPUS data point table.
+    Bruker,
+    /// Columns of numbers: wavelength, then one or more spectra.
+    Columns,
+    /// CxF3.
+    Cxf,
+    /// IES TM-27.
+    Tm27,
+    /// Sekonic SpectroMaster CSV.
+    Sekonic,
+}
+
+impl Format {
+    /// Every format, in the order in which they are told.
+    pub const ALL: [Self; 10] = [
+        Self::Cgats,
+        Self::Qtx,
+        Self::OceanOptics,
+        Self::Jcamp,
+        Self::Avantes,
+        Self::Bruker,
+        Self::Columns,
+        Self::Cxf,
+        Self::Tm27,
+        Self::Sekonic,
+    ];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cgats => "cgats",
+            Self::Qtx => "qtx",
+            Self::OceanOptics => "ocean-optics",
+            Self::Jcamp => "jcamp-dx",
+            Self::Avantes => "avantes",
+            Self::Bruker => "bruker",
+            Self::Columns => "columns",
+            Self::Cxf => "cxf",
+            Self::Tm27 => "tm27",
+            Self::Sekonic => "sekonic",
+        }
+    }
+
+    /// What it is, in words.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Cgats => "CGATS",
+            Self::Qtx => "Datacolor QTX",
+            Self::OceanOptics => "Ocean Optics",
+            Self::Jcamp => "JCAMP-DX",
+            Self::Avantes => "Avantes",
+            Self::Bruker => "Bruker OPUS",
+            Self::Columns => "columns of text",
+            Self::Cxf => "CxF3",
+            Self::Tm27 => "IES TM-27",
+            Self::Sekonic => "Sekonic",
+        }
+    }
+
+    /// The format of that name on the command line, in any case.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
+    }
+
+    /// The format of a file, by its content; OPUS alone writes nothing but numbers, and is known
+    /// by the ending `.dpt`.
+    #[must_use]
+    pub fn detected(file: &str, text: &str) -> Option<Self> {
+        let start = text.trim_start();
+        if start.starts_with('<') {
+            let head: String = text.chars().take(4000).collect::<String>().to_lowercase();
+            let is = |word: &str| head.contains(word);
+            return if is("cxf") {
+                Some(Self::Cxf)
+            } else {
+                (is("iestm27") || is("spectraldistribution")).then_some(Self::Tm27)
+            };
+        }
+        if start.starts_with("##") {
+            return Some(Self::Jcamp);
+        }
+        let mut before = "";
+        for (_, line) in lines(text) {
+            let line = line.trim();
+            if line.starts_with("[STANDARD_DATA") || line.starts_with("[BATCH_DATA") {
+                return Some(Self::Qtx);
+            } else if line.starts_with(">>>>>Begin") {
+                return Some(Self::OceanOptics);
+            } else if line == "BEGIN_DATA_FORMAT" {
+                return Some(Self::Cgats);
+            } else if line.starts_with("Spectral Data ") && line.contains("[nm]") {
+                return Some(Self::Sekonic);
+            } else if before.starts_with("Wave") && line.starts_with("[nm]") {
+                return Some(Self::Avantes);
+            }
+            before = line;
+        }
+        if file.to_ascii_lowercase().ends_with(".dpt") {
+            return Some(Self::Bruker);
+        }
+        columns::are_in(text).then_some(Self::Columns)
+    }
+}

@@ -1,0 +1,241 @@
+//! JCAMP-DX: labelled records `##LABEL= value`, one spectrum a block, blocks linked or one
+//! after the other.
+//!
+//! McDonald and Wilks, "JCAMP-DX: a standard form for exchange of infrared spectra in computer
+//! readable form", Applied Spectroscopy 42 (1988) 151. Read are XYDATA= (X++(Y..Y)), in every
+//! packed form, and XYPOINTS= (XY..XY); NTUPLES are not.
+
+use super::axis::Axis;
+use super::error::InstrumentError;
+use super::jcamp_data::{Scaling, points, runs};
+use super::number::{Decimal, wanted};
+use super::points::{Duplicates, ordered};
+use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::text::lines;
+
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+    let mut records = Vec::new();
+    let mut block = Block::default();
+    let mut ended = (1, true);
+    for (number, line) in lines(text) {
+        let line = line.split("$$").next().unwrap_or_default().trim();
+        let Some(labelled) = line.strip_prefix("##") else {
+            if let Some(field) = block.fields.last_mut().filter(|_| !line.is_empty()) {
+                field.lines.push((number, line));
+                ended.0 = number;
+            }
+            continue;
+        };
+        let (label, value) = labelled.split_once('=').unwrap_or((labelled, ""));
+        let label = normalised(label);
+        // A link's own labels end where its first block begins.
+        if label == "TITLE" && !block.fields.is_empty() || label == "END" {
+            records.extend(std::mem::take(&mut block).record(file)?);
+        }
+        ended = (number, label == "END");
+        if label != "END" {
+            block.fields.push(Field { label, lines: vec![(number, value.trim())] });
+        }
+    }
+    if !ended.1 {
+        let text = lines(text).nth(ended.0 - 1).map_or("", |(_, line)| line);
+        return Err(InstrumentError::line(file, ended.0, "##END=", text));
+    }
+    let stem = stem(file);
+    for record in &mut records {
+        if record.name.is_empty() {
+            record.name.clone_from(&stem);
+        }
+    }
+    Ok(records)
+}
+
+/// A label without what the standard passes over.
+fn normalised(label: &str) -> String {
+    let kept = label.chars().filter(|c| !c.is_whitespace() && !"-/_".contains(*c));
+    kept.map(|c| c.to_ascii_uppercase()).collect()
+}
+
+/// A labelled record, and the lines of its value.
+struct Field<'a> {
+    label: String,
+    lines: Vec<(usize, &'a str)>,
+}
+
+/// The fields of a block so far.
+#[derive(Default)]
+struct Block<'a> {
+    fields: Vec<Field<'a>>,
+}
+
+impl Block<'_> {
+    fn field(&self, label: &str) -> Option<(usize, &str)> {
+        let field = self.fields.iter().find(|field| field.label == label)?;
+        field.lines.first().copied()
+    }
+
+    fn number(&self, file: &str, label: &str) -> Result<Option<f64>, InstrumentError> {
+        let Some((line, text)) = self.field(label) else { return Ok(None) };
+        wanted(file, line, "a number", text, Decimal::Point).map(Some)
+    }
+
+    /// The block's spectrum, if it has one.
+    fn record(self, file: &str) -> Result<Option<Record>, InstrumentError> {
+        if let Some((line, text)) = self.field("NTUPLES") {
+            let what = "XYDATA or XYPOINTS (this reader knows no NTUPLES)";
+            return Err(InstrumentError::line(file, line, what, text));
+        }
+        let is_data = |field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str());
+        let Some(data) = self.fields.iter().find(is_data) else { return Ok(None) };
+        let (line, form) = data.lines[0];
+        let scaling = Scaling {
+            x: self.number(file, "XFACTOR")?.unwrap_or(1.0),
+            y: self.number(file, "YFACTOR")?.unwrap_or(1.0),
+            first_x: self.number(file, "FIRSTX")?,
+            last_x: self.number(file, "LASTX")?,
+            count: self.number(file, "NPOINTS")?,
+        };
+        let axis = match self.field("XUNITS") {
+            None => Axis::Nanometres,
+            Some((line, units)) => Axis::of_words(units).ok_or_else(|| {
+                InstrumentError::line(file, line, "NANOMETERS, MICROMETERS or 1/CM", units)
+            })?,
+        };
+        let shape: String = form.chars().filter(|c| !c.is_whitespace()).collect();
+        let lines = &data.lines[1..];
+        let raw = match (data.label.as_str(), shape.to_ascii_uppercase().as_str()) {
+            ("XYDATA", "(X++(Y..Y))") => runs(file, lines, &scaling)?,
+            (_, "(XY..XY)") => points(file, lines, &scaling)?,
+            _ => {
+                let what = "(X++(Y..Y)) or (XY..XY)";
+                return Err(InstrumentError::line(file, line, what, form));
+            }
+        };
+        let found = raw.len();
+        if let Some(wanted) = scaling.count.filter(|count| *count != found as f64) {
+            let line = data.lines[data.lines.len() - 1].0;
+            let (file, what) = (file.to_owned(), "points (NPOINTS)");
+            let wanted = wanted.max(0.0) as usize;
+            return Err(InstrumentError::Count { file, line, what, wanted, found });
+        }
+        if raw.is_empty() {
+            return Ok(None);
+        }
+        let in_nm = raw.into_iter().map(|mut point| {
+            point.nm = axis.nm(point.nm);
+            point
+        });
+        let ordered = ordered(file, in_nm.collect(), Duplicates::Average)?;
+        let (line, title) = self.field("TITLE").unwrap_or((line, ""));
+        let (quantity, unit) = self.quantity(title);
+        Ok(Some(Record {
+            name: title.to_owned(),
+            quantity,
+            unit,
+            wavelengths_nm: ordered.wavelengths_nm,
+            values: ordered.values,
+            line,
+            details: self.details(),
+            remarks: ordered.remarks,
+        }))
+    }
+
+    fn quantity(&self, title: &str) -> (MeasuredQuantity, Unit) {
+        // SpectraSuite gives its dark and reference blocks the unit of the processed one.
+        let is_raw = |end: &str| title.to_ascii_uppercase().ends_with(end);
+        if is_raw("DARK SPECTRUM") || is_raw("REFERENCE SPECTRUM") {
+            return (MeasuredQuantity::Counts, Unit::Unstated);
+        }
+        let units = self.field("YUNITS").map_or("", |(_, units)| units);
+        let unit = if units.contains('%') || units.to_ascii_lowercase().contains("percent") {
+            Unit::Percent
+        } else {
+            Unit::Unstated
+        };
+        (MeasuredQuantity::of_words(units), unit)
+    }
+
+    /// What is not needed to read the data.
+    fn details(&self) -> Vec<(String, String)> {
+        let needed = [
+            "TITLE", "JCAMPDX", "XUNITS", "YUNITS", "XFACTOR", "YFACTOR", "FIRSTX", "LASTX",
+            "FIRSTY", "MINX", "MAXX", "MINY", "MAXY", "NPOINTS", "DELTAX", "XYDATA", "XYPOINTS",
+            "BLOCKID",
+        ];
+        let kept = self.fields.iter().filter(|field| !needed.contains(&field.label.as_str()));
+        kept.map(|field| (field.label.clone(), field.lines[0].1.to_owned())).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn block(title: &str, data: &str) -> String {
+        format!(
+            "##TITLE= {title}\n##JCAMP-DX= 4.24 $$ made up\n##X UNITS= NANOMETERS\n##YUNITS= % REFLECTANCE\n\
+             ##XFACTOR= 0.5\n##YFACTOR= 0.1\n##FIRSTX= 400\n##LASTX= 430\n##NPOINTS= 4\n{data}\n##END=\n"
+        )
+    }
+
+    #[test]
+    fn every_packed_form_gives_the_same_values() {
+        // 120, 130, 130, 95 in tenths.
+        for data in [
+            "800 120 130 130 95",
+            "800+120+130+130+95",
+            "800A20A30A30I5",
+            "800A20A30TI5",
+            "800A20J0%l5\n860I5 $$ check",
+            "800A20J0\n820A30%l5\n860I5",
+        ] {
+            let text = block("A", &format!("##XYDATA= (X++(Y..Y))\n{data}"));
+            let found = read("f", &text).unwrap_or_else(|error| panic!("{data}: {error}"));
+            assert_eq!(found[0].wavelengths_nm, [400.0, 410.0, 420.0, 430.0], "{data}");
+            assert_eq!(found[0].values, [12.0, 13.0, 13.0, 9.5], "{data}");
+            assert_eq!((found[0].unit, found[0].line), (Unit::Percent, 1));
+            assert_eq!(found[0].quantity, MeasuredQuantity::Reflectance);
+        }
+    }
+
+    #[test]
+    fn linked_blocks_and_points_are_read() {
+        let points = "##XYPOINTS= (XY..XY)\n860, 95; 840 130\n820 130 800,120";
+        let text = format!(
+            "##TITLE= all\n##DATA TYPE= LINK\n##BLOCKS= 2\n{}{}##END=\n",
+            block("A", points),
+            block("X: DARK SPECTRUM", points)
+        );
+        let found = read("f", &text).unwrap();
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].name.as_str(), found[0].line), ("A", 4));
+        assert_eq!(found[0].values, [12.0, 13.0, 13.0, 9.5]);
+        assert_eq!(found[1].quantity, MeasuredQuantity::Counts);
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let good = block("A", "##XYDATA= (X++(Y..Y))\n800A20J0\n820A30%l5\n860I5");
+        assert!(read("f", &good).is_ok());
+        for (old, new, at) in [
+            ("820A30", "820A31", 12),
+            ("820A30", "840A30", 12),
+            ("820A30", "820A3?", 12),
+            ("l5\n860I5", "l5l5\n", 12),
+            ("NPOINTS= 4", "NPOINTS= 5", 13),
+            ("NANOMETERS", "SECONDS", 3),
+            ("XFACTOR= 0.5", "XFACTOR= x", 5),
+            ("##END=\n", "", 13),
+            ("(X++(Y..Y))", "(XYA)", 10),
+        ] {
+            let found = read("f", &good.replacen(old, new, 1));
+            let line = match found {
+                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
+                    line
+                }
+                other => panic!("{new}: {other:?}"),
+            };
+            assert_eq!(line, at, "{new}");
+        }
+    }
+}

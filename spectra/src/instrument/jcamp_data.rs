@@ -1,0 +1,210 @@
+//! The data of JCAMP-DX: pairs, and rows of ordinates plain or packed.
+//!
+//! Packed ordinates (ASDF) begin with a letter that is a first digit with its sign: SQZ for a
+//! value, DIF for a difference from the value before, DUP for how often what stands before is
+//! said. Where a row ends in differences, the next begins with the last value once more, as a
+//! check.
+
+use super::error::InstrumentError;
+use super::number::{Decimal, number, wanted};
+use super::points::Point;
+
+/// More points than any spectrometer writes; a repetition must not ask for all memory.
+const MOST_POINTS: usize = 4_000_000;
+
+/// How the numbers of a block become abscissas and ordinates.
+pub(super) struct Scaling {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) first_x: Option<f64>,
+    pub(super) last_x: Option<f64>,
+    pub(super) count: Option<f64>,
+}
+
+impl Scaling {
+    fn point(&self, file: &str, line: usize, x: f64, y: f64) -> Result<Point, InstrumentError> {
+        let value = y * self.y;
+        if value.is_finite() {
+            Ok(Point { line, nm: x, value })
+        } else {
+            Err(InstrumentError::line(file, line, "a value", &value.to_string()))
+        }
+    }
+}
+
+/// `(XY..XY)`: pairs, parted by commas, semicolons or blanks. `nm` of a point is its abscissa.
+pub(super) fn points(
+    file: &str,
+    lines: &[(usize, &str)],
+    scaling: &Scaling,
+) -> Result<Vec<Point>, InstrumentError> {
+    let mut points = Vec::new();
+    for &(line, text) in lines {
+        let cells = text.split(|c: char| c == ',' || c == ';' || c.is_whitespace());
+        let cells: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+        if !cells.len().is_multiple_of(2) {
+            return Err(InstrumentError::line(file, line, "pairs of abscissa and ordinate", text));
+        }
+        for pair in cells.chunks_exact(2) {
+            let x = wanted(file, line, "an abscissa", pair[0], Decimal::Point)?;
+            let y = wanted(file, line, "an ordinate", pair[1], Decimal::Point)?;
+            points.push(scaling.point(file, line, x * scaling.x, y)?);
+        }
+    }
+    Ok(points)
+}
+
+/// `(X++(Y..Y))`: rows of one abscissa and evenly spaced ordinates.
+pub(super) fn runs(
+    file: &str,
+    lines: &[(usize, &str)],
+    scaling: &Scaling,
+) -> Result<Vec<Point>, InstrumentError> {
+    // Row starts, for the check of abscissas once the step is known.
+    let mut starts: Vec<(usize, f64, usize)> = Vec::new();
+    let mut ordinates: Vec<(usize, f64)> = Vec::new();
+    let mut check = false;
+    for &(line, text) in lines {
+        let tokens = tokens(text).ok_or_else(|| {
+            InstrumentError::line(file, line, "an abscissa and ordinates (AFFN or packed)", text)
+        })?;
+        let mut tokens = tokens.into_iter();
+        let Some(Token::Value(x)) = tokens.next() else {
+            return Err(InstrumentError::line(file, line, "an abscissa", text));
+        };
+        let mut before: Option<Token> = None;
+        let start = ordinates.len() - usize::from(check);
+        starts.push((line, x * scaling.x, start));
+        let mut checks = check;
+        for token in tokens {
+            let last = ordinates.last().map(|(_, y)| *y);
+            let times = match token {
+                Token::Times(times) => times - 1,
+                Token::Value(_) | Token::Difference(_) => 1,
+            };
+            let said = if matches!(token, Token::Times(_)) { before } else { Some(token) };
+            let value = match (said, last) {
+                (Some(Token::Value(y)), _) => Some((y, 0.0)),
+                (Some(Token::Difference(d)), Some(last)) => Some((last + d, d)),
+                _ => None,
+            };
+            let Some((first, step)) = value else {
+                let what = "a value before a difference or a repetition";
+                return Err(InstrumentError::line(file, line, what, text));
+            };
+            if std::mem::take(&mut checks) {
+                if last.is_some_and(|last| last != first) || times != 1 {
+                    let what = "the last ordinate of the line before, as a check,";
+                    return Err(InstrumentError::line(file, line, what, text));
+                }
+            } else if ordinates.len() + times > MOST_POINTS {
+                return Err(InstrumentError::line(file, line, "at most 4000000 ordinates", text));
+            } else {
+                let mut value = first;
+                for _ in 0..times {
+                    ordinates.push((line, value));
+                    value += step;
+                }
+            }
+            before = said;
+        }
+        check = matches!(before, Some(Token::Difference(_)));
+    }
+    let (Some(&(line, first_x, _)), true) = (starts.first(), ordinates.len() > 1) else {
+        return match (starts.first(), ordinates.first()) {
+            (Some(&(_, x, _)), Some(&(line, y))) => Ok(vec![scaling.point(file, line, x, y)?]),
+            _ => Ok(Vec::new()),
+        };
+    };
+    let steps = (ordinates.len() - 1) as f64;
+    // The step of a file cut short is that of the whole.
+    let announced = scaling.count.filter(|count| *count > 1.0).map_or(steps, |count| count - 1.0);
+    let Some(last_x) = scaling.last_x else {
+        return Err(InstrumentError::line(file, line, "##LASTX=", "no such label"));
+    };
+    let first_x = scaling.first_x.unwrap_or(first_x);
+    let step = (last_x - first_x) / announced;
+    let at = |index: usize| first_x + step * index as f64;
+    for &(line, x, index) in &starts {
+        // Abscissas of rows are often rounded to whole units.
+        if (x - at(index)).abs() > (0.6 * step.abs()).max(0.6 * scaling.x.abs()) {
+            let text = format!("{x}, where {} follows", at(index));
+            return Err(InstrumentError::line(file, line, "the next abscissa", &text));
+        }
+    }
+    let points = ordinates.iter().enumerate();
+    points.map(|(index, &(line, y))| scaling.point(file, line, at(index), y)).collect()
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Token {
+    Value(f64),
+    Difference(f64),
+    Times(usize),
+}
+
+/// The tokens of a row; `None` if one is none.
+fn tokens(text: &str) -> Option<Vec<Token>> {
+    let mut found = Vec::new();
+    let mut rest = text.trim_start_matches(is_blank);
+    while let Some(first) = rest.chars().next() {
+        let (kind, digit) = packed(first);
+        let body = &rest[first.len_utf8()..];
+        let length = body_length(body);
+        let text = digit.map_or_else(|| first.to_string(), |digit| digit.to_string());
+        let value = number(&(text + &body[..length]), Decimal::Point)?;
+        found.push(match kind {
+            Kind::Value => Token::Value(value),
+            Kind::Difference => Token::Difference(value),
+            Kind::Times if value >= 1.0 && value <= MOST_POINTS as f64 => {
+                Token::Times(value as usize)
+            }
+            Kind::Times => return None,
+        });
+        rest = body[length..].trim_start_matches(is_blank);
+    }
+    Some(found)
+}
+
+fn is_blank(c: char) -> bool {
+    c.is_whitespace() || c == ','
+}
+
+/// How far a number goes on: digits, a point, and an exponent that has digits.
+fn body_length(body: &str) -> usize {
+    let bytes = body.as_bytes();
+    let digits = bytes.iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
+    let exponent = &bytes[digits..];
+    // `E` alone is the packed digit 5; only a sign makes it an exponent.
+    if let [b'E' | b'e', b'+' | b'-', digit, ..] = exponent
+        && digit.is_ascii_digit()
+    {
+        let more = exponent[2..].iter().take_while(|b| b.is_ascii_digit()).count();
+        return digits + 2 + more;
+    }
+    digits
+}
+
+enum Kind {
+    Value,
+    Difference,
+    Times,
+}
+
+/// What a number's first character says: its kind and, for a packed one, its first digit with
+/// its sign.
+fn packed(first: char) -> (Kind, Option<String>) {
+    let after = |zero: char| (first as u32).wrapping_sub(zero as u32);
+    let digit = |sign: &str, digit: u32| Some(format!("{sign}{digit}"));
+    match first {
+        '@' => (Kind::Value, digit("", 0)),
+        'A'..='I' => (Kind::Value, digit("", 1 + after('A'))),
+        'a'..='i' => (Kind::Value, digit("-", 1 + after('a'))),
+        '%' => (Kind::Difference, digit("", 0)),
+        'J'..='R' => (Kind::Difference, digit("", 1 + after('J'))),
+        'j'..='r' => (Kind::Difference, digit("-", 1 + after('j'))),
+        'S'..='Z' => (Kind::Times, digit("", 1 + after('S'))),
+        's' => (Kind::Times, digit("", 9)),
+        _ => (Kind::Value, None),
+    }
+}

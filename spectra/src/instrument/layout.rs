@@ -1,0 +1,111 @@
+//! How the cells of a text are parted, and its rows of numbers.
+
+use super::error::InstrumentError;
+use super::number::{Decimal, number, wanted};
+
+/// Separator and decimal sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Layout {
+    /// `None` for any run of spaces.
+    pub(super) separator: Option<char>,
+    pub(super) decimal: Decimal,
+}
+
+impl Layout {
+    /// The layout under which most lines are two numbers or more; `None` if no line is. A comma
+    /// parts cells only where nothing else does.
+    pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Option<Self> {
+        let mut best: (usize, Option<Self>) = (0, None);
+        for separator in [Some(';'), Some('\t'), None, Some(',')] {
+            let cells = lines.clone().map(|line| split(line, separator));
+            let rows = cells.filter(|cells| is_row(cells, separator));
+            let (mut count, mut commas) = (0, false);
+            for row in rows {
+                count += 1;
+                commas |= row.iter().any(|cell| cell.contains(','));
+            }
+            if count > best.0 {
+                let decimal = if commas { Decimal::Comma } else { Decimal::Point };
+                best = (count, Some(Self { separator, decimal }));
+            }
+        }
+        best.1
+    }
+
+    /// The cells of a line, trimmed; empty ones at its end are dropped.
+    pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<&'a str> {
+        split(line, self.separator)
+    }
+
+    /// Whether a line is a row of numbers.
+    pub(super) fn is_row(&self, line: &str) -> bool {
+        is_row(&split(line, self.separator), self.separator)
+    }
+
+    /// The numbers of a line that must be `width` numbers, or any count from 2 if that is 0.
+    pub(super) fn numbers(
+        &self,
+        file: &str,
+        line: usize,
+        text: &str,
+        width: usize,
+    ) -> Result<Vec<f64>, InstrumentError> {
+        let cells = self.cells(text);
+        if cells.len() < 2 || (width > 0 && cells.len() != width) {
+            let what = "a wavelength and as many values as in the lines before";
+            return Err(InstrumentError::line(file, line, what, text));
+        }
+        let parsed = cells.iter().enumerate().map(|(column, cell)| {
+            let what = if column == 0 { "a wavelength" } else { "a value" };
+            wanted(file, line, what, cell, self.decimal)
+        });
+        parsed.collect()
+    }
+}
+
+fn split(line: &str, separator: Option<char>) -> Vec<&str> {
+    let mut cells: Vec<&str> = match separator {
+        Some(separator) => {
+            line.split(separator).map(|cell| cell.trim().trim_matches('"')).collect()
+        }
+        None => line.split_whitespace().collect(),
+    };
+    let kept = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+    cells.truncate(kept);
+    cells
+}
+
+fn is_row(cells: &[&str], separator: Option<char>) -> bool {
+    let numeric = |cell: &&str| {
+        number(cell, Decimal::Point).is_some()
+            || (separator != Some(',') && number(cell, Decimal::Comma).is_some())
+    };
+    cells.len() > 1 && cells.iter().all(numeric)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_and_decimal_commas_are_told_apart() {
+        use Decimal::{Comma, Point};
+        for (line, separator, decimal) in [
+            ("400;0,5", Some(';'), Comma),
+            ("400;0.5;", Some(';'), Point),
+            ("400\t0,5", Some('\t'), Comma),
+            ("400,5 0,123", None, Comma),
+            ("  400   0.5", None, Point),
+            ("400,0.5", Some(','), Point),
+            ("400, 0.5", Some(','), Point),
+            ("400 , 0.5", Some(','), Point),
+        ] {
+            assert_eq!(
+                Layout::of([line].into_iter()),
+                Some(Layout { separator, decimal }),
+                "{line}"
+            );
+        }
+        assert_eq!(Layout::of(["wavelength,value"].into_iter()), None);
+    }
+}

@@ -1,0 +1,136 @@
+//! Wavelengths and values as they stand in a file, put in order.
+
+use super::error::InstrumentError;
+
+/// What to do with a wavelength that stands twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Duplicates {
+    /// An error: a table of few wavelengths holds each once.
+    Refuse,
+    /// The mean, said: dense exports round the wavelengths of neighbouring pixels to one figure.
+    Average,
+}
+
+/// One value of a spectrum, with its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Point {
+    /// Counted from 1.
+    pub(super) line: usize,
+    /// Wavelength in nm, finite.
+    pub(super) nm: f64,
+    /// The value there, finite.
+    pub(super) value: f64,
+}
+
+/// Wavelengths that rise strictly, a value for each, and what had to be done for it.
+#[derive(Debug, Default)]
+pub(super) struct Ordered {
+    pub(super) wavelengths_nm: Vec<f64>,
+    pub(super) values: Vec<f64>,
+    pub(super) remarks: Vec<String>,
+}
+
+/// The points by rising wavelength; falling ones are turned round.
+///
+/// # Errors
+/// [`InstrumentError`] for a wavelength that is not above 0, goes back and forth, or
+/// stands twice where that is refused.
+pub(super) fn ordered(
+    file: &str,
+    mut points: Vec<Point>,
+    duplicates: Duplicates,
+) -> Result<Ordered, InstrumentError> {
+    let wrong = points.iter().find(|point| !(point.nm.is_finite() && point.nm > 0.0));
+    if let Some(point) = wrong {
+        let text = point.nm.to_string();
+        return Err(InstrumentError::line(file, point.line, "a wavelength above 0", &text));
+    }
+    let direction = points.windows(2).map(|pair| pair[1].nm - pair[0].nm).find(|d| *d != 0.0);
+    let falls = direction.is_some_and(|d| d < 0.0);
+    let back = |pair: &&[Point]| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0;
+    if let Some(pair) = points.windows(2).find(back) {
+        let (file, line, nm) = (file.to_owned(), pair[1].line, pair[1].nm);
+        return Err(InstrumentError::Order { file, line, nm });
+    }
+    if falls {
+        points.reverse();
+    }
+    let mut ordered = Ordered::default();
+    let mut repeated = 0;
+    for group in points.chunk_by(|a, b| a.nm == b.nm) {
+        let (first, last) = (group[0], group[group.len() - 1]);
+        if group.len() > 1 && duplicates == Duplicates::Refuse {
+            let (line, before) = (first.line.max(last.line), first.line.min(last.line));
+            let file = file.to_owned();
+            return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
+        }
+        repeated += usize::from(group.len() > 1);
+        ordered.wavelengths_nm.push(first.nm);
+        // Halves first: the sum of two finite values need not be finite.
+        let share = 1.0 / group.len() as f64;
+        ordered.values.push(group.iter().map(|point| point.value * share).sum());
+    }
+    if repeated > 0 {
+        let what =
+            format!("{repeated} wavelengths stand more than once; their values are averaged");
+        ordered.remarks.push(what);
+    }
+    Ok(ordered)
+}
+
+/// Points in any order, for formats that give every value its own wavelength: sorted, a pair that
+/// stands twice once, and what had to be done for it. Two values at one wavelength stay.
+pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
+    let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);
+    points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
+    points.dedup_by(|a, b| a.nm == b.nm && a.value == b.value);
+    let remark = || "its wavelengths stand in no order; they were sorted".to_owned();
+    (points, (!rising).then(remark))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(pairs: &[(f64, f64)]) -> Vec<Point> {
+        let lines = pairs.iter().zip(3..);
+        lines.map(|(&(nm, value), line)| Point { line, nm, value }).collect()
+    }
+
+    #[test]
+    fn falling_wavelengths_are_turned_round() {
+        let found = ordered("f", points(&[(500.0, 2.0), (400.0, 1.0)]), Duplicates::Refuse);
+        let found = found.unwrap();
+        assert_eq!((found.wavelengths_nm, found.values), (vec![400.0, 500.0], vec![1.0, 2.0]));
+    }
+
+    #[test]
+    fn duplicates_are_refused_or_averaged_and_said() {
+        let twice = points(&[(500.0, 2.0), (400.0, 1.0), (400.0, 2.0)]);
+        assert_eq!(
+            ordered("f", twice.clone(), Duplicates::Refuse).unwrap_err(),
+            InstrumentError::Duplicate { file: "f".into(), line: 5, nm: 400.0, first: 4 }
+        );
+        let found = ordered("f", twice, Duplicates::Average).unwrap();
+        assert_eq!((found.values, found.remarks.len()), (vec![1.5, 2.0], 1));
+    }
+
+    #[test]
+    fn a_wavelength_back_and_forth_is_refused_with_its_line() {
+        let found =
+            ordered("f", points(&[(400.0, 1.0), (500.0, 1.0), (450.0, 1.0)]), Duplicates::Average);
+        assert!(matches!(found, Err(InstrumentError::Order { line: 5, .. })), "{found:?}");
+        let found = ordered("f", points(&[(-400.0, 1.0)]), Duplicates::Average);
+        assert!(matches!(found, Err(InstrumentError::Line { line: 3, .. })), "{found:?}");
+    }
+
+    #[test]
+    fn points_in_no_order_are_sorted_and_equal_pairs_count_once() {
+        let (found, remark) =
+            sorted(points(&[(500.0, 2.0), (400.0, 1.0), (500.0, 2.0), (450.0, 3.0)]));
+        let nm: Vec<f64> = found.iter().map(|point| point.nm).collect();
+        assert_eq!((nm, remark.is_some()), (vec![400.0, 450.0, 500.0], true));
+        let (found, remark) = sorted(points(&[(400.0, 2.0), (400.0, 1.0)]));
+        assert_eq!((found.len(), remark), (2, None));
+    }
+}

@@ -1,0 +1,47 @@
+//! A file of any format, read.
+
+use super::error::InstrumentError;
+use super::format::Format;
+use super::record::Record;
+use super::text::decoded;
+use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
+
+/// An instrument's file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InstrumentFile {
+    /// Its format.
+    pub format: Format,
+    /// Its spectra in order of the file; at least one.
+    pub records: Vec<Record>,
+}
+
+/// The spectra in `bytes`, the content of `file`, of `format` or the one found.
+///
+/// # Errors
+/// [`InstrumentError`], with the line.
+pub fn read(
+    file: &str,
+    bytes: &[u8],
+    format: Option<Format>,
+) -> Result<InstrumentFile, InstrumentError> {
+    let (text, _) = decoded(bytes);
+    let format = format
+        .or_else(|| Format::detected(file, &text))
+        .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
+    let records = match format {
+        Format::Cgats => cgats::read(file, &text),
+        Format::Jcamp => jcamp::read(file, &text),
+        Format::Qtx => qtx::read(file, &text),
+        Format::OceanOptics => ocean_optics::read(file, &text),
+        Format::Avantes => avantes::read(file, &text),
+        Format::Bruker => bruker::read(file, &text),
+        Format::Columns => columns::read(file, &text),
+        Format::Cxf => cxf::read(file, &text),
+        Format::Tm27 => tm27::read(file, &text),
+        Format::Sekonic => sekonic::read(file, &text),
+    }?;
+    if records.is_empty() {
+        return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
+    }
+    Ok(InstrumentFile { format, records })
+}
