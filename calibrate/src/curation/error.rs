@@ -157,6 +157,9 @@ impl CurationError {
             Self::UnknownScattering { .. } | Self::NoScattering { .. } => {
                 "name a pigment that was measured in mixtures and scatters, such as a white".into()
             }
+            Self::Grid { error: InterpolateError::TooFew { .. }, .. } => {
+                "straight lines need two wavelengths only: --interpolation linear".into()
+            }
             Self::Grid { .. } => {
                 "take wavelengths within the library's, or hold its end values: --hold-ends".into()
             }

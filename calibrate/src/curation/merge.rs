@@ -41,8 +41,8 @@ pub struct MergeSettings {
     /// Which of two different pigments of one name stays; if not told, two such
     /// pigments are an error, but for the white, of which the first stays.
     pub prefer: Option<Prefer>,
-    /// How other grids are brought to the first's.
-    pub interpolation: Interpolation,
+    /// How other grids are brought to the first's; the best for each if not told.
+    pub interpolation: Option<Interpolation>,
     /// What stands beyond another library's band.
     pub ends: Ends,
     /// Take pigments found under another surface, as if it were the first's.
@@ -147,13 +147,15 @@ impl Merged {
             }
         }
         if library.grid != base.grid {
+            let best = Interpolation::best_for(library.grid);
+            let method = settings.interpolation.unwrap_or(best);
             self.warnings.push(format!(
                 "{file}: {} brought to {} ({})",
                 library.grid,
                 base.grid,
-                settings.interpolation.name()
+                method.name()
             ));
-            library = on_grid(file, &library, base.grid, settings.interpolation, settings.ends)?;
+            library = on_grid(file, &library, base.grid, method, settings.ends)?;
         }
         Ok(library)
     }

@@ -6,8 +6,12 @@ use super::error::CurationError;
 use crate::digits::rounded;
 use crate::library::{Pigment, PigmentLibrary};
 
-/// The library on `grid`: K and S by `method`, deviations by straight lines. The
-/// evidence stays, with a word that it is told of the old grid.
+/// The library on `grid`: K and S by `method` (cut off at 0), deviations by straight
+/// lines. The evidence stays, with a word that it is told of the old grid.
+///
+/// What is lost: the oils, thinned to 20 nm and brought back to 10, change by 0.05
+/// CIEDE2000 on average by Sprague's polynomial and by 0.39 on straight lines (100
+/// mixtures with white, `library diff`).
 ///
 /// # Errors
 /// [`CurationError::Grid`] beyond the library's band, unless its ends are held,

@@ -78,6 +78,23 @@ fn tints_stand_beside_their_pigment() {
 }
 
 #[test]
+fn cxf_holds_the_spectra_that_mix_predicts() {
+    let shelf = Shelf::new();
+    let file = shelf.path("oils.cxf");
+    done(&["export", &oils(), "--to", "cxf", "--tints=4", "--output", &file]);
+    let bytes = std::fs::read(&file).unwrap();
+    let records = spectra::instrument::read(&file, &bytes, None).unwrap().records;
+    assert_eq!(records.len(), 20 + 17);
+    for recipe in [&["Viridian=1"][..], &["Viridian=1", "Zinc White=4"]] {
+        let mix = impasto(&[&["mix", &oils()], recipe, &["--json"]].concat()).json();
+        let name = if recipe.len() == 1 { "Viridian" } else { "Viridian 1:4" };
+        let found = records.iter().find(|record| record.name == name).unwrap();
+        let wanted = mix["reflectance"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap());
+        suite::near::assert_near(name, &found.values, &wanted.collect::<Vec<f64>>(), 1e-6);
+    }
+}
+
+#[test]
 fn what_srgb_cannot_show_is_said() {
     let shelf = Shelf::new();
     let file = shelf.path("x.gpl");

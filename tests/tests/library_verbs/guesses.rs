@@ -94,7 +94,7 @@ fn a_colour_out_of_reach_is_refused_with_the_nearest() {
     let shelf = Shelf::new();
     let new = shelf.path("new.json");
     let black = ["from-rgb", "#000000", "--name", "Black", "--output", &new];
-    refused(&black, 1, &["k1 = 0.03", "the nearest is 12.", "`#303030`", "--nearest"]);
+    refused(&black, 1, &["k1 = 0.03", "the nearest is 12.", "`#313131`", "--nearest"]);
     assert!(!std::path::Path::new(&new).exists(), "nothing written");
     let run = done(&[&black[..], &["--nearest"]].concat());
     assert!(run.err.contains("warning: #000000 is out of reach"), "{}", run.err);

@@ -134,7 +134,8 @@ fn what_does_not_fit_together_is_refused_with_its_reason() {
         1,
         &["unit of amount", "--same-unit"],
     );
-    refused(&["merge", &oils(), "--output", &merged], 2, &[]);
+    let alone = crate::tried(&["merge", &oils(), "--output", &merged]);
+    assert!(alone.status == 2 && alone.err.contains("2 values required"), "{}", alone.err);
 }
 
 #[test]
@@ -175,6 +176,32 @@ fn other_wavelengths_keep_the_values_they_share() {
     for grid in ["400,700", "400,700,0", "700,400,10", "400,705,10", "a,b,c", "400,700,nan"] {
         refused(&["convert", &oils(), "--grid", grid, "--output", &back], 2, &[grid]);
     }
+}
+
+#[test]
+fn a_library_on_other_wavelengths_joins_with_a_warning() {
+    let shelf = Shelf::new();
+    let (fine, merged) = (shelf.path("fine.json"), shelf.path("merged.json"));
+    done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
+    let run = done(&["merge", &oils(), &fine, "--output", &merged]);
+    assert!(
+        run.err.contains("brought to 400 to 700 nm in steps of 10 nm (sprague)"),
+        "{}",
+        run.err
+    );
+    assert_eq!(read(&merged).pigments.len(), 20, "the same figures at the same wavelengths");
+    let coarse = shelf.path("coarse.json");
+    let lost = |method: &str| {
+        done(&["convert", &oils(), "--grid", "400,700,20", "--output", &coarse]);
+        let more = ["--grid", "400,700,10", "--interpolation", method, "--output", &fine];
+        done(&[&["convert", &coarse][..], &more].concat());
+        furthest(&read(&oils()), &read(&fine))
+    };
+    assert!(lost("sprague") < 0.5 * lost("linear"), "{} {}", lost("sprague"), lost("linear"));
+    let few = ["convert", &oils(), "--grid", "400,700,100", "--output", &coarse];
+    done(&few);
+    let more = ["--grid", "400,700,10", "--interpolation", "sprague", "--output", &fine];
+    refused(&[&["convert", &coarse][..], &more].concat(), 1, &["needs 6", "linear"]);
 }
 
 #[test]

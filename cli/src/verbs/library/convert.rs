@@ -7,6 +7,7 @@ use anyhow::Context;
 use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::{Args, ValueEnum};
+use spectra::Interpolation;
 
 use super::grid_option::{ResamplingOptions, grid};
 use crate::console::Console;
@@ -84,7 +85,8 @@ impl Convert {
             remark_reference(&before, &after, console)?;
         }
         if let Some(grid) = wanted {
-            let method = self.resampling.method();
+            let best = Interpolation::best_for(before.grid);
+            let method = self.resampling.method().unwrap_or(best);
             after = on_grid(&file, &after, grid, method, self.resampling.ends())?;
             console.remark(format!("{} brought to {grid} ({})", before.grid, method.name()))?;
         }

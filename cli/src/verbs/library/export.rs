@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use calibrate::curation::to_csv;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::{Args, ValueEnum};
-use spectra::TristimulusWeights;
 use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapted};
+use spectra::instrument::{CxfHead, write_cxf};
 use spectra::swatch_file::{
     Palette, Swatch, SwatchColour, d50_white, write_aco, write_ase, write_gpl,
 };
+use spectra::{Reflectance, Spectrum, TristimulusWeights};
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -26,6 +27,8 @@ enum Format {
     Aco,
     /// K and S with their deviations, a row a curve
     Csv,
+    /// CxF3: predicted reflectance spectra of the swatches
+    Cxf,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -36,7 +39,7 @@ enum Space {
     Lab,
 }
 
-/// A library for other programs: palettes of swatches, or a table of K and S
+/// A library for other programs: palettes, spectra, or a table of K and S
 ///
 /// A swatch is the masstone of a pigment under the light told. Palettes of Adobe programs may hold
 /// Lab; theirs is that under D50, to which a colour under another light is adapted (Bradford).
@@ -81,6 +84,11 @@ impl Export {
         }
         let weights = colour_weights(&viewing, library.grid, console)?;
         let colours = colours(&library, &weights, &tints)?;
+        if self.to == Format::Cxf {
+            output.write(cxf(&library, &colours)?)?;
+            let count = colours.len();
+            return console.line(format!("{}: {count} spectra", self.output.display()));
+        }
         let clipped: Vec<&str> = (colours.iter())
             .filter(|colour| self.space == Space::Rgb && !colour.rgb.in_gamut())
             .map(|colour| colour.name.as_str())
@@ -103,7 +111,7 @@ impl Export {
         output.write(match self.to {
             Format::Ase => write_ase(&palette)?,
             Format::Aco => write_aco(&palette)?,
-            Format::Gpl | Format::Csv => write_gpl(&palette)?.into_bytes(),
+            Format::Gpl | Format::Csv | Format::Cxf => write_gpl(&palette)?.into_bytes(),
         })?;
         console.line(format!("{}: {count} swatches", self.output.display()))
     }
@@ -113,6 +121,7 @@ impl Export {
 struct NamedColour {
     pigment: String,
     name: String,
+    reflectance: Vec<f64>,
     xyz: Xyz,
     rgb: Rgb,
 }
@@ -133,9 +142,16 @@ fn colours(
     let mut colours = Vec::new();
     for (index, pigment) in library.pigments.iter().enumerate() {
         let mut add = |name: String, recipe: &[(usize, f64)]| -> anyhow::Result<()> {
-            let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));
+            let reflectance = library.mix(recipe)?.hiding(library.saunderson);
+            let xyz = weights.xyz(&reflectance);
             let rgb = srgb(xyz, weights.white());
-            colours.push(NamedColour { pigment: pigment.name.clone(), name, xyz, rgb });
+            colours.push(NamedColour {
+                pigment: pigment.name.clone(),
+                name,
+                reflectance,
+                xyz,
+                rgb,
+            });
             Ok(())
         };
         add(pigment.name.clone(), &[(index, 1.0)])?;
@@ -147,6 +163,23 @@ fn colours(
         }
     }
     Ok(colours)
+}
+
+/// The spectra of `colours`, as CxF3.
+fn cxf(library: &PigmentLibrary, colours: &[NamedColour]) -> anyhow::Result<String> {
+    let spectra = colours
+        .iter()
+        .map(|colour| Ok(Spectrum::new(library.grid, colour.reflectance.clone())?))
+        .collect::<anyhow::Result<Vec<Spectrum<Reflectance>>>>()?;
+    let named: Vec<(&str, &Spectrum<Reflectance>)> =
+        colours.iter().map(|colour| colour.name.as_str()).zip(&spectra).collect();
+    let head = CxfHead {
+        creator: "impasto",
+        description: &library.title,
+        geometry: "predicted",
+        creation_date: None,
+    };
+    Ok(write_cxf(&head, &named))
 }
 
 fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {

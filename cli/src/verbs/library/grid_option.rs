@@ -16,20 +16,21 @@ enum InterpolationName {
 /// How curves are brought to another grid.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct ResamplingOptions {
-    /// How K and S are brought to another grid
-    #[arg(long, value_enum, default_value = "linear")]
-    interpolation: InterpolationName,
+    /// How K and S are brought to another grid [default: sprague, linear below six wavelengths]
+    #[arg(long, value_enum)]
+    interpolation: Option<InterpolationName>,
     /// Hold the end values beyond a library's band rather than refuse
     #[arg(long)]
     hold_ends: bool,
 }
 
 impl ResamplingOptions {
-    pub(super) fn method(self) -> Interpolation {
-        match self.interpolation {
+    /// `None` if not told.
+    pub(super) fn method(self) -> Option<Interpolation> {
+        self.interpolation.map(|name| match name {
             InterpolationName::Linear => Interpolation::Linear,
             InterpolationName::Sprague => Interpolation::Sprague,
-        }
+        })
     }
 
     pub(super) fn ends(self) -> Ends {
