@@ -2,8 +2,9 @@
 //!
 //! In scope: reading measurements of mixtures, K/S of films that hide or not,
 //! fitting each pigment's K and S, what the data cannot tell, validation, the
-//! library file, mixing forward, quadrature in wavelength, and recipes for a
-//! colour. Out of scope: charts, and anything with a brush.
+//! library file and what one does with several, mixing forward, quadrature in
+//! wavelength, and recipes for a colour. Out of scope: charts, and anything with
+//! a brush.
 //!
 //! Files stand in an order of dependence; each uses only what stands above it.
 
@@ -21,9 +22,13 @@ pub mod mixture;
 
 mod least_squares;
 
+pub mod smooth_reflectance;
+
 pub mod fit;
 
 pub mod library;
+
+pub mod curation;
 
 mod scores;
 

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use calibrate::calibration::CalibrationError;
+use calibrate::curation::{CurationError, TableError};
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
 use calibrate::matching::MatchError;
@@ -10,6 +11,7 @@ use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
+use spectra::swatch_file::SwatchFileError;
 use spectra::{LampError, LightError};
 
 /// An error of the user's request, with what to try.
@@ -84,6 +86,12 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
+    if let Some(error) = cause.downcast_ref::<CurationError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<TableError>() {
+        return error.hint();
+    }
     if let Some(error) = cause.downcast_ref::<LibraryError>() {
         return error.hint().map(str::to_owned);
     }
@@ -113,6 +121,9 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<FitError>()
         || cause.is::<LibraryError>()
         || cause.is::<RecipeError>()
+        || cause.is::<CurationError>()
+        || cause.is::<TableError>()
+        || cause.is::<SwatchFileError>()
         || cause.is::<LampError>()
         || faulty_lamp;
     data.then_some(1)

@@ -21,6 +21,7 @@ mod ground;
 mod targets;
 
 mod costs;
+mod surface;
 
 mod output;
 

@@ -39,6 +39,8 @@ pub mod color;
 
 mod integrate;
 
+pub mod swatch_file;
+
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};

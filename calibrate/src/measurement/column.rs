@@ -175,7 +175,7 @@ const NO_PIGMENTS: [&str; 36] = [
 ];
 
 /// The number in `400`, `400nm`, `R400`, `SPEC_400` or `nm400`.
-fn wavelength(lower: &str) -> Option<f64> {
+pub(crate) fn wavelength(lower: &str) -> Option<f64> {
     let bare =
         ["spec_", "nm", "r"].iter().find_map(|prefix| lower.strip_prefix(prefix)).unwrap_or(lower);
     let bare = bare.strip_suffix("nm").unwrap_or(bare).trim();

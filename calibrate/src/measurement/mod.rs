@@ -22,6 +22,7 @@ mod scale;
 mod table;
 
 pub use column::names_a_pigment;
+pub(crate) use column::wavelength as wavelength_of_header;
 pub use csv::is_measurement_csv;
 pub use error::{MeasurementError, Place};
 pub use recipes::{Recipes, RecipesError};

@@ -10,13 +10,14 @@ use calibrate::library::Input;
 use calibrate::observation::BelowSurface;
 use calibrate::swatch::SwatchSet;
 use clap::{Args, ValueEnum};
-use spectra::optics::{Specular, Surface, UnevenFilm};
+use spectra::optics::{Surface, UnevenFilm};
 
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::input::{named, remark_coverage};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
+use crate::surface::SurfaceOptions;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -34,12 +35,6 @@ enum Amounts {
     Relative,
     /// Amounts (mL, g) laid on a fixed area of a known backing
     Absolute,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum SpecularName {
-    Included,
-    Excluded,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -73,13 +68,8 @@ pub(super) struct CalibrationOptions {
     /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
     #[arg(long, value_name = "PIGMENT")]
     reference: Option<String>,
-    /// Surface reflection as K1,K2, or none [default: 0.03,0.6; for absolute amounts k1 = 0 and
-    /// the k2 that predicts best]
-    #[arg(long, value_name = "K1,K2")]
-    saunderson: Option<String>,
-    /// Whether the readings hold the mirror reflection
-    #[arg(long, value_enum, default_value = "included")]
-    specular: SpecularName,
+    #[command(flatten)]
+    surface: SurfaceOptions,
     /// What to do with a reading below k1 [default: refuse where --saunderson is given, else floor]
     #[arg(long, value_enum)]
     below_surface: Option<Below>,
@@ -119,7 +109,7 @@ impl CalibrationOptions {
 
     /// Reads the files and settles every option.
     pub(super) fn job(&self, console: &mut Console<'_>) -> anyhow::Result<Job> {
-        let surface = self.surface()?;
+        let surface = self.surface.surface()?;
         let smoothness = self.smoothness()?;
         let unevenness = self.unevenness()?;
         let recipes = self.recipes.as_deref();
@@ -137,13 +127,11 @@ impl CalibrationOptions {
         };
         let excluded = self.exclude.clone();
         let settings = FitSettings { method, smoothness, below_surface, excluded };
-        let specular = self.specular();
         let kind = match self.amounts {
             Amounts::Relative => {
-                let usual = Surface { k1: 0.03, k2: 0.6, specular };
                 let reference = self.reference(&set)?;
                 console.remark(format!("reference white: {}", set.pigments[reference]))?;
-                Kind::Relative(reference, surface.unwrap_or(usual))
+                Kind::Relative(reference, self.surface.surface_or_usual()?)
             }
             Amounts::Absolute => {
                 if self.reference.is_some() || method != Method::Refined {
@@ -156,32 +144,6 @@ impl CalibrationOptions {
             }
         };
         Ok(Job { set, inputs, settings, kind })
-    }
-
-    /// `None` if not told.
-    fn surface(&self) -> anyhow::Result<Option<Surface>> {
-        let wrong = |text: &str| {
-            Refusal::usage(
-                format!("--saunderson takes K1,K2 or none, found `{text}`"),
-                "try --saunderson 0.03,0.6",
-            )
-        };
-        Ok(match self.saunderson.as_deref() {
-            None => None,
-            Some("none") => Some(Surface::NONE),
-            Some(text) => {
-                let (k1, k2) = text.split_once(',').ok_or_else(|| wrong(text))?;
-                let number = |part: &str| part.trim().parse().map_err(|_| wrong(text));
-                Some(Surface::new(number(k1)?, number(k2)?, self.specular())?)
-            }
-        })
-    }
-
-    fn specular(&self) -> Specular {
-        match self.specular {
-            SpecularName::Included => Specular::Included,
-            SpecularName::Excluded => Specular::Excluded,
-        }
     }
 
     fn smoothness(&self) -> anyhow::Result<Smoothness> {
@@ -240,7 +202,7 @@ impl CalibrationOptions {
         unevenness: Option<f64>,
         console: &mut Console<'_>,
     ) -> anyhow::Result<UnevenFilm> {
-        let plain = Surface { k1: 0.0, k2: 0.0, specular: self.specular() };
+        let plain = Surface { k1: 0.0, k2: 0.0, specular: self.surface.specular() };
         if surface.is_some() || unevenness.is_some() {
             return Ok(UnevenFilm {
                 surface: surface.unwrap_or(plain),

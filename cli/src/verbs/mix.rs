@@ -68,6 +68,13 @@ impl Mix {
                 mixture.film(thickness, &ground, library.film())
             }
         };
+        for (index, _) in &recipe {
+            let pigment = &library.pigments[*index];
+            if pigment.guessed {
+                let notes = pigment.notes.join("; ");
+                console.warnings(&[format!("{}: {notes}", pigment.name)])?;
+            }
+        }
         for (index, _) in recipe.iter().filter(|_| recipe.len() > 1) {
             let pigment = &library.pigments[*index];
             if !pigment.identified {

@@ -88,23 +88,6 @@ impl Rgb {
         Self(self.0.map(<Srgb as IntoLinear<f64, f64>>::into_linear))
     }
 
-    /// The encoded colour that `text` writes as `#rrggbb`, with or without `#`.
-    ///
-    /// ```
-    /// use spectra::color::Rgb;
-    /// assert_eq!(Rgb::from_hex("#ff0033").unwrap().to_bytes(), [255, 0, 51]);
-    /// assert!(Rgb::from_hex("#ff003").is_none());
-    /// ```
-    #[must_use]
-    pub fn from_hex(text: &str) -> Option<Self> {
-        let digits = text.strip_prefix('#').unwrap_or(text);
-        if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return None;
-        }
-        let [_, r, g, b] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
-        Some(Self([r, g, b].map(|byte| f64::from(byte) / 255.0)))
-    }
-
     /// Whether the display can show this colour (to a millionth).
     #[must_use]
     pub fn in_gamut(self) -> bool {
@@ -118,10 +101,53 @@ impl Rgb {
         self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
     }
 
+    /// The encoded RGB of `#rrggbb` or `#rgb`, the mark left out if one likes;
+    /// `None` for any other text.
+    #[must_use]
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix('#').unwrap_or(text);
+        if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+            return None;
+        }
+        let value = |from: usize, to: usize| u8::from_str_radix(&digits[from..to], 16).ok();
+        let bytes = match digits.len() {
+            3 => [17 * value(0, 1)?, 17 * value(1, 2)?, 17 * value(2, 3)?],
+            6 => [value(0, 2)?, value(2, 4)?, value(4, 6)?],
+            _ => return None,
+        };
+        Some(Self(bytes.map(|byte| f64::from(byte) / 255.0)))
+    }
+
     /// `#rrggbb`, from [`Rgb::to_bytes`].
     #[must_use]
     pub fn to_hex(self) -> String {
         let [r, g, b] = self.to_bytes();
         format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hexadecimal_is_read_as_it_is_written() {
+        for text in ["#000000", "#2a5caa", "#ffffff"] {
+            assert_eq!(Rgb::from_hex(text).unwrap().to_hex(), text);
+        }
+        assert_eq!(Rgb::from_hex("fa0"), Rgb::from_hex("#ffaa00"));
+        for text in ["", "#", "#12345", "#12345g", "red", "#+1+1+1", "\u{e9}\u{e9}\u{e9}"] {
+            assert_eq!(Rgb::from_hex(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn rgb_to_xyz_and_back_is_the_same() {
+        let white = Xyz { x: 109.85, y: 100.0, z: 35.58 };
+        for rgb in [[0.0, 0.0, 0.0], [1.0, 0.2, 0.01], [0.5, 0.5, 0.9]] {
+            let xyz = RgbSpace::Srgb.xyz_from_encoded(Rgb(rgb), white, Adaptation::Bradford);
+            let back = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).0;
+            assert!(rgb.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-9), "{rgb:?} {back:?}");
+        }
     }
 }

@@ -1,31 +1,18 @@
-//! `impasto library`: look into a pigment library.
+//! `impasto library list`: the pigments with their colours.
 
 use std::path::PathBuf;
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use clap::{Args, Subcommand};
+use clap::Args;
 use serde_json::{Value, json};
 use spectra::color::Lab;
 
 use crate::console::Console;
 use crate::input::{ViewingOptions, library, srgb};
 
-/// Look into a pigment library
-#[derive(Debug, Args)]
-pub(crate) struct Library {
-    #[command(subcommand)]
-    what: What,
-}
-
-#[derive(Debug, Subcommand)]
-enum What {
-    List(List),
-    Show(Show),
-}
-
 /// The pigments, each with its masstone and a tint in the reference white
 #[derive(Debug, Args)]
-struct List {
+pub(super) struct List {
     /// The pigment library (JSON)
     library: PathBuf,
     #[command(flatten)]
@@ -35,29 +22,8 @@ struct List {
     json: bool,
 }
 
-/// K and S of one pigment, with their standard deviations
-#[derive(Debug, Args)]
-struct Show {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// The pigment; the name may be cut short
-    pigment: String,
-    /// Print JSON
-    #[arg(long)]
-    json: bool,
-}
-
-impl Library {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        match self.what {
-            What::List(verb) => verb.run(console),
-            What::Show(verb) => verb.run(console),
-        }
-    }
-}
-
 impl List {
-    fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
         if !self.json {
@@ -86,6 +52,7 @@ impl List {
                     "name": pigment.name,
                     "colour_index": pigment.colour_index,
                     "identified": pigment.identified,
+                    "guessed": pigment.guessed,
                     "lab": Lab::from_xyz(xyz, weights.white()).to_array(),
                     "hex": srgb(xyz, weights.white()).to_hex(),
                     "notes": pigment.notes,
@@ -97,7 +64,7 @@ impl List {
 }
 
 /// A line for each pigment: masstone, and one part in ten of the reference.
-pub(super) fn print_pigments(
+pub(crate) fn print_pigments(
     library: &PigmentLibrary,
     viewing: &calibrate::evaluate::Viewing,
     console: &mut Console<'_>,
@@ -124,38 +91,10 @@ pub(super) fn print_pigments(
             _ if tints => line += "       S unknown",
             _ => {}
         }
+        if pigment.guessed {
+            line += "  guessed";
+        }
         console.line(line)?;
     }
     Ok(())
-}
-
-impl Show {
-    fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let library = library(&self.library)?;
-        let pigment = &library.pigments[library.find(&self.pigment)?];
-        if self.json {
-            let mut value = serde_json::to_value(pigment)?;
-            let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
-            value["wavelengths_nm"] = json!(wavelengths);
-            return console.json(&value);
-        }
-        console.line(&pigment.name)?;
-        for note in &pigment.notes {
-            console.line(format!("note: {note}"))?;
-        }
-        console.line("    nm            K       +-            S       +-")?;
-        let deviation = |curve: &[f64], at: usize| {
-            curve.get(at).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
-        };
-        for (at, nm) in library.grid.wavelengths_nm().enumerate() {
-            console.line(format!(
-                "{nm:6} {:12.6} {:>8} {:12.6} {:>8}",
-                pigment.absorption[at],
-                deviation(&pigment.absorption_sd, at),
-                pigment.scattering[at],
-                deviation(&pigment.scattering_sd, at),
-            ))?;
-        }
-        Ok(())
-    }
 }

@@ -1,0 +1,116 @@
+//! A pigment made up from a colour.
+
+use spectra::color::RgbSpace;
+use spectra::color::{Adaptation, Lab, Xyz, delta_e_ciede2000};
+use spectra::optics::{Layer, absorption_over_scattering};
+
+use super::error::CurationError;
+use crate::digits::rounded;
+use crate::evaluate::Viewing;
+use crate::library::{AmountKind, Pigment, PigmentLibrary};
+use crate::smooth_reflectance::smoothest_reflectance;
+
+/// Scattering of a glaze, relative to the reference white: it hides little.
+const GLAZE_SCATTERING: f64 = 0.02;
+/// A colour this near to the one asked for is that colour, in CIEDE2000.
+const SAME_COLOUR: f64 = 0.05;
+
+/// What kind of paint a guessed pigment makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Body {
+    /// It hides, S = 1 as the reference white: a film that hides has the colour.
+    Hiding,
+    /// It hardly scatters, S = 0.02: a film of unit thickness over white has the
+    /// colour.
+    Glaze,
+}
+
+/// A guessed pigment, and how far its colour is from what was asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guess {
+    /// The pigment, marked as guessed.
+    pub pigment: Pigment,
+    /// CIEDE2000 from the colour asked for, as the file's six digits have it.
+    pub delta_e: f64,
+    /// The colour that it has, in sRGB.
+    pub hex: String,
+}
+
+/// A pigment for `library`'s grid and surface whose colour under D65 for the 1931
+/// observer is `wanted`: K and S from the smoothest reflectance of that colour
+/// ([`smoothest_reflectance`]). `colour` is that colour in the user's words.
+///
+/// Nothing tells how such a paint mixes: that is what measuring is for.
+///
+/// # Errors
+/// [`CurationError`] for a library of absolute amounts, and where no paint under
+/// the library's surface comes within 0.05 CIEDE2000 of the colour, unless
+/// `nearest` will do.
+pub fn guessed_pigment(
+    library: &PigmentLibrary,
+    (name, colour): (&str, &str),
+    wanted: Xyz,
+    body: Body,
+    nearest: bool,
+) -> Result<Guess, CurationError> {
+    if library.amounts == AmountKind::Absolute {
+        return Err(CurationError::GuessedAmount);
+    }
+    let weights = Viewing::default().weights(library.grid).expect("a method for the grid");
+    let surface = library.saunderson;
+    let recovered = smoothest_reflectance(&weights, surface, wanted);
+    let (scattering, words) = match body {
+        Body::Hiding => (1.0, "a paint that hides, with S = 1"),
+        Body::Glaze => (GLAZE_SCATTERING, "a glaze over white, with S = 0.02"),
+    };
+    let absorption: Vec<f64> = (recovered.internal.iter())
+        .map(|&internal| match body {
+            Body::Hiding => rounded(scattering * absorption_over_scattering(internal)),
+            Body::Glaze => rounded(glaze_absorption(internal, scattering)),
+        })
+        .collect();
+    let count = absorption.len();
+    let pigment = Pigment {
+        name: name.to_owned(),
+        colour_index: None,
+        absorption,
+        scattering: vec![scattering; count],
+        absorption_sd: Vec::new(),
+        scattering_sd: Vec::new(),
+        identified: true,
+        guessed: true,
+        notes: vec![format!("guessed from {colour} as {words}; how it mixes is not known")],
+    };
+    let film: Vec<f64> = (pigment.absorption.iter())
+        .map(|&k| {
+            let internal = match body {
+                Body::Hiding => spectra::optics::infinite_film(k, scattering),
+                Body::Glaze => Layer::new(k, scattering, 1.0).over(1.0),
+            };
+            surface.measured_from_internal(internal)
+        })
+        .collect();
+    let (white, xyz) = (weights.white(), weights.xyz(&film));
+    let delta_e = delta_e_ciede2000(Lab::from_xyz(wanted, white), Lab::from_xyz(xyz, white));
+    let hex = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_hex();
+    if delta_e >= SAME_COLOUR && !nearest {
+        let (k1, k2) = (surface.k1, surface.k2);
+        return Err(CurationError::OutOfReach { k1, k2, nearest: hex, delta_e });
+    }
+    Ok(Guess { pigment, delta_e, hex })
+}
+
+/// The K of a film of unit thickness with `scattering` that reflects `internal`
+/// over white: it falls as K rises, so the logarithm of K is halved in on.
+fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
+    let (mut low, mut high) = (-25.0f64, 15.0f64);
+    for _ in 0..80 {
+        let middle = f64::midpoint(low, high);
+        if Layer::new(middle.exp(), scattering, 1.0).over(1.0) > internal {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    f64::midpoint(low, high).exp()
+}

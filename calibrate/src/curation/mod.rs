@@ -1,0 +1,30 @@
+//! Keeping pigment libraries: one of several, another reference white, another
+//! grid, other names, their health, and how far two are apart.
+
+mod error;
+
+mod rescale;
+
+mod resample;
+
+mod select;
+
+mod merge;
+
+mod table;
+
+mod guess;
+
+mod health;
+
+mod difference;
+
+pub use difference::{Difference, PigmentDifference, PigmentPair, difference};
+pub use error::CurationError;
+pub use guess::{Body, Guess, guessed_pigment};
+pub use health::{Finding, Health, PigmentHealth, Severity, health};
+pub use merge::{MergeSettings, Merged, Prefer, Source, merged};
+pub use resample::on_grid;
+pub use rescale::with_reference;
+pub use select::{renamed, subset, with_colour_indices};
+pub use table::{LibraryFrame, TableError, from_csv, to_csv};

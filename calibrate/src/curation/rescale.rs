@@ -1,0 +1,78 @@
+//! Another reference white.
+
+use super::error::CurationError;
+use crate::digits::rounded;
+use crate::library::{AmountKind, Pigment, PigmentLibrary};
+
+/// The library with K and S relative to the S of `reference`, found as
+/// [`PigmentLibrary::find`] finds it; absolute amounts become shares.
+///
+/// Every K and S is divided by the reference's S at that wavelength, so every
+/// mixture keeps its K/S, and with it the colour of every film that hides. Films
+/// that do not hide change: their thickness now counts from another white.
+/// Deviations are divided too, as far as they are known apart; the old and the
+/// new reference exchange theirs. A pigment whose S was never known keeps its K/S
+/// with S = 1. The unevenness of absolute amounts, which means nothing to films
+/// that hide, is dropped, and so is their evidence.
+///
+/// # Errors
+/// [`CurationError`] if there is no such pigment or its S is not known, or 0.
+pub fn with_reference(
+    file: &str,
+    library: &PigmentLibrary,
+    reference: &str,
+) -> Result<PigmentLibrary, CurationError> {
+    let index = library
+        .find(reference)
+        .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
+    let white = &library.pigments[index];
+    if library.reference.as_ref() == Some(&white.name) {
+        return Ok(library.clone());
+    }
+    if !white.identified {
+        return Err(CurationError::UnknownScattering {
+            file: file.to_owned(),
+            pigment: white.name.clone(),
+        });
+    }
+    if let Some(at) = white.scattering.iter().position(|s| *s <= 0.0) {
+        return Err(CurationError::NoScattering {
+            file: file.to_owned(),
+            pigment: white.name.clone(),
+            nm: library.grid.nm(at),
+            value: white.scattering[at],
+        });
+    }
+    let absolute = library.amounts == AmountKind::Absolute;
+    let divided = |curve: &[f64]| -> Vec<f64> {
+        curve.iter().zip(&white.scattering).map(|(value, s)| rounded(value / s)).collect()
+    };
+    let rescaled = |pigment: &Pigment| {
+        if !pigment.identified && !absolute {
+            return pigment.clone();
+        }
+        let mut scattering_sd = divided(&pigment.scattering_sd);
+        if pigment.name == white.name {
+            scattering_sd.fill(0.0);
+        } else if library.reference.as_ref() == Some(&pigment.name) {
+            // 1 / S is known as well as S, relatively.
+            let pairs = white.scattering_sd.iter().zip(&white.scattering);
+            scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
+        }
+        Pigment {
+            absorption: divided(&pigment.absorption),
+            scattering: divided(&pigment.scattering),
+            absorption_sd: divided(&pigment.absorption_sd),
+            scattering_sd,
+            ..pigment.clone()
+        }
+    };
+    Ok(PigmentLibrary {
+        reference: Some(white.name.clone()),
+        amounts: AmountKind::Relative,
+        unevenness: 0.0,
+        evidence: if absolute { None } else { library.evidence.clone() },
+        pigments: library.pigments.iter().map(rescaled).collect(),
+        ..library.clone()
+    })
+}

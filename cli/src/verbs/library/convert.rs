@@ -1,0 +1,170 @@
+//! `impasto library convert`: another grid, another white, shares for amounts, or
+//! a table of K and S.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
+use calibrate::library::{AmountKind, PigmentLibrary};
+use clap::{Args, ValueEnum};
+use spectra::Interpolation;
+
+use super::grid_option::{ResamplingOptions, grid};
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::{input, library};
+use crate::output::Output;
+use crate::surface::SurfaceOptions;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Amounts {
+    /// Relative to a white
+    Relative,
+    /// Per unit of amount
+    Absolute,
+}
+
+/// A library on another grid or relative to another white, or one from a table of K and S
+///
+/// The title, the licence, the source and the surface of a table (CSV: pigment, quantity,
+/// wavelengths) come from the options; a pigment with K/S alone is one whose S is not known.
+///
+/// A library of absolute amounts becomes one of shares with --reference; how its films look before
+/// they hide is then lost. Shares cannot become amounts: nothing tells how much was laid.
+#[derive(Debug, Args)]
+pub(super) struct Convert {
+    /// The pigment library (JSON), or a table of K and S (CSV) as `export --to csv` writes it
+    library: PathBuf,
+    /// Where to write the library
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// The new wavelengths in nm, such as 400,700,5
+    #[arg(long, value_name = "START,END,STEP")]
+    grid: Option<String>,
+    /// The pigment whose S becomes 1
+    #[arg(long, value_name = "PIGMENT")]
+    reference: Option<String>,
+    #[command(flatten)]
+    resampling: ResamplingOptions,
+    /// What the K and S of a table are relative to [default: relative]
+    #[arg(long, value_enum)]
+    amounts: Option<Amounts>,
+    #[command(flatten)]
+    surface: SurfaceOptions,
+    /// The title of a library from a table
+    #[arg(long)]
+    title: Option<String>,
+    /// The licence of a library from a table
+    #[arg(long)]
+    licence: Option<String>,
+    /// Where the figures of a table come from
+    #[arg(long)]
+    source: Option<String>,
+}
+
+impl Convert {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
+        let wanted = self.grid.as_deref().map(grid).transpose()?;
+        let file = self.library.display().to_string();
+        let before = if is_table(&self.library) {
+            self.table(&file)?
+        } else {
+            self.refuse_table_options()?;
+            if wanted.is_none() && self.reference.is_none() {
+                return Err(Refusal::usage(
+                    "nothing to convert to",
+                    "say --grid START,END,STEP or --reference PIGMENT",
+                ));
+            }
+            library(&self.library)?
+        };
+        let mut after = before.clone();
+        if let Some(reference) = &self.reference {
+            after = with_reference(&file, &after, reference)?;
+            remark_reference(&before, &after, console)?;
+        }
+        if let Some(grid) = wanted {
+            let best = Interpolation::best_for(before.grid);
+            let method = self.resampling.method().unwrap_or(best);
+            after = on_grid(&file, &after, grid, method, self.resampling.ends())?;
+            console.remark(format!("{} brought to {grid} ({})", before.grid, method.name()))?;
+        }
+        output.write(after.to_json())?;
+        console.line(format!(
+            "{}: {} pigments, {}{}",
+            self.output.display(),
+            after.pigments.len(),
+            after.grid,
+            after.reference.map_or_else(String::new, |name| format!(", S = 1 for {name}"))
+        ))
+    }
+
+    fn table(&self, file: &str) -> anyhow::Result<PigmentLibrary> {
+        let bytes =
+            std::fs::read(&self.library).with_context(|| format!("{file}: cannot be read"))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            Refusal::data(
+                format!("{file}, byte {at}: text must be UTF-8"),
+                "save the file as CSV in UTF-8",
+            )
+        })?;
+        let frame = LibraryFrame {
+            title: self.title.clone().unwrap_or_default(),
+            licence: self.licence.clone().unwrap_or_default(),
+            source: self.source.clone().unwrap_or_default(),
+            amounts: match self.amounts {
+                Some(Amounts::Absolute) => AmountKind::Absolute,
+                Some(Amounts::Relative) | None => AmountKind::Relative,
+            },
+            reference: self.reference.clone(),
+            saunderson: self.surface.surface_or_usual()?,
+        };
+        let mut library = from_csv(file, &text, frame)?;
+        library.inputs = vec![input(file, text.as_bytes())];
+        Ok(library)
+    }
+
+    fn refuse_table_options(&self) -> anyhow::Result<()> {
+        let given = [
+            ("--amounts", self.amounts.is_some()),
+            ("--saunderson", self.surface.given()),
+            ("--title", self.title.is_some()),
+            ("--licence", self.licence.is_some()),
+            ("--source", self.source.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some((option, _)) => Err(Refusal::usage(
+                format!("{option} is for tables (CSV); a library says so itself"),
+                "shares cannot become amounts, nor K and S hold under another surface: fit again",
+            )),
+        }
+    }
+}
+
+fn is_table(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+}
+
+fn remark_reference(
+    before: &PigmentLibrary,
+    after: &PigmentLibrary,
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    if before.reference == after.reference {
+        return Ok(());
+    }
+    let white = after.reference.as_deref().unwrap_or_default();
+    let thickness = "films that hide keep their colour; the thickness of others now counts from";
+    console.warnings(&[format!("{thickness} {white}")])?;
+    if before.amounts == AmountKind::Absolute {
+        let lost = "amounts became shares: the unevenness of films and the evidence of the fit are left out";
+        console.warnings(&[lost.to_owned()])?;
+    }
+    let stand_ins = after.pigments.iter().filter(|pigment| !pigment.identified);
+    let kept: Vec<String> =
+        stand_ins.map(|pigment| format!("{}: S is not known and stays 1", pigment.name)).collect();
+    console.warnings(if before.amounts == AmountKind::Relative { &kept } else { &[] })
+}

@@ -1,0 +1,221 @@
+//! `impasto library export`: a library for other programs.
+
+use std::path::PathBuf;
+
+use calibrate::curation::to_csv;
+use calibrate::library::{AmountKind, PigmentLibrary};
+use clap::{Args, ValueEnum};
+use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapted};
+use spectra::instrument::{CxfHead, write_cxf};
+use spectra::swatch_file::{
+    Palette, Swatch, SwatchColour, d50_white, write_aco, write_ase, write_gpl,
+};
+use spectra::{Reflectance, Spectrum, TristimulusWeights};
+
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::{ViewingOptions, colour_weights, library, srgb};
+use crate::output::Output;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// GIMP palette: sRGB and names
+    Gpl,
+    /// Adobe Swatch Exchange: sRGB or Lab, and names
+    Ase,
+    /// Photoshop swatches: sRGB or Lab, and names
+    Aco,
+    /// K and S with their deviations, a row a curve
+    Csv,
+    /// CxF3: predicted reflectance spectra of the swatches
+    Cxf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Space {
+    /// sRGB, cut off at its gamut
+    Rgb,
+    /// CIELAB as graphic arts have it, under D50
+    Lab,
+}
+
+/// A library for other programs: palettes, spectra, or a table of K and S
+///
+/// A swatch is the masstone of a pigment under the light told. Palettes of Adobe programs may hold
+/// Lab; theirs is that under D50, to which a colour under another light is adapted (Bradford).
+#[derive(Debug, Args)]
+pub(super) struct Export {
+    /// The pigment library (JSON)
+    library: PathBuf,
+    /// The format
+    #[arg(long, value_enum)]
+    to: Format,
+    /// Where to write
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// Add tints in the reference white, as parts of white to one of the pigment, such as 1,4,9
+    #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 0..=1,
+          default_missing_value = "1,4,9", require_equals = true)]
+    tints: Vec<String>,
+    /// How .ase and .aco hold colours
+    #[arg(long, value_enum, default_value = "rgb")]
+    space: Space,
+    #[command(flatten)]
+    viewing: ViewingOptions,
+}
+
+impl Export {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        if self.space == Space::Lab && !matches!(self.to, Format::Ase | Format::Aco) {
+            return Err(Refusal::usage("only .ase and .aco hold Lab", "leave out --space"));
+        }
+        if self.to == Format::Csv && !self.tints.is_empty() {
+            return Err(Refusal::usage("a table of K and S has no tints", "leave out --tints"));
+        }
+        let tints = tints(&self.tints)?;
+        let viewing = self.viewing.viewing()?;
+        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
+        let library = library(&self.library)?;
+        if self.to == Format::Csv {
+            remark_what_csv_lacks(&library, console)?;
+            output.write(to_csv(&library))?;
+            let count = library.pigments.len();
+            return console.line(format!("{}: {count} pigments", self.output.display()));
+        }
+        let weights = colour_weights(&viewing, library.grid, console)?;
+        let colours = colours(&library, &weights, &tints)?;
+        if self.to == Format::Cxf {
+            output.write(cxf(&library, &colours)?)?;
+            let count = colours.len();
+            return console.line(format!("{}: {count} spectra", self.output.display()));
+        }
+        let clipped: Vec<&str> = (colours.iter())
+            .filter(|colour| self.space == Space::Rgb && !colour.rgb.in_gamut())
+            .map(|colour| colour.name.as_str())
+            .collect();
+        if !clipped.is_empty() {
+            let names = clipped.join(", ");
+            console.warnings(&[format!("outside sRGB, cut off at its gamut: {names}")])?;
+        }
+        let count = colours.len();
+        let swatch = |colour: NamedColour| Swatch {
+            group: if tints.is_empty() { String::new() } else { colour.pigment },
+            name: colour.name,
+            colour: match self.space {
+                Space::Rgb => SwatchColour::Rgb(colour.rgb),
+                Space::Lab => SwatchColour::Lab(lab_d50(colour.xyz, weights.white())),
+            },
+        };
+        let swatches = colours.into_iter().map(swatch).collect();
+        let palette = Palette { name: library.title, swatches };
+        output.write(match self.to {
+            Format::Ase => write_ase(&palette)?,
+            Format::Aco => write_aco(&palette)?,
+            Format::Gpl | Format::Csv | Format::Cxf => write_gpl(&palette)?.into_bytes(),
+        })?;
+        console.line(format!("{}: {count} swatches", self.output.display()))
+    }
+}
+
+/// A colour to be a swatch.
+struct NamedColour {
+    pigment: String,
+    name: String,
+    reflectance: Vec<f64>,
+    xyz: Xyz,
+    rgb: Rgb,
+}
+
+/// The masstone of each pigment, then its tints.
+fn colours(
+    library: &PigmentLibrary,
+    weights: &TristimulusWeights,
+    tints: &[f64],
+) -> anyhow::Result<Vec<NamedColour>> {
+    let white = library.reference.as_deref().map(|name| library.find(name)).transpose()?;
+    if !tints.is_empty() && (white.is_none() || library.amounts == AmountKind::Absolute) {
+        return Err(Refusal::data(
+            "the library has no reference white to tint with",
+            "leave out --tints",
+        ));
+    }
+    let mut colours = Vec::new();
+    for (index, pigment) in library.pigments.iter().enumerate() {
+        let mut add = |name: String, recipe: &[(usize, f64)]| -> anyhow::Result<()> {
+            let reflectance = library.mix(recipe)?.hiding(library.saunderson);
+            let xyz = weights.xyz(&reflectance);
+            let rgb = srgb(xyz, weights.white());
+            colours.push(NamedColour {
+                pigment: pigment.name.clone(),
+                name,
+                reflectance,
+                xyz,
+                rgb,
+            });
+            Ok(())
+        };
+        add(pigment.name.clone(), &[(index, 1.0)])?;
+        let Some(white) = white.filter(|white| *white != index && pigment.identified) else {
+            continue;
+        };
+        for parts in tints {
+            add(format!("{} 1:{parts}", pigment.name), &[(index, 1.0), (white, *parts)])?;
+        }
+    }
+    Ok(colours)
+}
+
+/// The spectra of `colours`, as CxF3.
+fn cxf(library: &PigmentLibrary, colours: &[NamedColour]) -> anyhow::Result<String> {
+    let spectra = colours
+        .iter()
+        .map(|colour| Ok(Spectrum::new(library.grid, colour.reflectance.clone())?))
+        .collect::<anyhow::Result<Vec<Spectrum<Reflectance>>>>()?;
+    let named: Vec<(&str, &Spectrum<Reflectance>)> =
+        colours.iter().map(|colour| colour.name.as_str()).zip(&spectra).collect();
+    let head = CxfHead {
+        creator: "impasto",
+        description: &library.title,
+        geometry: "predicted",
+        creation_date: None,
+    };
+    Ok(write_cxf(&head, &named))
+}
+
+fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {
+    let d50 = d50_white();
+    Lab::from_xyz(adapted(xyz, white, d50, Adaptation::Bradford), d50)
+}
+
+fn tints(texts: &[String]) -> anyhow::Result<Vec<f64>> {
+    let parts = texts.iter().map(|text| {
+        text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && *v <= 1e6).ok_or_else(|| {
+            Refusal::usage(
+                format!("--tints takes parts of white above 0 and up to 1e6, found `{text}`"),
+                "try --tints=1,4,9",
+            )
+        })
+    });
+    parts.collect()
+}
+
+fn remark_what_csv_lacks(
+    library: &PigmentLibrary,
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    let guessed = library.pigments.iter().filter(|pigment| pigment.guessed);
+    let guessed: Vec<String> = guessed
+        .map(|pigment| format!("{} is guessed, which the table does not say", pigment.name))
+        .collect();
+    console.warnings(&guessed)?;
+    let surface = library.saunderson;
+    console.remark(format!(
+        "the table does not hold: k1 = {}, k2 = {}, titles, notes, evidence{}",
+        surface.k1,
+        surface.k2,
+        library
+            .reference
+            .as_ref()
+            .map_or_else(String::new, |name| format!(", the reference {name}"))
+    ))
+}

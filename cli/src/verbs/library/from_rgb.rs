@@ -1,0 +1,144 @@
+//! `impasto library from-rgb`: a plausible pigment of a colour.
+
+use std::path::PathBuf;
+
+use calibrate::curation::{Body, guessed_pigment};
+use calibrate::evaluate::Viewing;
+use calibrate::library::{AmountKind, PigmentLibrary};
+use clap::Args;
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::{Grid, TristimulusWeights};
+
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::library;
+use crate::output::Output;
+use crate::surface::SurfaceOptions;
+
+/// A plausible pigment of a colour, marked as guessed
+///
+/// K and S come from the smoothest reflectance that has exactly this colour under D65 for the 1931
+/// observer (Burns 2020). A hiding paint has S = 1, as the reference white; a glaze has S = 0.02
+/// and the colour at unit thickness over white. How such a paint mixes is a guess: many
+/// reflectances have one colour.
+/// Without a library a new one is made: 400 to 700 nm in steps of 10, the first paint that hides
+/// its reference, so begin with the white.
+#[derive(Debug, Args)]
+#[command(allow_missing_positional = true)]
+pub(super) struct FromRgb {
+    /// The pigment library (JSON) that it joins [default: a new one]
+    library: Option<PathBuf>,
+    /// The colour: #rrggbb, or lab(L,a,b) under D65
+    colour: String,
+    /// The pigment's name
+    #[arg(long)]
+    name: String,
+    /// A paint that hides has this colour (the default)
+    #[arg(long, conflicts_with = "glaze")]
+    hiding: bool,
+    /// A glaze over white has this colour
+    #[arg(long)]
+    glaze: bool,
+    /// Take the nearest colour that a paint can have
+    #[arg(long)]
+    nearest: bool,
+    /// Where to write the library
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    surface: SurfaceOptions,
+}
+
+impl FromRgb {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let inputs: Vec<PathBuf> = self.library.iter().cloned().collect();
+        let output = Output::open(&self.output, &inputs)?;
+        let mut library = match &self.library {
+            Some(_) if self.surface.given() => {
+                return Err(Refusal::usage(
+                    "--saunderson is for a new library; this one has its surface",
+                    "leave out --saunderson",
+                ));
+            }
+            Some(path) => library(path)?,
+            None => self.new_library()?,
+        };
+        let name = self.name.trim();
+        if name.is_empty() || name.contains(char::is_control) {
+            return Err(Refusal::usage("a pigment needs a name", "say --name \"Sky Blue\""));
+        }
+        if library.pigments.iter().any(|pigment| pigment.name == name) {
+            return Err(Refusal::data(
+                format!("the library has a pigment called `{name}`"),
+                "choose another --name",
+            ));
+        }
+        let weights = Viewing::default().weights(library.grid)?;
+        let wanted = wanted(&self.colour, &weights)?;
+        let body = if self.glaze { Body::Glaze } else { Body::Hiding };
+        let colour = self.colour.trim();
+        let guess = guessed_pigment(&library, (name, colour), wanted, body, self.nearest)?;
+        if self.library.is_none() && body == Body::Hiding {
+            library.reference = Some(name.to_owned());
+        }
+        library.pigments.push(guess.pigment);
+        output.write(library.to_json())?;
+        if guess.delta_e >= 0.05 {
+            let (hex, off) = (&guess.hex, guess.delta_e);
+            let warning = format!("{colour} is out of reach; {hex} is {off:.2} CIEDE2000 off");
+            console.warnings(&[warning])?;
+        }
+        let patch = match Rgb::from_hex(&guess.hex) {
+            Some(rgb) => console.patch(rgb),
+            None => String::new(),
+        };
+        console.line(format!(
+            "{}: {name} {patch}{}, {:.3} CIEDE2000 from {colour}, guessed",
+            self.output.display(),
+            guess.hex,
+            guess.delta_e
+        ))
+    }
+
+    fn new_library(&self) -> anyhow::Result<PigmentLibrary> {
+        Ok(PigmentLibrary {
+            title: String::new(),
+            licence: String::new(),
+            source: "guessed from colours".to_owned(),
+            grid: Grid::from_nm(400.0, 10.0, 31)?,
+            amounts: AmountKind::Relative,
+            reference: None,
+            saunderson: self.surface.surface_or_usual()?,
+            unevenness: 0.0,
+            inputs: Vec::new(),
+            settings: None,
+            pigments: Vec::new(),
+            evidence: None,
+        })
+    }
+}
+
+/// XYZ under D65 of a colour in words.
+fn wanted(text: &str, weights: &TristimulusWeights) -> anyhow::Result<Xyz> {
+    let white = weights.white();
+    let text = text.trim();
+    if let Some(rgb) = Rgb::from_hex(text) {
+        return Ok(RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford));
+    }
+    let wrong = || {
+        Refusal::usage(
+            format!("a colour is #rrggbb or lab(L,a,b), found `{text}`"),
+            "try \"#2a5caa\" or \"lab(40,5,-45)\"",
+        )
+    };
+    let lower = text.to_ascii_lowercase();
+    let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
+    let words = inside.ok_or_else(wrong)?.split([',', ' ']).filter(|word| !word.is_empty());
+    let numbers: Vec<f64> = words.map(str::parse).collect::<Result<_, _>>().map_err(|_| wrong())?;
+    let &[lightness, a, b] = numbers.as_slice() else { return Err(wrong()) };
+    let inside = (0.0..=100.0).contains(&lightness) && a.abs() <= 200.0 && b.abs() <= 200.0;
+    if !inside {
+        return Err(wrong());
+    }
+    Ok(Lab { lightness, a, b }.to_xyz(white))
+}

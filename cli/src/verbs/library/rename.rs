@@ -1,0 +1,65 @@
+//! `impasto library rename`: other names.
+
+use std::path::PathBuf;
+
+use calibrate::curation::{renamed, with_colour_indices};
+use clap::Args;
+
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::library;
+use crate::output::Output;
+
+/// Other names for pigments; all else stays, byte for byte
+#[derive(Debug, Args)]
+pub(super) struct Rename {
+    /// The pigment library (JSON)
+    library: PathBuf,
+    /// Names to change, all at once; the old one may be cut short
+    #[arg(value_name = "OLD=NEW")]
+    names: Vec<String>,
+    /// A Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
+    #[arg(long, value_name = "NAME=INDEX")]
+    colour_index: Vec<String>,
+    /// Where to write the library
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+impl Rename {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        if self.names.is_empty() && self.colour_index.is_empty() {
+            return Err(Refusal::usage("nothing to rename", "say OLD=NEW, or --colour-index"));
+        }
+        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
+        let before = library(&self.library)?;
+        let file = self.library.display().to_string();
+        let indexed = with_colour_indices(&file, &before, &pairs(&self.colour_index)?)?;
+        let after = renamed(&file, &indexed, &pairs(&self.names)?)?;
+        output.write(after.to_json())?;
+        for (old, new) in before.pigments.iter().zip(&after.pigments) {
+            if old.name != new.name {
+                console.line(format!("{} is now {}", old.name, new.name))?;
+            }
+            if old.colour_index != new.colour_index {
+                let index = new.colour_index.as_deref().unwrap_or("without a Colour Index name");
+                console.line(format!("{} is {index}", new.name))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn pairs(texts: &[String]) -> anyhow::Result<Vec<(String, String)>> {
+    let pair = |text: &String| {
+        let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
+        let (name, value) = parts.ok_or_else(|| {
+            Refusal::usage(
+                format!("a name and its change are NAME=CHANGE, found `{text}`"),
+                "try \"Viridian=Viridian (batch 2)\"",
+            )
+        })?;
+        Ok((name.to_owned(), value.to_owned()))
+    };
+    texts.iter().map(pair).collect()
+}

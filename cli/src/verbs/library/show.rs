@@ -1,0 +1,53 @@
+//! `impasto library show`: one pigment's curves.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::console::Console;
+use crate::input::library;
+
+/// K and S of one pigment, with their standard deviations
+#[derive(Debug, Args)]
+pub(super) struct Show {
+    /// The pigment library (JSON)
+    library: PathBuf,
+    /// The pigment; the name may be cut short
+    pigment: String,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Show {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let library = library(&self.library)?;
+        let pigment = &library.pigments[library.find(&self.pigment)?];
+        if self.json {
+            let mut value = serde_json::to_value(pigment)?;
+            let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
+            value["wavelengths_nm"] = json!(wavelengths);
+            return console.json(&value);
+        }
+        let mark = if pigment.guessed { " (guessed)" } else { "" };
+        console.line(format!("{}{mark}", pigment.name))?;
+        for note in &pigment.notes {
+            console.line(format!("note: {note}"))?;
+        }
+        console.line("    nm            K       +-            S       +-")?;
+        let deviation = |curve: &[f64], at: usize| {
+            curve.get(at).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
+        };
+        for (at, nm) in library.grid.wavelengths_nm().enumerate() {
+            console.line(format!(
+                "{nm:6} {:12.6} {:>8} {:12.6} {:>8}",
+                pigment.absorption[at],
+                deviation(&pigment.absorption_sd, at),
+                pigment.scattering[at],
+                deviation(&pigment.scattering_sd, at),
+            ))?;
+        }
+        Ok(())
+    }
+}

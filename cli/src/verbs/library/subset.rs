@@ -1,0 +1,54 @@
+//! `impasto library subset`: some of the pigments.
+
+use std::path::PathBuf;
+
+use calibrate::curation::{subset, with_reference};
+use clap::Args;
+
+use crate::console::Console;
+use crate::failure::Refusal;
+use crate::input::library;
+use crate::output::Output;
+
+/// Some pigments of a library; their figures stay as they are
+///
+/// The reference white must be among them, or another be chosen with --reference: all K and S are
+/// then divided by its S. Of the evidence the summary stays, marked as that of the whole fit.
+#[derive(Debug, Args)]
+pub(super) struct Subset {
+    /// The pigment library (JSON)
+    library: PathBuf,
+    /// The pigments to keep; a name may be cut short [default: all]
+    #[arg(value_name = "PIGMENT")]
+    keep: Vec<String>,
+    /// A pigment to leave out (may be repeated)
+    #[arg(long, value_name = "PIGMENT")]
+    without: Vec<String>,
+    /// The pigment whose S becomes 1 [default: as it is]
+    #[arg(long, value_name = "PIGMENT")]
+    reference: Option<String>,
+    /// Where to write the library
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+impl Subset {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        if self.keep.is_empty() && self.without.is_empty() {
+            return Err(Refusal::usage("nothing to leave out", "name pigments, or say --without"));
+        }
+        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
+        let mut before = library(&self.library)?;
+        let file = self.library.display().to_string();
+        if let Some(reference) = &self.reference {
+            before = with_reference(&file, &before, reference)?;
+        }
+        let after = subset(&file, &before, &self.keep, &self.without)?;
+        if after.pigments.len() < before.pigments.len() && before.evidence.is_some() {
+            console.remark("evidence: the summary of the whole fit stays, errors of samples go")?;
+        }
+        output.write(after.to_json())?;
+        let names: Vec<&str> = after.pigments.iter().map(|p| p.name.as_str()).collect();
+        console.line(format!("{}: {}", self.output.display(), names.join(", ")))
+    }
+}

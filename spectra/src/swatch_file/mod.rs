@@ -1,0 +1,28 @@
+//! Palettes as painting programs exchange them: named colours, no spectra.
+//!
+//! | file | of | holds |
+//! |------|----|-------|
+//! | `.gpl` | GIMP, Inkscape, Krita | sRGB in 8 bits |
+//! | `.ase` | Adobe programs | RGB, Lab, CMYK or grey as 32-bit floats, in groups |
+//! | `.aco` | Photoshop | the same in 16 bits |
+//!
+//! None of the three says which RGB is meant; here it is sRGB. Lab is that of the
+//! graphic arts, under D50 for the 1931 observer.
+
+mod palette;
+
+mod error;
+
+mod bytes;
+
+mod gpl;
+
+mod ase;
+
+mod aco;
+
+pub use aco::{read_aco, write_aco};
+pub use ase::{read_ase, write_ase};
+pub use error::SwatchFileError;
+pub use gpl::{read_gpl, write_gpl};
+pub use palette::{Palette, Swatch, SwatchColour, d50_white};

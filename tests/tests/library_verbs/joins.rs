@@ -1,0 +1,262 @@
+//! Merging, converting, renaming and choosing keep every mixture.
+
+use calibrate::library::{AmountKind, Pigment};
+use suite::near::assert_near;
+
+use crate::{Shelf, done, furthest, oils, read, refused, text};
+
+/// Six digits of K and S move a reflectance by less.
+const ROUNDING: f64 = 1e-5;
+
+#[test]
+fn another_reference_keeps_every_mixture_and_back_is_the_same() {
+    let shelf = Shelf::new();
+    let (lead, back) = (shelf.path("lead.json"), shelf.path("back.json"));
+    let run = done(&["convert", &oils(), "--reference", "Lead White", "--output", &lead]);
+    assert!(run.err.contains("thickness of others now counts from Lead White"), "{}", run.err);
+    let (first, other) = (read(&oils()), read(&lead));
+    assert_eq!(other.reference.as_deref(), Some("Lead White"));
+    let white = &other.pigments[other.find("Lead White").unwrap()];
+    assert!(white.scattering.iter().all(|s| *s == 1.0), "{:?}", white.scattering);
+    assert!(white.scattering_sd.iter().all(|s| *s == 0.0), "known by definition");
+    assert_ne!(first.pigments[4].absorption, other.pigments[4].absorption);
+    assert!(furthest(&first, &other) < ROUNDING, "{}", furthest(&first, &other));
+    done(&["convert", &lead, "--reference", "Zinc White", "--output", &back]);
+    for (a, b) in first.pigments.iter().zip(&read(&back).pigments) {
+        for (a, b) in curves(a).into_iter().zip(curves(b)) {
+            let ratios: Vec<f64> =
+                (a.1.iter().zip(b.1)).map(|(a, b)| if a == b { 1.0 } else { a / b }).collect();
+            assert_near(a.0, &ratios, &vec![1.0; ratios.len()], 2e-5);
+        }
+    }
+}
+
+fn curves(pigment: &Pigment) -> [(String, &Vec<f64>); 4] {
+    [
+        (format!("K of {}", pigment.name), &pigment.absorption),
+        (format!("S of {}", pigment.name), &pigment.scattering),
+        (format!("sd of K of {}", pigment.name), &pigment.absorption_sd),
+        (format!("sd of S of {}", pigment.name), &pigment.scattering_sd),
+    ]
+}
+
+#[test]
+fn a_merged_library_mixes_as_its_sources_do() {
+    let shelf = Shelf::new();
+    let (blues, reds) = (shelf.path("blues.json"), shelf.path("reds.json"));
+    let scaled = shelf.path("scaled.json");
+    done(&["subset", &oils(), "Zinc White", "Cobalt", "Ultramarine", "--output", &blues]);
+    // The other stands relative to lead white, and calls zinc white by another name.
+    done(&[
+        "subset",
+        &oils(),
+        "Zinc White",
+        "Lead White",
+        "Vermilion",
+        "Minium",
+        "--output",
+        &reds,
+    ]);
+    done(&["convert", &reds, "--reference", "Lead White", "--output", &scaled]);
+    let other = shelf.path("other.json");
+    done(&["rename", &scaled, "Zinc White=Snow", "--output", &other]);
+    let merged = shelf.path("merged.json");
+    refused(&["merge", &blues, &other, "--output", &merged], 1, &["Zinc White", "--as NAME"]);
+    let run = done(&["merge", &blues, &other, "--as", "Snow", "--output", &merged, "--json"]);
+    let said = run.json();
+    assert_eq!(said["common"][0]["name"], "Zinc White");
+    assert!(said["common"][0]["masstone_ciede2000"].as_f64().unwrap() < 1e-3, "{said}");
+    let library = read(&merged);
+    assert_eq!(library.pigments.len(), 6);
+    assert_eq!(library.inputs.len(), 1, "the same file twice is one input");
+    assert_eq!(library.licence, "CC0 1.0", "the same licence twice is one");
+    assert!(library.evidence.is_none() && library.pigments[0].notes[0].contains("off by 1.34"));
+    assert!(
+        furthest(&read(&oils()), &library) < ROUNDING,
+        "{}",
+        furthest(&read(&oils()), &library)
+    );
+    let again = shelf.path("again.json");
+    done(&["merge", &blues, &other, "--as", "Snow", "--output", &again]);
+    assert_eq!(text(&merged), text(&again), "a rerun is byte-equal");
+}
+
+#[test]
+fn two_pigments_of_one_name_need_a_choice() {
+    let shelf = Shelf::new();
+    let batch = shelf.changed("batch.json", &oils(), |library| {
+        let viridian = library.find("Viridian").unwrap();
+        library.pigments[viridian].absorption.iter_mut().for_each(|k| *k *= 1.5);
+        library.licence = "CC BY 4.0".into();
+    });
+    let merged = shelf.path("merged.json");
+    let clash = ["merge", &oils(), &batch, "--output", &merged];
+    refused(&clash, 1, &["`Viridian`", "--prefer first", "library rename"]);
+    assert!(!std::path::Path::new(&merged).exists(), "nothing half written");
+    let k = |path: &str| read(path).pigments[read(path).find("Viridian").unwrap()].absorption[0];
+    done(&[&clash[..], &["--prefer", "first"]].concat());
+    assert_eq!(k(&merged), k(&oils()));
+    done(&[&clash[..], &["--prefer", "last"]].concat());
+    assert_eq!(k(&merged), k(&batch));
+    assert_eq!(read(&merged).pigments.len(), 20, "identical pigments stand once");
+    assert_eq!(read(&merged).licence, "CC0 1.0; CC BY 4.0");
+}
+
+#[test]
+fn what_does_not_fit_together_is_refused_with_its_reason() {
+    let shelf = Shelf::new();
+    let merged = shelf.path("merged.json");
+    let merge = |other: &str, more: &[&str]| {
+        let mut arguments = vec!["merge".to_owned(), oils(), other.to_owned()];
+        arguments.extend(["--output".to_owned(), merged.clone()]);
+        arguments.extend(more.iter().map(|word| (*word).to_owned()));
+        arguments
+    };
+    let refuse = |other: &str, words: &[&str]| {
+        let arguments = merge(other, &[]);
+        refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), 1, words);
+    };
+    let surface = shelf.changed("surface.json", &oils(), |library| library.saunderson.k1 = 0.02);
+    refuse(&surface, &["the surface differs", "k1 = 0.02", "--any-surface"]);
+    let arguments = merge(&surface, &["--any-surface"]);
+    let run = done(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(run.err.contains("do not hold under the first's"), "{}", run.err);
+    let amounts = shelf.changed("amounts.json", &oils(), |library| {
+        library.amounts = AmountKind::Absolute;
+        library.reference = None;
+    });
+    refuse(&amounts, &["absolute", "relative", "library convert"]);
+    let narrow = shelf.path("narrow.json");
+    done(&["convert", &oils(), "--grid", "420,680,10", "--output", &narrow]);
+    refuse(&narrow, &["400", "--hold-ends"]);
+    refused(
+        &["merge", &amounts, &amounts, "--output", &merged],
+        1,
+        &["unit of amount", "--same-unit"],
+    );
+    let alone = crate::tried(&["merge", &oils(), "--output", &merged]);
+    assert!(alone.status == 2 && alone.err.contains("2 values required"), "{}", alone.err);
+}
+
+#[test]
+fn amounts_become_shares_of_the_same_colours() {
+    let shelf = Shelf::new();
+    let washes = shelf.changed("washes.json", &oils(), |library| {
+        library.amounts = AmountKind::Absolute;
+        library.reference = None;
+        library.unevenness = 0.3;
+        for pigment in &mut library.pigments {
+            pigment.identified = true;
+            pigment.absorption.iter_mut().for_each(|k| *k *= 40.0);
+            pigment.scattering.iter_mut().for_each(|s| *s *= 40.0);
+        }
+    });
+    let shares = shelf.path("shares.json");
+    let run = done(&["convert", &washes, "--reference", "lead white", "--output", &shares]);
+    assert!(run.err.contains("amounts became shares"), "{}", run.err);
+    let (before, after) = (read(&washes), read(&shares));
+    assert_eq!((after.amounts, after.unevenness), (AmountKind::Relative, 0.0));
+    assert!(after.evidence.is_none() && furthest(&before, &after) < ROUNDING);
+}
+
+#[test]
+fn other_wavelengths_keep_the_values_they_share() {
+    let shelf = Shelf::new();
+    let (fine, back) = (shelf.path("fine.json"), shelf.path("back.json"));
+    let run = done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
+    assert!(run.err.contains("steps of 5 nm"), "{}", run.err);
+    assert_eq!(read(&fine).grid.count(), 61);
+    done(&["convert", &fine, "--grid", "400,700,10", "--output", &back]);
+    assert_eq!(read(&back).pigments, read(&oils()).pigments);
+    let warnings = read(&back).evidence.unwrap().warnings;
+    assert!(warnings.last().unwrap().contains("brought to 400 to 700 nm"), "{warnings:?}");
+    let wrong = ["convert", &oils(), "--grid", "380,730,10", "--output", &fine];
+    refused(&wrong, 1, &["`380` nm", "--hold-ends"]);
+    done(&[&wrong[..], &["--hold-ends"]].concat());
+    for grid in ["400,700", "400,700,0", "700,400,10", "400,705,10", "a,b,c", "400,700,nan"] {
+        refused(&["convert", &oils(), "--grid", grid, "--output", &back], 2, &[grid]);
+    }
+}
+
+#[test]
+fn a_library_on_other_wavelengths_joins_with_a_warning() {
+    let shelf = Shelf::new();
+    let (fine, merged) = (shelf.path("fine.json"), shelf.path("merged.json"));
+    done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
+    let run = done(&["merge", &oils(), &fine, "--output", &merged]);
+    assert!(
+        run.err.contains("brought to 400 to 700 nm in steps of 10 nm (sprague)"),
+        "{}",
+        run.err
+    );
+    assert_eq!(read(&merged).pigments.len(), 20, "the same figures at the same wavelengths");
+    let coarse = shelf.path("coarse.json");
+    let lost = |method: &str| {
+        done(&["convert", &oils(), "--grid", "400,700,20", "--output", &coarse]);
+        let more = ["--grid", "400,700,10", "--interpolation", method, "--output", &fine];
+        done(&[&["convert", &coarse][..], &more].concat());
+        let found = crate::tried(&["diff", &oils(), &fine, "--json"]).json();
+        let pairs = found["lights"][0]["pairs"].as_array().unwrap();
+        pairs.iter().map(|pair| pair["ciede2000"].as_f64().unwrap()).sum::<f64>()
+    };
+    assert!(lost("sprague") < 0.5 * lost("linear"), "{} {}", lost("sprague"), lost("linear"));
+    let few = ["convert", &oils(), "--grid", "400,700,100", "--output", &coarse];
+    done(&few);
+    let more = ["--grid", "400,700,10", "--interpolation", "sprague", "--output", &fine];
+    refused(&[&["convert", &coarse][..], &more].concat(), 1, &["needs 6", "linear"]);
+}
+
+#[test]
+fn renaming_changes_names_alone() {
+    let shelf = Shelf::new();
+    let (there, back) = (shelf.path("there.json"), shelf.path("back.json"));
+    let names = ["Zinc White=Lead White", "Lead White=Zinc White", "Viridian=PG18 = green"];
+    done(&[&["rename", &oils()][..], &names, &["--output", &there]].concat());
+    let exchanged = read(&there);
+    assert_eq!(exchanged.reference.as_deref(), Some("Lead White"), "the reference follows");
+    assert!(exchanged.find("PG18 = green").is_ok(), "a name may hold an equals sign");
+    assert!(exchanged.pigments[1].scattering.iter().all(|s| *s == 1.0));
+    let names = ["Zinc White=Lead White", "Lead White=Zinc White", "PG18=Viridian"];
+    done(&[&["rename", &there][..], &names, &["--output", &back]].concat());
+    assert_eq!(text(&back), text(&oils()), "and back, byte for byte");
+    let index = ["--colour-index", "Ultramarine=PB29"];
+    done(&[&["rename", &oils()][..], &index, &["--output", &there]].concat());
+    assert_eq!(read(&there).pigments[14].colour_index.as_deref(), Some("PB29"));
+    let none = ["--colour-index", "Ultramarine="];
+    done(&[&["rename", &there][..], &none, &["--output", &back]].concat());
+    assert_eq!(text(&back), text(&oils()));
+    let taken = ["rename", &oils(), "Viridian=Zinc White", "--output", &there];
+    refused(&taken, 1, &["`Zinc White`"]);
+    refused(&["rename", &oils(), "Viridian", "--output", &there], 2, &["`Viridian`"]);
+    refused(&["rename", &oils(), "Nothing=X", "--output", &there], 1, &["`Nothing`", "Viridian"]);
+}
+
+#[test]
+fn a_subset_keeps_figures_and_says_whose_errors_it_tells() {
+    let shelf = Shelf::new();
+    let few = shelf.path("few.json");
+    refused(
+        &["subset", &oils(), "Viridian", "Cobalt", "--output", &few],
+        1,
+        &["`Zinc White` would be left out", "--reference"],
+    );
+    done(&["subset", &oils(), "--without", "Viridian", "--without", "Minium", "--output", &few]);
+    let (all, left) = (read(&oils()), read(&few));
+    assert_eq!(left.pigments.len(), 18);
+    for pigment in &left.pigments {
+        assert!(all.pigments.contains(pigment), "{} changed", pigment.name);
+    }
+    let evidence = left.evidence.unwrap();
+    assert_eq!(evidence.delta_e, all.evidence.as_ref().unwrap().delta_e);
+    assert!(evidence.per_sample.is_empty());
+    assert!(evidence.warnings.last().unwrap().starts_with("18 of 20 pigments"));
+    let other = ["subset", &oils(), "Viridian", "Lead", "--reference", "Lead", "--output", &few];
+    done(&other);
+    assert_eq!(read(&few).reference.as_deref(), Some("Lead White"));
+    assert!(furthest(&all, &read(&few)) < ROUNDING, "{}", furthest(&all, &read(&few)));
+    refused(
+        &["subset", &oils(), "Viridian", "--without", "Viridian", "--output", &few],
+        1,
+        &["no pigment"],
+    );
+}

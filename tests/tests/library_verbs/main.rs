@@ -1,0 +1,95 @@
+//! Keeping libraries: what `impasto library` promises, law by law.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+mod exports;
+mod guesses;
+mod health;
+mod joins;
+mod swatch_files;
+
+use std::path::PathBuf;
+
+use calibrate::library::PigmentLibrary;
+use suite::program::{Run, impasto, repository};
+use tempfile::TempDir;
+
+/// The oils that ship.
+fn oils() -> String {
+    repository("measurements/van-gogh-oils.pigments.json")
+}
+
+fn text(path: &str) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn read(path: &str) -> PigmentLibrary {
+    PigmentLibrary::from_json(path, &text(path)).unwrap()
+}
+
+/// A folder of files to be.
+struct Shelf(TempDir);
+
+impl Shelf {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> String {
+        let path: PathBuf = self.0.path().join(name);
+        path.to_str().unwrap().to_owned()
+    }
+
+    /// `library` changed by `change`, as a file.
+    fn changed(&self, name: &str, from: &str, change: impl FnOnce(&mut PigmentLibrary)) -> String {
+        let mut library = read(from);
+        change(&mut library);
+        let path = self.path(name);
+        std::fs::write(&path, library.to_json()).unwrap();
+        path
+    }
+}
+
+/// `impasto library ARGUMENTS`, which must succeed.
+fn done(arguments: &[&str]) -> Run {
+    let run = tried(arguments);
+    assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
+    run
+}
+
+fn tried(arguments: &[&str]) -> Run {
+    impasto(&[&["library"], arguments].concat())
+}
+
+/// Refused with `status`, a hint, and all of `words` in what is said.
+fn refused(arguments: &[&str], status: u8, words: &[&str]) {
+    let run = tried(arguments);
+    assert_eq!(run.status, status, "{arguments:?}: {}", run.err);
+    for word in words.iter().chain(&["hint:"]) {
+        assert!(run.err.contains(word), "{word}: {}", run.err);
+    }
+}
+
+/// The largest difference of reflectance of every masstone and of every pair 1:1
+/// that `first` and `second` can both mix, without pigments whose S is not known.
+fn furthest(first: &PigmentLibrary, second: &PigmentLibrary) -> f64 {
+    let known: Vec<&str> = (first.pigments.iter())
+        .filter(|p| p.identified && second.pigments.iter().any(|q| q.name == p.name))
+        .map(|p| p.name.as_str())
+        .collect();
+    assert!(known.len() > 1, "pigments in common: {known:?}");
+    let film = |library: &PigmentLibrary, names: [&str; 2]| {
+        let parts: Vec<(usize, f64)> =
+            names.iter().map(|name| (library.find(name).unwrap(), 1.0)).collect();
+        library.mix(&parts).unwrap().hiding(library.saunderson)
+    };
+    let mut largest: f64 = 0.0;
+    for a in &known {
+        for b in &known {
+            let films = [film(first, [a, b]), film(second, [a, b])];
+            let apart = films[0].iter().zip(&films[1]).map(|(x, y)| (x - y).abs());
+            largest = apart.fold(largest, f64::max);
+        }
+    }
+    largest
+}
