@@ -37,4 +37,6 @@ pub mod validation;
 
 pub mod quadrature;
 
+pub mod palette;
+
 pub mod synthetic;
