@@ -35,6 +35,8 @@ pub mod absolute;
 
 pub mod validation;
 
+pub mod comparison;
+
 pub mod quadrature;
 
 pub mod palette;

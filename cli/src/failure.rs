@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use calibrate::calibration::CalibrationError;
+use calibrate::comparison::ComparisonError;
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
 use calibrate::measurement::MeasurementError;
@@ -65,6 +66,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<MeasurementError>() {
         return error.hint();
     }
+    if let Some(error) = cause.downcast_ref::<ComparisonError>() {
+        return error.hint();
+    }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
@@ -84,6 +88,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
     let data = cause.is::<MeasurementError>()
         || cause.is::<CalibrationError>()
+        || cause.is::<ComparisonError>()
         || cause.is::<FitError>()
         || cause.is::<LibraryError>()
         || cause.is::<RecipeError>()

@@ -33,6 +33,15 @@ impl ScaleOptions {
             _ => ScaleChoice::ByFile,
         }
     }
+
+    /// The option as given, if one was.
+    pub(crate) fn told(self) -> Option<&'static str> {
+        match (self.percent, self.fraction) {
+            (true, _) => Some("--percent"),
+            (_, true) => Some("--fraction"),
+            _ => None,
+        }
+    }
 }
 
 /// Light and observer.
@@ -50,6 +59,11 @@ pub(crate) struct ViewingOptions {
 impl ViewingOptions {
     pub(crate) fn viewing(&self) -> anyhow::Result<Viewing> {
         viewing(&self.illuminant, &self.observer)
+    }
+
+    /// Light and observer as given.
+    pub(crate) fn told(&self) -> (&str, &str) {
+        (&self.illuminant, &self.observer)
     }
 }
 

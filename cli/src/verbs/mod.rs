@@ -16,6 +16,8 @@ mod quadrature;
 
 mod library;
 
+mod report;
+
 mod demo;
 
 use clap::Subcommand;
@@ -31,6 +33,7 @@ pub(crate) enum Verb {
     Color(color::Color),
     Quadrature(quadrature::Quadrature),
     Library(library::Library),
+    Report(report::Report),
     Demo(demo::Demo),
 }
 
@@ -43,6 +46,7 @@ impl Verb {
             Self::Color(verb) => verb.run(console),
             Self::Quadrature(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
+            Self::Report(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
         }
     }
