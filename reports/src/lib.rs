@@ -44,4 +44,6 @@ pub mod page;
 
 mod curves;
 
+mod palette;
+
 pub mod report;

@@ -16,7 +16,14 @@ use crate::subject::{Section, Subject};
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
-const SECTIONS: [Drawer; 1] = [crate::curves::section];
+const SECTIONS: [Drawer; 6] = [
+    crate::curves::section,
+    crate::palette::graded,
+    crate::palette::mixing,
+    crate::palette::gamut,
+    crate::palette::strength,
+    crate::palette::lights,
+];
 
 /// How many steps [`drawn`] reports.
 pub const STEPS: usize = SECTIONS.len();

@@ -53,8 +53,13 @@ impl Colour {
     /// The colour that sRGB shows for `xyz` seen under `white`, as a patch.
     #[must_use]
     pub fn of(xyz: Xyz, white: Xyz) -> Self {
-        Self(RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_bytes())
-            .unreserved()
+        Self::shown(RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford))
+    }
+
+    /// The nearest that sRGB shows of an encoded colour, as a patch.
+    #[must_use]
+    pub fn shown(srgb: Rgb) -> Self {
+        Self(srgb.to_bytes()).unreserved()
     }
 
     /// `#RRGGBB`.

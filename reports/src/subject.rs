@@ -3,6 +3,7 @@
 use calibrate::comparison::Comparison;
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::palette::Cards;
 use calibrate::validation::Validation;
 use spectra::TristimulusWeights;
 
@@ -25,6 +26,8 @@ pub struct Subject<'a> {
     pub comparison: Option<Comparison>,
     /// Mixtures predicted unseen; none if not asked for, or not possible.
     pub validation: Option<Validation>,
+    /// The black and the white card that films lie on.
+    pub cards: Cards,
     /// The two pigments of figures about a pair, chosen by the user.
     pub pair: Option<(usize, usize)>,
 }

@@ -82,6 +82,15 @@ impl Canvas {
         ));
     }
 
+    /// A line of text that reads upwards, `at` its foot and middle height.
+    pub fn text_upwards(&mut self, at: (f64, f64), size: f64, colour: Colour, text: &str) {
+        let (x, y) = (at.0 + 0.35 * size, at.1);
+        let (colour, text) = (colour.hex(), escaped(text));
+        self.element(format_args!(
+            r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" transform="rotate(-90 {x:.1} {y:.1})" fill="{colour}">{text}</text>"#
+        ));
+    }
+
     /// The document.
     #[must_use]
     pub fn finished(mut self) -> String {

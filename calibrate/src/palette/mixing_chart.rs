@@ -5,6 +5,10 @@ use super::paints::{Appearance, Palette};
 /// Parts of white (or of water) to one of paint in a ladder of tints.
 pub const TINTS: [f64; 5] = [0.0, 1.0, 3.0, 9.0, 27.0];
 
+/// Parts of white (or of water) to one of the mixture in the tinted half of a
+/// chart, where dark mixtures show their hue.
+pub const CHART_TINT: f64 = 3.0;
+
 /// Every paint with every other, one part to one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MixingChart {
@@ -12,22 +16,34 @@ pub struct MixingChart {
     pub paints: Vec<usize>,
     /// By row and column of `paints`; symmetric, the masstones on the diagonal.
     pub colours: Vec<Vec<Appearance>>,
+    /// The same, each with [`CHART_TINT`] parts of white to one.
+    pub tinted: Vec<Vec<Appearance>>,
 }
 
 /// The chart of a palette.
 #[must_use]
 pub fn mixing_chart(palette: &Palette<'_>) -> MixingChart {
-    let paints = palette.paints().to_vec();
+    MixingChart {
+        paints: palette.paints().to_vec(),
+        colours: every_pair(palette, 0.0),
+        tinted: every_pair(palette, CHART_TINT),
+    }
+}
+
+fn every_pair(palette: &Palette<'_>, whites: f64) -> Vec<Vec<Appearance>> {
+    let paints = palette.paints();
     let mut colours: Vec<Vec<Appearance>> = Vec::with_capacity(paints.len());
     for (row, &first) in paints.iter().enumerate() {
         let mut line: Vec<Appearance> = colours.iter().map(|above| above[row]).collect();
-        line.push(palette.look(&[(first, 1.0)]));
+        line.push(palette.look(&palette.tint(first, whites)));
         line.extend(
-            paints[row + 1..].iter().map(|&second| palette.look(&[(first, 0.5), (second, 0.5)])),
+            paints[row + 1..].iter().map(|&second| {
+                palette.look(&palette.thinned(&[(first, 0.5), (second, 0.5)], whites))
+            }),
         );
         colours.push(line);
     }
-    MixingChart { paints, colours }
+    colours
 }
 
 /// One paint from the masstone to its palest tint.

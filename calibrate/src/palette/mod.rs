@@ -35,7 +35,8 @@ pub use graded::{GradedMixture, GradedStep, MixingRow, PainterRules, default_pai
 pub use hiding_power::{HIDING_CONTRAST, Hides, HidingPower, hiding_powers};
 pub use metamers::{Metamers, metamers};
 pub use mixing_chart::{
-    Drawdown, DrawdownStep, MixingChart, TINTS, TintLadder, drawdowns, mixing_chart, tint_ladders,
+    CHART_TINT, Drawdown, DrawdownStep, MixingChart, TINTS, TintLadder, drawdowns, mixing_chart,
+    tint_ladders,
 };
 pub use paints::{Appearance, Palette, PaletteError, Recipe};
 pub use samples::{MeasuredSample, measured_samples};

@@ -1,9 +1,8 @@
-//! Measured swatches as recipes of a library.
+//! Measured swatches as recipes of a palette.
 
 use super::paints::{Palette, Recipe};
+use crate::comparison::Comparison;
 use crate::library::AmountKind;
-use crate::observation::Observation;
-use crate::swatch::SwatchSet;
 
 /// A measured swatch whose pigments are all in the palette.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,33 +15,19 @@ pub struct MeasuredSample {
     pub reflectance: Vec<f64>,
 }
 
-/// The swatches of `set`, as `observations` has them in films that hide, whose
-/// pigments the palette can mix. None for absolute amounts, where a film hides
-/// nothing, or on another grid.
+/// The films of `comparison` whose pigments the palette can mix, without those
+/// that the fit excluded. None for absolute amounts, whose films do not hide.
 #[must_use]
-pub fn measured_samples(
-    palette: &Palette<'_>,
-    set: &SwatchSet,
-    observations: &[Observation],
-) -> Vec<MeasuredSample> {
-    let library = palette.library();
-    if library.amounts == AmountKind::Absolute || set.grid != library.grid {
+pub fn measured_samples(palette: &Palette<'_>, comparison: &Comparison) -> Vec<MeasuredSample> {
+    if palette.library().amounts == AmountKind::Absolute {
         return Vec::new();
     }
-    let index = |name: &String| {
-        let mut paints = palette.paints().iter().copied();
-        paints.find(|&p| library.pigments[p].name == *name)
+    let known = |recipe: &Recipe| recipe.iter().all(|(p, _)| palette.paints().contains(p));
+    let films = comparison.films.iter().filter(|film| !film.excluded && known(&film.recipe));
+    let sample = |film: &crate::comparison::ComparedFilm| MeasuredSample {
+        sample: film.sample.clone(),
+        recipe: film.recipe.clone(),
+        reflectance: film.measured.clone(),
     };
-    let paints: Vec<Option<usize>> = set.pigments.iter().map(index).collect();
-    let sample = |observation: &Observation| {
-        let shares = observation.shares.iter().zip(&paints).filter(|(share, _)| **share > 0.0);
-        let recipe: Option<Recipe> =
-            shares.map(|(&share, paint)| Some(((*paint)?, share))).collect();
-        Some(MeasuredSample {
-            sample: observation.sample.clone(),
-            recipe: recipe?,
-            reflectance: observation.reflectance.clone(),
-        })
-    };
-    observations.iter().filter_map(sample).collect()
+    films.map(sample).collect()
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use calibrate::comparison::{Comparable, Comparison};
 use calibrate::library::PigmentLibrary;
+use calibrate::palette::Cards;
 use calibrate::swatch::SwatchSet;
 use calibrate::validation::Validation;
 use clap::Args;
@@ -62,6 +63,8 @@ impl Report {
         if let Some(comparison) = &comparison {
             console.warnings(&reports::report::absences(comparison))?;
         }
+        let cards = measured.as_ref().map(|measured| Cards::of(&measured.set, &weights));
+        let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
         let page = self.page()?;
 
         let measured = measured.filter(|_| !self.no_validation);
@@ -76,6 +79,7 @@ impl Report {
             command: self.command(),
             comparison,
             validation: validation.flatten(),
+            cards,
             pair,
         };
         let report = drawn(&subject, head(&subject), &step)?;

@@ -21,6 +21,11 @@ fn a_chart_holds_masstones_and_every_pair_both_ways() {
             let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
             let off = delta_e_ciede2000(chart.colours[row][column].lab, wanted.lab);
             assert!(off < 1e-9, "{first} with {second}: {off}");
+            let pale = [(first, 1.0), (second, 1.0), (palette.white().unwrap(), 6.0)];
+            let mixture = oils.library.mix(&pale).unwrap();
+            let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
+            let off = delta_e_ciede2000(chart.tinted[row][column].lab, wanted.lab);
+            assert!(off < 1e-9, "{first} with {second}, tinted: {off}");
             assert_eq!(chart.colours[row][column], chart.colours[column][row]);
         }
     }

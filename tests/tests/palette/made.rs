@@ -1,11 +1,10 @@
 //! Libraries of known K and S, and the oils.
 
+use calibrate::comparison::Comparable;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::Method;
 use calibrate::library::{AmountKind, Pigment, PigmentLibrary};
-use calibrate::observation::Observation;
 use calibrate::palette::{Cards, MeasuredSample, Palette, measured_samples};
-use calibrate::swatch::SwatchSet;
 use spectra::Grid;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, swatches};
@@ -74,27 +73,23 @@ pub(crate) fn five() -> PigmentLibrary {
 pub(crate) struct Oils {
     pub(crate) library: PigmentLibrary,
     pub(crate) viewing: Viewing,
-    set: SwatchSet,
-    observations: Vec<Observation>,
+    pub(crate) comparable: Comparable,
 }
 
 impl Oils {
     pub(crate) fn fitted() -> Self {
-        let fit = fitted(Method::Refined, SURFACE);
-        Self {
-            library: fit.library,
-            viewing: Viewing::default(),
-            set: swatches().0,
-            observations: fit.observations,
-        }
+        let library = fitted(Method::Refined, SURFACE).library;
+        let comparable = Comparable::of(&swatches().0, &library).unwrap();
+        Self { library, viewing: Viewing::default(), comparable }
     }
 
     pub(crate) fn palette(&self) -> Palette<'_> {
         let weights = self.viewing.weights(self.library.grid).unwrap();
-        Palette::new(&self.library, &self.viewing, Cards::of(&self.set, &weights)).unwrap()
+        Palette::new(&self.library, &self.viewing, Cards::of(&self.comparable.set, &weights))
+            .unwrap()
     }
 
     pub(crate) fn measured(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
-        measured_samples(palette, &self.set, &self.observations)
+        measured_samples(palette, &self.comparable.with(&self.library, &self.viewing).unwrap())
     }
 }
