@@ -1,7 +1,7 @@
 //! The colours that a palette can mix.
 
-use rand::SeedableRng;
 use rand::seq::index;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
 use spectra::color::{Adaptation, RgbSpace, Xyz, adapted};
@@ -14,11 +14,11 @@ use crate::evaluate::Viewing;
 const SHARES: [f64; 13] =
     [0.01, 0.03, 0.06, 0.12, 0.2, 0.35, 0.5, 0.65, 0.8, 0.88, 0.94, 0.97, 0.99];
 /// Parts of white to one of a pair.
-const WHITES: [f64; 6] = [0.0, 0.5, 1.5, 4.0, 12.0, 40.0];
+const WHITES: [f64; 8] = [0.0, 0.3, 0.8, 1.8, 4.0, 9.0, 20.0, 50.0];
 /// Parts of black to one of a pair.
 const BLACKS: [f64; 2] = [0.03, 0.2];
-/// Mixtures of three or four paints.
-const RANDOM: usize = 3000;
+/// Mixtures of three or four paints, every other one with white.
+const RANDOM: usize = 6000;
 const SEED: u64 = 2004;
 
 /// One mixture and its colour.
@@ -55,7 +55,8 @@ pub struct Boundary {
 }
 
 /// Samples of what a palette can mix: every paint and pair, alone and with parts
-/// of white or of the darkest paint, and 3000 seeded mixtures of three or four.
+/// of white or of the darkest paint, and 6000 seeded mixtures of three or four, half of
+/// them with white.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| vec![(p, 1.0)]).collect();
@@ -70,7 +71,7 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
             recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
         }
     }
-    recipes.extend(random_recipes(palette.paints()));
+    recipes.extend(random_recipes(palette));
     let sample = |recipe: Recipe| GamutSample { colour: palette.look(&recipe), recipe };
     Gamut { samples: recipes.into_iter().map(sample).collect(), white: palette.weights().white() }
 }
@@ -215,21 +216,26 @@ fn with(recipe: &[(usize, f64)], paint: usize, parts: f64) -> Recipe {
     mixed
 }
 
-/// Three or four paints each, shares uniform over all that sum to 1.
-fn random_recipes(paints: &[usize]) -> Vec<Recipe> {
+/// Three or four paints each, shares uniform over all that sum to 1; every other
+/// one with 0.5 to 32 parts of white, even in their logarithm.
+fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
+    let paints = palette.paints();
     if paints.len() < 3 {
         return Vec::new();
     }
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     (0..RANDOM)
         .map(|number| {
-            let count = (3 + number % 2).min(paints.len());
+            let count = (3 + number / 2 % 2).min(paints.len());
             let parts: Recipe = index::sample(&mut random, paints.len(), count)
                 .into_iter()
                 .map(|place| (paints[place], Exp1.sample(&mut random)))
                 .collect();
             let total: f64 = parts.iter().map(|(_, part)| part).sum();
-            parts.into_iter().map(|(p, part)| (p, part / total)).collect()
+            let recipe: Recipe = parts.into_iter().map(|(p, part)| (p, part / total)).collect();
+            let whites =
+                if number % 2 == 0 { 0.0 } else { random.random_range(-1.0..5.0f64).exp2() };
+            palette.thinned(&recipe, whites)
         })
         .collect()
 }

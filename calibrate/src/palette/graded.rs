@@ -208,7 +208,8 @@ fn steps_of(
 ) -> impl Iterator<Item = (f64, &MeasuredSample)> {
     measured.iter().filter_map(move |sample| {
         let share = |paint: usize| {
-            sample.recipe.iter().filter(|(p, _)| *p == paint).map(|(_, s)| s).sum::<f64>()
+            // A sum of nothing would be -0.
+            sample.recipe.iter().filter(|(p, _)| *p == paint).fold(0.0, |sum, (_, s)| sum + s)
         };
         let (first, second) = (share(pair.0), share(pair.1));
         (first + second > 1.0 - 1e-9).then_some((second, sample))

@@ -3,7 +3,7 @@
 use calibrate::palette::{Drawdown, Palette, drawdowns};
 
 use super::cells::{columns, row};
-use super::patch::{cut, patch, rim};
+use super::patch::{cut, notched_below, patch, rim};
 use super::{NOTCH, strength::unit};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
@@ -72,7 +72,7 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
         for (place, step) in drawdown.steps.iter().enumerate() {
             let left = x + place as f64 * step_width + (step_width - STRIPE) / 2.0;
             patch(&mut canvas, (left, top), (STRIPE, length), &step.over_white);
-            patch(&mut canvas, (left, y + half), (STRIPE, length), &step.over_black);
+            notched_below(&mut canvas, (left, y + half), (STRIPE, length), &step.over_black);
             let at = (left + STRIPE / 2.0, y + CARD.1 + 9.0);
             let label = format!("{}", step.thickness);
             canvas.text(at, SMALL_TEXT, Anchor::Middle, FAINT, &label);

@@ -18,7 +18,11 @@ use crate::table::{Cell, Column, Table};
 /// Sectors of an outline.
 const SECTORS: usize = 72;
 /// Side of a cell of a*, b*, and of x, y.
-const CELLS: [f64; 2] = [3.0, 0.01];
+const CELLS: [f64; 2] = [4.0, 0.0125];
+/// Sectors of the outline of a band, of which fewer samples tell.
+const BAND_SECTORS: usize = 36;
+/// Chroma from which a masstone is named.
+const NAMED: f64 = 12.0;
 const BANDS: [[f64; 2]; 5] = [[0.0, 20.0], [20.0, 40.0], [40.0, 60.0], [60.0, 80.0], [80.0, 100.0]];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -59,13 +63,13 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     let tens = locus.iter().filter(|(nm, _)| *nm >= 460.0 && *nm <= 620.0 && nm % 20.0 == 0.0);
     let names = tens.map(|(nm, [x, y])| ((*x, *y), format!("{nm}"))).collect();
     marks.push(Mark::Names { names, colour: FAINT });
-    let axis = |name: &str| Axis::linear(name, "1", 0.0, 0.9, 5);
+    let axis = |name: &str| Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) };
     let chart = Panel::new(axis("Chromaticity x"), axis("Chromaticity y"), marks)
         .with_key(Sign::Line, FAINT, "spectrum (nm)")
         .with_key(Sign::Dashes, SERIES[0], "sRGB");
 
     let caption = format!(
-        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 13 ratios, alone and with white or the darkest pigment, and random mixtures of three and four. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. {} {}.",
+        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 13 ratios, alone and with white or the darkest pigment, and random mixtures of three and four. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
         gamut.samples.len(),
         films(palette),
         subject.light()
@@ -83,15 +87,21 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
     let whole = gamut.in_lab([0.0, 100.0], SECTORS);
     let [a, b] = axes(&whole);
     let mut data = Table::new(columns(outline_columns("lightness", "a*", "b*")));
-    let panels = BANDS.map(|band| {
+    let lightness = |sample: &GamutSample| sample.colour.lab.lightness;
+    let held = |[low, high]: &[f64; 2]| {
+        gamut.samples.iter().any(|sample| (*low..=*high).contains(&lightness(sample)))
+    };
+    let bands: Vec<[f64; 2]> = BANDS.into_iter().filter(held).collect();
+    let count = bands.len();
+    let panels = bands.into_iter().map(|band| {
         let [low, high] = band;
         let title = format!("L* {low} to {high}");
-        let edge = gamut.in_lab(band, SECTORS);
+        let edge = gamut.in_lab(band, BAND_SECTORS);
         tell(&mut data, palette, gamut, &edge, &title);
         let inside = |sample: &GamutSample| {
-            (low..=high).contains(&sample.colour.lab.lightness).then(|| lab_place(sample))
+            (low..=high).contains(&lightness(sample)).then(|| lab_place(sample))
         };
-        let mut marks = field(gamut, 2.0 * CELLS[0], inside);
+        let mut marks = field(gamut, 1.5 * CELLS[0], inside);
         marks.push(Mark::Line { points: closed(&whole), colour: FAINT, width: HAIR });
         marks.push(outline(&edge, 1.0));
         let few = |axis: &Axis| Axis::linear("", "", axis.low, axis.high, 3).ticks;
@@ -103,9 +113,10 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
         name: "gamut-lightness",
         title: "What the palette can mix, by lightness",
         caption,
-        alt: "Five fields of colour in a* and b*, from dark mixtures to light ones.",
+        alt: "Fields of colour in a* and b*, from dark mixtures to light ones.",
     };
-    let chart = Chart::small_multiples(panels.into(), BANDS.len(), 168.0);
+    let chart =
+        Chart::small_multiples(panels.collect(), count, (870.0 / count as f64 - 10.0).min(400.0));
     subject.figure(words, Drawing::Chart(chart), data)
 }
 
@@ -118,7 +129,7 @@ fn axes(whole: &Boundary) -> [Axis; 2] {
     let all = || whole.polygon().into_iter().flatten();
     let low = (all().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
     let high = (all().fold(0.0, f64::max) / 20.0 + 0.1).ceil() * 20.0;
-    ["a*", "b*"].map(|name| Axis::linear(name, "CIELAB", low, high, 8))
+    ["a*", "b*"].map(|name| Axis { name: name.to_owned(), ..Axis::linear("", "", low, high, 8) })
 }
 
 /// Square cells in the colour of the lightest sample in each.
@@ -163,8 +174,12 @@ fn masstones(
         let [x, y] = place(sample);
         ((x, y), subject.label(paint))
     });
-    let names: Vec<((f64, f64), String)> = named.collect();
+    let mut names: Vec<((f64, f64), String)> = named.collect();
     let points = names.iter().map(|(at, _)| *at).collect();
+    // Greys would cover each other; the vivid come first.
+    let far = |((x, y), _): &((f64, f64), String)| x.hypot(*y);
+    names.retain(|name| far(name) >= NAMED);
+    names.sort_by(|a, b| far(b).total_cmp(&far(a)));
     [Mark::Dots { points, colour: INK, radius: 2.2 }, Mark::Names { names, colour: INK }]
 }
 

@@ -5,7 +5,7 @@ use calibrate::palette::{
 };
 
 use super::cells::{columns, row};
-use super::patch::{cut, patch, rim, rimmed};
+use super::patch::{cut, patch, rim};
 use super::{NOTCH, films, measured, palette, thinner};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
@@ -157,7 +157,7 @@ fn parting(
 }
 
 fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
-    const NAME: f64 = 372.0;
+    const NAME: f64 = 396.0;
     const ROW: f64 = 62.0;
     const HEAD: f64 = 24.0;
     let each = (f64::from(WIDTH) - NAME) / lights.len() as f64;
@@ -176,7 +176,8 @@ fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
         }
         for (place, looks) in pair.colours.iter().enumerate() {
             let x = NAME + place as f64 * each;
-            rimmed(&mut canvas, (x, y), (half, 36.0), &looks[0]);
+            rim(&mut canvas, (x, y), (2.0 * half, 36.0));
+            patch(&mut canvas, (x, y), (half, 36.0), &looks[0]);
             patch(&mut canvas, (x + half, y), (half, 36.0), &looks[1]);
             let told = if place == 0 {
                 format!("{:.1}", pair.differences[0])

@@ -16,6 +16,20 @@ pub(super) fn patch(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look:
     }
 }
 
+/// The same, the lower corner cut out.
+pub(super) fn notched_below(
+    canvas: &mut Canvas,
+    at: (f64, f64),
+    size: (f64, f64),
+    look: &Appearance,
+) {
+    canvas.rectangle(at, size, Colour::shown(look.srgb));
+    if !look.srgb.in_gamut() {
+        let corner = (at.0 + size.0 - NOTCH, at.1 + size.1 - NOTCH);
+        canvas.rectangle(corner, (NOTCH, NOTCH), PAPER);
+    }
+}
+
 /// A patch with a rim, so that white stands out from the paper.
 pub(super) fn rimmed(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look: &Appearance) {
     rim(canvas, at, size);

@@ -6,7 +6,7 @@ use calibrate::palette::{
 };
 
 use super::bars::{Bar, bars};
-use super::{palette, thinner};
+use super::{NOTCH, palette, thinner};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::subject::{Section, Subject};
@@ -39,7 +39,7 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let all = powers.iter().map(|power| {
         let name = subject.label(power.paint);
         let (told, contrast) = match power.hides {
-            Hides::From(thickness) => (digits(thickness), None),
+            Hides::From(thickness) => (digits(thickness, 4), None),
             Hides::Never { contrast } => (format!("never hides ({contrast:.2})"), Some(contrast)),
         };
         let thickness = power.hides.thickness();
@@ -48,7 +48,7 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     });
     let all: Vec<Bar> = all.collect();
     let caption = format!(
-        "The least thickness from which on the luminance over the black card is {HIDING_CONTRAST} of that over the white card (ISO 6504-3) under {}; the shortest bar hides best. {}",
+        "The least thickness from which on the luminance over the black card is {HIDING_CONTRAST} of that over the white card (ISO 6504-3) under {}; the shortest bar hides best. {} {NOTCH}",
         subject.light(),
         cards(palette)
     );
@@ -83,8 +83,8 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
             strength.strength.into(),
             Cell::from(strength.white_parts),
         ]);
-        let parts = strength.white_parts.map(|parts| format!("; 1 : {}", digits(parts)));
-        let told = format!("{} %{}", digits(strength.percent), parts.unwrap_or_default());
+        let parts = strength.white_parts.map(|parts| format!("; 1 : {}", digits(parts, 1)));
+        let told = format!("{} %{}", digits(strength.percent, 1), parts.unwrap_or_default());
         let look = palette.look(&palette.tint(strength.paint, 3.0));
         Bar { name, value: Some(strength.percent), told, look }
     });
@@ -92,7 +92,7 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let caption = if relative {
         let white = thinner(palette);
         format!(
-            "What one part in {TINT_PARTS} parts of {white} adds to its K/S where the tint absorbs most (as ISO 787-24 compares tints), the strongest pigment 100 %. Behind it: the parts of {white} to one of the pigment in a tint of K/S = {TINT_DEPTH} there. Bars have the colour of the tint with three parts of {white}."
+            "What one part in {TINT_PARTS} parts of {white} adds to its K/S where the tint absorbs most (as ISO 787-24 compares tints), the strongest pigment 100 %. Behind it: the parts of {white} to one of the pigment in a tint of K/S = {TINT_DEPTH} there. Bars have the colour of the tint with three parts of {white}. {NOTCH}"
         )
     } else {
         "K of one unit of amount where the pigment absorbs most, the strongest 100 %: the library has no white paint to tint. Bars have the colour of the wash thinned with three parts of water.".to_owned()
@@ -127,9 +127,9 @@ fn cards(palette: &Palette<'_>) -> String {
     )
 }
 
-/// Three significant digits.
-fn digits(value: f64) -> String {
+/// Three significant digits, `most` behind the point.
+fn digits(value: f64, most: i32) -> String {
     let whole = if value > 0.0 { value.log10().floor() as i32 } else { 0 };
-    let behind = (2 - whole).clamp(0, 4) as usize;
+    let behind = (2 - whole).clamp(0, most) as usize;
     format!("{value:.behind$}")
 }

@@ -58,6 +58,7 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
         &[0.0, 0.01, 0.493, 0.937, 0.989, 1.0],
         1e-9,
     );
+    assert!(steps[0].share.is_sign_positive(), "a share of -0");
     // 13F and 13G are far from any tenth and stand beside them.
     assert_eq!(steps.len(), 13);
     assert!(steps.windows(2).all(|pair| pair[0].share < pair[1].share));
