@@ -44,4 +44,14 @@ pub mod page;
 
 mod curves;
 
+mod samples;
+
+mod residuals;
+
+mod errors;
+
+mod left_out;
+
+mod light;
+
 pub mod report;

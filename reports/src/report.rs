@@ -16,7 +16,14 @@ use crate::subject::{Section, Subject};
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
-const SECTIONS: [Drawer; 1] = [crate::curves::section];
+const SECTIONS: [Drawer; 6] = [
+    crate::samples::section,
+    crate::errors::section,
+    crate::left_out::section,
+    crate::residuals::section,
+    crate::curves::section,
+    crate::light::section,
+];
 
 /// How many steps [`drawn`] reports.
 pub const STEPS: usize = SECTIONS.len();
@@ -85,7 +92,10 @@ pub fn head(subject: &Subject<'_>) -> Head {
     facts.push(fact("Made by", subject.command.clone()));
     let mut warnings = Vec::new();
     for pigment in &library.pigments {
-        warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
+        // A fit tells the same among its warnings.
+        if library.evidence.is_none() {
+            warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
+        }
         if pigment.guessed {
             warnings.push(format!("{}: guessed from a colour, not measured", pigment.name));
         }

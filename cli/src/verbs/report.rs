@@ -1,10 +1,12 @@
 //! `impasto report`: a library and its measurements as one page of figures.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use calibrate::comparison::{Comparable, Comparison};
 use calibrate::library::PigmentLibrary;
+use calibrate::quadrature::QuadratureTrial;
 use calibrate::swatch::SwatchSet;
 use calibrate::validation::Validation;
 use clap::Args;
@@ -69,6 +71,7 @@ impl Report {
         let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
         let step = || progress.step();
         let validation = measured.map(|set| set.left_out(&library, &viewing, &step)).transpose()?;
+        let quadratures = QuadratureTrial::all(&viewing, &library, &COUNTS)?;
         let subject = Subject {
             library: &library,
             viewing: &viewing,
@@ -76,6 +79,7 @@ impl Report {
             command: self.command(),
             comparison,
             validation: validation.flatten(),
+            quadratures,
             pair,
         };
         let report = drawn(&subject, head(&subject), &step)?;
@@ -187,6 +191,8 @@ impl Report {
     }
 }
 
+/// How many wavelengths are tried, by every method.
+const COUNTS: RangeInclusive<usize> = 3..=16;
 const PAGE: &str = "report.html";
 
 /// A word as a shell reads it.
