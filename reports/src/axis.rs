@@ -93,7 +93,7 @@ impl Axis {
         let above = above.unwrap_or(round.len() - 1).clamp(1, round.len() - 1).max(below + 1);
         let below = below.min(above - 1);
         let ticks = round[below..=above].iter().map(|&value| {
-            let digits = (-value.log10() + 1e-9).ceil().max(0.0) as usize;
+            let digits = (-value.log10() - 1e-9).ceil().max(0.0) as usize;
             (value, format!("{value:.digits$}"))
         });
         let (low, high) = (round[below], round[above]);

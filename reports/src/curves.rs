@@ -3,7 +3,7 @@
 use crate::axis::{Axis, Scale};
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel};
-use crate::style::CURVE;
+use crate::style::{CURVE, FAINT};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
@@ -90,12 +90,14 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
         } else {
             Mark::Dashes { points, colour }
         });
+        if let Some(mark) = subject.mark(index) {
+            let corner = (x.low, 0.3 * y.high);
+            let names = vec![(corner, mark.to_owned())];
+            marks.push(Mark::Names { names, around: Vec::new(), colour: FAINT });
+        }
         let patch = [subject.masstone(index)];
         let pigment = &library.pigments[index];
-        Panel::new(x.clone(), y.clone(), marks)
-            .titled(pigment.name.as_str())
-            .with_note(subject.mark(index).unwrap_or_default())
-            .with_patches(patch)
+        Panel::new(x.clone(), y.clone(), marks).titled(pigment.name.as_str()).with_patches(patch)
     });
     let panels: Vec<Panel> = panels.collect();
     let chart = Chart::small_multiples(panels, COLUMNS, 110.0);

@@ -73,6 +73,8 @@ fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
         ((film.delta_e, *left_out), name)
     });
     let dots = pairs.iter().map(|(film, left_out)| (film.delta_e, *left_out));
+    let along = (0..=100).map(|i| x.low * (x.high / x.low).powf(f64::from(i) / 100.0));
+    let dots = dots.chain(along.map(|error| (error, error)));
     marks.push(Mark::Names { names: names.collect(), around: dots.collect(), colour: INK });
     let panel = Panel::new(x, y, marks).with_key(Sign::Line, FAINT, "both alike");
     let words = Words {

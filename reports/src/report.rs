@@ -113,6 +113,9 @@ fn errors(count: usize, what: &str, errors: &Summary) -> String {
     )
 }
 
+/// How many samples a warning names.
+const NAMED: usize = 20;
+
 /// What of the measurements is not shown, or not as it was measured.
 #[must_use]
 pub fn absences(comparison: &Comparison) -> Vec<String> {
@@ -126,10 +129,12 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     lacking.dedup();
     let samples: Vec<&str> = absent.iter().map(|(sample, _)| sample.as_str()).collect();
     let absent = (!samples.is_empty()).then(|| {
+        let more = samples.len().saturating_sub(NAMED);
         format!(
-            "left out of this report, since the library has no {}: {}",
+            "left out of this report, since the library has no {}: {}{}",
             lacking.join(", no "),
-            samples.join(", ")
+            samples[..samples.len() - more].join(", "),
+            if more > 0 { format!(" and {more} more") } else { String::new() }
         )
     });
     resampled.into_iter().chain(absent).collect()

@@ -53,7 +53,7 @@ fn figure(
             grid.wavelengths_nm().zip(values.iter().copied()).collect()
         };
         for ((nm, measured), fitted) in points(&film.measured).into_iter().zip(&film.predicted) {
-            data.push([film.sample.as_str().into(), nm.into(), measured.into(), (*fitted).into()]);
+            data.push([subject.sample(film).into(), nm.into(), measured.into(), (*fitted).into()]);
         }
         let patches = [subject.colour(&film.measured), subject.colour(&film.predicted)];
         let colour = patches[0].for_line();

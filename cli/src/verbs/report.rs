@@ -70,8 +70,13 @@ impl Report {
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
         let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
         let step = || progress.step();
-        let validation = measured.map(|set| set.left_out(&library, &viewing, &step)).transpose()?;
-        let quadratures = QuadratureTrial::all(&viewing, &library, &COUNTS)?;
+        // Side by side, so that neither leaves a core idle at its end.
+        let (validation, quadratures) = std::thread::scope(|scope| {
+            let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
+            let left_out = measured.map(|set| set.left_out(&library, &viewing, &step));
+            (left_out.transpose(), trials.join().expect("trying wavelengths does not panic"))
+        });
+        let (validation, quadratures) = (validation?, quadratures?);
         let subject = Subject {
             library: &library,
             viewing: &viewing,
