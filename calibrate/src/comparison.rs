@@ -93,7 +93,8 @@ impl Comparable {
         }
         let (from, to) = (set.grid, library.grid);
         let same = from == to;
-        if !same && !(from.covers(to.start_nm()) && from.covers(to.end_nm())) {
+        let covered = from.covers(to.start_nm()) && from.covers(to.end_nm());
+        if !(same || covered) {
             return Err(ComparisonError::Band { readings: from, library: to });
         }
         let in_library = kept.pigments.iter().filter_map(find).collect();

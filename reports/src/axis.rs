@@ -81,6 +81,26 @@ impl Axis {
         }
     }
 
+    /// The least range around `low` to `high` that ends at 1, 2 or 5 times a
+    /// power of ten, with ticks at all of these.
+    #[must_use]
+    pub fn log_close(quantity: &str, unit: &str, low: f64, high: f64) -> Self {
+        let round: Vec<f64> = (-9..=9)
+            .flat_map(|power| [1.0, 2.0, 5.0].map(|step| step * 10_f64.powi(power)))
+            .collect();
+        let below = round.iter().rposition(|v| *v <= low.max(1e-9) * (1.0 + 1e-9)).unwrap_or(0);
+        let above = round.iter().position(|v| *v >= high * (1.0 - 1e-9));
+        let above = above.unwrap_or(round.len() - 1).clamp(1, round.len() - 1).max(below + 1);
+        let below = below.min(above - 1);
+        let ticks = round[below..=above].iter().map(|&value| {
+            let digits = (-value.log10() - 1e-9).ceil().max(0.0) as usize;
+            (value, format!("{value:.digits$}"))
+        });
+        let (low, high) = (round[below], round[above]);
+        let ticks = ticks.collect();
+        Self { name: named(quantity, unit), low, high, scale: Scale::Log, ticks }
+    }
+
     /// The axis that all figures over wavelength share: 380 to 730 nm, more
     /// where the library reaches further, with a tick every `every_nm`.
     #[must_use]
@@ -150,6 +170,14 @@ mod tests {
         assert_eq!(axis.place(0.0), 0.0);
         assert!((axis.place(1.0) - 0.5).abs() < 1e-12);
         assert_eq!(axis.place(1e9), 1.0);
+    }
+
+    #[test]
+    fn a_close_log_axis_ends_at_one_two_or_five() {
+        let axis = Axis::log_close("x", "1", 0.19, 20.9);
+        assert_eq!(labels(&axis), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20", "50"]);
+        let axis = Axis::log_close("x", "1", 0.0, 0.0);
+        assert!(axis.low > 0.0 && axis.high > axis.low, "{axis:?}");
     }
 
     #[test]

@@ -18,7 +18,7 @@ use plotters::style::{Color, FontFamily, IntoFont};
 use crate::names::{Placed, placed};
 use crate::panel::{Chart, Frame, Mark, Panel, Point, Shown, Sign};
 use crate::style::{CURVE, Colour, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
-use crate::svg::{Anchor, estimated_width, opening};
+use crate::svg::{Anchor, estimated_width, opening, shortened};
 
 const FINE: f64 = 10.0;
 
@@ -140,10 +140,13 @@ impl Drawing<'_, '_> {
                 let corners = [self.share(from), self.share(to)];
                 drawn(axes.draw_series([Rectangle::new(corners, rgb(*colour).filled())]));
             }
-            Mark::Names { names, colour } => {
+            Mark::Names { names, around, colour } => {
+                let dots: Vec<Point> = around.iter().map(|at| self.px(at)).collect();
                 let points: Vec<(Point, &str)> =
                     names.iter().map(|(at, name)| (self.px(at), name.as_str())).collect();
-                for Placed { at, anchor, text } in placed(&points, SMALL_TEXT, self.panel.frame) {
+                for Placed { at, anchor, text } in
+                    placed(&points, &dots, SMALL_TEXT, self.panel.frame)
+                {
                     write(self.area, at, SMALL_TEXT, anchor, *colour, text);
                 }
             }
@@ -174,26 +177,32 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Title on the left, then the key; patches on the right.
+    /// Title on the left, then the key; note and patches on the right.
     fn heading(&self) {
-        let Panel { frame, title, patches, key, .. } = self.panel;
+        let Panel { frame, title, note, patches, key, .. } = self.panel;
         let middle = frame.y - 9.0;
+        let (side, mut right) = (11.0, frame.x + frame.width);
+        for patch in patches.iter().rev() {
+            let corners = [(right - side, middle - side / 2.0), (right, middle + side / 2.0)];
+            let corners = corners.map(|(x, y)| (fine(x), fine(y)));
+            drawn(self.area.draw(&Rectangle::new(corners, rgb(*patch).filled())));
+            right -= side;
+        }
+        if !note.is_empty() {
+            right -= if patches.is_empty() { 0.0 } else { 5.0 };
+            write(self.area, (right, middle), SMALL_TEXT, Anchor::End, FAINT, note);
+            right -= estimated_width(note, SMALL_TEXT);
+        }
         let mut x = frame.x;
         if !title.is_empty() {
-            write(self.area, (x, middle), SMALL_TEXT, Anchor::Start, INK, title);
-            x += estimated_width(title, SMALL_TEXT) + 18.0;
+            let title = shortened(title, SMALL_TEXT, right - x - 2.0);
+            write(self.area, (x, middle), SMALL_TEXT, Anchor::Start, INK, &title);
+            x += estimated_width(&title, SMALL_TEXT) + 18.0;
         }
         for (sign, colour, name) in key {
             self.sign(*sign, *colour, (x, middle));
             write(self.area, (x + 24.0, middle), SMALL_TEXT, Anchor::Start, INK, name);
             x += 24.0 + estimated_width(name, SMALL_TEXT) + 18.0;
-        }
-        let (side, right) = (11.0, frame.x + frame.width);
-        for (index, patch) in patches.iter().rev().enumerate() {
-            let left = right - side * (index + 1) as f64;
-            let corners = [(left, middle - side / 2.0), (left + side, middle + side / 2.0)];
-            let corners = corners.map(|(x, y)| (fine(x), fine(y)));
-            drawn(self.area.draw(&Rectangle::new(corners, rgb(*patch).filled())));
         }
     }
 

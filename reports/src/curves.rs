@@ -3,11 +3,11 @@
 use crate::axis::{Axis, Scale};
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel};
-use crate::style::CURVE;
+use crate::style::{CURVE, FAINT};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
-const COLUMNS: usize = 6;
+const COLUMNS: usize = 5;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     Section::new("Absorption and scattering").with(absorption(subject)).with(scattering(subject))
@@ -20,12 +20,12 @@ fn absorption(subject: &Subject<'_>) -> Figure {
             words: Words {
                 name: "absorption",
                 title: "Absorption K of every pigment",
-                caption: "Each curve has the colour of its pigment; the band is one standard deviation either way. The axis is logarithmic.",
+                caption: "Each curve has the colour of its pigment; the band is one standard deviation either way. The axis is logarithmic; what lies below it stands at its foot.",
                 alt: "Small charts of absorption over wavelength, one for each pigment.",
             },
             quantity: "absorption K",
             of: |pigment| (&pigment.absorption, &pigment.absorption_sd),
-            axis: |unit, low, high| Axis::log("Absorption K", unit, low, high, 5),
+            axis: |unit, low, high| Axis::log("Absorption K", unit, low, high, 7),
         },
     )
 }
@@ -37,7 +37,7 @@ fn scattering(subject: &Subject<'_>) -> Figure {
             words: Words {
                 name: "scattering",
                 title: "Scattering S of every pigment",
-                caption: "Each curve has the colour of its pigment; the band is one standard deviation either way. The axis is logarithmic. Where S is unknown, the line at 1 stands in for it.",
+                caption: "Each curve has the colour of its pigment; the band is one standard deviation either way. The axis is logarithmic; what lies below it stands at its foot. Where S is unknown, the line at 1 stands in for it.",
                 alt: "Small charts of scattering over wavelength, one for each pigment.",
             },
             quantity: "scattering S",
@@ -85,13 +85,19 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
             marks.push(Mark::band(&edges, colour.for_line()));
         }
         let colour = colour.for_line();
-        marks.push(if library.pigments[index].identified && !library.pigments[index].guessed {
+        marks.push(if subject.mark(index).is_none() {
             Mark::Line { points, colour, width: CURVE }
         } else {
             Mark::Dashes { points, colour }
         });
+        if let Some(mark) = subject.mark(index) {
+            let corner = (x.low, 0.3 * y.high);
+            let names = vec![(corner, mark.to_owned())];
+            marks.push(Mark::Names { names, around: Vec::new(), colour: FAINT });
+        }
         let patch = [subject.masstone(index)];
-        Panel::new(x.clone(), y.clone(), marks).titled(name).with_patches(patch)
+        let pigment = &library.pigments[index];
+        Panel::new(x.clone(), y.clone(), marks).titled(pigment.name.as_str()).with_patches(patch)
     });
     let panels: Vec<Panel> = panels.collect();
     let chart = Chart::small_multiples(panels, COLUMNS, 110.0);

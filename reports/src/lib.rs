@@ -44,6 +44,16 @@ pub mod page;
 
 mod curves;
 
+mod samples;
+
+mod residuals;
+
+mod errors;
+
+mod left_out;
+
+mod light;
+
 mod palette;
 
 pub mod report;

@@ -11,17 +11,22 @@ pub(crate) struct Placed<'a> {
     pub(crate) text: &'a str,
 }
 
+/// Half the side of what a dot takes, in px.
+const DOT: f64 = 3.5;
+
 /// Left, top, right and bottom in px.
 type Edges = [f64; 4];
 
 /// Each name to the right, left, above or below its point, where it covers
-/// neither a former name nor the frame; a name without such a place is left out.
+/// no dot and no former name and stays in the frame; a name without such a place is left out.
 pub(crate) fn placed<'a>(
     names: &[((f64, f64), &'a str)],
+    dots: &[(f64, f64)],
     size: f64,
     frame: Frame,
 ) -> Vec<Placed<'a>> {
-    let mut taken: Vec<Edges> = Vec::new();
+    let mut taken: Vec<Edges> =
+        dots.iter().map(|&(x, y)| [x - DOT, y - DOT, x + DOT, y + DOT]).collect();
     let mut placed = Vec::new();
     for &((x, y), text) in names {
         let width = estimated_width(text, size);
@@ -68,10 +73,12 @@ mod tests {
     fn names_stand_apart_and_inside() {
         let frame = Frame { x: 0.0, y: 0.0, width: 100.0, height: 50.0 };
         let points = [((50.0, 25.0), "one"), ((51.0, 25.0), "two"), ((99.0, 25.0), "edge")];
-        let placed = placed(&points, 10.0, frame);
+        let placed = placed(&points, &[], 10.0, frame);
         assert_eq!(placed.len(), 3);
         assert_eq!(placed[0].anchor, Anchor::Start);
         assert_eq!(placed[1].anchor, Anchor::End);
         assert_eq!(placed[2].anchor, Anchor::Middle);
+        let beside_a_dot = super::placed(&points[..1], &[(60.0, 25.0)], 10.0, frame);
+        assert_eq!(beside_a_dot[0].anchor, Anchor::End);
     }
 }

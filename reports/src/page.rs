@@ -113,7 +113,7 @@ fn table_html(title: &str, table: &Table) -> String {
                 Cell::Number(number) => write!(out, "<td{class}>{number:.*}</td>", column.digits),
                 Cell::Patch(colour) => write!(
                     out,
-                    "<td><i class=\"patch\" style=\"background:{hex}\"></i> <code>{hex}</code></td>",
+                    "<td class=\"c\"><i class=\"patch\" style=\"background:{hex}\"></i> <code>{hex}</code></td>",
                     hex = colour.hex()
                 ),
                 Cell::Empty => write!(out, "<td{class}></td>"),
@@ -184,6 +184,7 @@ caption{text-align:left;font-weight:600;padding-bottom:6px}
 th,td{padding:2px 14px 2px 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
 th{vertical-align:bottom}
 th small{display:block;font-weight:400;color:var(--faint)}
+.c{white-space:nowrap}
 .n{text-align:right;font-variant-numeric:tabular-nums}
 .patch{display:inline-block;width:28px;height:13px;vertical-align:-2px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 @media (max-width:1100px){nav{position:static;width:auto;border:0}main{margin:0}}

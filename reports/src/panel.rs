@@ -57,6 +57,8 @@ pub enum Mark {
     Names {
         /// Points and names, the most important first.
         names: Vec<(Point, String)>,
+        /// Dots that no name may cover.
+        around: Vec<Point>,
         /// Their colour.
         colour: Colour,
     },
@@ -116,6 +118,8 @@ pub struct Panel {
     pub frame: Frame,
     /// Above the frame, on its left.
     pub title: String,
+    /// Above the frame, before the patches.
+    pub note: String,
     /// Patches of colour above the frame, on its right.
     pub patches: Vec<Colour>,
     /// The axis below.
@@ -137,6 +141,7 @@ impl Panel {
         Self {
             frame: Frame::default(),
             title: String::new(),
+            note: String::new(),
             patches: Vec::new(),
             x,
             y,
@@ -150,6 +155,13 @@ impl Panel {
     #[must_use]
     pub fn titled(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
+        self
+    }
+
+    /// The same with a note before its patches.
+    #[must_use]
+    pub fn with_note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
         self
     }
 

@@ -16,13 +16,18 @@ use crate::subject::{Section, Subject};
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
-const SECTIONS: [Drawer; 6] = [
+const SECTIONS: [Drawer; 11] = [
+    crate::samples::section,
+    crate::errors::section,
+    crate::left_out::section,
+    crate::residuals::section,
     crate::curves::section,
-    crate::palette::graded,
     crate::palette::mixing,
+    crate::palette::graded,
     crate::palette::gamut,
     crate::palette::strength,
     crate::palette::lights,
+    crate::light::section,
 ];
 
 /// How many steps [`drawn`] reports.
@@ -92,7 +97,10 @@ pub fn head(subject: &Subject<'_>) -> Head {
     facts.push(fact("Made by", subject.command.clone()));
     let mut warnings = Vec::new();
     for pigment in &library.pigments {
-        warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
+        // A fit tells the same among its warnings.
+        if library.evidence.is_none() {
+            warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
+        }
         if pigment.guessed {
             warnings.push(format!("{}: guessed from a colour, not measured", pigment.name));
         }
@@ -110,6 +118,9 @@ fn errors(count: usize, what: &str, errors: &Summary) -> String {
     )
 }
 
+/// How many samples a warning names.
+const NAMED: usize = 20;
+
 /// What of the measurements is not shown, or not as it was measured.
 #[must_use]
 pub fn absences(comparison: &Comparison) -> Vec<String> {
@@ -123,10 +134,12 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     lacking.dedup();
     let samples: Vec<&str> = absent.iter().map(|(sample, _)| sample.as_str()).collect();
     let absent = (!samples.is_empty()).then(|| {
+        let more = samples.len().saturating_sub(NAMED);
         format!(
-            "left out of this report, since the library has no {}: {}",
+            "left out of this report, since the library has no {}: {}{}",
             lacking.join(", no "),
-            samples.join(", ")
+            samples[..samples.len() - more].join(", "),
+            if more > 0 { format!(" and {more} more") } else { String::new() }
         )
     });
     resampled.into_iter().chain(absent).collect()

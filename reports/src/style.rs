@@ -81,6 +81,25 @@ impl Colour {
         self.with_lightness(|lightness| lightness.max(50.0 + 0.3 * lightness)).unreserved()
     }
 
+    /// Darker, or lighter where it is dark, for dots on a line of this colour.
+    #[must_use]
+    pub fn beside(self) -> Self {
+        self.with_lightness(
+            |lightness| if lightness > 40.0 { lightness - 26.0 } else { lightness + 30.0 },
+        )
+        .unreserved()
+    }
+
+    /// What it looks like on paper with this opacity.
+    #[must_use]
+    pub fn over_paper(self, opacity: f64) -> Self {
+        let mixed = |index: usize| {
+            let (own, paper) = (f64::from(self.0[index]), f64::from(PAPER.0[index]));
+            (opacity * own + (1.0 - opacity) * paper).round() as u8
+        };
+        Self([mixed(0), mixed(1), mixed(2)])
+    }
+
     /// Black or white text on a patch of this colour.
     #[must_use]
     pub fn text_on_it(self) -> Self {

@@ -1,9 +1,10 @@
 //! What a report is about, and what its sections are made of.
 
-use calibrate::comparison::Comparison;
+use calibrate::comparison::{ComparedFilm, Comparison};
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::palette::Cards;
+use calibrate::quadrature::QuadratureTrial;
 use calibrate::validation::Validation;
 use spectra::TristimulusWeights;
 
@@ -28,6 +29,8 @@ pub struct Subject<'a> {
     pub validation: Option<Validation>,
     /// The black and the white card that films lie on.
     pub cards: Cards,
+    /// Ways to choose a few wavelengths for that light, by method and number.
+    pub quadratures: Vec<QuadratureTrial>,
     /// The two pigments of figures about a pair, chosen by the user.
     pub pair: Option<(usize, usize)>,
 }
@@ -124,12 +127,41 @@ impl Subject<'_> {
     /// A pigment's name, marked where its K and S are no measurement.
     #[must_use]
     pub fn label(&self, pigment: usize) -> String {
+        let name = &self.library.pigments[pigment].name;
+        self.mark(pigment).map_or_else(|| name.clone(), |mark| format!("{name} ({mark})"))
+    }
+
+    /// Why a pigment's K and S are no measurement; nothing if they are one.
+    #[must_use]
+    pub fn mark(&self, pigment: usize) -> Option<&'static str> {
         let pigment = &self.library.pigments[pigment];
         match (pigment.guessed, pigment.identified) {
-            (true, _) => format!("{} (guessed)", pigment.name),
-            (_, false) => format!("{} (S unknown)", pigment.name),
-            _ => pigment.name.clone(),
+            (true, _) => Some("guessed"),
+            (_, false) => Some("S unknown"),
+            _ => None,
         }
+    }
+
+    /// A sample's name, with a star where its recipe holds a pigment whose K and
+    /// S are no measurement.
+    #[must_use]
+    pub fn sample(&self, film: &ComparedFilm) -> String {
+        format!("{}{}", film.sample, if film.unsure { "*" } else { "" })
+    }
+
+    /// A recipe in words: percent of shares, or amounts as they are.
+    #[must_use]
+    pub fn recipe(&self, recipe: &[(usize, f64)]) -> String {
+        let absolute = self.library.amounts == AmountKind::Absolute;
+        let part = |&(pigment, amount): &(usize, f64)| {
+            let label = self.label(pigment);
+            match (recipe.len(), absolute) {
+                (1, false) => label,
+                (_, false) => format!("{} % {label}", short(100.0 * amount)),
+                (_, true) => format!("{} {label}", short(amount)),
+            }
+        };
+        recipe.iter().map(part).collect::<Vec<_>>().join(" + ")
     }
 
     /// The unit of K and S.
@@ -147,4 +179,9 @@ impl Subject<'_> {
     pub fn light(&self) -> String {
         format!("{}, observer {}", self.viewing.illuminant.name(), self.viewing.observer)
     }
+}
+
+/// A number to three significant digits.
+fn short(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -115,17 +115,50 @@ pub fn opening(width: u32, height: u32, fine: u32) -> String {
     )
 }
 
-/// The width of `text` in px, roughly: there is no font at hand that a page is
-/// sure to use.
+/// The width of `text` in px, roughly, for one of the wider fonts: there is none
+/// that a page is sure to find.
 #[must_use]
 pub fn estimated_width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
-        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.27,
-        'f' | 't' | 'r' | '(' | ')' | ' ' | '-' => 0.36,
-        'm' | 'w' | 'M' | 'W' | '%' => 0.85,
-        c if c.is_uppercase() => 0.66,
+        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.32,
+        'f' | 't' | 'r' | '(' | ')' | ' ' | '-' => 0.4,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.9,
+        c if c.is_uppercase() => 0.7,
         c if (c as u32) > 0x2e80 => 1.0,
-        _ => 0.55,
+        _ => 0.62,
     };
     size * text.chars().map(em).sum::<f64>()
+}
+
+/// `text` cut to a width in px, three points where something is missing.
+#[must_use]
+pub fn shortened(text: &str, size: f64, width: f64) -> String {
+    if estimated_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept: String = text.to_owned();
+    while kept.pop().is_some() && estimated_width(&kept, size) > width - size {}
+    kept.trim_end().to_owned() + "\u{2026}"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markup_in_names_stays_text() {
+        assert_eq!(escaped("<b>&\"'\u{7}"), "&lt;b&gt;&amp;&quot;&apos; ");
+        let mut canvas = Canvas::new(10, 10);
+        canvas.text((1.0, 1.0), 10.0, Anchor::Start, crate::style::INK, "</text><b>");
+        let drawn = canvas.finished();
+        assert!(drawn.contains("&lt;/text&gt;&lt;b&gt;</text>"), "{drawn}");
+    }
+
+    #[test]
+    fn long_names_are_cut_to_their_room() {
+        assert_eq!(shortened("short", 10.0, 100.0), "short");
+        let cut = shortened("a very long name of a pigment", 10.0, 60.0);
+        assert!(cut.ends_with('\u{2026}') && cut.starts_with("a very"), "{cut}");
+        assert!(estimated_width(&cut, 10.0) <= 60.0, "{cut}");
+    }
 }

@@ -9,14 +9,17 @@ use spectra::color::{Adaptation, RgbSpace, Xyz, adapted};
 use super::paints::{Appearance, Palette, Recipe};
 use crate::evaluate::Viewing;
 
-/// Shares of the first paint of a pair: close at the ends, where a strong paint
-/// in a weak one turns quickly.
-const SHARES: [f64; 13] =
-    [0.01, 0.03, 0.06, 0.12, 0.2, 0.35, 0.5, 0.65, 0.8, 0.88, 0.94, 0.97, 0.99];
+/// Ratios of a pair: even in the logarithm of one part to the other, since a
+/// strong paint in a weak one turns quickly.
+const RATIOS: i32 = 21;
+/// The last ratio is this to one.
+const FURTHEST: f64 = 150.0;
 /// Parts of white to one of a pair.
-const WHITES: [f64; 8] = [0.0, 0.3, 0.8, 1.8, 4.0, 9.0, 20.0, 50.0];
+const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
 /// Parts of black to one of a pair.
 const BLACKS: [f64; 2] = [0.03, 0.2];
+/// Washes laid one on another, where the paper is the white.
+const STRONGER: [f64; 3] = [2.0, 4.0, 8.0];
 /// Mixtures of three or four paints, every other one with white.
 const RANDOM: usize = 6000;
 const SEED: u64 = 2004;
@@ -55,18 +58,23 @@ pub struct Boundary {
 }
 
 /// Samples of what a palette can mix: every paint and pair, alone and with parts
-/// of white or of the darkest paint, and 6000 seeded mixtures of three or four, half of
+/// of white or of the darkest paint (washes also up to eight on one another), and 6000 seeded mixtures of three or four, half of
 /// them with white.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| vec![(p, 1.0)]).collect();
     let masstones = recipes.clone();
-    let pairs = palette.pairs().flat_map(|(a, b)| SHARES.map(|s| vec![(a, s), (b, 1.0 - s)]));
+    let pairs =
+        palette.pairs().flat_map(|(a, b)| shares().map(move |s| vec![(a, s), (b, 1.0 - s)]));
     let black = palette.black();
     for recipe in masstones.into_iter().chain(pairs) {
         let plain = recipe.len() == 1;
         let whites = WHITES.iter().filter(|&&parts| !(plain && parts == 0.0));
         recipes.extend(whites.map(|&parts| palette.thinned(&recipe, parts)));
+        if palette.white().is_none() {
+            let stronger = |&times: &f64| recipe.iter().map(|&(p, s)| (p, times * s)).collect();
+            recipes.extend(STRONGER.iter().map(stronger));
+        }
         if recipe.iter().all(|(p, _)| *p != black) {
             recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
         }
@@ -206,6 +214,12 @@ pub fn srgb_primaries(white: Xyz) -> [[f64; 2]; 3] {
 fn chromaticity(xyz: Xyz) -> [f64; 2] {
     let total = xyz.x + xyz.y + xyz.z;
     [xyz.x / total, xyz.y / total]
+}
+
+/// Shares of the first paint of a pair, rising.
+fn shares() -> impl Iterator<Item = f64> {
+    let step = 2.0 * FURTHEST.ln() / f64::from(RATIOS - 1);
+    (0..RATIOS).map(move |at| 1.0 / (1.0 + (FURTHEST.ln() - f64::from(at) * step).exp()))
 }
 
 /// `recipe` with `parts` parts of `paint` to one of it.

@@ -8,6 +8,9 @@ use crate::evaluate::Viewing;
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::mixture::Mixture;
 
+/// How far a wash goes from the paper to hiding, where it absorbs most.
+const WASH_DEPTH: f64 = 0.9;
+
 /// Pigments of a library by index, with their shares.
 pub type Recipe = Vec<(usize, f64)>;
 
@@ -159,7 +162,7 @@ impl<'a> Palette<'a> {
     /// The amount of a pigment in its own wash; 1 for relative amounts.
     ///
     /// For absolute amounts, the amount at which the reflectance over the white
-    /// card, where the pigment absorbs most, has gone three quarters of the way
+    /// card, where the pigment absorbs most, has gone nine tenths of the way
     /// from the bare card to a film that hides: 1 for a pigment that does
     /// nothing. A depth that is alike for strong pigments and weak ones.
     #[must_use]
@@ -277,7 +280,7 @@ impl<'a> Palette<'a> {
         let reading = |amount: f64| film.reflectance(amount * k, amount * s, card);
         let (thin, thick) = (1e-6 / (k + s), 1e6 / (k + s));
         let (start, end) = (reading(0.0), reading(thick));
-        let wanted = start + 0.75 * (end - start);
+        let wanted = start + WASH_DEPTH * (end - start);
         crossing(thin, thick, |amount| (reading(amount) - wanted) * (end - start) >= 0.0)
     }
 }

@@ -51,7 +51,7 @@ impl Demo {
         let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
         let library = fitted(&viewing)?;
-        output.write(&library.to_json())?;
+        output.write(library.to_json())?;
         let evidence = library.evidence.as_ref().expect("a fit has evidence");
         let seconds = start.elapsed().as_secs_f64();
         if self.json {

@@ -1,11 +1,13 @@
 //! `impasto report`: a library and its measurements as one page of figures.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use calibrate::comparison::{Comparable, Comparison};
 use calibrate::library::PigmentLibrary;
 use calibrate::palette::Cards;
+use calibrate::quadrature::QuadratureTrial;
 use calibrate::swatch::SwatchSet;
 use calibrate::validation::Validation;
 use clap::Args;
@@ -71,7 +73,13 @@ impl Report {
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
         let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
         let step = || progress.step();
-        let validation = measured.map(|set| set.left_out(&library, &viewing, &step)).transpose()?;
+        // Side by side, so that neither leaves a core idle at its end.
+        let (validation, quadratures) = std::thread::scope(|scope| {
+            let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
+            let left_out = measured.map(|set| set.left_out(&library, &viewing, &step));
+            (left_out.transpose(), trials.join().expect("trying wavelengths does not panic"))
+        });
+        let (validation, quadratures) = (validation?, quadratures?);
         let subject = Subject {
             library: &library,
             viewing: &viewing,
@@ -80,6 +88,7 @@ impl Report {
             comparison,
             validation: validation.flatten(),
             cards,
+            quadratures,
             pair,
         };
         let report = drawn(&subject, head(&subject), &step)?;
@@ -191,6 +200,8 @@ impl Report {
     }
 }
 
+/// How many wavelengths are tried, by every method.
+const COUNTS: RangeInclusive<usize> = 3..=16;
 const PAGE: &str = "report.html";
 
 /// A word as a shell reads it.

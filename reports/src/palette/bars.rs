@@ -2,10 +2,10 @@
 
 use calibrate::palette::Appearance;
 
-use super::patch::{cut, rimmed};
+use super::patch::rimmed;
 use crate::axis::Axis;
 use crate::style::{FAINT, GRID, HAIR, INK, SMALL_TEXT, TEXT, WIDTH};
-use crate::svg::{Anchor, Canvas};
+use crate::svg::{Anchor, Canvas, shortened};
 
 const NAME: f64 = 190.0;
 const VALUE: f64 = 200.0;
@@ -39,7 +39,7 @@ pub(super) fn bars(axis: &Axis, bars: &[Bar]) -> Canvas {
     for (index, bar) in bars.iter().enumerate() {
         let y = HEAD + ROW * index as f64;
         let middle = y + ROW / 2.0;
-        let name = cut(&bar.name, TEXT, NAME - 12.0);
+        let name = shortened(&bar.name, TEXT, NAME - 12.0);
         canvas.text((NAME - 8.0, middle), TEXT, Anchor::End, INK, &name);
         let length = bar.value.map(|value| room * axis.place(value));
         if let Some(length) = length.filter(|length| *length > 0.0) {

@@ -3,12 +3,12 @@
 use calibrate::palette::{Drawdown, Palette, drawdowns};
 
 use super::cells::{columns, row};
-use super::patch::{cut, notched_below, patch, rim};
+use super::patch::{notched_below, patch, rim};
 use super::{NOTCH, strength::unit};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::Subject;
-use crate::svg::{Anchor, Canvas};
+use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Column, Table};
 
 /// Thin to thick.
@@ -60,7 +60,7 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
     for (index, drawdown) in drawn.iter().enumerate() {
         let x = margin + (index % COLUMNS) as f64 * (CARD.0 + GAP);
         let y = (index / COLUMNS) as f64 * height + HEAD;
-        let name = cut(&subject.label(drawdown.paint), TEXT, CARD.0);
+        let name = shortened(&subject.label(drawdown.paint), TEXT, CARD.0);
         canvas.text((x, y - 9.0), TEXT, Anchor::Start, INK, &name);
         let half = CARD.1 / 2.0;
         rim(&mut canvas, (x, y), CARD);

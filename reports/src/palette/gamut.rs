@@ -7,7 +7,7 @@ use calibrate::palette::{
 };
 
 use super::cells::{columns, row};
-use super::{films, palette};
+use super::{films, palette, thinner};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel, Sign};
@@ -62,15 +62,16 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     marks.push(outline(&xy, 1.2));
     let tens = locus.iter().filter(|(nm, _)| *nm >= 460.0 && *nm <= 620.0 && nm % 20.0 == 0.0);
     let names = tens.map(|(nm, [x, y])| ((*x, *y), format!("{nm}"))).collect();
-    marks.push(Mark::Names { names, colour: FAINT });
+    marks.push(Mark::Names { names, around: Vec::new(), colour: FAINT });
     let axis = |name: &str| Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) };
     let chart = Panel::new(axis("Chromaticity x"), axis("Chromaticity y"), marks)
         .with_key(Sign::Line, FAINT, "spectrum (nm)")
         .with_key(Sign::Dashes, SERIES[0], "sRGB");
 
     let caption = format!(
-        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 13 ratios, alone and with white or the darkest pigment, and random mixtures of three and four. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
+        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, and random mixtures of three and four. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
         gamut.samples.len(),
+        thinner(palette),
         films(palette),
         subject.light()
     );
@@ -175,12 +176,13 @@ fn masstones(
         ((x, y), subject.label(paint))
     });
     let mut names: Vec<((f64, f64), String)> = named.collect();
-    let points = names.iter().map(|(at, _)| *at).collect();
+    let points: Vec<(f64, f64)> = names.iter().map(|(at, _)| *at).collect();
+    let around = points.clone();
     // Greys would cover each other; the vivid come first.
     let far = |((x, y), _): &((f64, f64), String)| x.hypot(*y);
     names.retain(|name| far(name) >= NAMED);
     names.sort_by(|a, b| far(b).total_cmp(&far(a)));
-    [Mark::Dots { points, colour: INK, radius: 2.2 }, Mark::Names { names, colour: INK }]
+    [Mark::Dots { points, colour: INK, radius: 2.2 }, Mark::Names { names, around, colour: INK }]
 }
 
 fn outline_columns(what: &str, first: &str, second: &str) -> [Column; 5] {

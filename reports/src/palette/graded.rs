@@ -3,14 +3,15 @@
 use calibrate::palette::{
     GradedMixture, MeasuredSample, MixingRow, PainterRules, Palette, default_pairs, graded,
 };
+use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
 
 use super::cells::{columns, row};
-use super::patch::{cut, rimmed};
+use super::patch::rimmed;
 use super::{NOTCH, films, measured, palette};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas};
+use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Cell, Column, Table};
 
 const NAME: f64 = 112.0;
@@ -37,10 +38,25 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     if pairs.is_empty() {
         return section;
     }
-    let rules = PainterRules::of(&palette).expect("three and eight wavelengths are allowed");
+    let rules = rules(subject, &palette);
     pairs.into_iter().enumerate().fold(section, |section, (index, pair)| {
         section.with(figure(subject, &palette, (index + 1, pair), &measured, &rules))
     })
+}
+
+/// The rules that the report has tried, else made now.
+fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
+    let tried = |count: usize| {
+        let mut trials = subject.quadratures.iter();
+        let fits = |trial: &&QuadratureTrial| {
+            trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == count
+        };
+        trials.find(fits).map(|trial| trial.rule.clone())
+    };
+    match (tried(8), tried(3)) {
+        (Some(eight), Some(three)) => PainterRules { eight, three },
+        _ => PainterRules::of(palette).expect("three and eight wavelengths are allowed"),
+    }
 }
 
 fn figure(
@@ -103,7 +119,7 @@ fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
     let step_width = (f64::from(WIDTH) - NAME - MEAN) / mixture.steps.len() as f64;
     let mut canvas = Canvas::new(WIDTH, (HEAD + ROW * ways.len() as f64).ceil() as u32);
     let right = f64::from(WIDTH) - MEAN;
-    let name = cut(ends[1], SMALL_TEXT, NAME - 10.0);
+    let name = shortened(ends[1], SMALL_TEXT, NAME - 10.0);
     canvas.text((NAME - 8.0, 12.0), SMALL_TEXT, Anchor::End, INK, &name);
     canvas.text((right + 8.0, 12.0), SMALL_TEXT, Anchor::Start, INK, "mean");
     for (at, step) in mixture.steps.iter().enumerate() {
@@ -111,7 +127,7 @@ fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
         let share = format!("{} %", (1000.0 * step.share).round() / 10.0);
         canvas.text((middle, 12.0), SMALL_TEXT, Anchor::Middle, INK, &share);
         if let Some(sample) = &step.sample {
-            let sample = cut(sample, SMALL_TEXT, step_width);
+            let sample = shortened(sample, SMALL_TEXT, step_width);
             canvas.text((middle, 27.0), SMALL_TEXT, Anchor::Middle, FAINT, &sample);
         }
     }

@@ -5,12 +5,12 @@ use calibrate::palette::{
 };
 
 use super::cells::{columns, row};
-use super::patch::{cut, patch, rim};
+use super::patch::{patch, rim};
 use super::{NOTCH, films, measured, palette, thinner};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas};
+use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Cell, Column, Table};
 
 /// Parts of white to one in the tint that is shown beside the masstone.
@@ -88,7 +88,7 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColourShift]) ->
             canvas.text((middle, 10.0), SMALL_TEXT, Anchor::Middle, INK, name);
             for (place, light) in lights.iter().enumerate() {
                 let x = x + (place as f64 + 0.5) * side;
-                let name = cut(&light.name, SMALL_TEXT, side);
+                let name = shortened(&light.name, SMALL_TEXT, side);
                 canvas.text((x, 28.0), SMALL_TEXT, Anchor::Middle, FAINT, &name);
             }
         }
@@ -96,7 +96,7 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColourShift]) ->
     for (index, (name, pair)) in names.iter().zip(shifts.chunks(2)).enumerate() {
         let x = (index / rows) as f64 * block + NAME;
         let y = HEAD + (index % rows) as f64 * ROW;
-        let name = cut(name, TEXT, NAME - 12.0);
+        let name = shortened(name, TEXT, NAME - 12.0);
         canvas.text((x - 8.0, y + 11.0), TEXT, Anchor::End, INK, &name);
         for (which, shift) in pair.iter().enumerate() {
             let x = x + which as f64 * group;
@@ -170,7 +170,7 @@ fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
     for (index, pair) in pairs.iter().enumerate() {
         let y = HEAD + index as f64 * ROW;
         for (line, name) in pair.names.iter().enumerate() {
-            let name = cut(name, SMALL_TEXT, NAME - 14.0);
+            let name = shortened(name, SMALL_TEXT, NAME - 14.0);
             let at = (NAME - 10.0, y + 10.0 + 18.0 * line as f64);
             canvas.text(at, SMALL_TEXT, Anchor::End, INK, &name);
         }

@@ -3,12 +3,12 @@
 use calibrate::palette::{CHART_TINT, Palette, TINTS, mixing_chart, tint_ladders};
 
 use super::cells::{columns, row};
-use super::patch::{cut, patch, rim, rimmed};
+use super::patch::{patch, rim, rimmed};
 use super::{NOTCH, card, films, palette, thinner};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas, estimated_width};
+use crate::svg::{Anchor, Canvas, estimated_width, shortened};
 use crate::table::{Column, Table};
 
 const NAME: f64 = 170.0;
@@ -56,7 +56,7 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let mut canvas = Canvas::new(WIDTH, (head + side + 8.0).ceil() as u32);
     rim(&mut canvas, (NAME, head), (side, side));
     for (i, name) in names.iter().enumerate() {
-        let name = cut(name, TEXT, NAME - 12.0);
+        let name = shortened(name, TEXT, NAME - 12.0);
         let middle = (i as f64 + 0.5) * cell;
         canvas.text((NAME - 8.0, head + middle), TEXT, Anchor::End, INK, &name);
         canvas.text_upwards((NAME + middle, head - 6.0), TEXT, INK, &name);
@@ -107,7 +107,7 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     for (index, ladder) in ladders.iter().enumerate() {
         let (x, y) = ((index / rows) as f64 * block + NAME, HEAD + (index % rows) as f64 * ROW);
         let name = subject.label(ladder.paint);
-        let shown = cut(&name, TEXT, NAME - 12.0);
+        let shown = shortened(&name, TEXT, NAME - 12.0);
         canvas.text((x - 8.0, y + ROW / 2.0), TEXT, Anchor::End, INK, &shown);
         for (place, (parts, look)) in TINTS.iter().zip(&ladder.colours).enumerate() {
             let at = (x + place as f64 * step, y + 2.0);

@@ -49,7 +49,7 @@ fn films(palette: &Palette<'_>) -> &'static str {
     match palette.library().amounts {
         AmountKind::Relative => "Films that hide.",
         AmountKind::Absolute => {
-            "Washes over the white card, each pigment in the amount that takes it three quarters of the way to hiding where it absorbs most."
+            "Washes over the white card, each pigment in the amount that takes it nine tenths of the way to hiding where it absorbs most."
         }
     }
 }

@@ -1,9 +1,9 @@
-//! Patches of colour with their rims and marks, and names cut to their room.
+//! Patches of colour with their rims and marks.
 
 use calibrate::palette::Appearance;
 
 use crate::style::{Colour, GRID, PAPER};
-use crate::svg::{Canvas, estimated_width};
+use crate::svg::Canvas;
 
 const NOTCH: f64 = 6.0;
 
@@ -39,33 +39,4 @@ pub(super) fn rimmed(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look
 /// The rim of a patch that is drawn next.
 pub(super) fn rim(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64)) {
     canvas.rectangle((at.0 - 1.0, at.1 - 1.0), (size.0 + 2.0, size.1 + 2.0), GRID);
-}
-
-/// `text` cut to `room` px, two points at its end if it was cut.
-pub(super) fn cut(text: &str, size: f64, room: f64) -> String {
-    if estimated_width(text, size) <= room {
-        return text.to_owned();
-    }
-    let mut kept = String::new();
-    for c in text.chars() {
-        kept.push(c);
-        if estimated_width(&kept, size) + estimated_width("..", size) > room {
-            kept.pop();
-            break;
-        }
-    }
-    kept + ".."
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_is_cut_only_where_it_has_no_room() {
-        assert_eq!(cut("Zinc White", 12.0, 100.0), "Zinc White");
-        let short = cut("Eosin Lake (lead, wax)", 12.0, 60.0);
-        assert!(short.ends_with("..") && short.starts_with("Eosin"), "{short}");
-        assert!(estimated_width(&short, 12.0) <= 60.0, "{short}");
-    }
 }

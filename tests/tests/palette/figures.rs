@@ -39,6 +39,7 @@ fn report_of(library: &PigmentLibrary, pair: Option<(usize, usize)>) -> Report {
         command: "impasto report".to_owned(),
         comparison: None,
         validation: None,
+        quadratures: Vec::new(),
         cards: Cards::standard(library.grid),
         pair,
     };
@@ -53,6 +54,7 @@ fn report_of_oils(oils: &Oils) -> Report {
         command: "impasto report".to_owned(),
         comparison: Some(oils.comparable.with(&oils.library, &oils.viewing).unwrap()),
         validation: None,
+        quadratures: Vec::new(),
         cards: oils.palette().cards().clone(),
         pair: None,
     };
