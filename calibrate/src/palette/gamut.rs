@@ -19,7 +19,7 @@ const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
 /// Parts of black to one of a pair.
 const BLACKS: [f64; 2] = [0.03, 0.2];
 /// Washes laid one on another, where the paper is the white.
-const STRONGER: [f64; 3] = [2.0, 4.0, 8.0];
+const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
 /// Mixtures of three or four paints, every other one with white.
 const RANDOM: usize = 6000;
 const SEED: u64 = 2004;
