@@ -58,8 +58,8 @@ pub struct Boundary {
 }
 
 /// Samples of what a palette can mix: every paint and pair, alone and with parts
-/// of white or of the darkest paint (washes also up to eight on one another), and 6000 seeded mixtures of three or four, half of
-/// them with white.
+/// of white or of the darkest paint (washes also up to eight on one another), and
+/// 6000 seeded mixtures of three or four, half of them with white.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| vec![(p, 1.0)]).collect();

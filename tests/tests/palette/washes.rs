@@ -79,5 +79,8 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let yellow = powers[1].hides.thickness().unwrap();
     assert!(yellow > 0.05 && yellow < 10.0, "{yellow}");
     let gamut = sampled_gamut(&palette);
+    let most = |recipe: &[(usize, f64)]| recipe.iter().map(|(_, share)| share).sum::<f64>();
+    let deepest = gamut.samples.iter().map(|s| most(&s.recipe)).fold(0.0, f64::max);
+    assert!((deepest - 8.0).abs() < 1e-9, "washes lie {deepest} deep at most");
     assert!(gamut.samples.iter().all(|s| s.colour.lab.a.is_finite()));
 }
