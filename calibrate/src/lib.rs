@@ -40,9 +40,13 @@ pub mod absolute;
 
 pub mod validation;
 
+pub mod comparison;
+
 pub mod plan;
 
 pub mod quadrature;
+
+pub mod palette;
 
 pub mod matching;
 

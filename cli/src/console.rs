@@ -21,6 +21,8 @@ pub(crate) struct Console<'a> {
     /// Everything else.
     pub(crate) err: &'a mut dyn Write,
     pub(crate) screen: Screen,
+    /// The command line, to be typed again.
+    pub(crate) command: String,
 }
 
 impl Console<'_> {

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use calibrate::calibration::CalibrationError;
+use calibrate::comparison::ComparisonError;
 use calibrate::curation::{CurationError, TableError};
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
@@ -83,6 +84,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<ChoiceError>() {
         return Some(error.hint());
     }
+    if let Some(error) = cause.downcast_ref::<ComparisonError>() {
+        return error.hint();
+    }
     if let Some(error) = cause.downcast_ref::<RecipeError>() {
         return error.hint();
     }
@@ -118,6 +122,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<ChoiceError>()
         || cause.is::<RecipesError>()
         || cause.is::<CalibrationError>()
+        || cause.is::<ComparisonError>()
         || cause.is::<FitError>()
         || cause.is::<LibraryError>()
         || cause.is::<RecipeError>()

@@ -4,6 +4,8 @@
 //! writer, everything else to the second. Exit status: 0 done, 1 the data says
 //! no, 2 could not run.
 
+mod command_line;
+
 mod console;
 
 mod failure;
@@ -53,6 +55,10 @@ pub fn run(
     err: &mut dyn Write,
     screen: Screen,
 ) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
+    let words: Vec<_> = std::iter::once("impasto".into()).chain(words).collect();
+    let command = command_line::command_line(words.iter().map(AsRef::as_ref));
     let parsed = match Arguments::try_parse_from(arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -63,7 +69,7 @@ pub fn run(
             return if asked { 0 } else { 2 };
         }
     };
-    let mut console = Console { out, err, screen };
+    let mut console = Console { out, err, screen, command };
     match parsed.verb.run(&mut console) {
         Ok(()) => 0,
         Err(error) => failure::report(&error, console.err),

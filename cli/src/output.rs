@@ -31,7 +31,7 @@ impl Output {
         if inputs.iter().any(same) {
             return Err(Refusal::usage(
                 format!("{}: is an input, which is never written over", path.display()),
-                "give the library a name of its own",
+                "give the output a name of its own",
             ));
         }
         let output = Self { path: path.to_owned(), target };

@@ -132,7 +132,7 @@ fn modules(lib: &str) -> Vec<&str> {
 
 #[test]
 fn modules_use_only_what_stands_above_them() {
-    for name in ["spectra", "calibrate"] {
+    for name in ["spectra", "calibrate", "reports"] {
         let lib = text(&format!("{name}/src/lib.rs"));
         let order = modules(&lib);
         for path in files_below(&format!("{name}/src")) {
@@ -151,12 +151,14 @@ fn modules_use_only_what_stands_above_them() {
 }
 
 #[test]
-fn the_solver_is_named_in_one_file() {
-    let needle = ["clarabel", "::"].concat();
-    let named: Vec<_> =
-        texts(&[".rs"]).into_iter().filter(|(_, text)| text.contains(&needle)).collect();
-    let paths: Vec<_> = named.iter().map(|(path, _)| path).collect();
-    assert_eq!(paths.len(), 1, "{needle} in {paths:?}");
+fn the_solver_the_plotter_and_the_painter_are_each_named_in_one_file() {
+    for name in ["clarabel", "plotters", "resvg"] {
+        let needle = [name, "::"].concat();
+        let mut texts = texts(&[".rs"]);
+        texts.retain(|path, text| !path.starts_with("tests/") && text.contains(&needle));
+        let paths: Vec<_> = texts.keys().collect();
+        assert_eq!(paths.len(), 1, "{needle} in {paths:?}");
+    }
 }
 
 #[test]

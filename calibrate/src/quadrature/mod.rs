@@ -18,6 +18,9 @@ mod fitted;
 
 mod rule;
 
+mod trial;
+
 pub use gauss::GaussRule;
 pub use mixtures::MixtureSet;
 pub use rule::{Quadrature, QuadratureError, QuadratureFailure};
+pub use trial::{QuadratureMethod, QuadratureTrial};

@@ -23,6 +23,7 @@ mod library;
 mod plan_report;
 
 mod plan;
+mod report;
 
 mod demo;
 
@@ -41,6 +42,7 @@ pub(crate) enum Verb {
     Match(recipe_search::Match),
     Library(library::Library),
     Plan(plan::Plan),
+    Report(report::Report),
     Demo(demo::Demo),
 }
 
@@ -55,6 +57,7 @@ impl Verb {
             Self::Match(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
             Self::Plan(verb) => verb.run(console),
+            Self::Report(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
         }
     }

@@ -1,0 +1,78 @@
+//! How far a paint's colour shifts from one light to another.
+
+use spectra::color::{Adaptation, Lab, Xyz, adapted, delta_e_ciede2000};
+use spectra::{Illuminant, TristimulusWeights};
+
+use super::paints::{Appearance, Palette, Recipe};
+use crate::evaluate::Viewing;
+
+/// Lights that a palette is tried under, besides its own.
+const LIGHTS: [&str; 3] = ["D65", "A", "FL11"];
+
+/// A light that a palette is tried under.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestLight {
+    /// Its name.
+    pub name: String,
+    /// Its weights on the library's grid, for the palette's observer.
+    pub weights: TristimulusWeights,
+}
+
+/// The colours of one recipe under several lights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColourShift {
+    /// What is mixed.
+    pub recipe: Recipe,
+    /// By light: how it looks, each adapted to its own white.
+    pub colours: Vec<Appearance>,
+    /// By light: CIEDE2000 from the first light's colour to this one's, adapted
+    /// to the first light (Bradford); 0 for the first.
+    pub shifts: Vec<f64>,
+}
+
+/// The palette's own light, then those of D65, A and FL11 that it is not.
+#[must_use]
+pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
+    let own = palette.viewing();
+    let first =
+        TestLight { name: own.illuminant.name().to_owned(), weights: palette.weights().clone() };
+    let others = LIGHTS.iter().filter(|name| **name != own.illuminant.name()).map(|name| {
+        let illuminant = Illuminant::named(name).expect("a CIE illuminant is shipped");
+        let viewing = Viewing { illuminant, observer: own.observer };
+        let weights = viewing.weights(palette.library().grid).expect("the method fits the grid");
+        TestLight { name: (*name).to_owned(), weights }
+    });
+    std::iter::once(first).chain(others).collect()
+}
+
+/// The shift of each recipe from the first of `lights` to each.
+///
+/// The difference that remains after the eye has adapted: 0 for a paint whose
+/// colour is constant.
+#[must_use]
+pub fn colour_shifts(
+    palette: &Palette<'_>,
+    lights: &[TestLight],
+    recipes: &[Recipe],
+) -> Vec<ColourShift> {
+    let shift = |recipe: &Recipe| {
+        let reflectance = palette.reflectance(recipe);
+        let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
+        let whites: Vec<Xyz> = lights.iter().map(|light| light.weights.white()).collect();
+        let under_first = |at: usize| {
+            let xyz = if at == 0 {
+                xyz[0]
+            } else {
+                adapted(xyz[at], whites[at], whites[0], Adaptation::Bradford)
+            };
+            Lab::from_xyz(xyz, whites[0])
+        };
+        let all = 0..lights.len();
+        ColourShift {
+            recipe: recipe.clone(),
+            colours: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
+            shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
+        }
+    };
+    recipes.iter().map(shift).collect()
+}

@@ -1,0 +1,86 @@
+//! How far a paint goes in white.
+
+use super::paints::Palette;
+use crate::library::AmountKind;
+
+/// Parts of white to one of paint in the tint that is compared: 10 % of paint,
+/// which most sets of swatches hold.
+pub const TINT_PARTS: f64 = 9.0;
+
+/// The depth of [`TintingStrength::white_parts`]: K/S = 1 where the tint absorbs
+/// most, an internal reflectance of 0.27.
+pub const TINT_DEPTH: f64 = 1.0;
+
+/// The tinting strength of one paint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TintingStrength {
+    /// The paint.
+    pub paint: usize,
+    /// Where its tint absorbs most beyond the white, in nm.
+    pub wavelength_nm: f64,
+    /// What it adds there to the K/S of the white; for absolute amounts, K per
+    /// unit of amount. 0 for a paint that only lightens.
+    pub strength: f64,
+    /// The same, over that of the paint it is compared to; in percent.
+    pub percent: f64,
+    /// Parts of white to one of paint that make a tint of K/S = 1 there; none
+    /// for a paint that is not so deep by itself, or for absolute amounts.
+    pub white_parts: Option<f64>,
+}
+
+/// The tinting strength of every paint but the white, relative to `standard`
+/// (the strongest if none is named).
+///
+/// As ISO 787-24 compares tints: by K/S where the tint of one part in nine parts
+/// of the reference white absorbs most. The white's own K/S is taken off, so
+/// that a paint of twice the absorption has twice the strength. A library of
+/// absolute amounts has no white paint; there K of one unit of amount tells how
+/// far the paint goes.
+#[must_use]
+pub fn tinting_strengths(palette: &Palette<'_>, standard: Option<usize>) -> Vec<TintingStrength> {
+    let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
+    let mut strengths: Vec<TintingStrength> = paints.map(|&p| strength(palette, p)).collect();
+    let named = standard.and_then(|wanted| strengths.iter().find(|s| s.paint == wanted));
+    let strongest = strengths.iter().map(|s| s.strength).fold(0.0, f64::max);
+    let whole = named.map_or(strongest, |s| s.strength);
+    for strength in &mut strengths {
+        strength.percent = if whole > 0.0 { 100.0 * strength.strength / whole } else { 0.0 };
+    }
+    strengths
+}
+
+fn strength(palette: &Palette<'_>, paint: usize) -> TintingStrength {
+    let library = palette.library();
+    let pigment = &library.pigments[paint];
+    let added: Vec<f64> = match (library.amounts, palette.white()) {
+        (AmountKind::Relative, Some(white)) => {
+            let tint = palette.mixture(&palette.tint(paint, TINT_PARTS));
+            let white = palette.mixture(&[(white, 1.0)]);
+            let ratio = |k: f64, s: f64| if s > 0.0 { k / s } else { 0.0 };
+            (0..library.grid.count())
+                .map(|i| {
+                    ratio(tint.absorption[i], tint.scattering[i])
+                        - ratio(white.absorption[i], white.scattering[i])
+                })
+                .collect()
+        }
+        _ => pigment.absorption.clone(),
+    };
+    let most = added.iter().enumerate();
+    let (at, most) =
+        most.fold((0, f64::NEG_INFINITY), |m, (i, &v)| if v > m.1 { (i, v) } else { m });
+    let white_parts = palette.white().and_then(|white| {
+        let white = &library.pigments[white];
+        // (K + n Kw) / (S + n Sw) = depth, solved for n.
+        let own = pigment.absorption[at] - TINT_DEPTH * pigment.scattering[at];
+        let per_part = TINT_DEPTH * white.scattering[at] - white.absorption[at];
+        (own >= 0.0 && per_part > 0.0).then(|| own / per_part)
+    });
+    TintingStrength {
+        paint,
+        wavelength_nm: library.grid.nm(at),
+        strength: most.max(0.0),
+        percent: 0.0,
+        white_parts,
+    }
+}

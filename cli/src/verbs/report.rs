@@ -1,0 +1,194 @@
+//! `impasto report`: a library and its measurements as one page of figures.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use calibrate::comparison::{Comparable, Comparison};
+use calibrate::library::PigmentLibrary;
+use calibrate::palette::Cards;
+use calibrate::quadrature::QuadratureTrial;
+use calibrate::swatch::SwatchSet;
+use calibrate::validation::Validation;
+use clap::Args;
+use reports::report::{STEPS, drawn, head};
+use reports::subject::Subject;
+use serde_json::{Value, json};
+
+use crate::console::Console;
+use crate::input::{ViewingOptions, colour_weights, library};
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::readings::{ReadingOptions, measurements};
+
+/// Draw a library and its measurements: one page, and each figure as SVG, PNG and CSV
+///
+/// Without readings only the library itself is drawn. With readings every sample is held against
+/// what the library predicts of it, and each mixture is left out in turn, fitted anew and
+/// predicted, as `validate` does. The page is FOLDER/report.html; the figures stand in
+/// FOLDER/figures.
+#[derive(Debug, Args)]
+pub(crate) struct Report {
+    /// The pigment library (JSON)
+    library: PathBuf,
+    /// Measurement files, as for `fit`; without them only the library is drawn
+    #[arg(value_name = "READINGS")]
+    files: Vec<PathBuf>,
+    /// Folder for the page and its figures; made if it is not there
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Two pigments to look at together [default: chosen from the library]
+    #[arg(long, num_args = 2, value_names = ["A", "B"])]
+    pair: Vec<String>,
+    /// Leave no mixture out; saves most of the time
+    #[arg(long)]
+    no_validation: bool,
+    /// The recipes of the samples, in a CSV of their own, as for `fit`
+    #[arg(long, value_name = "FILE", requires = "files")]
+    recipes: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingOptions,
+    #[command(flatten)]
+    viewing: ViewingOptions,
+    /// Print JSON: page, figures (name, title, svg, png, csv), samples, delta_e, left_out, absent
+    #[arg(long)]
+    json: bool,
+}
+
+impl Report {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let viewing = self.viewing.viewing()?;
+        let library = library(&self.library)?;
+        let weights = colour_weights(&viewing, library.grid, console)?;
+        let pair = match self.pair.as_slice() {
+            [first, second] => Some((library.find(first)?, library.find(second)?)),
+            _ => None,
+        };
+        let measured = self.comparable(&library, console)?;
+        let comparison = measured.as_ref().map(|set| set.with(&library, &viewing)).transpose()?;
+        if let Some(comparison) = &comparison {
+            console.warnings(&reports::report::absences(comparison))?;
+        }
+        let cards = measured.as_ref().map(|measured| Cards::of(&measured.set, &weights));
+        let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
+        let page = self.page()?;
+
+        let measured = measured.filter(|_| !self.no_validation);
+        let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
+        let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
+        let step = || progress.step();
+        // Side by side, so that neither leaves a core idle at its end.
+        let (validation, quadratures) = std::thread::scope(|scope| {
+            let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
+            let left_out = measured.map(|set| set.left_out(&library, &viewing, &step));
+            (left_out.transpose(), trials.join().expect("trying wavelengths does not panic"))
+        });
+        let (validation, quadratures) = (validation?, quadratures?);
+        let subject = Subject {
+            library: &library,
+            viewing: &viewing,
+            weights,
+            command: console.command.clone(),
+            comparison,
+            validation: validation.flatten(),
+            cards,
+            quadratures,
+            pair,
+        };
+        let report = drawn(&subject, head(&subject), &step)?;
+        progress.done();
+        self.write(&report, page)?;
+        self.tell(&report, &subject, console)
+    }
+
+    fn comparable(
+        &self,
+        library: &PigmentLibrary,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<Option<Comparable>> {
+        if self.files.is_empty() {
+            return Ok(None);
+        }
+        let (table, _) =
+            measurements(&self.files, self.recipes.as_deref(), &self.reading, console)?;
+        Ok(Some(Comparable::of(&SwatchSet::from_table(&table)?, library)?))
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        let files = self.files.iter().chain(&self.recipes).chain([&self.library]).cloned();
+        files.chain(self.reading.files()).collect()
+    }
+
+    /// The page, known to be writable before the slow part.
+    fn page(&self) -> anyhow::Result<Output> {
+        let figures = self.out.join("figures");
+        std::fs::create_dir_all(&figures)
+            .with_context(|| format!("{}: cannot be made", figures.display()))?;
+        Output::open(&self.out.join(PAGE), &self.inputs())
+    }
+
+    /// Writes the figures, and last the page that shows them.
+    fn write(&self, report: &reports::report::Report, page: Output) -> anyhow::Result<()> {
+        let inputs = self.inputs();
+        let mut outputs = Vec::new();
+        let mut page = Some(page);
+        for (path, content) in report.files() {
+            let output = match page.take_if(|_| path == PAGE) {
+                Some(page) => page,
+                None => Output::open(&self.out.join(&path), &inputs)?,
+            };
+            outputs.push((output, content));
+        }
+        // Nothing is written before everything is known to be writable.
+        outputs.into_iter().try_for_each(|(output, content)| output.write(content))
+    }
+
+    fn tell(
+        &self,
+        report: &reports::report::Report,
+        subject: &Subject<'_>,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<()> {
+        let path = |inside: &str| self.out.join(inside).display().to_string();
+        let Subject { comparison, validation, .. } = subject;
+        if self.json {
+            let figures = report.figures().map(|figure| {
+                let file = |ending: &str| path(&format!("figures/{}.{ending}", figure.name));
+                json!({
+                    "name": figure.name,
+                    "title": figure.title,
+                    "svg": file("svg"),
+                    "png": file("png"),
+                    "csv": file("csv"),
+                })
+            });
+            let absent = |c: &Comparison| -> Vec<Value> {
+                let samples = c.absent.iter();
+                samples.map(|(s, lacks)| json!({"sample": s, "pigments": lacks})).collect()
+            };
+            return console.json(&json!({
+                "page": path(PAGE),
+                "figures": figures.collect::<Vec<Value>>(),
+                "samples": comparison.as_ref().map(|c| c.films.len()),
+                "delta_e": comparison.as_ref().map(|c| c.delta_e.rounded()),
+                "left_out": validation.as_ref().map(|v| v.delta_e.rounded()),
+                "absent": comparison.as_ref().map_or_else(Vec::new, absent),
+            }));
+        }
+        let told = |what: &str, count: usize, errors: &calibrate::evaluate::Summary| {
+            format!("{count} {what}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
+        };
+        if let Some(Comparison { films, delta_e, .. }) = comparison {
+            console.line(told("samples, CIEDE2000 of the fit", films.len(), delta_e))?;
+        }
+        if let Some(Validation { per_sample, delta_e, .. }) = validation {
+            console.line(told("mixtures left out, CIEDE2000", per_sample.len(), delta_e))?;
+        }
+        console.line(format!("{} figures: {}", report.figures().count(), path("figures")))?;
+        console.line(format!("page: {}", path(PAGE)))
+    }
+}
+
+/// How many wavelengths are tried, by every method.
+const COUNTS: RangeInclusive<usize> = 3..=16;
+const PAGE: &str = "report.html";

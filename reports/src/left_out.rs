@@ -1,0 +1,90 @@
+//! Mixtures predicted without their own measurement, against their error in the
+//! fit.
+
+use calibrate::comparison::ComparedFilm;
+
+use crate::axis::Axis;
+use crate::figure::{Drawing, Figure, Words};
+use crate::panel::{Chart, Mark, Panel, Sign};
+use crate::style::{FAINT, HAIR, INK};
+use crate::subject::{Section, Subject};
+use crate::table::{Cell, Column, Table};
+
+/// How many of the largest errors are named with their recipe, and how many more
+/// by their sample only.
+const NAMED: usize = 6;
+const NAMED_SHORTLY: usize = 14;
+
+pub(crate) fn section(subject: &Subject<'_>) -> Section {
+    let section = Section::new("Mixtures left out");
+    let (Some(comparison), Some(validation)) = (&subject.comparison, &subject.validation) else {
+        return section;
+    };
+    let mut pairs: Vec<(&ComparedFilm, f64)> = Vec::new();
+    for evidence in &validation.per_sample {
+        let film = comparison.films.iter().find(|film| film.sample == evidence.sample);
+        pairs.extend(film.map(|film| (film, evidence.delta_e)));
+    }
+    if pairs.is_empty() {
+        return section;
+    }
+    pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let section = if validation.needed.is_empty() {
+        section
+    } else {
+        let needed = validation.needed.join(", ");
+        section.saying(format!(
+            "Not left out, since a pigment would not be identified without them: {needed}."
+        ))
+    };
+    section.with(figure(subject, &pairs))
+}
+
+/// `pairs` by falling error of the mixture left out.
+fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
+    let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
+    let (low, high) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
+    let axis = |what: &str| Axis::log_close(what, "CIEDE2000", low.max(0.05), high);
+    let (x, y) = (axis("Colour error in the fit"), axis("Colour error when left out"));
+    let mut data = Table::new([
+        Column::words("sample"),
+        Column::words("recipe"),
+        Column::quantity("fitted", "CIEDE2000", 2),
+        Column::quantity("left out", "CIEDE2000", 2),
+    ]);
+    let ends = vec![(x.low, y.low), (x.high, y.high)];
+    let mut marks = vec![Mark::Line { points: ends, colour: FAINT, width: HAIR }];
+    for (film, left_out) in pairs {
+        let recipe = subject.recipe(&film.recipe);
+        data.push([
+            Cell::from(subject.sample(film)),
+            recipe.into(),
+            film.delta_e.into(),
+            (*left_out).into(),
+        ]);
+        let colour = subject.colour(&film.measured).for_line();
+        marks.push(Mark::Dots { points: vec![(film.delta_e, *left_out)], colour, radius: 3.6 });
+    }
+    let named = pairs.iter().take(NAMED + NAMED_SHORTLY).enumerate();
+    let names = named.map(|(place, (film, left_out))| {
+        let sample = subject.sample(film);
+        let recipe = subject.recipe(&film.recipe);
+        let name = if place < NAMED { format!("{sample}: {recipe}") } else { sample };
+        ((film.delta_e, *left_out), name)
+    });
+    let dots = pairs.iter().map(|(film, left_out)| (film.delta_e, *left_out));
+    let along = (0..=100).map(|i| x.low * (x.high / x.low).powf(f64::from(i) / 100.0));
+    let dots = dots.chain(along.map(|error| (error, error)));
+    marks.push(Mark::Names { names: names.collect(), around: dots.collect(), colour: INK });
+    let panel = Panel::new(x, y, marks).with_key(Sign::Line, FAINT, "both alike");
+    let words = Words {
+        name: "left-out",
+        title: "Error of mixtures left out, against their error in the fit",
+        caption: &format!(
+            "Each dot is a mixture, in its measured colour; upwards, its colour error when the other samples alone predict it ({}). Those far above the line are known from little else than themselves; the largest are named.",
+            subject.light()
+        ),
+        alt: "A scatter chart of colour errors, most dots above the diagonal.",
+    };
+    subject.figure(words, Drawing::Chart(Chart::single(panel, 460.0)), data)
+}

@@ -1,0 +1,169 @@
+//! The light, the observer, and the few wavelengths that stand for both, as in
+//! figure 9 of Baxter, Wendt and Lin (2004).
+
+use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
+
+use crate::axis::Axis;
+use crate::figure::{Drawing, Figure, Words};
+use crate::panel::{Chart, Mark, Panel, Point, Sign};
+use crate::style::{CURVE, Colour, DOT, FAINT, HAIR, INK, SERIES};
+use crate::subject::{Section, Subject};
+use crate::table::{Cell, Column, Table};
+
+/// As many wavelengths as `impasto quadrature` takes.
+const NODES: usize = 8;
+/// X, Y and Z.
+const CHANNELS: [(&str, Colour); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
+
+pub(crate) fn section(subject: &Subject<'_>) -> Section {
+    let section = Section::new("Light and wavelengths");
+    let chosen = subject.quadratures.iter().find(|trial| {
+        trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == NODES
+    });
+    let section = match chosen {
+        Some(chosen) => section
+            .with(light(subject, chosen))
+            .with_table("Eight wavelengths for this library and light", nodes(chosen)),
+        None => section,
+    };
+    if subject.quadratures.is_empty() { section } else { section.with(errors(subject)) }
+}
+
+fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
+    let x = Axis::wavelength(subject.library.grid, 50);
+    let power = subject.viewing.illuminant.power();
+    let inside = |nm: &f64| *nm >= x.low && *nm <= x.high;
+    let wavelengths: Vec<f64> = power.grid().wavelengths_nm().filter(inside).collect();
+    let on_line = |values: &[f64]| -> Vec<Point> {
+        let all = power.grid().wavelengths_nm().zip(values.iter().copied());
+        all.filter(|(nm, _)| inside(nm)).collect()
+    };
+    let strongest = on_line(power.values()).iter().map(|p| p.1).fold(f64::MIN_POSITIVE, f64::max);
+    let relative: Vec<f64> = power.values().iter().map(|v| v / strongest).collect();
+    let relative = on_line(&relative);
+    let functions = subject.viewing.observer.functions();
+    let functions = [0, 1, 2].map(|channel: usize| on_line(functions[channel].values()));
+
+    let mut data = Table::new([
+        Column::quantity("wavelength", "nm", 0),
+        Column::quantity("relative power", "largest = 1", 4),
+        Column::quantity("x-bar", "1", 4),
+        Column::quantity("y-bar", "1", 4),
+        Column::quantity("z-bar", "1", 4),
+        Column::quantity("weight of X", "white Y = 100", 4),
+        Column::quantity("weight of Y", "white Y = 100", 4),
+        Column::quantity("weight of Z", "white Y = 100", 4),
+    ]);
+    for (index, nm) in wavelengths.iter().enumerate() {
+        let mut row: Vec<Cell> = vec![(*nm).into(), relative[index].1.into()];
+        row.extend(functions.iter().map(|function| Cell::from(function[index].1)));
+        row.extend([Cell::Empty, Cell::Empty, Cell::Empty]);
+        data.push(row);
+    }
+    for (nm, weights) in chosen.rule.nodes_nm.iter().zip(&chosen.rule.weights) {
+        let mut row = vec![Cell::from(*nm), Cell::Empty, Cell::Empty, Cell::Empty, Cell::Empty];
+        row.extend(weights.map(Cell::from));
+        data.push(row);
+    }
+
+    let strong = Axis::linear("Power", "largest = 1", 0.0, 1.0, 4);
+    let line = Mark::Line { points: relative, colour: INK, width: CURVE };
+    let illuminant = format!("Illuminant {}", subject.viewing.illuminant.name());
+    let lamp = Panel::new(x.clone(), strong, vec![line]).titled(illuminant);
+
+    let highest = functions.iter().flatten().map(|p| p.1).fold(0.0, f64::max);
+    let response = Axis::around("Response", "peak of y = 1", 0.0, highest, 4);
+    let mut observer = Panel::new(x.clone(), response, Vec::new())
+        .titled(format!("Observer {}", subject.viewing.observer));
+    for (points, (name, colour)) in functions.into_iter().zip(CHANNELS) {
+        observer.marks.push(Mark::Line { points, colour, width: CURVE });
+        observer = observer.with_key(Sign::Line, colour, name.to_lowercase());
+    }
+
+    let values = || chosen.rule.weights.iter().flatten().copied();
+    let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+    let weight = Axis::linear("Weight", "white Y = 100", 1.2 * low, 1.05 * high, 4);
+    let zero = vec![(x.low, 0.0), (x.high, 0.0)];
+    let mut marks = vec![Mark::Line { points: zero, colour: FAINT, width: HAIR }];
+    for (nm, weights) in chosen.rule.nodes_nm.iter().zip(&chosen.rule.weights) {
+        for (channel, (weight, (_, colour))) in weights.iter().zip(CHANNELS).enumerate() {
+            let at = nm + 2.6 * (channel as f64 - 1.0);
+            let (from, to) = ((at - 1.2, 0.0), (at + 1.2, *weight));
+            marks.push(Mark::Bar { from, to, colour });
+        }
+    }
+    let mut stems = Panel::new(x, weight, marks).titled("Eight chosen wavelengths");
+    for (name, colour) in CHANNELS {
+        stems = stems.with_key(Sign::Patch, colour, name);
+    }
+
+    let words = Words {
+        name: "light",
+        title: "Light, observer, and eight wavelengths that stand for both",
+        caption: "The wavelengths and weights (method library) keep the colour of what this library can mix; reflectance at each of them, times its three weights, sums to X, Y and Z. Bars of one wavelength stand side by side around it.",
+        alt: "Three charts over wavelength: power of the light, the observer's functions, and bars of weights at eight wavelengths.",
+    };
+    let chart = Chart::stacked(vec![(lamp, 110.0), (observer, 140.0), (stems, 150.0)]);
+    subject.figure(words, Drawing::Chart(chart), data)
+}
+
+fn nodes(chosen: &QuadratureTrial) -> Table {
+    let mut table = Table::new([
+        Column::quantity("Wavelength", "nm", 2),
+        Column::quantity("X", "weight", 4),
+        Column::quantity("Y", "weight", 4),
+        Column::quantity("Z", "weight", 4),
+    ]);
+    for (nm, [x, y, z]) in chosen.rule.nodes_nm.iter().zip(&chosen.rule.weights) {
+        table.push([*nm, *x, *y, *z].map(Cell::from));
+    }
+    table
+}
+
+fn errors(subject: &Subject<'_>) -> Figure {
+    let mut data = Table::new([
+        Column::words("method"),
+        Column::quantity("wavelengths", "1", 0),
+        Column::quantity("mean", "CIEDE2000", 3),
+        Column::quantity("95 % below", "CIEDE2000", 3),
+        Column::quantity("largest", "CIEDE2000", 3),
+    ]);
+    for QuadratureTrial { method, rule, error } in &subject.quadratures {
+        let count = rule.nodes_nm.len() as f64;
+        let numbers = [count, error.mean, error.p95, error.max].map(Cell::from);
+        let row: Vec<Cell> = std::iter::once(method.name().into()).chain(numbers).collect();
+        data.push(row);
+    }
+    let counts = || subject.quadratures.iter().map(|trial| trial.rule.nodes_nm.len() as f64);
+    let (fewest, most) = (counts().fold(f64::INFINITY, f64::min), counts().fold(0.0, f64::max));
+    let mut x = Axis::linear("Number of wavelengths", "count", fewest - 0.5, most + 0.5, 16);
+    x.ticks.retain(|(count, _)| *count >= fewest && *count <= most);
+    let errors = || subject.quadratures.iter().map(|trial| trial.error);
+    let low = errors().map(|error| error.mean).fold(f64::INFINITY, f64::min);
+    let y =
+        Axis::log("Colour error", "CIEDE2000", low, errors().map(|e| e.p95).fold(0.0, f64::max), 4);
+    let mut panel = Panel::new(x, y, Vec::new());
+    for (method, colour) in QuadratureMethod::ALL.into_iter().zip([SERIES[1], SERIES[2], SERIES[0]])
+    {
+        let of = |value: fn(&QuadratureTrial) -> f64| -> Vec<Point> {
+            let trials = subject.quadratures.iter().filter(|trial| trial.method == method);
+            trials.map(|trial| (trial.rule.nodes_nm.len() as f64, value(trial))).collect()
+        };
+        let mean = of(|trial| trial.error.mean);
+        panel.marks.push(Mark::Dashes { points: of(|trial| trial.error.p95), colour });
+        panel.marks.push(Mark::Dots { points: mean.clone(), colour, radius: 2.0 * DOT });
+        panel.marks.push(Mark::Line { points: mean, colour, width: CURVE });
+        panel = panel.with_key(Sign::Line, colour, format!("{}, mean", method.name()));
+    }
+    let panel = panel.with_key(Sign::Dashes, INK, "95 % below");
+    let words = Words {
+        name: "wavelengths",
+        title: "What few wavelengths cost in colour",
+        caption: &format!(
+            "Colour error of each method against full integration, over 1000 random mixtures of this library that no method was fitted to ({}).",
+            subject.light()
+        ),
+        alt: "Curves of colour error falling with the number of wavelengths, one for each method.",
+    };
+    subject.figure(words, Drawing::Chart(Chart::single(panel, 300.0)), data)
+}

@@ -1,0 +1,200 @@
+//! The page: one HTML file that loads nothing.
+
+use std::fmt::Write;
+
+use crate::figure::Figure;
+use crate::style::{Colour, RESERVED};
+use crate::subject::{Part, Section};
+use crate::svg::escaped;
+use crate::table::{Cell, Column, Table};
+
+/// What stands above the sections.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Head {
+    /// The title.
+    pub title: String,
+    /// Facts, each with its name.
+    pub facts: Vec<(String, String)>,
+    /// What a reader must know before trusting the rest.
+    pub warnings: Vec<String>,
+}
+
+/// The page. Links to `figures/NAME.svg` and so on lead to the figures' files.
+#[must_use]
+pub fn html(head: &Head, sections: &[Section]) -> String {
+    let title = escaped(&head.title);
+    let style = style(sections);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <link rel=\"icon\" href=\"data:,\">\n\
+         <title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n"
+    );
+    out += &contents(sections);
+    out += &format!("<main>\n<header>\n<h1>{title}</h1>\n<dl>\n");
+    for (name, fact) in &head.facts {
+        out += &format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact));
+    }
+    out += "</dl>\n";
+    if !head.warnings.is_empty() {
+        out += "<details open class=\"warnings\"><summary>What the data cannot tell, or tell against themselves</summary>\n<ul>\n";
+        for warning in &head.warnings {
+            out += &format!("<li>{}</li>\n", escaped(warning));
+        }
+        out += "</ul>\n</details>\n";
+    }
+    out += "</header>\n";
+    let mut number = 0;
+    for (index, section) in sections.iter().enumerate() {
+        out += &format!("<section id=\"s{}\">\n<h2>{}</h2>\n", index + 1, escaped(&section.title));
+        for words in &section.words {
+            out += &format!("<p>{}</p>\n", escaped(words));
+        }
+        for part in &section.parts {
+            match part {
+                Part::Figure(figure) => {
+                    number += 1;
+                    out += &figure_html(figure, number);
+                }
+                Part::Table(title, table) => out += &table_html(title, table),
+            }
+        }
+        out += "</section>\n";
+    }
+    out += "</main>\n</body>\n</html>\n";
+    out
+}
+
+fn contents(sections: &[Section]) -> String {
+    let mut out = String::from("<nav aria-label=\"contents\">\n<ol>\n");
+    let mut number = 0;
+    for (index, section) in sections.iter().enumerate() {
+        out += &format!("<li><a href=\"#s{}\">{}</a>\n<ol>\n", index + 1, escaped(&section.title));
+        for figure in section.figures() {
+            number += 1;
+            let (name, title) = (&figure.name, escaped(&figure.title));
+            out += &format!("<li><a href=\"#{name}\">{number}. {title}</a></li>\n");
+        }
+        out += "</ol></li>\n";
+    }
+    out + "</ol>\n</nav>\n"
+}
+
+fn figure_html(figure: &Figure, number: usize) -> String {
+    let Figure { name, title, caption, command, svg, .. } = figure;
+    let [title, caption, command] = [title, caption, command].map(|text| escaped(text));
+    let files = ["svg", "png", "csv"]
+        .map(|ending| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase()));
+    format!(
+        "<figure id=\"{name}\">\n{svg}<figcaption><b>Figure {number}. {title}.</b> {caption}\n\
+         <span class=\"made\">{} &middot; <code>{command}</code></span></figcaption>\n</figure>\n",
+        files.join(" ")
+    )
+}
+
+fn table_html(title: &str, table: &Table) -> String {
+    let mut out =
+        format!("<div class=\"table\"><table>\n<caption>{}</caption>\n<thead><tr>", escaped(title));
+    let class = |column: &Column| if column.unit.is_some() { " class=\"n\"" } else { "" };
+    for column in &table.columns {
+        // A ratio needs no unit to be read.
+        let unit = column.unit.as_deref().filter(|unit| *unit != "1");
+        let unit = unit.map(|unit| format!(" <small>{}</small>", escaped(unit)));
+        let (class, name) = (class(column), escaped(&column.name));
+        let _ = write!(out, "<th scope=\"col\"{class}>{name}{}</th>", unit.unwrap_or_default());
+    }
+    out += "</tr></thead>\n<tbody>\n";
+    for row in &table.rows {
+        out += "<tr>";
+        for (cell, column) in row.iter().zip(&table.columns) {
+            let class = class(column);
+            let _ = match cell {
+                Cell::Words(words) => write!(out, "<td{class}>{}</td>", escaped(words)),
+                Cell::Number(number) => write!(out, "<td{class}>{number:.*}</td>", column.digits),
+                Cell::Patch(colour) => write!(
+                    out,
+                    "<td class=\"c\"><i class=\"patch\" style=\"background:{hex}\"></i> <code>{hex}</code></td>",
+                    hex = colour.hex()
+                ),
+                Cell::Empty => write!(out, "<td{class}></td>"),
+            };
+        }
+        out += "</tr>\n";
+    }
+    out + "</tbody>\n</table></div>\n"
+}
+
+/// The style sheet; in the dark, strokes and words of figures are exchanged for
+/// lighter ones.
+fn style(sections: &[Section]) -> String {
+    let mut colours: Vec<Colour> =
+        sections.iter().flat_map(Section::figures).flat_map(Figure::line_colours).collect();
+    colours.sort_unstable();
+    colours.dedup();
+    let mut dark = String::new();
+    for (reserved, instead) in RESERVED {
+        let (from, to) = (reserved.hex(), instead.hex());
+        dark +=
+            &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
+    }
+    for colour in colours.into_iter().filter(|c| RESERVED.iter().all(|(r, _)| r != c)) {
+        let (from, to) = (colour.hex(), colour.for_line_in_the_dark().hex());
+        dark += &format!(
+            "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
+        );
+    }
+    let [ink, faint, grid, paper] = RESERVED.map(|(light, dark)| (light.hex(), dark.hex()));
+    format!(
+        ":root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#0057A0}}\n{STYLE}\
+         @media screen and (prefers-color-scheme:dark){{\n\
+         :root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#7FB8F0}}\n{dark}}}\n",
+        ink.0, faint.0, grid.0, paper.0, ink.1, faint.1, grid.1, paper.1
+    )
+}
+
+const STYLE: &str = "\
+:root{color-scheme:light dark}
+*{box-sizing:border-box}
+body{margin:0;color:var(--ink);background:var(--paper);font:15px/1.5 Ubuntu,system-ui,sans-serif}
+a{color:var(--link)}
+nav{position:fixed;inset:0 auto 0 0;width:250px;overflow-y:auto;padding:20px 16px;border-right:1px solid var(--grid);font-size:13px;line-height:1.35}
+nav ol{list-style:none;margin:0;padding:0}
+nav>ol>li{margin:0 0 12px;font-weight:600}
+nav ol ol{font-weight:400;padding:4px 0 0 8px}
+nav li li{margin:4px 0}
+nav a{text-decoration:none}
+main{max-width:1040px;margin-left:250px;padding:20px 28px 60px}
+h1{font-size:26px;line-height:1.2;margin:0 0 12px}
+h2{font-size:20px;margin:36px 0 8px;padding-top:12px;border-top:1px solid var(--grid)}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:0 0 16px}
+dt{color:var(--faint)}
+dd{margin:0;overflow-wrap:anywhere}
+.warnings{border-left:3px solid var(--faint);padding:2px 14px}
+summary{font-weight:600}
+.warnings ul{margin:6px 0;padding-left:18px}
+figure{margin:18px 0 28px}
+figure svg{display:block;max-width:100%;height:auto}
+figcaption{max-width:960px;font-size:14px}
+.made{display:block;color:var(--faint);font-size:12px}
+.made a{margin-right:4px}
+code{font:12px/1.4 ui-monospace,Hack,monospace;overflow-wrap:anywhere}
+.table{overflow-x:auto;margin:18px 0}
+table{border-collapse:collapse;font-size:13.5px}
+caption{text-align:left;font-weight:600;padding-bottom:6px}
+th,td{padding:2px 14px 2px 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
+th{vertical-align:bottom}
+th small{display:block;font-weight:400;color:var(--faint)}
+.c{white-space:nowrap}
+.n{text-align:right;font-variant-numeric:tabular-nums}
+.patch{display:inline-block;width:28px;height:13px;vertical-align:-2px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+@media (max-width:1100px){nav{position:static;width:auto;border:0}main{margin:0}}
+@media print{
+@page{margin:14mm}
+nav{display:none}
+main{margin:0;padding:0;max-width:none}
+figure,tr{break-inside:avoid}
+h2{break-after:avoid}
+figure svg{max-height:230mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+body{font-size:10pt}
+}
+";

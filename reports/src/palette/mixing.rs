@@ -1,0 +1,130 @@
+//! Mixing charts, tints and drawdowns, drawn.
+
+use calibrate::palette::{CHART_TINT, Palette, TINTS, mixing_chart, tint_ladders};
+
+use super::cells::{columns, row};
+use super::patch::{patch, rim, rimmed};
+use super::{NOTCH, card, films, palette, thinner};
+use crate::figure::{Drawing, Figure, Words};
+use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
+use crate::subject::{Section, Subject};
+use crate::svg::{Anchor, Canvas, estimated_width, shortened};
+use crate::table::{Column, Table};
+
+const NAME: f64 = 170.0;
+
+pub(crate) fn section(subject: &Subject<'_>) -> Section {
+    let section = Section::new("What the paints mix");
+    let Some(palette) = palette(subject) else { return section };
+    let left_out: Vec<String> = palette.left_out().into_iter().map(|p| subject.label(p)).collect();
+    let section = if left_out.is_empty() {
+        section
+    } else {
+        section.saying(format!(
+            "Left out of all mixtures, since their scattering is not known: {}.",
+            left_out.join(", ")
+        ))
+    };
+    section
+        .with(chart(subject, &palette))
+        .with(tints(subject, &palette))
+        .with(card::figure(subject, &palette))
+}
+
+fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
+    let chart = mixing_chart(palette);
+    let count = chart.paints.len();
+    let names: Vec<String> = chart.paints.iter().map(|&p| subject.label(p)).collect();
+    let own = [
+        Column::words("first"),
+        Column::words("second"),
+        Column::quantity("parts of white or water to one", "1", 0),
+    ];
+    let mut data = Table::new(columns(own));
+    for (i, first) in names.iter().enumerate() {
+        for (j, second) in names.iter().enumerate().skip(i) {
+            for (parts, looks) in [(0.0, &chart.colours), (CHART_TINT, &chart.tinted)] {
+                let own = [first.as_str().into(), second.as_str().into(), parts.into()];
+                data.push(row(own, &looks[i][j]));
+            }
+        }
+    }
+    let cell = ((f64::from(WIDTH) - NAME - 10.0) / count as f64).min(48.0);
+    let longest = names.iter().map(|name| estimated_width(name, TEXT)).fold(0.0, f64::max);
+    let head = longest.min(NAME) + 12.0;
+    let side = cell * count as f64;
+    let mut canvas = Canvas::new(WIDTH, (head + side + 8.0).ceil() as u32);
+    rim(&mut canvas, (NAME, head), (side, side));
+    for (i, name) in names.iter().enumerate() {
+        let name = shortened(name, TEXT, NAME - 12.0);
+        let middle = (i as f64 + 0.5) * cell;
+        canvas.text((NAME - 8.0, head + middle), TEXT, Anchor::End, INK, &name);
+        canvas.text_upwards((NAME + middle, head - 6.0), TEXT, INK, &name);
+        for j in 0..count {
+            let at = (NAME + j as f64 * cell, head + i as f64 * cell);
+            if i == j {
+                patch(&mut canvas, at, (cell, cell), &chart.colours[i][i]);
+            } else {
+                let looks = if j < i { &chart.colours } else { &chart.tinted };
+                let at = (at.0 + 1.0, at.1 + 1.0);
+                patch(&mut canvas, at, (cell - 2.0, cell - 2.0), &looks[i][j]);
+            }
+        }
+    }
+    let thinner = thinner(palette);
+    let caption = format!(
+        "Below the diagonal every two pigments one part to one; above it the same with {CHART_TINT} parts of {thinner} to one of the mixture; on it each by itself. {} {NOTCH}",
+        films(palette)
+    );
+    let words = Words {
+        name: "mixing-chart",
+        title: "Mixing chart",
+        caption: &caption,
+        alt: "A square of patches, each the mixture of the pigment of its row with that of its column.",
+    };
+    subject.figure(words, Drawing::Canvas(canvas), data)
+}
+
+fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
+    const ROW: f64 = 30.0;
+    const HEAD: f64 = 22.0;
+    let ladders = tint_ladders(palette);
+    let own =
+        [Column::words("pigment"), Column::quantity("parts of white or water to one", "1", 0)];
+    let mut data = Table::new(columns(own));
+    let blocks = if ladders.len() > 6 { 2 } else { 1 };
+    let rows = ladders.len().div_ceil(blocks);
+    let block = f64::from(WIDTH) / blocks as f64;
+    let step = (block - NAME - 12.0) / TINTS.len() as f64;
+    let mut canvas = Canvas::new(WIDTH, (HEAD + ROW * rows as f64 + 4.0).ceil() as u32);
+    for index in 0..blocks {
+        for (place, parts) in TINTS.iter().enumerate() {
+            let label = if *parts == 0.0 { "masstone".to_owned() } else { format!("1 : {parts}") };
+            let x = index as f64 * block + NAME + (place as f64 + 0.5) * step;
+            canvas.text((x, HEAD - 10.0), SMALL_TEXT, Anchor::Middle, FAINT, &label);
+        }
+    }
+    for (index, ladder) in ladders.iter().enumerate() {
+        let (x, y) = ((index / rows) as f64 * block + NAME, HEAD + (index % rows) as f64 * ROW);
+        let name = subject.label(ladder.paint);
+        let shown = shortened(&name, TEXT, NAME - 12.0);
+        canvas.text((x - 8.0, y + ROW / 2.0), TEXT, Anchor::End, INK, &shown);
+        for (place, (parts, look)) in TINTS.iter().zip(&ladder.colours).enumerate() {
+            let at = (x + place as f64 * step, y + 2.0);
+            rimmed(&mut canvas, at, (step, ROW - 5.0), look);
+            data.push(row([name.as_str().into(), (*parts).into()], look));
+        }
+    }
+    let thinner = thinner(palette);
+    let caption = format!(
+        "Each pigment by itself, then one part of it to 1, 3, 9 and 27 parts of {thinner}. {} {NOTCH}",
+        films(palette)
+    );
+    let words = Words {
+        name: "tints",
+        title: "Tints of every pigment",
+        caption: &caption,
+        alt: "For each pigment a row of patches from the masstone to a pale tint.",
+    };
+    subject.figure(words, Drawing::Canvas(canvas), data)
+}

@@ -1,0 +1,79 @@
+//! Figures as PNG, twice as fine as on the screen; the only file that names
+//! resvg.
+//!
+//! The fonts are those of this crate, none of the machine's, so that the same
+//! figure gives the same bytes everywhere.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb::Database};
+
+const SCALE: f32 = 2.0;
+
+/// `svg` as the bytes of a PNG.
+///
+/// # Errors
+/// [`PictureError`] if `svg` is no SVG, or is empty or too large to paint.
+pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
+    let wrong = |what: String| PictureError { what };
+    let options = Options { fontdb: fonts(), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).map_err(|error| wrong(error.to_string()))?;
+    let size = tree.size().to_int_size().scale_by(SCALE);
+    let size = size.ok_or_else(|| wrong("an empty drawing".to_owned()))?;
+    let mut pixmap = Pixmap::new(size.width(), size.height())
+        .ok_or_else(|| wrong(format!("{} x {} px", size.width(), size.height())))?;
+    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|error| wrong(error.to_string()))
+}
+
+fn fonts() -> Arc<Database> {
+    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
+    let load = || {
+        let mut database = Database::new();
+        for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
+            database.load_font_data(font.to_vec());
+        }
+        let first = database.faces().next().and_then(|face| face.families.first().cloned());
+        if let Some((family, _)) = first {
+            database.set_sans_serif_family(family);
+        }
+        Arc::new(database)
+    };
+    Arc::clone(FONTS.get_or_init(load))
+}
+
+/// A drawing that cannot be painted.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("a figure cannot be painted: {what}")]
+pub struct PictureError {
+    /// Why.
+    pub what: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_painted_with_the_fonts_at_hand() {
+        let svg = |text: &str| {
+            format!(
+                r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20" font-family="Nowhere,sans-serif"><text x="2" y="15" font-size="14" fill="#000000">{text}</text></svg>"##
+            )
+        };
+        let ink = |text: &str| {
+            let picture = Pixmap::decode_png(&png(&svg(text)).unwrap()).unwrap();
+            assert_eq!((picture.width(), picture.height()), (80, 40));
+            picture.pixels().iter().filter(|pixel| pixel.alpha() > 0).count()
+        };
+        assert_eq!(ink(""), 0);
+        // Latin, and Greek that the figures use.
+        assert!(ink("M") > 40 && ink("\u{39b}") > 20, "{} {}", ink("M"), ink("\u{39b}"));
+    }
+
+    #[test]
+    fn what_is_no_drawing_is_refused() {
+        assert!(png("<b>no</b>").is_err(), "it is no SVG");
+    }
+}

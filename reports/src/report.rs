@@ -1,0 +1,203 @@
+//! The report: sections in order, drawn side by side, and the files they make.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use calibrate::comparison::Comparison;
+use calibrate::evaluate::Summary;
+use calibrate::validation::Validation;
+
+use crate::figure::Figure;
+use crate::page::{self, Head};
+use crate::picture::{PictureError, png};
+use crate::subject::{Section, Subject};
+
+/// What draws a section.
+type Drawer = fn(&Subject<'_>) -> Section;
+
+/// Every section, in the order of the page.
+const SECTIONS: [Drawer; 11] = [
+    crate::samples::section,
+    crate::errors::section,
+    crate::left_out::section,
+    crate::residuals::section,
+    crate::curves::section,
+    crate::palette::mixing,
+    crate::palette::graded,
+    crate::palette::gamut,
+    crate::palette::strength,
+    crate::palette::lights,
+    crate::light::section,
+];
+
+/// How many steps [`drawn`] reports.
+pub const STEPS: usize = SECTIONS.len();
+
+/// A report, drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// What stands above the sections.
+    pub head: Head,
+    /// The sections that have something to show.
+    pub sections: Vec<Section>,
+    pictures: Vec<Vec<u8>>,
+}
+
+/// Draws every section of `subject` on all cores, calling `step` after each.
+///
+/// # Errors
+/// [`PictureError`] if a figure cannot be painted.
+///
+/// # Panics
+/// If drawing a section does.
+pub fn drawn(
+    subject: &Subject<'_>,
+    head: Head,
+    step: &(dyn Fn() + Sync),
+) -> Result<Report, PictureError> {
+    let mut sections = on_all_cores(&SECTIONS, |section| {
+        let section = section(subject);
+        step();
+        section
+    });
+    sections.retain(|section| !section.is_empty());
+    let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();
+    let pictures = on_all_cores(&figures, |figure| png(&figure.svg));
+    let pictures = pictures.into_iter().collect::<Result<_, _>>()?;
+    Ok(Report { head, sections, pictures })
+}
+
+/// What stands above the sections of a report on `subject`.
+#[must_use]
+pub fn head(subject: &Subject<'_>) -> Head {
+    let library = subject.library;
+    let fact = |name: &str, fact: String| (name.to_owned(), fact);
+    let mut facts = vec![
+        fact("Pigments", library.pigments.len().to_string()),
+        fact("Wavelengths", library.grid.to_string()),
+        fact("K and S", subject.unit()),
+        fact("Surface", format!("k1 = {}, k2 = {}", library.saunderson.k1, library.saunderson.k2)),
+    ];
+    if library.unevenness > 0.0 {
+        facts.push(fact("Unevenness", library.unevenness.to_string()));
+    }
+    facts.push(fact("Light", subject.light()));
+    if let Some(Comparison { films, delta_e, .. }) = &subject.comparison {
+        let samples = films.iter().filter(|film| !film.unsure).count();
+        facts.push(fact("Fitted", errors(samples, "samples", delta_e)));
+    }
+    if let Some(Validation { per_sample, delta_e, .. }) = &subject.validation {
+        facts.push(fact("Left out", errors(per_sample.len(), "mixtures", delta_e)));
+    }
+    facts.push(fact("Source", library.source.clone()));
+    facts.push(fact("Licence", library.licence.clone()));
+    for input in &library.inputs {
+        facts.push(fact("Fitted to", format!("{} (SHA-256 {})", input.path, input.sha256)));
+    }
+    facts.push(fact("Made by", subject.command.clone()));
+    let mut warnings = Vec::new();
+    for pigment in &library.pigments {
+        // A fit tells the same among its warnings.
+        if library.evidence.is_none() {
+            warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
+        }
+        if pigment.guessed {
+            warnings.push(format!("{}: guessed from a colour, not measured", pigment.name));
+        }
+    }
+    warnings.extend(subject.comparison.iter().flat_map(absences));
+    warnings.extend(library.evidence.iter().flat_map(|evidence| evidence.warnings.clone()));
+    let title = if library.title.is_empty() { "A pigment library" } else { &library.title };
+    Head { title: title.to_owned(), facts, warnings }
+}
+
+fn errors(count: usize, what: &str, errors: &Summary) -> String {
+    format!(
+        "{count} {what}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
+        errors.mean, errors.median, errors.p90, errors.max
+    )
+}
+
+/// How many samples a warning names.
+const NAMED: usize = 20;
+
+/// What of the measurements is not shown, or not as it was measured.
+#[must_use]
+pub fn absences(comparison: &Comparison) -> Vec<String> {
+    let resampled = comparison
+        .resampled_from
+        .map(|grid| format!("the readings ({grid}) were brought to the library's wavelengths"));
+    let absent = &comparison.absent;
+    let mut lacking: Vec<&str> =
+        absent.iter().flat_map(|(_, pigments)| pigments.iter().map(String::as_str)).collect();
+    lacking.sort_unstable();
+    lacking.dedup();
+    let samples: Vec<&str> = absent.iter().map(|(sample, _)| sample.as_str()).collect();
+    let absent = (!samples.is_empty()).then(|| {
+        let more = samples.len().saturating_sub(NAMED);
+        format!(
+            "left out of this report, since the library has no {}: {}{}",
+            lacking.join(", no "),
+            samples[..samples.len() - more].join(", "),
+            if more > 0 { format!(" and {more} more") } else { String::new() }
+        )
+    });
+    resampled.into_iter().chain(absent).collect()
+}
+
+impl Report {
+    /// Its figures, in the order of the page.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.sections.iter().flat_map(Section::figures)
+    }
+
+    /// Its files with their contents, by path below the report's folder; the
+    /// page comes last, when all it links to is there.
+    #[must_use]
+    pub fn files(&self) -> Vec<(String, Vec<u8>)> {
+        let mut files = Vec::new();
+        for (figure, picture) in self.figures().zip(&self.pictures) {
+            let path = |ending: &str| format!("figures/{}.{ending}", figure.name);
+            files.push((path("svg"), figure.svg.clone().into_bytes()));
+            files.push((path("png"), picture.clone()));
+            files.push((path("csv"), figure.data.csv().into_bytes()));
+        }
+        let page = page::html(&self.head, &self.sections);
+        files.push(("report.html".to_owned(), page.into_bytes()));
+        files
+    }
+}
+
+/// What `work` makes of each item, in their order.
+fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let made = Mutex::new(Vec::new());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..cores.min(items.len()) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(index) else { break };
+                    let result = work(item);
+                    made.lock().expect("no other thread panicked").push((index, result));
+                }
+            });
+        }
+    });
+    let mut made = made.into_inner().expect("no thread panicked");
+    made.sort_by_key(|(index, _)| *index);
+    made.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_on_all_cores_keeps_its_order() {
+        let items: Vec<u64> = (0..40).collect();
+        let squares: Vec<u64> = items.iter().map(|i| i * i).collect();
+        assert_eq!(on_all_cores(&items, |i| i * i), squares);
+    }
+}

@@ -1,0 +1,103 @@
+//! Hiding power.
+
+use calibrate::evaluate::Viewing;
+use calibrate::library::{AmountKind, Pigment};
+use calibrate::palette::{Cards, Hides, Palette, PaletteError, hiding_powers};
+use suite::near::assert_near;
+
+use crate::made::{Oils, band, even, grid, library};
+
+fn cards(black: f64, white: f64) -> Cards {
+    let standard = Cards::standard(grid());
+    let even = |value| vec![value; grid().count()];
+    Cards { black: even(black), white: even(white), ..standard }
+}
+
+fn hides(pigment: Pigment, cards: Cards) -> Hides {
+    let library = library(vec![pigment], AmountKind::Relative);
+    let viewing = Viewing::default();
+    hiding_powers(&Palette::new(&library, &viewing, cards).unwrap())[0].hides
+}
+
+#[test]
+fn a_film_that_absorbs_nothing_hides_where_its_quadratic_says() {
+    // R over black is x / (1 + x), over a card g (g + x (1 - g)) / (1 + x (1 - g)),
+    // x = S d. With g = 0.8 a ratio of 0.98 is 0.004 x^2 + 0.02 x - 0.784 = 0.
+    let x = (-0.02 + (0.02f64.powi(2) + 4.0 * 0.004 * 0.784).sqrt()) / 0.008;
+    let Hides::From(thickness) = hides(even("milk", 0.0, 2.0), cards(0.0, 0.8)) else {
+        panic!("a film that scatters hides")
+    };
+    assert_near("thickness", &[thickness], &[x / 2.0], 1e-9);
+}
+
+#[test]
+fn twice_the_paint_hides_at_half_the_thickness() {
+    let at = |factor: f64| {
+        let paint = even("grey", 0.3 * factor, 0.7 * factor);
+        hides(paint, Cards::standard(grid())).thickness().unwrap()
+    };
+    assert_near("half", &[at(2.0)], &[at(1.0) / 2.0], 1e-9);
+}
+
+#[test]
+fn clear_films_never_hide() {
+    let standard = Cards::standard(grid());
+    let Hides::Never { contrast } = hides(even("nothing", 0.0, 0.0), standard.clone()) else {
+        panic!("no film hides nothing")
+    };
+    assert_near("the cards' own", &[contrast], &[0.05 / 0.8], 1e-12);
+    // A dye that lets the rest of the spectrum through.
+    let mut dye = band("dye", 2.0, 550.0, 0.0);
+    dye.absorption.iter_mut().for_each(|k| *k -= 0.01);
+    dye.absorption[25..].fill(0.0);
+    assert!(matches!(hides(dye, standard), Hides::Never { contrast } if contrast < 0.1));
+}
+
+#[test]
+fn a_black_glaze_hides_once_no_eye_sees_the_card() {
+    // Y over the cards is 80 and 5, each times exp(-2 K d).
+    let Hides::From(thickness) = hides(even("ink", 0.5, 0.0), Cards::standard(grid())) else {
+        panic!("black hides")
+    };
+    assert_near("thickness", &[thickness], &[(75.0f64 / 0.02).ln()], 1e-9);
+}
+
+#[test]
+fn cards_that_are_alike_need_no_film() {
+    assert_eq!(hides(even("milk", 0.0, 2.0), cards(0.5, 0.5)), Hides::From(0.0));
+}
+
+#[test]
+fn every_oil_hides_where_its_contrast_says_and_not_below() {
+    let oils = Oils::fitted();
+    let palette = oils.palette();
+    assert!(palette.cards().black_measured && palette.cards().white_measured);
+    let powers = hiding_powers(&palette);
+    assert_eq!(powers.len(), 18);
+    for power in powers {
+        let name = palette.label(power.paint);
+        let thickness = power.hides.thickness().unwrap_or_else(|| panic!("{name} never hides"));
+        let contrast = |thickness: f64| {
+            let mixture = oils.library.mix(&[(power.paint, 1.0)]).unwrap();
+            let y = |card: &[f64]| {
+                let film = mixture.film(thickness, card, oils.library.film());
+                palette.weights().xyz(&film).y
+            };
+            y(&palette.cards().black) / y(&palette.cards().white)
+        };
+        assert_near(&name, &[contrast(thickness)], &[0.98], 1e-9);
+        assert!(contrast(0.98 * thickness) < 0.98, "{name} hides below {thickness}");
+        for thicker in [1.1, 2.0, 10.0, 1000.0] {
+            assert!(contrast(thicker * thickness) >= 0.98, "{name} at {thicker} x {thickness}");
+        }
+    }
+}
+
+#[test]
+fn a_card_on_other_wavelengths_is_refused() {
+    let library = library(vec![even("milk", 0.0, 2.0)], AmountKind::Relative);
+    let viewing = Viewing::default();
+    let short = Cards { white: vec![0.8; 30], ..Cards::standard(grid()) };
+    let refused = Palette::new(&library, &viewing, short).unwrap_err();
+    assert_eq!(refused, PaletteError::Cards { wanted: 31, found: 30 });
+}

@@ -1,0 +1,81 @@
+//! A few oils, one of them with a name that is markup, and a report on them.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use suite::program::{Run, impasto, repository};
+
+/// What cobalt blue is called here.
+pub const HOSTILE: &str = "<b>&\"";
+
+/// The shipped oils of zinc white, bone black, cobalt blue and Prussian blue, and a
+/// zinc white of which there is only a masstone; cobalt blue renamed.
+pub fn readings() -> String {
+    let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.csv")).unwrap();
+    let (header, rows) = oils.split_once('\n').unwrap();
+    let renamed = header.replace(",Cobalt Blue,", ",\"<b>&\"\"\",");
+    assert_ne!(renamed, header);
+    let wanted = |row: &&str| {
+        let chosen = ["07", "12", "13"].iter().any(|start| row.starts_with(start));
+        chosen || row.split(',').nth(1) == Some("none")
+    };
+    let rows: Vec<&str> = rows.lines().filter(wanted).collect();
+    format!("{renamed}\n{}\n", rows.join("\n"))
+}
+
+/// A folder with `readings.csv` and the library fitted to it, `library.json`.
+pub struct Work {
+    folder: tempfile::TempDir,
+}
+
+impl Work {
+    pub fn new() -> Self {
+        let work = Self { folder: tempfile::tempdir().unwrap() };
+        std::fs::write(work.path("readings.csv"), readings()).unwrap();
+        let (csv, json) = (work.text("readings.csv"), work.text("library.json"));
+        let fit = impasto(&["fit", &csv, "--output", &json, "--title", HOSTILE]);
+        assert_eq!(fit.status, 0, "{}", fit.err);
+        work
+    }
+
+    pub fn path(&self, inside: &str) -> PathBuf {
+        self.folder.path().join(inside)
+    }
+
+    pub fn text(&self, inside: &str) -> String {
+        self.path(inside).display().to_string()
+    }
+
+    /// A report on the library, with further arguments.
+    pub fn report(&self, out: &str, more: &[&str]) -> Run {
+        let (library, out) = (self.text("library.json"), self.text(out));
+        impasto(&[&["report", &library, "--out", &out], more].concat())
+    }
+}
+
+/// The report of all there is, made once.
+pub fn whole() -> &'static Work {
+    static WORK: OnceLock<Work> = OnceLock::new();
+    WORK.get_or_init(|| {
+        let work = Work::new();
+        let run = work.report("out", &[&work.text("readings.csv")]);
+        assert_eq!(run.status, 0, "{}", run.err);
+        work
+    })
+}
+
+/// Every file below `folder` with its bytes, by path.
+pub fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    for inside in [folder.to_owned(), folder.join("figures")] {
+        for entry in std::fs::read_dir(inside).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                let name = path.strip_prefix(folder).unwrap().display().to_string();
+                found.push((name, std::fs::read(path).unwrap()));
+            }
+        }
+    }
+    found.sort();
+    found
+}

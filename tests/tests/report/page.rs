@@ -1,0 +1,74 @@
+//! The page.
+
+use crate::made::whole;
+
+fn page() -> String {
+    std::fs::read_to_string(whole().path("out/report.html")).unwrap()
+}
+
+#[test]
+fn it_loads_nothing() {
+    let page = page();
+    for loading in ["<script", "<iframe", "<object", "<embed", "<img", "@import", "url(", "src="] {
+        assert!(!page.contains(loading), "{loading}");
+    }
+    // Links lead to figures, to places on the page, or to nothing at all.
+    let links: Vec<&str> =
+        page.split("href=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert!(links.len() > 20, "{links:?}");
+    for link in links {
+        let near = link.starts_with('#') || link.starts_with("figures/") || link == "data:,";
+        assert!(near, "{link}");
+        if let Some(file) = link.strip_prefix("figures/") {
+            assert!(whole().path("out/figures").join(file).is_file(), "{link} leads nowhere");
+        }
+        if let Some(place) = link.strip_prefix('#') {
+            assert!(page.contains(&format!("id=\"{place}\"")), "{link} leads nowhere");
+        }
+    }
+    let elsewhere = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    assert!(!elsewhere.contains("http:") && !elsewhere.contains("https:"), "an address is left");
+}
+
+#[test]
+fn names_are_text() {
+    let page = page();
+    assert!(!page.contains("<b>&"), "a name became markup");
+    assert!(page.contains("<title>&lt;b&gt;&amp;&quot;</title>"), "the title is shown");
+    assert!(page.contains("% &lt;b&gt;&amp;&quot;"), "recipes name it");
+}
+
+#[test]
+fn every_caption_has_the_command_that_made_it() {
+    let page = page();
+    let command = format!(
+        "impasto report {} {} --out {}",
+        whole().text("library.json"),
+        whole().text("readings.csv"),
+        whole().text("out")
+    );
+    let captions = page.matches("<figcaption>").count();
+    assert!(captions >= 8, "{captions} captions");
+    assert_eq!(
+        page.matches(&format!("<code>{command}</code></span></figcaption>")).count(),
+        captions
+    );
+}
+
+#[test]
+fn in_the_dark_ink_and_lines_are_exchanged_but_patches_are_not() {
+    let page = page();
+    let dark = page.split("prefers-color-scheme:dark").nth(1).unwrap().split("</style>").next();
+    let dark = dark.unwrap();
+    let ink = reports::style::INK.hex();
+    assert!(dark.contains(&format!("svg [fill=\"{ink}\"]{{fill:")), "{dark}");
+    let svg = std::fs::read_to_string(whole().path("out/figures/absorption.svg")).unwrap();
+    let line = svg.lines().rfind(|l| l.starts_with("<polyline") && l.contains("16")).unwrap();
+    let colour = line.split("stroke=\"").nth(1).unwrap().split('"').next().unwrap();
+    assert!(dark.contains(&format!("svg :not(rect)[stroke=\"{colour}\"]{{stroke:")), "{colour}");
+    let patches = svg.lines().filter(|l| l.starts_with("<rect")).skip(1);
+    for patch in patches {
+        let colour = patch.split(" fill=\"").nth(1).unwrap().split('"').next().unwrap();
+        assert!(!dark.contains(&format!("svg [fill=\"{colour}\"]")), "{patch}");
+    }
+}
