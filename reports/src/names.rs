@@ -83,12 +83,12 @@ mod tests {
     #[test]
     fn names_stand_apart_and_inside() {
         let frame = Frame { x: 0.0, y: 0.0, width: 100.0, height: 50.0 };
-        let points = [((50.0, 25.0), "one"), ((51.0, 25.0), "two"), ((99.0, 25.0), "edge")];
+        let points = [((50.0, 25.0), "one"), ((51.0, 25.0), "two"), ((99.0, 5.0), "edge")];
         let placed = placed(&points, &[], 10.0, frame);
         assert_eq!(placed.len(), 3);
         assert_eq!(placed[0].anchor, Anchor::Start);
         assert_eq!(placed[1].anchor, Anchor::End);
-        assert_eq!(placed[2].anchor, Anchor::Middle);
+        assert_eq!(placed[2].anchor, Anchor::End);
         let narrow = Frame { width: 50.0, ..frame };
         let cut = super::placed(&[((40.0, 25.0), "17F: a long recipe")], &[], 10.0, narrow);
         assert_eq!((cut[0].text, cut.len()), ("17F", 1));
