@@ -42,7 +42,7 @@ fn scattering(subject: &Subject<'_>) -> Figure {
             },
             quantity: "scattering S",
             of: |pigment| (&pigment.scattering, &pigment.scattering_sd),
-            axis: |unit, low, high| Axis::log("Scattering S", unit, low, high, 4),
+            axis: |unit, low, high| Axis::log("Scattering S", unit, low, high, 6),
         },
     )
 }

@@ -7,7 +7,6 @@ use crate::made::whole;
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
 fn a_browser_shows_every_figure_and_complains_of_nothing() {
     let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
     let Some(browser) = BROWSERS.iter().find(there) else {

@@ -6,15 +6,15 @@ use std::sync::OnceLock;
 use suite::program::{Run, impasto, repository};
 
 /// What cobalt blue is called here.
-pub const HOSTILE: &str = "<b>&\"";
+pub(crate) const HOSTILE: &str = "<b>&\"";
 
 /// The shipped oils of zinc white, bone black, cobalt blue and Prussian blue, and a
 /// zinc white of which there is only a masstone; cobalt blue renamed.
-pub fn readings() -> String {
+pub(crate) fn readings() -> String {
     let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.csv")).unwrap();
     let (header, rows) = oils.split_once('\n').unwrap();
     let renamed = header.replace(",Cobalt Blue,", ",\"<b>&\"\"\",");
-    assert_ne!(renamed, header);
+    assert_ne!(renamed, header, "cobalt blue is among the oils");
     let wanted = |row: &&str| {
         let chosen = ["07", "12", "13"].iter().any(|start| row.starts_with(start));
         chosen || row.split(',').nth(1) == Some("none")
@@ -24,12 +24,12 @@ pub fn readings() -> String {
 }
 
 /// A folder with `readings.csv` and the library fitted to it, `library.json`.
-pub struct Work {
+pub(crate) struct Work {
     folder: tempfile::TempDir,
 }
 
 impl Work {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let work = Self { folder: tempfile::tempdir().unwrap() };
         std::fs::write(work.path("readings.csv"), readings()).unwrap();
         let (csv, json) = (work.text("readings.csv"), work.text("library.json"));
@@ -38,23 +38,23 @@ impl Work {
         work
     }
 
-    pub fn path(&self, inside: &str) -> PathBuf {
+    pub(crate) fn path(&self, inside: &str) -> PathBuf {
         self.folder.path().join(inside)
     }
 
-    pub fn text(&self, inside: &str) -> String {
+    pub(crate) fn text(&self, inside: &str) -> String {
         self.path(inside).display().to_string()
     }
 
     /// A report on the library, with further arguments.
-    pub fn report(&self, out: &str, more: &[&str]) -> Run {
+    pub(crate) fn report(&self, out: &str, more: &[&str]) -> Run {
         let (library, out) = (self.text("library.json"), self.text(out));
         impasto(&[&["report", &library, "--out", &out], more].concat())
     }
 }
 
 /// The report of all there is, made once.
-pub fn whole() -> &'static Work {
+pub(crate) fn whole() -> &'static Work {
     static WORK: OnceLock<Work> = OnceLock::new();
     WORK.get_or_init(|| {
         let work = Work::new();
@@ -65,7 +65,7 @@ pub fn whole() -> &'static Work {
 }
 
 /// Every file below `folder` with its bytes, by path.
-pub fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for inside in [folder.to_owned(), folder.join("figures")] {
         for entry in std::fs::read_dir(inside).unwrap() {
