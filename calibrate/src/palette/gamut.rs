@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
 use spectra::color::{Adaptation, RgbSpace, Xyz, adapted};
 
+use super::between::between;
 use super::paints::{Appearance, Palette, Recipe};
 use crate::evaluate::Viewing;
 
@@ -37,7 +38,7 @@ pub struct GamutSample {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gamut {
     /// The mixtures: masstones first, then those with white and black, then at
-    /// random.
+    /// random, then those that fill gaps.
     pub samples: Vec<GamutSample>,
     white: Xyz,
 }
@@ -59,7 +60,8 @@ pub struct Boundary {
 
 /// Samples of what a palette can mix: every paint and pair, alone and with parts
 /// of white or of the darkest paint (washes also up to eight on one another), and
-/// 6000 seeded mixtures of three or four, half of them with white.
+/// 6000 seeded mixtures of three or four, half of them with white; then mixtures
+/// of neighbours where a cell between them is empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| vec![(p, 1.0)]).collect();
@@ -81,7 +83,10 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     }
     recipes.extend(random_recipes(palette));
     let sample = |recipe: Recipe| GamutSample { colour: palette.look(&recipe), recipe };
-    Gamut { samples: recipes.into_iter().map(sample).collect(), white: palette.weights().white() }
+    let mut samples: Vec<GamutSample> = recipes.into_iter().map(sample).collect();
+    let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.colour)));
+    samples.extend(filled.into_iter().map(|(recipe, colour)| GamutSample { recipe, colour }));
+    Gamut { samples, white: palette.weights().white() }
 }
 
 impl Gamut {

@@ -20,6 +20,8 @@ mod tinting_strength;
 
 mod mixing_chart;
 
+mod between;
+
 mod gamut;
 
 mod constancy;

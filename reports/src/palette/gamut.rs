@@ -18,7 +18,7 @@ use crate::table::{Cell, Column, Table};
 /// Sectors of an outline.
 const SECTORS: usize = 72;
 /// Side of a cell of a*, b*, and of x, y.
-const CELLS: [f64; 2] = [4.0, 0.0125];
+const CELLS: [f64; 2] = [4.0, 0.015];
 /// Sectors of the outline of a band, of which fewer samples tell.
 const BAND_SECTORS: usize = 36;
 /// Chroma from which a masstone is named.
@@ -69,7 +69,7 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
         .with_key(Sign::Dashes, SERIES[0], "sRGB");
 
     let caption = format!(
-        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, and random mixtures of three and four. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
+        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, random mixtures of three and four, and mixtures of neighbours where there were gaps. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
         gamut.samples.len(),
         thinner(palette),
         films(palette),
