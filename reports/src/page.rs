@@ -194,7 +194,11 @@ nav{display:none}
 main{margin:0;padding:0;max-width:none}
 figure,tr{break-inside:avoid}
 h2{break-after:avoid}
-figure svg{max-height:230mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+figure svg{max-height:195mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 body{font-size:10pt}
+table{font-size:8pt}
+th,td{padding:1px 9px 1px 0}
+.table{overflow:visible}
+.c code{display:none}
 }
 ";
