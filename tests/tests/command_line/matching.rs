@@ -78,6 +78,33 @@ fn every_spectrum_of_a_file_is_a_target_of_a_batch() {
 }
 
 #[test]
+fn bare_cards_are_targets_only_if_named_or_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = |name: &str, rows: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("sample,film,backing,400,500,600,700\n{rows}")).unwrap();
+        path.display().to_string()
+    };
+    let cards = "card,none,white,0.9,0.9,0.9,0.9\ncard,none,black,0.05,0.05,0.05,0.05\n";
+    let paint = "sand,paint,white,0.3,0.4,0.5,0.55\nsand,paint,black,0.2,0.3,0.4,0.5\n\
+                 sand,none,white,0.9,0.9,0.9,0.8\n";
+    let (alone, both) =
+        (written("cards.csv", cards), written("both.csv", &(paint.to_owned() + cards)));
+    let names = |target: &str| -> Vec<String> {
+        let told = matched(&[target, "--at-most", "2", "--count", "1"]);
+        let targets = told.as_array().unwrap().iter();
+        targets.map(|target| target["target"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&both), ["sand on white", "sand on black"]);
+    assert_eq!(names(&format!("{both}#sand")), ["sand on white", "sand on black"]);
+    assert_eq!(names(&format!("{both}#sand bare white")), ["sand bare white"]);
+    assert_eq!(names(&format!("{both}#card")), ["card bare white", "card bare black"]);
+    assert_eq!(names(&alone), ["card bare white", "card bare black"]);
+    let run = impasto(&["match", &library(), &both, "--at-most", "1"]);
+    assert!(run.err.contains("3 bare cards are no targets unless named"), "{}", run.err);
+}
+
+#[test]
 fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
     let told = matched(&["#ff00ff"]);
     assert_eq!(told[0]["reached"], false);
