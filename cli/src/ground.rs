@@ -22,8 +22,7 @@ pub(crate) fn ground(
     if let Some(value) = even {
         return Ok(vec![value; library.grid.count()]);
     }
-    let Some(Chosen { file, grid, spectra, .. }) =
-        chosen(text, &ReadingOptions::default(), console)?
+    let Some(Chosen { file, grid, spectra }) = chosen(text, &ReadingOptions::default(), console)?
     else {
         return Err(Refusal::usage(
             format!("--over takes 0 to 1, white, black or a file that exists, found `{text}`"),

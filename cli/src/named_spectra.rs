@@ -68,8 +68,6 @@ pub(crate) struct Chosen {
     pub(crate) grid: Grid,
     /// One or more, in the file's order.
     pub(crate) spectra: Vec<NamedSpectrum>,
-    /// Whether one spectrum was named, rather than a sample or the file.
-    pub(crate) one_named: bool,
 }
 
 /// The spectra that `text`, `FILE` or `FILE#NAME`, stands for; `None` if there is no such file.
@@ -88,11 +86,10 @@ pub(crate) fn chosen(
         Some(wanted) => matching(&all, wanted)?,
         None => (0..all.len()).collect(),
     };
-    let one_named = wanted.is_some_and(|wanted| all[indices[0]].name == wanted);
     let mut places = indices.into_iter().peekable();
     let taken = |(place, _): &(usize, NamedSpectrum)| places.next_if_eq(place).is_some();
     let spectra = all.into_iter().enumerate().filter(taken).map(|(_, one)| one).collect();
-    Ok(Some(Chosen { file: file.to_owned(), grid: table.grid, spectra, one_named }))
+    Ok(Some(Chosen { file: file.to_owned(), grid: table.grid, spectra }))
 }
 
 /// The indices of the `spectra` called `wanted`, rising: the one of that name, or

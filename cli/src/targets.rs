@@ -31,7 +31,7 @@ pub(crate) fn targets(
         let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford);
         return Ok(vec![Target::from_lab(&rgb.to_hex(), Lab::from_xyz(xyz, white), sights)]);
     }
-    if let Some(lab) = lab(text) {
+    if let Some(lab) = lab_from_text(text) {
         return Ok(vec![Target::from_lab(&format!("Lab {text}"), lab, sights)]);
     }
     Err(Refusal::usage(
@@ -40,9 +40,11 @@ pub(crate) fn targets(
     ))
 }
 
-/// Three numbers parted by commas or spaces, L* from 0 to 100.
-fn lab(text: &str) -> Option<Lab> {
-    let parts = text.split([',', ' ']).filter(|part| !part.is_empty());
+/// Three numbers parted by commas or spaces, L* from 0 to 100; `lab(..)` may stand around them.
+pub(crate) fn lab_from_text(text: &str) -> Option<Lab> {
+    let lower = text.trim().to_ascii_lowercase();
+    let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
+    let parts = inside.unwrap_or(&lower).split([',', ' ']).filter(|part| !part.is_empty());
     let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().ok()?;
     match numbers[..] {
         [lightness, a, b]
@@ -61,10 +63,10 @@ fn measured(
     sights: &[Sight],
     console: &mut Console<'_>,
 ) -> anyhow::Result<Vec<Target>> {
-    let Chosen { file, grid, mut spectra, one_named } = chosen;
+    let Chosen { file, grid, mut spectra } = chosen;
     remark_coverage(grid, console)?;
     let count = spectra.len();
-    if !one_named && spectra.iter().any(|one| one.film == Film::Paint) {
+    if spectra.iter().any(|one| one.film == Film::Paint) {
         spectra.retain(|one| one.film == Film::Paint);
     }
     if spectra.len() < count {
