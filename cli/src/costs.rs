@@ -26,7 +26,7 @@ pub(crate) fn costs(
         }
         let (name, price) = text.rsplit_once('=').ok_or_else(|| {
             Refusal::usage(
-                format!("--cost takes NAME=PRICE or a CSV file, found `{text}`"),
+                format!("--cost takes NAME=PRICE or a CSV file that exists, found `{text}`"),
                 "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
             )
         })?;
@@ -66,7 +66,7 @@ fn read(file: &str, library: &PigmentLibrary, found: &mut [Option<f64>]) -> anyh
         headers.iter().position(|header| header.eq_ignore_ascii_case(name)).ok_or_else(|| {
             Refusal::data(
                 format!("{file}, row 1: no column `{name}`"),
-                "the first row is `pigment,price`",
+                "the first row is `pigment,price`; commas part the columns",
             )
         })
     };

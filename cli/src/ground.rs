@@ -1,14 +1,12 @@
 //! What lies under a film: a grey, or a measured spectrum.
 
-use std::path::{Path, PathBuf};
-
 use calibrate::library::PigmentLibrary;
 use spectra::{Ends, Interpolation, Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::named_spectra::{matching, named_spectra};
-use crate::readings::{ReadingOptions, spectra};
+use crate::named_spectra::{Chosen, chosen, first_few};
+use crate::readings::ReadingOptions;
 
 /// The ground's measured reflectance on the library's grid.
 pub(crate) fn ground(
@@ -24,34 +22,22 @@ pub(crate) fn ground(
     if let Some(value) = even {
         return Ok(vec![value; library.grid.count()]);
     }
-    // A whole name that is a file wins over the part before a `#`.
-    let (file, sample) = match text.rsplit_once('#') {
-        Some((file, sample)) if !Path::new(text).is_file() => (file, Some(sample)),
-        _ => (text, None),
-    };
-    if !Path::new(file).is_file() {
+    let Some(Chosen { file, grid, spectra }) = chosen(text, &ReadingOptions::default(), console)?
+    else {
         return Err(Refusal::usage(
-            format!("--over takes 0 to 1, white, black or a file, found `{text}`"),
+            format!("--over takes 0 to 1, white, black or a file that exists, found `{text}`"),
             "try --over 0.85 or --over paper.csv#SAMPLE",
         ));
-    }
-    let table = spectra(&[PathBuf::from(file)], &ReadingOptions::default(), console)?;
-    let found = named_spectra(&table);
-    let names: Vec<(&str, &str)> =
-        found.iter().map(|s| (s.name.as_str(), s.sample.as_str())).collect();
-    let chosen = match sample {
-        Some(sample) => matching(&names, sample)?,
-        None => (0..found.len()).collect(),
     };
-    let &[one] = chosen.as_slice() else {
-        let names: Vec<&str> = chosen.iter().take(8).map(|&i| found[i].name.as_str()).collect();
+    let [one] = spectra.as_slice() else {
+        let names: Vec<&str> = spectra.iter().map(|one| one.name.as_str()).collect();
         return Err(Refusal::data(
-            format!("{file}: one ground is wanted, found `{}` spectra", chosen.len()),
-            format!("name one: --over \"{file}#{}\"", names.join("\" or \"#")),
+            format!("{file}: one ground is wanted, found `{}` spectra", names.len()),
+            format!("name one: --over \"{file}#NAME\", with NAME {}", first_few(&names, " or ")),
         ));
     };
-    let spectrum = Spectrum::<Reflectance>::new(table.grid, found[one].reflectance.clone())?;
-    let (start, end) = (table.grid.start_nm(), table.grid.end_nm());
+    let spectrum = Spectrum::<Reflectance>::new(grid, one.reflectance.clone())?;
+    let (start, end) = (grid.start_nm(), grid.end_nm());
     if start > library.grid.end_nm() || end < library.grid.start_nm() {
         return Err(Refusal::data(
             format!("{file}: the ground is measured from {start} to {end} nm only"),
@@ -63,6 +49,6 @@ pub(crate) fn ground(
             "the ground is measured from {start} to {end} nm; beyond, its end values are held"
         )])?;
     }
-    let method = Interpolation::best_for(table.grid);
+    let method = Interpolation::best_for(grid);
     Ok(spectrum.resampled(library.grid, method, Ends::Hold)?.into_values())
 }

@@ -1,13 +1,24 @@
 //! The spectra of a file by name: a sample may have several.
 
-use calibrate::measurement::{Film, MeasurementTable, Reading};
+use std::path::{Path, PathBuf};
 
+use calibrate::measurement::{Film, MeasurementTable, Reading};
+use spectra::Grid;
+use spectra::instrument::file_and_name;
+
+use crate::console::Console;
 use crate::failure::Refusal;
+use crate::readings::{ReadingOptions, spectra};
+
+/// How many names an error lists.
+const LISTED: usize = 8;
 
 /// One averaged spectrum.
 pub(crate) struct NamedSpectrum {
     /// Its sample.
     pub(crate) sample: String,
+    /// Whether it is of paint, or of the bare backing.
+    pub(crate) film: Film,
     /// The sample's name, and the backing where the sample has several spectra.
     pub(crate) name: String,
     /// Reflectance on the table's grid.
@@ -44,25 +55,67 @@ pub(crate) fn named_spectra(table: &MeasurementTable) -> Vec<NamedSpectrum> {
                 group.iter().map(|r| r.reflectance[at]).sum::<f64>() / group.len() as f64
             };
             let reflectance = (0..table.grid.count()).map(mean).collect();
-            NamedSpectrum { sample: first.sample.clone(), name, reflectance }
+            NamedSpectrum { sample: first.sample.clone(), film: first.film, name, reflectance }
         })
         .collect()
 }
 
-/// The indices of the `(name, sample)` called `wanted`: the one of that name, or
+/// The spectra that a user means by `FILE` or `FILE#NAME`.
+pub(crate) struct Chosen {
+    /// The file.
+    pub(crate) file: String,
+    /// The wavelengths of all.
+    pub(crate) grid: Grid,
+    /// One or more, in the file's order.
+    pub(crate) spectra: Vec<NamedSpectrum>,
+}
+
+/// The spectra that `text`, `FILE` or `FILE#NAME`, stands for; `None` if there is no such file.
+pub(crate) fn chosen(
+    text: &str,
+    reading: &ReadingOptions,
+    console: &mut Console<'_>,
+) -> anyhow::Result<Option<Chosen>> {
+    let (file, wanted) = file_and_name(text);
+    if !Path::new(file).is_file() {
+        return Ok(None);
+    }
+    let table = spectra(&[PathBuf::from(file)], reading, console)?;
+    let all = named_spectra(&table);
+    let indices = match wanted {
+        Some(wanted) => matching(&all, wanted)?,
+        None => (0..all.len()).collect(),
+    };
+    let mut places = indices.into_iter().peekable();
+    let taken = |(place, _): &(usize, NamedSpectrum)| places.next_if_eq(place).is_some();
+    let spectra = all.into_iter().enumerate().filter(taken).map(|(_, one)| one).collect();
+    Ok(Some(Chosen { file: file.to_owned(), grid: table.grid, spectra }))
+}
+
+/// The indices of the `spectra` called `wanted`, rising: the one of that name, or
 /// all of the sample of that name.
-pub(crate) fn matching(names: &[(&str, &str)], wanted: &str) -> anyhow::Result<Vec<usize>> {
-    if let Some(index) = names.iter().position(|(name, _)| *name == wanted) {
+pub(crate) fn matching(spectra: &[NamedSpectrum], wanted: &str) -> anyhow::Result<Vec<usize>> {
+    if let Some(index) = spectra.iter().position(|one| one.name == wanted) {
         return Ok(vec![index]);
     }
-    let of_sample: Vec<usize> = (0..names.len()).filter(|&i| names[i].1 == wanted).collect();
+    let of_sample: Vec<usize> =
+        (0..spectra.len()).filter(|&index| spectra[index].sample == wanted).collect();
     if !of_sample.is_empty() {
         return Ok(of_sample);
     }
-    let mut known: Vec<&str> = names.iter().map(|(_, sample)| *sample).collect();
+    let mut known: Vec<&str> = spectra.iter().map(|one| one.sample.as_str()).collect();
     known.dedup();
     Err(Refusal::data(
         format!("no spectrum is called `{wanted}`"),
-        format!("samples: {}", known.join(", ")),
+        format!("samples: {}", first_few(&known, ", ")),
     ))
+}
+
+/// The first few of `names`, and how many more there are.
+pub(crate) fn first_few(names: &[&str], between: &str) -> String {
+    let listed = names[..names.len().min(LISTED)].join(between);
+    match names.len().saturating_sub(LISTED) {
+        0 => listed,
+        more => format!("{listed} .. and {more} more"),
+    }
 }

@@ -1,16 +1,15 @@
 //! Colours to be met: `#rrggbb`, Lab, or measured spectra.
 
-use std::path::{Path, PathBuf};
-
 use calibrate::matching::{Sight, Target};
+use calibrate::measurement::Film;
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::input::remark_coverage;
-use crate::named_spectra::{matching, named_spectra};
-use crate::readings::{ReadingOptions, spectra};
+use crate::named_spectra::{Chosen, NamedSpectrum, chosen};
+use crate::readings::ReadingOptions;
 
 /// The targets that `text` names: one colour, or the spectra of FILE or
 /// FILE#SAMPLE.
@@ -23,12 +22,8 @@ pub(crate) fn targets(
     reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Vec<Target>> {
-    let (file, sample) = match text.rsplit_once('#') {
-        Some((file, sample)) if !Path::new(text).is_file() => (file, Some(sample)),
-        _ => (text, None),
-    };
-    if Path::new(file).is_file() {
-        return measured(file, sample, sights, reading, console);
+    if let Some(chosen) = chosen(text, reading, console)? {
+        return measured(chosen, sights, console);
     }
     if let Some(rgb) = Rgb::from_hex(text) {
         // Any white: Lab is relative to it.
@@ -36,18 +31,20 @@ pub(crate) fn targets(
         let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford);
         return Ok(vec![Target::from_lab(&rgb.to_hex(), Lab::from_xyz(xyz, white), sights)]);
     }
-    if let Some(lab) = lab(text) {
+    if let Some(lab) = lab_from_text(text) {
         return Ok(vec![Target::from_lab(&format!("Lab {text}"), lab, sights)]);
     }
     Err(Refusal::usage(
-        format!("a target is #rrggbb, L,a,b or a file of spectra, found `{text}`"),
+        format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
         "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
     ))
 }
 
-/// Three numbers parted by commas or spaces, L* from 0 to 100.
-fn lab(text: &str) -> Option<Lab> {
-    let parts = text.split([',', ' ']).filter(|part| !part.is_empty());
+/// Three numbers parted by commas or spaces, L* from 0 to 100; `lab(..)` may stand around them.
+pub(crate) fn lab_from_text(text: &str) -> Option<Lab> {
+    let lower = text.trim().to_ascii_lowercase();
+    let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
+    let parts = inside.unwrap_or(&lower).split([',', ' ']).filter(|part| !part.is_empty());
     let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().ok()?;
     match numbers[..] {
         [lightness, a, b]
@@ -59,26 +56,26 @@ fn lab(text: &str) -> Option<Lab> {
     }
 }
 
+/// The paint among `chosen`. Bare cards are read to tell the paint's K/S and not to be matched,
+/// unless one is named or there is nothing else.
 fn measured(
-    file: &str,
-    sample: Option<&str>,
+    chosen: Chosen,
     sights: &[Sight],
-    reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Vec<Target>> {
-    let table = spectra(&[PathBuf::from(file)], reading, console)?;
-    remark_coverage(table.grid, console)?;
-    let found = named_spectra(&table);
-    let names: Vec<(&str, &str)> =
-        found.iter().map(|s| (s.name.as_str(), s.sample.as_str())).collect();
-    let chosen = match sample {
-        Some(sample) => matching(&names, sample)?,
-        None => (0..found.len()).collect(),
+    let Chosen { file, grid, mut spectra } = chosen;
+    remark_coverage(grid, console)?;
+    let count = spectra.len();
+    if spectra.iter().any(|one| one.film == Film::Paint) {
+        spectra.retain(|one| one.film == Film::Paint);
+    }
+    if spectra.len() < count {
+        let bare = count - spectra.len();
+        console.remark(format!("{file}: {bare} bare cards are no targets unless named"))?;
+    }
+    let target = |one: NamedSpectrum| {
+        let reflectance = Spectrum::<Reflectance>::new(grid, one.reflectance)?;
+        Ok(Target::from_reflectance(&one.name, &reflectance, sights)?)
     };
-    let target = |index: usize| {
-        let reflectance =
-            Spectrum::<Reflectance>::new(table.grid, found[index].reflectance.clone())?;
-        Ok(Target::from_reflectance(&found[index].name, &reflectance, sights)?)
-    };
-    chosen.into_iter().map(target).collect()
+    spectra.into_iter().map(target).collect()
 }

@@ -10,7 +10,7 @@ use super::search::search;
 use super::sight::Target;
 use super::whole_parts::in_whole_parts;
 use crate::evaluate::lab;
-use crate::library::PigmentLibrary;
+use crate::library::{AmountKind, PigmentLibrary};
 
 /// A recipe for a target.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Recipe {
     pub lab: Vec<Lab>,
     /// Its measured reflectance on the library's grid.
     pub reflectance: Vec<f64>,
-    /// Cost of one unit of the mixture, where costs are known.
+    /// Cost of one unit of the mixture, or of absolute amounts together, where costs are known.
     pub cost: Option<f64>,
 }
 
@@ -67,21 +67,26 @@ pub fn recipes(
                 .collect()
         }
     };
-    let ranked = ranked(found, request);
-    Ok(ranked.into_iter().map(|found| recipe(&forward, request, target, found)).collect())
+    let cost = |candidate: &Candidate| cost(library, request, candidate);
+    let ranked = ranked(found, request, &cost);
+    Ok(ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost)).collect())
 }
 
 type Found = (Option<Vec<u32>>, Candidate);
 
-fn ranked(mut found: Vec<Found>, request: &MatchRequest) -> Vec<Found> {
+fn ranked(
+    mut found: Vec<Found>,
+    request: &MatchRequest,
+    cost: &dyn Fn(&Candidate) -> f64,
+) -> Vec<Found> {
     let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
     let equal = |c: &Candidate| c.distance <= nearest + request.tolerance;
     let smallest = |c: &Candidate| c.shares.iter().copied().fold(1.0, f64::min);
     found.sort_by(|(_, a), (_, b)| {
         let by_distance = || a.distance.total_cmp(&b.distance);
         let order = match (equal(a), equal(b)) {
-            (true, true) => cost(request, a)
-                .total_cmp(&cost(request, b))
+            (true, true) => cost(a)
+                .total_cmp(&cost(b))
                 .then(a.pigments.len().cmp(&b.pigments.len()))
                 .then(smallest(b).total_cmp(&smallest(a))),
             (true, false) => std::cmp::Ordering::Less,
@@ -107,9 +112,15 @@ fn ranked(mut found: Vec<Found>, request: &MatchRequest) -> Vec<Found> {
 }
 
 /// 0 where no costs are known, so that they decide nothing.
-fn cost(request: &MatchRequest, candidate: &Candidate) -> f64 {
+fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate) -> f64 {
     let parts = candidate.pigments.iter().zip(&candidate.shares);
-    parts.map(|(&pigment, share)| share * request.costs.get(pigment).unwrap_or(&0.0)).sum()
+    let of_one: f64 =
+        parts.map(|(&pigment, share)| share * request.costs.get(pigment).unwrap_or(&0.0)).sum();
+    match library.amounts {
+        AmountKind::Relative => of_one,
+        // The thickness is the sum of all amounts.
+        AmountKind::Absolute => of_one * candidate.thickness,
+    }
 }
 
 fn recipe(
@@ -117,6 +128,7 @@ fn recipe(
     request: &MatchRequest,
     target: &Target,
     (parts, candidate): Found,
+    cost: &dyn Fn(&Candidate) -> f64,
 ) -> Recipe {
     let Candidate { pigments, shares, thickness, distance } = &candidate;
     let mut scratch = Scratch::default();
@@ -132,6 +144,6 @@ fn recipe(
         distance: *distance,
         lab: labs,
         reflectance,
-        cost: (!request.costs.is_empty()).then(|| cost(request, &candidate)),
+        cost: (!request.costs.is_empty()).then(|| cost(&candidate)),
     }
 }

@@ -75,7 +75,9 @@ impl MatchRequest {
     /// # Errors
     /// [`MatchError`] if the request cannot be met by any recipe.
     pub(super) fn check(&self, library: &PigmentLibrary) -> Result<(), MatchError> {
-        let invalid = |what: &'static str, value: f64| Err(MatchError::Number { what, value });
+        let invalid = |what: &'static str, value: f64, hint: &'static str| {
+            Err(MatchError::Number { what, value, hint })
+        };
         if self.allowed.is_empty() {
             return Err(MatchError::NoPigments);
         }
@@ -83,10 +85,14 @@ impl MatchRequest {
             return Err(MatchError::NoLight);
         }
         if let Some(sight) = self.sights.iter().find(|s| !(s.weight > 0.0 && s.weight < 1e9)) {
-            return invalid("a light's weight must be above 0", sight.weight);
+            return invalid(
+                "a light's weight must be above 0",
+                sight.weight,
+                "give the weight behind the light: --illuminant D65 --illuminant A=0.5",
+            );
         }
         if !(1..=MOST_PIGMENTS).contains(&self.at_most) {
-            return invalid("a recipe has 1 to 8 pigments", self.at_most as f64);
+            return invalid("a recipe has 1 to 8 pigments", self.at_most as f64, "try --at-most 4");
         }
         if self.required.len() > self.at_most {
             return Err(MatchError::TooManyRequired {
@@ -95,13 +101,17 @@ impl MatchRequest {
             });
         }
         if !(0.0..1.0).contains(&self.least_share) {
-            return invalid("the least share is 0 or more and below 1", self.least_share);
+            return invalid(
+                "the least share is 0 or more and below 1",
+                self.least_share,
+                "try --least 1/50",
+            );
         }
         if !(0.0..1e3).contains(&self.tolerance) {
-            return invalid("the tolerance is 0 or more", self.tolerance);
+            return invalid("the tolerance is 0 or more", self.tolerance, "try --tolerance 0.05");
         }
         if let Some(cost) = self.costs.iter().find(|c| !(c.is_finite() && **c >= 0.0)) {
-            return invalid("a cost is 0 or more", *cost);
+            return invalid("a cost is 0 or more", *cost, "try --cost \"Cobalt Blue=0.9\"");
         }
         let told: f64 = self.required.iter().filter_map(|(_, share)| *share).sum();
         let all_told = !self.required.is_empty() && self.required.iter().all(|r| r.1.is_some());
@@ -114,11 +124,15 @@ impl MatchRequest {
             return Err(MatchError::SharesInParts);
         }
         if self.whole_parts.is_some_and(|parts| !(1..=1000).contains(&parts)) {
-            return invalid("whole parts are 1 to 1000", f64::from(self.whole_parts.unwrap_or(0)));
+            return invalid(
+                "whole parts are 1 to 1000",
+                f64::from(self.whole_parts.unwrap_or(0)),
+                "try --parts 12",
+            );
         }
         let (thinnest, thickest) = self.thickness();
         if !(thinnest > 0.0 && thinnest <= thickest && thickest <= 1e9) {
-            return invalid("a thickness is above 0", thinnest);
+            return invalid("a thickness is above 0", thinnest, "try --thickness 1");
         }
         let absolute = library.amounts == AmountKind::Absolute;
         if absolute && self.film == FilmKind::Hiding {
@@ -159,6 +173,8 @@ pub enum MatchError {
         what: &'static str,
         /// The number.
         value: f64,
+        /// What to try.
+        hint: &'static str,
     },
     /// More pigments must take part than may.
     #[error("{required} pigments must take part, but a recipe has `{at_most}` at most")]
@@ -194,7 +210,8 @@ impl MatchError {
             Self::Shares { .. } => Some("let fixed shares sum to less than 1"),
             Self::SharesInParts => Some("leave out --parts, or the share behind the pigment"),
             Self::AbsoluteHiding => Some("give a --thickness"),
-            Self::NoLight | Self::Number { .. } => None,
+            Self::Number { hint, .. } => Some(hint),
+            Self::NoLight => None,
         }
     }
 }

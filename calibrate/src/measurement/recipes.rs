@@ -72,8 +72,8 @@ impl Recipes {
         Ok(Self { pigments, file: file.to_owned(), rows, tells, remarks })
     }
 
-    /// `table` with these recipes: readings without one are left out, and that is said in its
-    /// remarks, as are recipes without a reading.
+    /// `table` with these recipes: readings of paint without one are left out, and that is said in
+    /// its remarks, as are recipes without a reading.
     ///
     /// # Errors
     /// [`RecipesError::Twice`] if the table has pigments of its own,
@@ -105,8 +105,13 @@ impl Recipes {
             .collect();
         let mut remarks = table.remarks;
         remarks.extend(self.remarks.clone());
-        if !unmatched.is_empty() {
-            let names = unmatched.join(", ");
+        // A bare card needs none.
+        let painted = |name: &&str| {
+            table.readings.iter().any(|r| r.sample == **name && r.film == Film::Paint)
+        };
+        let left_out: Vec<&str> = unmatched.into_iter().filter(painted).collect();
+        if !left_out.is_empty() {
+            let names = left_out.join(", ");
             remarks.push(format!("samples without a recipe are left out: {names}"));
         }
         if !unread.is_empty() {
@@ -114,7 +119,10 @@ impl Recipes {
             remarks.push(format!("recipes without a reading: {names}"));
         }
         let join = |reading: Reading| {
-            let row = by_name.get(reading.sample.as_str())?;
+            let Some(row) = by_name.get(reading.sample.as_str()) else {
+                let amounts = vec![0.0; self.pigments.len()];
+                return (reading.film == Film::None).then_some(Reading { amounts, ..reading });
+            };
             Some(Reading {
                 sample: row.sample.clone(),
                 film: if self.tells.film { row.film } else { reading.film },

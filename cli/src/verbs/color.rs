@@ -68,7 +68,6 @@ pub(crate) struct Color {
 
 /// One spectrum with its colours, one for each light.
 struct Row {
-    sample: String,
     name: String,
     colours: Vec<Colour>,
 }
@@ -100,31 +99,29 @@ impl Color {
             AdaptationName::Bradford => Adaptation::Bradford,
             AdaptationName::Cat16 => Adaptation::Cat16,
         };
-        let rows: Vec<Row> = named_spectra(&table)
-            .into_iter()
-            .map(|NamedSpectrum { sample, name, reflectance }| Row {
-                sample,
-                name,
-                colours: weights
-                    .iter()
-                    .map(|weights| {
-                        let xyz = weights.xyz(&reflectance);
-                        let white = weights.white();
-                        Colour {
-                            xyz,
-                            lab: Lab::from_xyz(xyz, white),
-                            rgb: space.encoded_from_xyz(xyz, white, adaptation),
-                        }
-                    })
-                    .collect(),
-            })
-            .collect();
+        let spectra = named_spectra(&table);
+        let row = |one: &NamedSpectrum| Row {
+            name: one.name.clone(),
+            colours: weights
+                .iter()
+                .map(|weights| {
+                    let xyz = weights.xyz(&one.reflectance);
+                    let white = weights.white();
+                    Colour {
+                        xyz,
+                        lab: Lab::from_xyz(xyz, white),
+                        rgb: space.encoded_from_xyz(xyz, white, adaptation),
+                    }
+                })
+                .collect(),
+        };
+        let rows: Vec<Row> = spectra.iter().map(row).collect();
         let standard = match &self.compare {
             None => None,
-            Some(name) => match find(&rows, name)?.as_slice() {
-                [one] => Some(*one),
+            Some(name) => match matching(&spectra, name)?.as_slice() {
+                &[one] => Some(&rows[one]),
                 several => {
-                    let names: Vec<&str> = several.iter().map(|row| row.name.as_str()).collect();
+                    let names: Vec<&str> = several.iter().map(|&i| rows[i].name.as_str()).collect();
                     return Err(Refusal::data(
                         format!("`{name}` has several spectra"),
                         format!("name one: {}", names.join(", ")),
@@ -134,7 +131,7 @@ impl Color {
         };
         let mut chosen: Vec<&Row> = Vec::new();
         for name in &self.sample {
-            chosen.extend(find(&rows, name)?);
+            chosen.extend(matching(&spectra, name)?.into_iter().map(|index| &rows[index]));
         }
         if self.sample.is_empty() {
             chosen.extend(&rows);
@@ -159,13 +156,6 @@ impl Color {
         }
         Ok(())
     }
-}
-
-/// The spectra called `name`: by itself, or all of the sample of that name.
-fn find<'a>(rows: &'a [Row], name: &str) -> anyhow::Result<Vec<&'a Row>> {
-    let names: Vec<(&str, &str)> =
-        rows.iter().map(|row| (row.name.as_str(), row.sample.as_str())).collect();
-    Ok(matching(&names, name)?.into_iter().map(|index| &rows[index]).collect())
 }
 
 fn entry(

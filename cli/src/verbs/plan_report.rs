@@ -69,7 +69,7 @@ pub(super) fn print_forecast(
     ))?;
     console.line("")?;
     console.line(format!(
-        "Predicted standard deviations, in percent of K and S, median over wavelength (noise {}, {}):",
+        "Predicted standard deviations, in percent of K and S, median over wavelength (noise {}, {:.3}):",
         forecast.noise.constant, forecast.noise.even
     ))?;
     let width = palette.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);

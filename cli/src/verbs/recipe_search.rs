@@ -21,7 +21,7 @@ use crate::targets::targets;
 ///
 /// Every set of up to --at-most pigments is tried, and the shares of each found by least squares in
 /// CIEDE2000. A target is `#rrggbb`, a CIELAB colour `L,a,b` (under the first light), or a file of
-/// spectra: FILE for all of them, FILE#SAMPLE for one. Recipes as near as the nearest (--tolerance)
+/// spectra: FILE for all of them but bare cards, FILE#SAMPLE for one. Recipes as near as the nearest (--tolerance)
 /// come cheapest first if costs are given, else with the fewest pigments; the rest by distance.
 #[derive(Debug, Args)]
 pub(crate) struct Match {
@@ -52,7 +52,7 @@ pub(crate) struct Match {
     /// Grams of paint wanted in all, amounts being by mass
     #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
     grams: Option<f64>,
-    /// Price of one gram, NAME=PRICE, in any currency (may be repeated), or a CSV with the columns
+    /// Price of one gram (of one unit of absolute amounts), NAME=PRICE, in any currency (may be repeated), or a CSV with the columns
     /// pigment and price
     #[arg(long, value_name = "PRICE")]
     cost: Vec<String>,

@@ -83,7 +83,7 @@ pub enum ReferencingError {
     },
     /// Too little light to divide by.
     #[error(
-        "the white `{name}` has too little light at {nm} nm: {least} above its dark is wanted, found `{light}`"
+        "the white `{name}` has too little light at {nm} nm: {least:.4} above its dark is wanted, found `{light:.4}`"
     )]
     Dim {
         /// The white.

@@ -78,6 +78,33 @@ fn every_spectrum_of_a_file_is_a_target_of_a_batch() {
 }
 
 #[test]
+fn bare_cards_are_targets_only_if_named_or_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = |name: &str, rows: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("sample,film,backing,400,500,600,700\n{rows}")).unwrap();
+        path.display().to_string()
+    };
+    let cards = "card,none,white,0.9,0.9,0.9,0.9\ncard,none,black,0.05,0.05,0.05,0.05\n";
+    let paint = "sand,paint,white,0.3,0.4,0.5,0.55\nsand,paint,black,0.2,0.3,0.4,0.5\n\
+                 sand,none,white,0.9,0.9,0.9,0.8\n";
+    let (alone, both) =
+        (written("cards.csv", cards), written("both.csv", &(paint.to_owned() + cards)));
+    let names = |target: &str| -> Vec<String> {
+        let told = matched(&[target, "--at-most", "2", "--count", "1"]);
+        let targets = told.as_array().unwrap().iter();
+        targets.map(|target| target["target"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&both), ["sand on white", "sand on black"]);
+    assert_eq!(names(&format!("{both}#sand")), ["sand on white", "sand on black"]);
+    assert_eq!(names(&format!("{both}#sand bare white")), ["sand bare white"]);
+    assert_eq!(names(&format!("{both}#card")), ["card bare white", "card bare black"]);
+    assert_eq!(names(&alone), ["card bare white", "card bare black"]);
+    let run = impasto(&["match", &library(), &both, "--at-most", "1"]);
+    assert!(run.err.contains("3 bare cards are no targets unless named"), "{}", run.err);
+}
+
+#[test]
 fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
     let told = matched(&["#ff00ff"]);
     assert_eq!(told[0]["reached"], false);
@@ -152,4 +179,124 @@ fn what_cannot_be_is_refused_with_a_way_out() {
         assert!(err.contains(words) && err.contains("hint: "), "{arguments:?}: {err}");
         assert_eq!(found, status, "{arguments:?}: {err}");
     }
+}
+
+/// The names and shares of a target's first recipe.
+fn first(told: &Value) -> Vec<(String, f64)> {
+    let pigments = told[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
+    pigments
+        .map(|p| (p["name"].as_str().unwrap().to_owned(), p["share"].as_f64().unwrap()))
+        .collect()
+}
+
+#[test]
+fn what_is_required_forbidden_and_bounded_reaches_the_search() {
+    let share = |told: &Value, name: &str| {
+        first(told).into_iter().find(|(known, _)| known == name).map(|(_, share)| share)
+    };
+    let plain = matched(&["#4a7d8c"]);
+    let (taken, _) = first(&plain).remove(0);
+    assert_eq!(share(&matched(&["#4a7d8c", "--without", &taken]), &taken), None);
+    let with = matched(&["#4a7d8c", "--with", "bone=1/4", "--with", "Zinc White (linseed)"]);
+    assert!((share(&with, "Bone Black").unwrap() - 0.25).abs() < 1e-9, "{with}");
+    assert!(share(&with, "Zinc White (linseed)").unwrap() >= 0.02 - 1e-9, "{with}");
+    assert_eq!(first(&matched(&["#4a7d8c", "--at-most", "2"])).len(), 2);
+    let large = matched(&["#4a7d8c", "--least", "1/3"]);
+    assert!(first(&large).iter().all(|(_, share)| *share >= 1.0 / 3.0 - 1e-9), "{large}");
+}
+
+#[test]
+fn the_weights_of_lights_count() {
+    let under = |weights: [&str; 2]| {
+        let told = matched(&["#4a7d8c", "--illuminant", weights[0], "--illuminant", weights[1]]);
+        let differences = told[0]["recipes"][0]["delta_e"].clone();
+        (differences["D65"].as_f64().unwrap(), differences["A"].as_f64().unwrap())
+    };
+    let (day, lamp) = (under(["D65=9", "A"]), under(["D65", "A=9"]));
+    assert!(day.0 < lamp.0 && lamp.1 < day.1, "{day:?} {lamp:?}");
+}
+
+#[test]
+fn a_film_is_laid_over_the_ground_that_is_told() {
+    let over = |ground: &str, thickness: &str| {
+        let told = matched(&["#c8b080", "--thickness", thickness, "--over", ground]);
+        let recipe = told[0]["recipes"][0].clone();
+        let recipe_text: Vec<String> = recipe["pigments"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|p| format!("{}={}", p["name"].as_str().unwrap(), p["share"]))
+            .collect();
+        let told_thickness = recipe["thickness"].to_string();
+        let library = library();
+        let mut mix = vec!["mix", &library, "--json", "--over", ground, "--thickness"];
+        mix.push(&told_thickness);
+        mix.extend(recipe_text.iter().map(String::as_str));
+        let mixed = impasto(&mix).json();
+        let numbers = |value: &Value| -> Vec<f64> {
+            value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+        };
+        let told = numbers(&recipe["lab"]["D65"]);
+        suite::near::assert_near("Lab", &told, &numbers(&mixed["lab"]), 1e-6);
+        recipe["thickness"].as_f64().unwrap()
+    };
+    let chosen = over("0.3", "0.2:3");
+    assert!((0.2..3.0 - 1e-6).contains(&chosen), "{chosen}");
+    assert_eq!(over("0.8", "0.5"), 0.5);
+}
+
+#[test]
+fn grams_multiply_the_price_of_one() {
+    let only = ["#7a6a50", "--only", "Zinc White", "--only", "Minium", "--cost", "Zinc White=1"];
+    let cost = |more: &[&str]| {
+        let told = matched(&[&only[..], &["--cost", "Minium=3"], more].concat());
+        let recipe = told[0]["recipes"][0].clone();
+        let shares = first(&told).into_iter();
+        let of_one: f64 =
+            shares.map(|(name, share)| if name == "Minium" { 3.0 * share } else { share }).sum();
+        (recipe["cost"].as_f64().unwrap(), of_one)
+    };
+    let (one, of_one) = cost(&[]);
+    assert!((one - of_one).abs() < 1e-9, "{one} for {of_one}");
+    let (forty, of_one) = cost(&["--grams", "40"]);
+    assert!((forty - 40.0 * of_one).abs() < 1e-6, "{forty} for {of_one}");
+}
+
+#[test]
+fn numbers_out_of_range_name_the_option() {
+    for (option, value) in
+        [("--at-most", "9"), ("--least", "1"), ("--tolerance", "-1"), ("--parts", "0")]
+    {
+        let (_, err) = refused(&["#123456", option, value]);
+        assert!(err.contains(&format!("hint: try {option}")), "{err}");
+    }
+    let (_, err) = refused(&["#123456", "--illuminant", "D65=0"]);
+    assert!(err.contains("hint: give the weight behind the light"), "{err}");
+}
+
+#[test]
+fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("absolute.json");
+    let mut oils: Value =
+        serde_json::from_str(&std::fs::read_to_string(library()).unwrap()).unwrap();
+    (oils["amounts"], oils["reference"]) = ("absolute".into(), Value::Null);
+    std::fs::write(&path, oils.to_string()).unwrap();
+    let path = path.display().to_string();
+    let told = impasto(&["match", &path, "#c8b080", "--over", "0.85", "--json"]);
+    assert_eq!(told.status, 0, "{}", told.err);
+    let told = told.json();
+    let recipe = &told[0]["recipes"][0];
+    let pigments = recipe["pigments"].as_array().unwrap().iter();
+    let amounts: Vec<String> =
+        pigments.map(|p| format!("{}={}", p["name"].as_str().unwrap(), p["amount"])).collect();
+    let mut mix = vec!["mix", &path, "--over", "0.85", "--json"];
+    mix.extend(amounts.iter().map(String::as_str));
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let mixed = numbers(&impasto(&mix).json()["lab"]);
+    suite::near::assert_near("Lab", &numbers(&recipe["lab"]["D65"]), &mixed, 1e-6);
+    let grams = impasto(&["match", &path, "#c8b080", "--grams", "4"]);
+    assert!(grams.status == 2 && grams.err.contains("absolute"), "{}", grams.err);
 }

@@ -104,3 +104,19 @@ fn a_colour_out_of_reach_is_refused_with_the_nearest() {
         refused(&["from-rgb", colour, "--name", "X", "--output", &new], 2, &[colour]);
     }
 }
+
+#[test]
+fn options_may_stand_between_library_and_colour() {
+    let shelf = Shelf::new();
+    let (bare, between) = (shelf.path("bare.json"), shelf.path("between.json"));
+    done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);
+    done(&["from-rgb", &oils(), "--name", "Sky", "lab(40, 5, -45)", "--output", &between]);
+    let sky = |path: &str| read(path).pigments.pop().unwrap().absorption;
+    assert_eq!(sky(&bare), sky(&between));
+    let new = shelf.path("new.json");
+    done(&["from-rgb", "--name", "White", "--output", &new, "#f4f4f0"]);
+    let list = impasto(&["library", "list", &new]);
+    assert!(list.out.contains("S = 1 for White"), "{}", list.out);
+    let three = ["from-rgb", &oils(), "40,", "5", "--name", "X", "--output", &bare];
+    refused(&three, 2, &["`3` words"]);
+}

@@ -75,3 +75,21 @@ fn absolute_amounts_are_found_over_paper() {
     request.film = FilmKind::Hiding;
     assert_eq!(recipes(&library, &target, &request), Err(MatchError::AbsoluteHiding));
 }
+
+#[test]
+fn absolute_amounts_cost_what_is_laid() {
+    let library = absolute();
+    let sights = sights(&["D65"]);
+    let film = MatchRequest::usual_film(&library, vec![0.85; library.grid.count()]);
+    let mut request = MatchRequest::new(&library, sights.clone(), film);
+    request.costs = (0..library.pigments.len()).map(|index| 1.0 + index as f64).collect();
+    let wanted = Lab { lightness: 60.0, a: -5.0, b: -20.0 };
+    let target = calibrate::matching::Target::from_lab("", wanted, &sights);
+    for recipe in recipes(&library, &target, &request).unwrap() {
+        let amount = recipe.thickness.unwrap();
+        let parts = recipe.shares.iter().map(|(pigment, share)| share * request.costs[*pigment]);
+        let wanted = amount * parts.sum::<f64>();
+        assert!((amount - 1.0).abs() > 1e-3, "the amount tells nothing: {amount}");
+        assert!((recipe.cost.unwrap() - wanted).abs() < 1e-9, "{recipe:?}");
+    }
+}

@@ -73,8 +73,13 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
         let most = nearest(found) + 0.5;
         found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
     };
-    let counts: Vec<usize> = equal(&found).iter().map(|recipe| recipe.shares.len()).collect();
-    assert!(counts.len() > 1 && counts.is_sorted(), "{counts:?}");
+    let equals = equal(&found);
+    let smallest = |recipe: &Recipe| recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
+    let order = |a: &Recipe, b: &Recipe| {
+        a.shares.len() < b.shares.len()
+            || (a.shares.len() == b.shares.len() && smallest(a) >= smallest(b))
+    };
+    assert!(equals.len() > 1 && equals.is_sorted_by(order), "{equals:?}");
 
     request.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
     let priced = recipes(&library, &target, &request).unwrap();
@@ -89,9 +94,14 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     let sights = sights(&["D65"]);
     let target = Target::from_lab("", Lab { lightness: 60.0, a: 5.0, b: 20.0 }, &sights);
     let mut request = MatchRequest::new(&library, sights, FilmKind::Hiding);
-    request.count = 40;
+    let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
+    request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
+    // More than there are sets of one to four of six: 56.
+    request.count = 100;
     let found = recipes(&library, &target, &request).unwrap();
+    assert!((2..56).contains(&found.len()), "{} recipes", found.len());
     for (place, recipe) in found.iter().enumerate() {
+        assert!(recipe.shares.is_sorted_by(|a, b| a.1 >= b.1), "{recipe:?}");
         for before in &found[..place] {
             let larger = sorted(before).iter().all(|p| sorted(recipe).contains(p));
             assert!(!larger || recipe.distance < before.distance - 0.05, "{before:?}\n{recipe:?}");

@@ -6,7 +6,7 @@ use calibrate::curation::{Body, guessed_pigment};
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::Args;
-use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, TristimulusWeights};
 
 use crate::console::Console;
@@ -14,6 +14,7 @@ use crate::failure::Refusal;
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
+use crate::targets::lab_from_text;
 
 /// A plausible pigment of a colour, marked as guessed
 ///
@@ -24,12 +25,15 @@ use crate::surface::SurfaceOptions;
 /// Without a library a new one is made: 400 to 700 nm in steps of 10, the first paint that hides
 /// its reference, so begin with the white.
 #[derive(Debug, Args)]
-#[command(allow_missing_positional = true)]
+#[command(
+    override_usage = "impasto library from-rgb [OPTIONS] --name <NAME> --output <FILE> [LIBRARY] <COLOUR>"
+)]
 pub(super) struct FromRgb {
-    /// The pigment library (JSON) that it joins [default: a new one]
-    library: Option<PathBuf>,
-    /// The colour: #rrggbb, or lab(L,a,b) under D65
-    colour: String,
+    /// The pigment library (JSON) that it joins [default: a new one], and the colour: #rrggbb, or
+    /// L,a,b under D65
+    // Not two arguments: the first, optional, would take the colour's place before an option.
+    #[arg(required = true, value_name = "[LIBRARY] COLOUR")]
+    library_and_colour: Vec<String>,
     /// The pigment's name
     #[arg(long)]
     name: String,
@@ -51,9 +55,10 @@ pub(super) struct FromRgb {
 
 impl FromRgb {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let inputs: Vec<PathBuf> = self.library.iter().cloned().collect();
+        let (path, colour) = self.library_and_colour()?;
+        let inputs: Vec<PathBuf> = path.iter().cloned().collect();
         let output = Output::open(&self.output, &inputs)?;
-        let mut library = match &self.library {
+        let mut library = match &path {
             Some(_) if self.surface.given() => {
                 return Err(Refusal::usage(
                     "--saunderson is for a new library; this one has its surface",
@@ -74,11 +79,10 @@ impl FromRgb {
             ));
         }
         let weights = Viewing::default().weights(library.grid)?;
-        let wanted = wanted(&self.colour, &weights)?;
+        let wanted = wanted(colour, &weights)?;
         let body = if self.glaze { Body::Glaze } else { Body::Hiding };
-        let colour = self.colour.trim();
         let guess = guessed_pigment(&library, (name, colour), wanted, body, self.nearest)?;
-        if self.library.is_none() && body == Body::Hiding {
+        if path.is_none() && body == Body::Hiding {
             library.reference = Some(name.to_owned());
         }
         library.pigments.push(guess.pigment);
@@ -98,6 +102,17 @@ impl FromRgb {
             guess.hex,
             guess.delta_e
         ))
+    }
+
+    fn library_and_colour(&self) -> anyhow::Result<(Option<PathBuf>, &str)> {
+        match self.library_and_colour.as_slice() {
+            [colour] => Ok((None, colour.trim())),
+            [library, colour] => Ok((Some(PathBuf::from(library)), colour.trim())),
+            more => Err(Refusal::usage(
+                format!("a library and one colour are wanted, found `{}` words", more.len()),
+                "quote a colour that holds spaces: \"40, 5, -45\"",
+            )),
+        }
     }
 
     fn new_library(&self) -> anyhow::Result<PigmentLibrary> {
@@ -121,24 +136,14 @@ impl FromRgb {
 /// XYZ under D65 of a colour in words.
 fn wanted(text: &str, weights: &TristimulusWeights) -> anyhow::Result<Xyz> {
     let white = weights.white();
-    let text = text.trim();
     if let Some(rgb) = Rgb::from_hex(text) {
         return Ok(RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford));
     }
-    let wrong = || {
+    let lab = lab_from_text(text).ok_or_else(|| {
         Refusal::usage(
-            format!("a colour is #rrggbb or lab(L,a,b), found `{text}`"),
-            "try \"#2a5caa\" or \"lab(40,5,-45)\"",
+            format!("a colour is #rrggbb or L,a,b, found `{text}`"),
+            "try \"#2a5caa\" or 40,5,-45",
         )
-    };
-    let lower = text.to_ascii_lowercase();
-    let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
-    let words = inside.ok_or_else(wrong)?.split([',', ' ']).filter(|word| !word.is_empty());
-    let numbers: Vec<f64> = words.map(str::parse).collect::<Result<_, _>>().map_err(|_| wrong())?;
-    let &[lightness, a, b] = numbers.as_slice() else { return Err(wrong()) };
-    let inside = (0.0..=100.0).contains(&lightness) && a.abs() <= 200.0 && b.abs() <= 200.0;
-    if !inside {
-        return Err(wrong());
-    }
-    Ok(Lab { lightness, a, b }.to_xyz(white))
+    })?;
+    Ok(lab.to_xyz(white))
 }

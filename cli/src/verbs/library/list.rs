@@ -28,19 +28,23 @@ impl List {
         let library = library(&self.library)?;
         if !self.json {
             let evidence = library.evidence.as_ref();
-            console.line(format!("{}, {}", library.title, library.grid))?;
-            console.line(format!("source: {}; licence: {}", library.source, library.licence))?;
-            match (&library.reference, evidence) {
-                (Some(white), Some(e)) => console.line(format!(
-                    "S = 1 for {white}; colour error of the fit: mean {:.2}, largest {:.2}",
-                    e.delta_e.mean, e.delta_e.max
-                ))?,
-                (None, Some(e)) => console.line(format!(
-                    "K and S per unit of amount; colour error of the fit: mean {:.2}, largest {:.2}",
-                    e.delta_e.mean, e.delta_e.max
-                ))?,
-                _ => {}
-            }
+            let told = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
+            let (title, source, licence) =
+                (told(&library.title), told(&library.source), told(&library.licence));
+            console.line(format!("{title}, {}", library.grid))?;
+            console.line(format!("source: {source}; licence: {licence}"))?;
+            let unit = match &library.reference {
+                Some(white) => format!("S = 1 for {white}"),
+                None => "K and S per unit of amount".to_owned(),
+            };
+            let error = evidence.map_or_else(String::new, |evidence| {
+                let errors = &evidence.delta_e;
+                format!(
+                    "; colour error of the fit: mean {:.2}, largest {:.2}",
+                    errors.mean, errors.max
+                )
+            });
+            console.line(unit + &error)?;
             return print_pigments(&library, &viewing, console);
         }
         let weights = viewing.weights(library.grid)?;
