@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
-use spectra::instrument::{Record, chosen, file_and_name, read};
+use spectra::instrument::{Record, Role, chosen, file_and_name, read};
 use spectra::referencing::{Dark, Referencing, Tile};
 
 use crate::console::Console;
@@ -105,7 +105,7 @@ impl ReferencingOptions {
 }
 
 impl References {
-    /// The reflectances of `records`, the counts in `file`.
+    /// The reflectances of the samples' light among `records`, the spectra in `file`.
     pub(crate) fn reflectances(
         &self,
         file: &str,
@@ -119,11 +119,28 @@ impl References {
             least_light: self.least_light,
         };
         let reflectance = |record| referencing.reflectance(record);
-        records
-            .iter()
+        self.samples(records)
+            .into_iter()
             .map(reflectance)
             .collect::<Result<_, _>>()
             .with_context(|| format!("{file}: cannot be set against the white of {}", self.name))
+    }
+
+    /// Those of `records` that are samples: neither a white nor a dark, nor what the file's
+    /// program made of the light beside it.
+    fn samples<'a>(&self, records: &'a [Record]) -> Vec<&'a Record> {
+        let is_reference = |record: &Record| {
+            matches!(record.role, Role::White | Role::Dark)
+                || *record == self.white
+                || self.darks.as_ref().is_some_and(|darks| darks.contains(record))
+        };
+        let has_light = records.iter().any(|record| record.role == Role::Sample);
+        let is_sample = |record: &&Record| {
+            if has_light { record.role == Role::Sample } else { !is_reference(record) }
+        };
+        let samples: Vec<&Record> = records.iter().filter(is_sample).collect();
+        // A file that holds nothing else was meant, white or dark as it is.
+        if samples.is_empty() { records.iter().collect() } else { samples }
     }
 }
 

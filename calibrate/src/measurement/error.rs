@@ -116,6 +116,24 @@ pub enum MeasurementError {
         /// What was found.
         value: f64,
     },
+    /// Most readings of a spectrum are below 0 or far above white.
+    #[error(
+        "{file}, line {line}: readings of {sample} must be {range}, most of its {count} are not, found `{bad}`"
+    )]
+    Noise {
+        /// The file.
+        file: String,
+        /// Where the spectrum begins.
+        line: u64,
+        /// The sample.
+        sample: String,
+        /// The allowed range, in the file's unit.
+        range: &'static str,
+        /// How many readings it has.
+        count: usize,
+        /// How many are out of range.
+        bad: usize,
+    },
     /// One reading looks like fractions in a file of percent.
     #[error(
         "{file}, row {row}: the file is in percent, but no value of this reading exceeds `{largest}`, as if it were a fraction"
@@ -321,6 +339,9 @@ impl MeasurementError {
             }
             Self::Reflectance { .. } => {
                 "say `--percent` or `--fraction` if the unit was told apart wrongly; a dark reading below 0 means that the instrument's zero is off".into()
+            }
+            Self::Noise { .. } => {
+                "the file may hold a detector's counts (--white FILE --dark FILE), or another unit (`--percent`, `--fraction`)".into()
             }
             Self::BelowSurface { least, k2, .. } => format!(
                 "give a k1 below every reading, such as `--saunderson {:.3},{k2}`, or `--below-surface floor` to read such samples as black",

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use spectra::Grid;
-use spectra::instrument::{MeasuredQuantity, Record, Unit};
+use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
 
 use super::common_grid::{grid_of, on_grid};
 use super::error::{MeasurementError, Place};
@@ -13,9 +13,9 @@ use super::table::{Film, MeasurementTable, Reading};
 /// Wavelengths that a table of readings may have, in nm, as in a CSV.
 const BAND: RangeInclusive<f64> = 200.0..=2500.0;
 
-/// Wavelengths that make colour, in nm: a reading there must be sound. Spectrometers read noise
-/// at the ends of their range.
-const VISIBLE: RangeInclusive<f64> = 360.0..=830.0;
+/// Wavelengths where a reading must be sound, in nm: they make nearly all of the colour. Beyond,
+/// lamps and detectors grow weak, and exports hold noise.
+const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 
 /// How an instrument's spectra are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,8 +32,9 @@ impl MeasurementTable {
     /// the file does not say what they are. The sample is the record's name; records of one name
     /// are one sample, read again. There are no pigments and no backings.
     ///
-    /// Wavelengths beyond 200 to 2500 nm are cut off, and so are, beyond 360 to 830 nm, the ends
-    /// of a spectrum up to its last value that no surface reflects. Spectra on different
+    /// Wavelengths beyond 200 to 2500 nm are cut off, and so are, beyond 400 to 700 nm, the ends
+    /// of a spectrum up to its last value that no surface reflects; a spectrum of which most
+    /// values are such, or that has none from 400 to 700 nm, is refused. Spectra on different
     /// wavelengths are brought by straight lines to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
@@ -107,6 +108,7 @@ fn reflectances<'a>(
     remarks: &mut Vec<String>,
 ) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
     let is_reading = |record: &&Record| match record.quantity {
+        _ if record.role != Role::Main => false,
         MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
         MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
         MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
@@ -123,13 +125,16 @@ fn reflectances<'a>(
             quantity: record.quantity,
         });
     }
-    for record in others {
+    for record in others.into_iter().filter(|record| record.role == Role::Main) {
         remarks.push(format!("{} is left out, it is {}", name(&record.name), record.quantity));
     }
     for record in &kept {
         for remark in &record.remarks {
-            if !remarks.contains(remark) {
-                remarks.push(remark.clone());
+            let of_all = kept.iter().all(|record| record.remarks.contains(remark));
+            let said =
+                if of_all { remark.clone() } else { format!("{}: {remark}", name(&record.name)) };
+            if !remarks.contains(&said) {
+                remarks.push(said);
             }
         }
     }
@@ -168,11 +173,11 @@ fn scale(
 }
 
 impl Spectrum<'_> {
-    /// The largest value where it makes colour; of all, where none does.
+    /// The largest value where it must be sound; of all, where it has none there.
     fn largest(&self) -> f64 {
         let all = || self.wavelengths_nm.iter().zip(&self.values);
-        let visible = all().filter(|(nm, _)| VISIBLE.contains(nm)).map(|(_, value)| *value);
-        let largest = visible.reduce(f64::max);
+        let sound = all().filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
+        let largest = sound.reduce(f64::max);
         largest.unwrap_or_else(|| self.values.iter().copied().fold(0.0, f64::max))
     }
 
@@ -205,16 +210,28 @@ impl Spectrum<'_> {
     }
 
     /// Makes fractions of the values. Cuts off the ends up to their last value that is no
-    /// reflectance, where that makes no colour.
+    /// reflectance, where it need not be sound.
     fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
         let is_sound = |value: f64| (0.0..=2.0).contains(&(value * self.scale.to_fraction()));
+        let bad = self.values.iter().filter(|value| !is_sound(**value)).count();
+        if 2 * bad > self.values.len() {
+            return Err(MeasurementError::Noise {
+                file: file.to_owned(),
+                line: self.record.line as u64,
+                sample: name(&self.record.name),
+                range: self.scale.range(),
+                count: self.values.len(),
+                bad,
+            });
+        }
         let (mut from, mut to) = (0, self.values.len());
+        let has_middle = self.wavelengths_nm.iter().any(|nm| SOUND.contains(nm));
         for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
             if is_sound(value) {
                 continue;
-            } else if nm < *VISIBLE.start() {
+            } else if has_middle && nm < *SOUND.start() {
                 from = index + 1;
-            } else if nm > *VISIBLE.end() {
+            } else if has_middle && nm > *SOUND.end() {
                 to = to.min(index);
             } else {
                 let row = self.record.line as u64;
@@ -225,17 +242,14 @@ impl Spectrum<'_> {
                 });
             }
         }
-        if from >= to {
-            return Err(self.no_band(file));
-        }
-        let cut = self.values.len() - (to - from);
-        if cut > 0 {
+        if bad > 0 {
+            let tenths = |nm: f64| (10.0 * nm).round() / 10.0;
             remarks.push(format!(
-                "{}: {cut} wavelengths at the ends are cut off, where readings are not {}; {} to {} nm are kept",
+                "{}: cut to {} to {} nm; beyond, readings are not {}",
                 name(&self.record.name),
+                tenths(self.wavelengths_nm[from]),
+                tenths(self.wavelengths_nm[to - 1]),
                 self.scale.range(),
-                self.wavelengths_nm[from],
-                self.wavelengths_nm[to - 1],
             ));
         }
         self.keep(from, to);

@@ -8,7 +8,7 @@
 use super::cgats_fields::Fields;
 use super::cgats_words::words;
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, stem};
+use super::record::{MeasuredQuantity, Record, Role, stem};
 use super::text::lines;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
@@ -146,6 +146,7 @@ impl Table {
             Ok(Record {
                 name,
                 quantity,
+                role: Role::Main,
                 unit,
                 wavelengths_nm: ordered.wavelengths_nm,
                 values: ordered.values,

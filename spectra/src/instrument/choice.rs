@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::record::Record;
+use super::record::{Record, Role};
 
 /// How many names an error lists.
 const LISTED: usize = 8;
@@ -17,7 +17,8 @@ pub fn file_and_name(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The one of `records`, the spectra of `file`, that is called `name`; without a name the only one.
+/// The one of `records`, the spectra of `file`, that is called `name`; without a name the only one
+/// that the file was written for.
 ///
 /// # Errors
 /// [`ChoiceError`] if there is none, or more than one.
@@ -26,7 +27,11 @@ pub fn chosen<'a>(
     records: &'a [Record],
     name: Option<&str>,
 ) -> Result<&'a Record, ChoiceError> {
-    let wanted = |record: &&Record| name.is_none_or(|name| record.name == name);
+    let has_main = records.iter().any(|record| record.role == Role::Main);
+    let wanted = |record: &&Record| match name {
+        Some(name) => record.name == name,
+        None => record.role == Role::Main || !has_main,
+    };
     let found: Vec<&Record> = records.iter().filter(wanted).collect();
     let file = file.to_owned();
     match (found.as_slice(), name) {

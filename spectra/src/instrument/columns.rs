@@ -7,7 +7,7 @@ use super::axis::Axis;
 use super::error::InstrumentError;
 use super::layout::Layout;
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 /// Whether `text` is such columns: most lines are numbers, the first of each a wavelength.
@@ -118,6 +118,7 @@ impl NumberTable<'_> {
         Ok(Record {
             name: named.name,
             quantity: named.quantity,
+            role: Role::Main,
             unit: named.unit,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,

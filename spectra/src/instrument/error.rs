@@ -42,6 +42,22 @@ pub enum InstrumentError {
         /// The line where it stands first.
         first: usize,
     },
+    /// A wavelength stands more than once, with values too far apart for a mean.
+    #[error(
+        "{file}, line {line}: {nm} nm stands more than once, with unlike values from {least} to `{most}`"
+    )]
+    Unlike {
+        /// The file.
+        file: String,
+        /// Where it stands last, counted from 1.
+        line: usize,
+        /// The wavelength.
+        nm: f64,
+        /// The smallest value there.
+        least: f64,
+        /// The largest value there.
+        most: f64,
+    },
     /// Wavelengths go up and down.
     #[error("{file}, line {line}: wavelengths must rise or fall throughout, found `{nm}` nm")]
     Order {
@@ -109,6 +125,7 @@ impl InstrumentError {
                 "see that the export holds spectra, or name the format with --format"
             }
             Self::Duplicate { .. } => "remove one of the two",
+            Self::Unlike { .. } => "remove the wrong one; values nearly alike would be averaged",
             Self::Incomplete { .. } => {
                 "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
             }

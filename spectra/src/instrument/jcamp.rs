@@ -10,8 +10,11 @@ use super::error::InstrumentError;
 use super::jcamp_data::{Scaling, points, runs};
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, ordered};
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
+
+/// A processed spectrum that is above this everywhere, in percent, is none.
+const MOST_PERCENT: f64 = 200.0;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
     let mut records = Vec::new();
@@ -127,10 +130,11 @@ impl Block<'_> {
         });
         let ordered = ordered(file, in_nm.collect(), Duplicates::Average)?;
         let (line, title) = self.field("TITLE").unwrap_or((line, ""));
-        let (quantity, unit) = self.quantity(title);
+        let (quantity, role, unit) = self.kind(title, &ordered.values);
         Ok(Some(Record {
             name: title.to_owned(),
             quantity,
+            role,
             unit,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
@@ -140,11 +144,14 @@ impl Block<'_> {
         }))
     }
 
-    fn quantity(&self, title: &str) -> (MeasuredQuantity, Unit) {
+    /// What the block holds, and in what.
+    fn kind(&self, title: &str, values: &[f64]) -> (MeasuredQuantity, Role, Unit) {
         // SpectraSuite gives its dark and reference blocks the unit of the processed one.
-        let is_raw = |end: &str| title.to_ascii_uppercase().ends_with(end);
-        if is_raw("DARK SPECTRUM") || is_raw("REFERENCE SPECTRUM") {
-            return (MeasuredQuantity::Counts, Unit::Unstated);
+        let title = title.to_ascii_uppercase();
+        for (end, role) in [("DARK SPECTRUM", Role::Dark), ("REFERENCE SPECTRUM", Role::White)] {
+            if title.ends_with(end) {
+                return (MeasuredQuantity::Counts, role, Unit::Unstated);
+            }
         }
         let units = self.field("YUNITS").map_or("", |(_, units)| units);
         let unit = if units.contains('%') || units.to_ascii_lowercase().contains("percent") {
@@ -152,7 +159,14 @@ impl Block<'_> {
         } else {
             Unit::Unstated
         };
-        (MeasuredQuantity::of_words(units), unit)
+        // It also gives that unit to counts that nothing was made of.
+        if title.ends_with("PROCESSED SPECTRUM")
+            && unit == Unit::Percent
+            && values.iter().all(|&value| value > MOST_PERCENT)
+        {
+            return (MeasuredQuantity::Counts, Role::Main, Unit::Unstated);
+        }
+        (MeasuredQuantity::of_words(units), Role::Main, unit)
     }
 
     /// What is not needed to read the data.
@@ -206,11 +220,16 @@ mod tests {
             block("A", points),
             block("X: DARK SPECTRUM", points)
         );
+        let scope = block("X: PROCESSED SPECTRUM", points);
+        let processed = &read("f", &scope).unwrap()[0];
+        assert_eq!(processed.quantity, MeasuredQuantity::Reflectance);
+        let counts = &read("f", &scope.replace("YFACTOR= 0.1", "YFACTOR= 10")).unwrap()[0];
+        assert_eq!((counts.quantity, counts.role), (MeasuredQuantity::Counts, Role::Main));
         let found = read("f", &text).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].name.as_str(), found[0].line), ("A", 4));
         assert_eq!(found[0].values, [12.0, 13.0, 13.0, 9.5]);
-        assert_eq!(found[1].quantity, MeasuredQuantity::Counts);
+        assert_eq!((found[1].quantity, found[1].role), (MeasuredQuantity::Counts, Role::Dark));
     }
 
     #[test]

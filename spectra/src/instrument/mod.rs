@@ -56,5 +56,5 @@ pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;
 pub use read::{InstrumentFile, read};
-pub use record::{MeasuredQuantity, Record, Unit};
+pub use record::{MeasuredQuantity, Record, Role, Unit};
 pub use text::decoded;

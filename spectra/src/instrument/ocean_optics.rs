@@ -3,16 +3,16 @@
 //! reference, sample and processed (W D R S P).
 //!
 //! The software processes where it has a reference, into percent of it (or absorbance), and does
-//! not write which; without one the values are counts.
+//! not write which; without one the values are counts. Jaz keeps the counts beside.
 
 use super::axis::Axis;
 use super::columns::{Named, table};
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
-    let mut records: Vec<Record> = Vec::new();
+    let mut blocks: Vec<Vec<Record>> = Vec::new();
     let mut details: Vec<(String, String)> = Vec::new();
     // Lines outside the data are emptied, so that those inside keep their numbers.
     let mut data: Option<String> = None;
@@ -21,12 +21,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentErro
         last = number;
         if line.starts_with(">>>>>Begin") {
             if let Some(data) = data.take() {
-                records.extend(spectrum(file, &data, std::mem::take(&mut details), number)?);
+                blocks.push(spectra(file, &data, std::mem::take(&mut details), number)?);
             }
             data = Some("\n".repeat(number));
         } else if line.starts_with(">>>>>End") {
             if let Some(data) = data.take() {
-                records.extend(spectrum(file, &data, std::mem::take(&mut details), number)?);
+                blocks.push(spectra(file, &data, std::mem::take(&mut details), number)?);
             }
         } else if let Some(data) = &mut data {
             data.push_str(line);
@@ -36,23 +36,28 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentErro
         }
     }
     if let Some(data) = data {
-        records.extend(spectrum(file, &data, details, last)?);
+        blocks.push(spectra(file, &data, details, last)?);
     }
-    if records.len() > 1 {
-        for (record, number) in records.iter_mut().zip(1..) {
-            record.name = format!("{} {number}", record.name);
+    blocks.retain(|block| !block.is_empty());
+    if blocks.len() > 1 {
+        let name = stem(file);
+        for (block, number) in blocks.iter_mut().zip(1..) {
+            for record in block {
+                record.name.insert_str(name.len(), &format!(" {number}"));
+            }
         }
     }
-    Ok(records)
+    Ok(blocks.into_iter().flatten().collect())
 }
 
-/// The spectrum of one block of data, which ends before `end`.
-fn spectrum(
+/// The spectra of one block of data, which ends before `end`; the first is what the block was
+/// written for.
+fn spectra(
     file: &str,
     data: &str,
     details: Vec<(String, String)>,
     end: usize,
-) -> Result<Option<Record>, InstrumentError> {
+) -> Result<Vec<Record>, InstrumentError> {
     let said = |start: &str| {
         let found = details.iter().find(|(key, _)| key.starts_with(start));
         found.map(|(_, value)| value.as_str())
@@ -64,22 +69,40 @@ fn spectrum(
         let (file, what) = (file.to_owned(), "pixels");
         return Err(InstrumentError::Count { file, line: end, what, wanted, found });
     }
-    let Some((_, first)) = table.rows.first() else { return Ok(None) };
+    let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let letters = table.above.last().map_or(Vec::new(), |line| line.split_whitespace().collect());
-    let named = |letter: &str| letters.iter().position(|l| *l == letter);
+    let named = |letter: &str| {
+        let column = letters.iter().position(|l| *l == letter);
+        column.filter(|column| *column < first.len())
+    };
     let is_missing = |start: &str| said(start).is_some_and(|word| word == "No");
     let raw = is_missing("Reference Spectrum Present") || is_missing("Processed Spectrum Present");
-    let column = if raw { named("S") } else { named("P") };
-    let column = column.filter(|column| *column < first.len()).unwrap_or(first.len() - 1);
+    let main = if raw { "S" } else { "P" };
+    let record = |column, name, quantity, role| {
+        let named = Named { name, quantity, unit: Unit::Unstated };
+        let record = table.record(file, column, Axis::Nanometres, named)?;
+        Ok(Record { role, details: details.clone(), ..record })
+    };
     let quantity = if raw { MeasuredQuantity::Counts } else { MeasuredQuantity::Unstated };
-    let named = Named { name: stem(file), quantity, unit: Unit::Unstated };
-    let mut record = table.record(file, column, Axis::Nanometres, named)?;
+    let column = named(main).unwrap_or(first.len() - 1);
+    let mut records = vec![record(column, stem(file), quantity, Role::Main)?];
     // OceanView splices spectra and announces the pixels of the first.
     if let Some(count) = announced.filter(|count| *count < found) {
-        record.remarks.push(format!("the file announces {count} pixels and has {found}"));
+        let remark = format!("the file announces {count} pixels and has {found}");
+        records[0].remarks.push(remark);
     }
-    record.details = details;
-    Ok(Some(record))
+    for (letter, role, kind) in [
+        ("S", Role::Sample, "Sample Spectrum Present"),
+        ("R", Role::White, "Reference Spectrum Present"),
+        ("D", Role::Dark, "Dark Spectrum Present"),
+    ] {
+        // An absent one is a column of zeros.
+        if let Some(column) = named(letter).filter(|_| letter != main && !is_missing(kind)) {
+            let name = format!("{} ({letter})", stem(file));
+            records.push(record(column, name, MeasuredQuantity::Counts, role)?);
+        }
+    }
+    Ok(records)
 }
 
 #[cfg(test)]
@@ -107,11 +130,28 @@ mod tests {
     }
 
     #[test]
-    fn jaz_gives_its_processed_column_or_its_counts() {
+    fn jaz_gives_its_processed_column_and_the_counts_beside() {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
-        assert_eq!(read("a.jaz", text).unwrap()[0].values, [49.5, 19.2]);
-        let raw = &read("a.jaz", &text.replace("Yes", "No")).unwrap()[0];
-        assert_eq!((&raw.values, raw.quantity), (&vec![50.0, 20.0], MeasuredQuantity::Counts));
+        let told = |text: &str| -> Vec<_> {
+            let told = |r: Record| (r.name, r.quantity, r.role, r.values);
+            read("a.jaz", text).unwrap().into_iter().map(told).collect()
+        };
+        let beside = |number: &str| {
+            let counts = |letter: &str, role, values: [f64; 2]| {
+                let name = format!("a{number} ({letter})");
+                (name, MeasuredQuantity::Counts, role, values.to_vec())
+            };
+            let sample = counts("S", Role::Sample, [50.0, 20.0]);
+            let white = counts("R", Role::White, [100.0, 100.0]);
+            let dark = counts("D", Role::Dark, [1.0, 1.0]);
+            let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
+            vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
+        };
+        assert_eq!(told(text), beside(""));
+        assert_eq!(told(&text.repeat(2)), [beside(" 1"), beside(" 2")].concat());
+        let raw = text.replace("Yes", "No\nReference Spectrum Present: No");
+        let sample = ("a".to_owned(), MeasuredQuantity::Counts, Role::Main, vec![50.0, 20.0]);
+        assert_eq!(told(&raw), [sample, beside("").remove(3)]);
     }
 }

@@ -3,12 +3,14 @@
 use super::error::InstrumentError;
 
 /// What to do with a wavelength that stands twice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Duplicates {
     /// An error: a table of few wavelengths holds each once.
     Refuse,
     /// The mean, said: dense exports round the wavelengths of neighbouring pixels to one figure.
     Average,
+    /// The mean, said, if its values differ by no more than this; else an error.
+    AverageWithin(f64),
 }
 
 /// One value of a spectrum, with its place.
@@ -34,7 +36,7 @@ pub(super) struct Ordered {
 ///
 /// # Errors
 /// [`InstrumentError`] for a wavelength that is not above 0, goes back and forth, or
-/// stands twice where that is refused.
+/// stands more than once where that is refused.
 pub(super) fn ordered(
     file: &str,
     mut points: Vec<Point>,
@@ -64,11 +66,20 @@ pub(super) fn ordered(
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }
+        let values = || group.iter().map(|point| point.value);
+        let (least, most) =
+            (values().fold(first.value, f64::min), values().fold(first.value, f64::max));
+        if let Duplicates::AverageWithin(apart) = duplicates
+            && most - least > apart
+        {
+            let (file, line, nm) = (file.to_owned(), first.line.max(last.line), first.nm);
+            return Err(InstrumentError::Unlike { file, line, nm, least, most });
+        }
         repeated += usize::from(group.len() > 1);
         ordered.wavelengths_nm.push(first.nm);
         // Halves first: the sum of two finite values need not be finite.
         let share = 1.0 / group.len() as f64;
-        ordered.values.push(group.iter().map(|point| point.value * share).sum());
+        ordered.values.push(values().map(|value| value * share).sum());
     }
     if repeated > 0 {
         let what =
@@ -111,8 +122,14 @@ mod tests {
             ordered("f", twice.clone(), Duplicates::Refuse).unwrap_err(),
             InstrumentError::Duplicate { file: "f".into(), line: 5, nm: 400.0, first: 4 }
         );
-        let found = ordered("f", twice, Duplicates::Average).unwrap();
-        assert_eq!((found.values, found.remarks.len()), (vec![1.5, 2.0], 1));
+        for averaged in [Duplicates::Average, Duplicates::AverageWithin(1.0)] {
+            let found = ordered("f", twice.clone(), averaged).unwrap();
+            assert_eq!((found.values, found.remarks.len()), (vec![1.5, 2.0], 1), "{averaged:?}");
+        }
+        assert_eq!(
+            ordered("f", twice, Duplicates::AverageWithin(0.9)).unwrap_err().to_string(),
+            "f, line 5: 400 nm stands more than once, with unlike values from 1 to `2`"
+        );
     }
 
     #[test]

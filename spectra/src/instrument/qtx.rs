@@ -4,7 +4,7 @@
 use super::error::InstrumentError;
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Unit};
+use super::record::{MeasuredQuantity, Record, Role, Unit};
 use super::text::lines;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
@@ -95,6 +95,7 @@ impl Section {
         Ok(Record {
             name: name.map_or(unnamed, |(_, _, name)| name.clone()),
             quantity: MeasuredQuantity::Reflectance,
+            role: Role::Main,
             unit: Unit::Percent,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,

@@ -62,6 +62,19 @@ pub enum Unit {
     Unstated,
 }
 
+/// What a spectrum is to its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// What the file was written for.
+    Main,
+    /// The sample's light, from which the processed spectrum beside it was made.
+    Sample,
+    /// The light of the white, kept beside.
+    White,
+    /// The dark, kept beside.
+    Dark,
+}
+
 /// One spectrum, as the file has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
@@ -69,6 +82,8 @@ pub struct Record {
     pub name: String,
     /// What was measured.
     pub quantity: MeasuredQuantity,
+    /// What it is to the file.
+    pub role: Role,
     /// The unit of `values`.
     pub unit: Unit,
     /// Wavelengths in nm, rising strictly; at least one.

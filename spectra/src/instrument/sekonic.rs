@@ -5,7 +5,7 @@
 use super::error::InstrumentError;
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 /// A line of the spectrum begins so: `Spectral Data 380[nm],0.001`.
@@ -77,6 +77,7 @@ fn record(
     Ok(Record {
         name: title.unwrap_or_else(|| stem(file)),
         quantity: MeasuredQuantity::Power,
+        role: Role::Main,
         unit: Unit::Unstated,
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,

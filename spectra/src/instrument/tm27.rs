@@ -3,7 +3,7 @@
 use super::error::InstrumentError;
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered, sorted};
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::xml::parse;
 
 /// The spectral distribution of a TM-27 file.
@@ -39,6 +39,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentErro
         records.push(Record {
             name: name.clone(),
             quantity: quantity.map_or(MeasuredQuantity::Unstated, |(_, word)| quantity_of(word)),
+            role: Role::Main,
             unit: Unit::Unstated,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,

@@ -39,7 +39,7 @@ pub(super) fn same(a_ms: f64, b_ms: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::instrument::{MeasuredQuantity, Unit};
+    use crate::instrument::{MeasuredQuantity, Role, Unit};
 
     #[test]
     fn the_makers_words_are_understood() {
@@ -57,6 +57,7 @@ mod tests {
             let record = Record {
                 name: "r".into(),
                 quantity: MeasuredQuantity::Counts,
+                role: Role::Main,
                 unit: Unit::Unstated,
                 wavelengths_nm: vec![400.0],
                 values: vec![1.0],

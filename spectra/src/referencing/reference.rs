@@ -17,7 +17,7 @@ use std::ops::RangeInclusive;
 use super::error::ReferencingError;
 use super::integration_time::{integration_time_ms, same};
 use super::saturation::ceiling;
-use crate::instrument::{MeasuredQuantity, Record, Unit};
+use crate::instrument::{MeasuredQuantity, Record, Role, Unit};
 use crate::interpolate::Ends;
 use crate::samples::Samples;
 
@@ -186,6 +186,7 @@ impl Referencing<'_> {
         Ok(Record {
             name: sample.name.clone(),
             quantity: MeasuredQuantity::Reflectance,
+            role: Role::Main,
             unit: Unit::Fraction,
             wavelengths_nm: good.nm,
             values: good.reflectance,

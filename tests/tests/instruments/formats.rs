@@ -1,8 +1,8 @@
 //! Every format in: the values of the made-up files, from the library and through `color`.
 
-use spectra::instrument::{Format, MeasuredQuantity, Unit, read};
+use spectra::instrument::{Format, MeasuredQuantity, Record, Role, Unit, read};
 use suite::near::assert_near;
-use suite::program::impasto;
+use suite::program::{Run, impasto};
 
 use super::{fixture, fixtures};
 
@@ -36,9 +36,11 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
         let found = read(file, bytes, None).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.format, format, "{file}");
         assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: told or found");
-        let found_names: Vec<&str> = found.records.iter().map(|r| r.name.as_str()).collect();
+        let is_main = |record: &&Record| record.role == Role::Main;
+        let mains: Vec<&Record> = found.records.iter().filter(is_main).collect();
+        let found_names: Vec<&str> = mains.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(found_names, names, "{file}");
-        for (record, paint) in found.records.iter().zip([MADDER, SLATE]) {
+        for (record, paint) in mains.iter().zip([MADDER, SLATE]) {
             // SpectraSuite's file begins with two wavelengths of noise.
             let skip = record.values.len() - NM.len();
             assert_eq!(skip, if file == "spectrasuite.txt" { 2 } else { 0 }, "{file}");
@@ -94,8 +96,56 @@ fn every_file_gives_the_same_colours() {
 }
 
 #[test]
-fn noise_where_no_colour_is_made_is_cut_and_said() {
+fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("ends.dpt");
+    let color = |bad: &[f64]| {
+        let steps = (0..31).map(|i| 340.0 + 13.5 * f64::from(i));
+        let noise = |nm: f64| if bad.contains(&nm) { -0.02 } else { 0.5 };
+        let lines: String = steps.map(|nm| format!("{nm},{}\n", noise(nm))).collect();
+        std::fs::write(&file, lines).unwrap();
+        impasto(&["color", file.to_str().unwrap()])
+    };
+    let run = color(&[340.0, 367.0, 704.5, 731.5]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let said = "ends: cut to 380.5 to 691 nm; beyond, readings are not from 0 to 2\n";
+    assert!(run.err.contains(said), "{}", run.err);
+    let run = color(&[691.0]);
+    assert!(run.status == 1 && run.err.contains("column `691 nm`"), "{}", run.err);
+    // Without the middle there is nothing whose ends could be cut.
+    std::fs::write(&file, "340,0.5\n360,-0.1\n380,0.5\n").unwrap();
+    let run = impasto(&["color", file.to_str().unwrap()]);
+    assert!(run.status == 1 && run.err.contains("column `360 nm`"), "{}", run.err);
+    let most: Vec<f64> = (0..31).map(|i| 340.0 + 13.5 * f64::from(i)).skip(10).collect();
+    let run = color(&most);
+    assert!(
+        run.status == 1 && run.err.contains("most of its 31 are not, found `21`"),
+        "{}",
+        run.err
+    );
     let run = impasto(&["color", &fixture("spectrasuite.txt")]);
-    assert!(run.err.contains("2 wavelengths at the ends are cut off"), "{}", run.err);
-    assert!(run.err.contains("400 to 700 nm"), "{}", run.err);
+    assert!(run.err.contains("spectrasuite: cut to 400 to 700 nm"), "{}", run.err);
+}
+
+#[test]
+fn a_jaz_file_holds_its_own_white_and_dark() {
+    let jaz = fixture("madder.jaz");
+    let [white, dark] = ["R", "D"].map(|letter| format!("{jaz}#madder ({letter})"));
+    let lab = |run: &Run| {
+        assert_eq!(run.status, 0, "{}", run.err);
+        let json = run.json();
+        assert_eq!(json.as_array().unwrap().len(), 1, "one sample: {}", run.out);
+        [0, 1, 2].map(|axis| json[0]["lab"][axis].as_f64().unwrap())
+    };
+    let processed = impasto(&["color", &jaz, "--json"]);
+    assert!(!processed.err.contains("left out"), "{}", processed.err);
+    let counts = impasto(&["color", &jaz, "--white", &white, "--dark", &dark, "--json"]);
+    assert_eq!(counts.json()[0]["sample"], "madder (S)");
+    assert_near("S against R and D", &lab(&counts), &lab(&processed), 1e-9);
+    // Where a file tells no roles, its white is known by its name.
+    let columns = fixture("columns.txt");
+    let slate = format!("{columns}#Slate");
+    let run =
+        impasto(&["color", &columns, "--white", &slate, "--dark", "0", "--tile", "0.3", "--json"]);
+    assert_eq!((run.json()[0]["sample"].as_str(), lab(&run).len()), (Some("Madder"), 3));
 }

@@ -1,6 +1,6 @@
 //! Made-up counts of a grey of known reflectance, and what must come out.
 
-use spectra::instrument::{MeasuredQuantity, Record, Unit};
+use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
 use spectra::referencing::{Dark, Referencing, ReferencingError, Tile};
 
 /// A reading of `counts(nm)` at uneven pixels from 340 to 860 nm.
@@ -11,6 +11,7 @@ fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Rec
     Record {
         name: name.to_owned(),
         quantity: MeasuredQuantity::Counts,
+        role: Role::Main,
         unit: Unit::Unstated,
         values: wavelengths_nm.iter().map(|&nm| counts(nm)).collect(),
         wavelengths_nm,

@@ -10,11 +10,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::error::InstrumentError;
 use super::super::number::{Decimal, wanted};
 use super::super::points::{Duplicates, Point, ordered, sorted};
-use super::super::record::{MeasuredQuantity, Record, Unit};
+use super::super::record::{MeasuredQuantity, Record, Role, Unit};
 use super::super::xml::{Element, parse};
 
 /// A reflectance at or above this is no fraction: the schema keeps values below 3.
 const MOST_FRACTION: f64 = 3.0;
+
+/// Values at one wavelength are averaged if they differ by no more than this share of full scale.
+const MOST_APART: f64 = 0.1;
 
 /// What a wavelength must be, in errors.
 const NM: &str = "a wavelength in nm";
@@ -82,8 +85,19 @@ fn spectrum(
     if points.is_empty() {
         return Err(InstrumentError::line(file, element.line, "a value", &element.name));
     }
+    let unit = match quantity {
+        MeasuredQuantity::Reflectance | MeasuredQuantity::Transmittance => Unit::Fraction,
+        _ => Unit::Unstated,
+    };
+    let duplicates = if element.name == "CustomSpectrum" {
+        let white = if unit == Unit::Fraction { 1.0 } else { 0.0 };
+        let largest = points.iter().map(|point| point.value.abs()).fold(white, f64::max);
+        Duplicates::AverageWithin(MOST_APART * largest)
+    } else {
+        Duplicates::Refuse
+    };
     let (points, order) = sorted(points);
-    let ordered = ordered(file, points, Duplicates::Refuse)?;
+    let ordered = ordered(file, points, duplicates)?;
     let mut details = Vec::new();
     for (key, holder) in [("ObjectType", object), ("Id", object), ("ColorSpecification", element)] {
         details.extend(holder.attribute(key).map(|value| (key.to_owned(), value.to_owned())));
@@ -97,13 +111,10 @@ fn spectrum(
         .map(|(_, value)| value.split('_').next().unwrap_or_default().to_owned())
         .filter(|it| matches!(it.as_str(), "M0" | "M1" | "M2" | "M3"));
     details.extend(measured);
-    let unit = match quantity {
-        MeasuredQuantity::Reflectance | MeasuredQuantity::Transmittance => Unit::Fraction,
-        _ => Unit::Unstated,
-    };
     let record = Record {
         name,
         quantity,
+        role: Role::Main,
         unit,
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,
@@ -282,6 +293,23 @@ mod tests {
         assert_eq!(records[1].wavelengths_nm, [400.0, 500.5]);
         assert_eq!(records[1].values, [0.4, 0.5]);
         assert_eq!(records[1].quantity, MeasuredQuantity::Reflectance);
+    }
+
+    #[test]
+    fn a_custom_wavelength_that_stands_twice_is_averaged_unless_far_apart() {
+        let points = |second: f64| {
+            let point = |nm: f64, value: f64| {
+                format!("<c:SpectralPoint WL='{nm}'>{value}</c:SpectralPoint>")
+            };
+            let points = point(400.0, 0.1) + &point(500.0, 0.2) + "\n" + &point(500.0, second);
+            let spec = "<c:CustomSpectrum ColorSpecification='s'>";
+            read("f", &file(&object("a", &format!("{spec}{points}</c:CustomSpectrum>"))))
+        };
+        let found = &points(0.28).unwrap()[0];
+        assert!((found.values[1] - 0.24).abs() < 1e-12 && found.values.len() == 2, "{found:?}");
+        assert!(found.remarks[0].contains("averaged"), "{found:?}");
+        let error = points(0.31).unwrap_err().to_string();
+        assert!(error.starts_with("f, line 3: 500 nm stands more than once"), "{error}");
     }
 
     #[test]
