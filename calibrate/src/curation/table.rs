@@ -7,7 +7,7 @@ use spectra::optics::Surface;
 use super::error::CurationError;
 use crate::digits::rounded;
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
-use crate::measurement::{Place, wavelength_of_header};
+use crate::measurement::{Place, SheetError, wavelength_of_header};
 
 /// The names of the curves, in the order in which they are written; the last is
 /// all that is known of a pigment whose S was not identified.
@@ -82,12 +82,19 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
         }
         if record.len() != header.len() {
             let (wanted, found) = (header.len(), record.len());
-            return Err(TableError::RowLength { file: file.to_owned(), row, wanted, found });
+            return Err(TableError::Sheet(SheetError::RowLength {
+                file: file.to_owned(),
+                row,
+                wanted,
+                found,
+            }));
         }
-        let wrong = |column: usize, wanted| TableError::Cell {
-            place: Place::new(file, row, &header[column]),
-            wanted,
-            text: record[column].to_owned(),
+        let wrong = |column: usize, wanted| {
+            TableError::Sheet(SheetError::Cell {
+                place: Place::new(file, row, &header[column]),
+                wanted,
+                text: record[column].to_owned(),
+            })
         };
         let (name, quantity) = (&record[columns.0], &record[columns.1]);
         if name.is_empty() || name.contains(char::is_control) {
@@ -128,7 +135,9 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
 fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize)), TableError> {
     let column = |wanted: &'static str| {
         let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
-        found.ok_or_else(|| TableError::MissingColumn { file: file.to_owned(), column: wanted })
+        found.ok_or_else(|| {
+            TableError::Sheet(SheetError::MissingColumn { file: file.to_owned(), column: wanted })
+        })
     };
     let columns = (column("pigment")?, column("quantity")?);
     let mut wavelengths = Vec::new();
@@ -137,10 +146,12 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
             continue;
         }
         let nm = wavelength_of_header(&name.to_ascii_lowercase());
-        wavelengths.push(nm.ok_or_else(|| TableError::Cell {
-            place: Place::new(file, 1, name),
-            wanted: "a wavelength in nm",
-            text: name.to_owned(),
+        wavelengths.push(nm.ok_or_else(|| {
+            TableError::Sheet(SheetError::Cell {
+                place: Place::new(file, 1, name),
+                wanted: "a wavelength in nm",
+                text: name.to_owned(),
+            })
         })?);
     }
     let grid = Grid::through(&wavelengths);
@@ -232,6 +243,9 @@ fn framed(
 /// Why a table of curves cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
+    /// The sheet is faulty.
+    #[error(transparent)]
+    Sheet(SheetError),
     /// No CSV.
     #[error("{file}: {reason}")]
     Syntax {
@@ -240,41 +254,11 @@ pub enum TableError {
         /// What the parser said.
         reason: String,
     },
-    /// A column that must be there is not.
-    #[error("{file}, row 1: no column `{column}`")]
-    MissingColumn {
-        /// The file.
-        file: String,
-        /// The column.
-        column: &'static str,
-    },
     /// Wavelengths at no constant step.
     #[error("{file}, row 1: wavelengths must rise at a constant step")]
     Irregular {
         /// The file.
         file: String,
-    },
-    /// A row of another length.
-    #[error("{file}, row {row}: {wanted} cells are wanted, found `{found}`")]
-    RowLength {
-        /// The file.
-        file: String,
-        /// The row.
-        row: u64,
-        /// Columns of the header.
-        wanted: usize,
-        /// Cells of the row.
-        found: usize,
-    },
-    /// A cell that is not what its column wants.
-    #[error("{place}: {wanted} is wanted, found `{text}`")]
-    Cell {
-        /// Where.
-        place: Place,
-        /// What should stand there.
-        wanted: &'static str,
-        /// What stands there.
-        text: String,
     },
     /// A pigment without K or S.
     #[error("{file}: pigment {pigment} has no row of `{quantity}`")]
@@ -313,11 +297,11 @@ impl TableError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::MissingColumn { .. } | Self::Cell { place: Place { row: 1, .. }, .. } => {
+            Self::Sheet(SheetError::MissingColumn { .. } | SheetError::Cell { place: Place { row: 1, .. }, .. }) => {
                 "the columns are pigment, quantity, then wavelengths such as 400; `library export --to csv` writes one".into()
             }
             Self::Irregular { .. } => "resample the curves to a regular grid first".into(),
-            Self::RowLength { .. } => "numbers take a decimal point, not a comma".into(),
+            Self::Sheet(SheetError::RowLength { .. }) => "numbers take a decimal point, not a comma".into(),
             Self::NoReference { whites, .. } if whites.is_empty() => {
                 "name the white to scale by, --reference WHITE, or say --amounts absolute".into()
             }

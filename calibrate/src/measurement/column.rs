@@ -1,6 +1,7 @@
 //! What a column of a measurement file holds, by its header.
 
-use super::error::{MeasurementError, Place};
+use super::error::MeasurementError;
+use super::sheet_error::{Place, SheetError};
 
 /// The meaning of one column.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,11 +59,11 @@ pub(super) fn columns(
             });
         }
         if name.contains(char::is_control) {
-            return Err(MeasurementError::Cell {
+            return Err(MeasurementError::Sheet(SheetError::Cell {
                 place: place(index),
                 wanted: "a name without control characters",
                 text: name.escape_default().to_string(),
-            });
+            }));
         }
         let column = match name.to_ascii_lowercase().as_str() {
             "reading" if wanted == Wanted::Recipes => Some(Column::Reading),
@@ -72,7 +73,10 @@ pub(super) fn columns(
         columns.push(column.ok_or_else(out_of_range)?);
     }
     if !columns.contains(&Column::Sample) {
-        return Err(MeasurementError::MissingColumn { file: file.to_owned(), column: "sample" });
+        return Err(MeasurementError::Sheet(SheetError::MissingColumn {
+            file: file.to_owned(),
+            column: "sample",
+        }));
     }
     let mut before: Option<f64> = None;
     for (index, column) in columns.iter().enumerate() {
@@ -92,10 +96,10 @@ pub(super) fn columns(
         }
     }
     if before.is_none() && wanted == Wanted::Readings {
-        return Err(MeasurementError::MissingColumn {
+        return Err(MeasurementError::Sheet(SheetError::MissingColumn {
             file: file.to_owned(),
             column: "400 (a wavelength in nm)",
-        });
+        }));
     }
     Ok(columns)
 }

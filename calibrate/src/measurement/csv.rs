@@ -7,8 +7,9 @@ use spectra::instrument::decoded;
 
 use super::column::{Column, Wanted, columns};
 use super::common_grid::{grid_of, on_grid};
-use super::error::{MeasurementError, Place};
+use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
+use super::sheet_error::{Place, SheetError};
 use super::table::{Film, MeasurementTable, Reading};
 
 impl MeasurementTable {
@@ -177,12 +178,12 @@ impl Sheet {
         let row = record.position().map_or(0, csv::Position::line);
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
-            return Err(MeasurementError::RowLength {
+            return Err(MeasurementError::Sheet(SheetError::RowLength {
                 file: self.file.to_string(),
                 row,
                 wanted: self.columns.len(),
                 found: record.len(),
-            });
+            }));
         }
         let mut reading = Reading {
             file: Arc::clone(&self.file),
@@ -195,10 +196,12 @@ impl Sheet {
             reflectance: Vec::new(),
         };
         for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
-            let wrong = |wanted| MeasurementError::Cell {
-                place: Place::new(&self.file, row, &self.headers[index]),
-                wanted,
-                text: cell.to_owned(),
+            let wrong = |wanted| {
+                MeasurementError::Sheet(SheetError::Cell {
+                    place: Place::new(&self.file, row, &self.headers[index]),
+                    wanted,
+                    text: cell.to_owned(),
+                })
             };
             let number = |wanted| {
                 // With decimal commas a point may part thousands.

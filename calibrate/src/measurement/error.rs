@@ -2,45 +2,19 @@
 
 use spectra::instrument::MeasuredQuantity;
 
-/// A cell of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
-    /// The file, as the user named it.
-    pub file: String,
-    /// The row, counted from 1; the header is row 1.
-    pub row: u64,
-    /// The column's header.
-    pub column: String,
-}
-
-impl Place {
-    pub(crate) fn new(file: &str, row: u64, column: &str) -> Self {
-        Self { file: file.to_owned(), row, column: column.to_owned() }
-    }
-}
-
-impl std::fmt::Display for Place {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column)
-    }
-}
+use super::sheet_error::{Place, SheetError};
 
 /// Why readings cannot be used. Every variant says where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
+    /// The sheet is faulty.
+    #[error(transparent)]
+    Sheet(SheetError),
     /// The file holds nothing.
     #[error("{file}: the file holds no readings")]
     Empty {
         /// The file.
         file: String,
-    },
-    /// A column that must be there is not.
-    #[error("{file}, row 1: no column `{column}`")]
-    MissingColumn {
-        /// The file.
-        file: String,
-        /// The column.
-        column: &'static str,
     },
     /// A column has no header.
     #[error("{file}, row 1: column number {number} has no header")]
@@ -83,28 +57,6 @@ pub enum MeasurementError {
     WavelengthRange {
         /// Where.
         place: Place,
-    },
-    /// A row has more or fewer cells than the header.
-    #[error("{file}, row {row}: {wanted} cells are wanted, found `{found}`")]
-    RowLength {
-        /// The file.
-        file: String,
-        /// The row.
-        row: u64,
-        /// Cells of the header.
-        wanted: usize,
-        /// Cells of the row.
-        found: usize,
-    },
-    /// A cell is not the number it should be.
-    #[error("{place}: {wanted} is wanted, found `{text}`")]
-    Cell {
-        /// Where.
-        place: Place,
-        /// What should stand there.
-        wanted: &'static str,
-        /// What stands there.
-        text: String,
     },
     /// A reading below 0 or far above white.
     #[error("{place}: a reflectance {range} is wanted, found `{value}`")]
@@ -300,7 +252,7 @@ impl MeasurementError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::MissingColumn { .. } => {
+            Self::Sheet(SheetError::MissingColumn { .. }) => {
                 "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
             }
             Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
@@ -309,19 +261,19 @@ impl MeasurementError {
             Self::FallingWavelength { .. } => {
                 "order the wavelength columns from short to long".into()
             }
-            Self::RowLength { wanted, found, .. } if found > wanted => {
+            Self::Sheet(SheetError::RowLength { wanted, found, .. }) if found > wanted => {
                 "numbers take a decimal point; a decimal comma splits a cell in two".into()
             }
-            Self::RowLength { .. } => {
+            Self::Sheet(SheetError::RowLength { .. }) => {
                 "the row may be cut off; write empty cells as `,,`".into()
             }
-            Self::Cell { text, .. } if text.contains(',') => {
+            Self::Sheet(SheetError::Cell { text, .. }) if text.contains(',') => {
                 "numbers take a decimal point, not a comma".into()
             }
-            Self::Cell { wanted: "a reflectance", text, .. } if text.is_empty() => {
+            Self::Sheet(SheetError::Cell { wanted: "a reflectance", text, .. }) if text.is_empty() => {
                 "fill in the reading, or remove the row of a sample that was not read".into()
             }
-            Self::Cell { wanted: "an amount of pigment", .. } => {
+            Self::Sheet(SheetError::Cell { wanted: "an amount of pigment", .. }) => {
                 "a column that is neither known nor a wavelength is read as a pigment; remove it if it is none".into()
             }
             Self::NoTable { .. } => {

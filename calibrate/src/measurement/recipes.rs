@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::column::{Column, Wanted};
 use super::csv::Sheet;
-use super::error::{MeasurementError, Place};
+use super::error::MeasurementError;
+use super::sheet_error::Place;
 use super::table::{Film, MeasurementTable, Reading};
 
 /// How many names an error lists.

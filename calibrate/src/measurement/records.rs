@@ -6,8 +6,9 @@ use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
 
 use super::common_grid::{grid_of, on_grid};
-use super::error::{MeasurementError, Place};
+use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
+use super::sheet_error::Place;
 use super::table::{Film, MeasurementTable, Reading};
 
 /// Wavelengths that a table of readings may have, in nm, as in a CSV.

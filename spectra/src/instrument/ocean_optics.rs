@@ -107,6 +107,7 @@ fn spectra(
 
 #[cfg(test)]
 mod tests {
+    use super::super::choice::chosen;
     use super::*;
 
     #[test]
@@ -153,5 +154,9 @@ mod tests {
         let raw = text.replace("Yes", "No\nReference Spectrum Present: No");
         let sample = ("a".to_owned(), MeasuredQuantity::Counts, Role::Main, vec![50.0, 20.0]);
         assert_eq!(told(&raw), [sample, beside("").remove(3)]);
+        // Without a name the file is what it was written for.
+        let records = read("a.jaz", text).unwrap();
+        assert_eq!(chosen("a.jaz", &records, None).unwrap().name, "a");
+        assert_eq!(chosen("a.jaz", &records[3..], None).unwrap().name, "a (D)");
     }
 }

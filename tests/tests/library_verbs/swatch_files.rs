@@ -27,6 +27,8 @@ fn palette(groups: &'static str) -> impl Strategy<Value = Palette> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
     #[test]
     fn ase_is_read_as_written(palette in palette("[ab]{0,1}")) {
         let bytes = write_ase(&palette).unwrap();
