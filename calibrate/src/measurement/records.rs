@@ -18,6 +18,10 @@ const BAND: RangeInclusive<f64> = 200.0..=2500.0;
 /// lamps and detectors grow weak, and exports hold noise.
 const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 
+/// A reading above minus this is 0 with an instrument's noise: dark paint under little light, or a
+/// dark reading a little too high.
+const NOISE_BELOW_ZERO: f64 = 0.02;
+
 /// How an instrument's spectra are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RecordChoice {
@@ -34,8 +38,8 @@ impl MeasurementTable {
     /// are one sample, read again. There are no pigments and no backings.
     ///
     /// Wavelengths beyond 200 to 2500 nm are cut off, and so are, beyond 400 to 700 nm, the ends
-    /// of a spectrum up to its last value that no surface reflects; a spectrum of which most
-    /// values are such, or that has none from 400 to 700 nm, is refused. Spectra on different
+    /// of a spectrum up to its last value that no surface reflects. Values down to -2 % count as 0,
+    /// which is said. A spectrum of which most values no surface reflects, or that has none from 400 to 700 nm, is refused. Spectra on different
     /// wavelengths are brought by straight lines to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
@@ -213,7 +217,8 @@ impl Spectrum<'_> {
     /// Makes fractions of the values. Cuts off the ends up to their last value that is no
     /// reflectance, where it need not be sound.
     fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
-        let is_sound = |value: f64| (0.0..=2.0).contains(&(value * self.scale.to_fraction()));
+        let factor = self.scale.to_fraction();
+        let is_sound = |value: f64| (-NOISE_BELOW_ZERO..=2.0).contains(&(value * factor));
         let bad = self.values.iter().filter(|value| !is_sound(**value)).count();
         if 2 * bad > self.values.len() {
             return Err(MeasurementError::Noise {
@@ -254,8 +259,12 @@ impl Spectrum<'_> {
             ));
         }
         self.keep(from, to);
-        let factor = self.scale.to_fraction();
-        self.values.iter_mut().for_each(|value| *value *= factor);
+        let below = self.values.iter().filter(|value| **value < 0.0).count();
+        if below > 0 {
+            let name = name(&self.record.name);
+            remarks.push(format!("{name}: {below} readings just below zero count as 0"));
+        }
+        self.values.iter_mut().for_each(|value| *value = (*value * factor).max(0.0));
         Ok(())
     }
 }

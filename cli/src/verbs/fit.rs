@@ -1,6 +1,6 @@
 //! `impasto fit`: measurements to a pigment library.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
@@ -52,7 +52,7 @@ impl Fit {
         drop(waiting);
         fit_report::remark_films(&calibration, console)?;
         let mut library = calibration.library;
-        library.title = self.title.unwrap_or_else(|| job.inputs[0].path.clone());
+        library.title = self.title.unwrap_or_else(|| stem(&job.inputs[0].path));
         library.licence = self.licence;
         library.source = self.source;
         let text = library.to_json();
@@ -76,4 +76,10 @@ impl Fit {
             }
         }
     }
+}
+
+/// A file's name without folder and ending.
+fn stem(path: &str) -> String {
+    let stem = Path::new(path).file_stem();
+    stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

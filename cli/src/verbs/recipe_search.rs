@@ -125,7 +125,16 @@ impl Match {
             let (light, weight) = told.unwrap_or((text, 1.0));
             Ok(Sight { viewing: viewing(light, &self.observer)?, weight })
         };
-        self.illuminant.iter().map(sight).collect()
+        let sights = self.illuminant.iter().map(sight).collect::<anyhow::Result<Vec<Sight>>>()?;
+        let name = |sight: &Sight| sight.viewing.illuminant.name().to_owned();
+        let twice = |(at, sight)| sights[..at].iter().any(|before| name(before) == name(sight));
+        if let Some(repeated) = sights.iter().enumerate().find(|&pair| twice(pair)) {
+            return Err(Refusal::usage(
+                format!("the light {} is given twice", name(repeated.1)),
+                "give each light once, with its weight: --illuminant D65=2 --illuminant A",
+            ));
+        }
+        Ok(sights)
     }
 
     fn request(
@@ -177,6 +186,9 @@ impl Match {
         }
         if self.thickness.is_none() && library.amounts == AmountKind::Relative {
             return Ok(FilmKind::Hiding);
+        }
+        if self.over.is_none() {
+            console.remark("over a perfect white; give the paper or ground by --over")?;
         }
         let ground = ground(self.over.as_deref().unwrap_or("white"), library, console)?;
         let Some(text) = &self.thickness else {

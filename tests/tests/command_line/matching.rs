@@ -156,6 +156,7 @@ fn what_cannot_be_is_refused_with_a_way_out() {
     for (arguments, status, words) in [
         (&["nonsense"][..], 2, "#rrggbb"),
         (&["#12345"], 2, "#12345"),
+        (&["#123456", "--illuminant", "A", "--illuminant", "A=2"], 2, "A is given twice"),
         (&["#123456", "--only", "Unobtainium"], 1, "Unobtainium"),
         (&["#123456", "--least", "2"], 2, "--least"),
         (&["#123456", "--least", "1/0"], 2, "--least"),

@@ -101,7 +101,7 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     let file = folder.path().join("ends.dpt");
     let color = |bad: &[f64]| {
         let steps = (0..31).map(|i| 340.0 + 13.5 * f64::from(i));
-        let noise = |nm: f64| if bad.contains(&nm) { -0.02 } else { 0.5 };
+        let noise = |nm: f64| if bad.contains(&nm) { -0.05 } else { 0.5 };
         let lines: String = steps.map(|nm| format!("{nm},{}\n", noise(nm))).collect();
         std::fs::write(&file, lines).unwrap();
         impasto(&["color", file.to_str().unwrap()])
@@ -125,6 +125,24 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     );
     let run = impasto(&["color", &fixture("spectrasuite.txt")]);
     assert!(run.err.contains("spectrasuite: cut to 400 to 700 nm"), "{}", run.err);
+}
+
+#[test]
+fn readings_just_below_zero_count_as_zero_and_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("dark.dpt");
+    let color = |least: f64| {
+        let steps = (0..31).map(|i| 400.0 + 10.0 * f64::from(i));
+        let lines = steps.map(|nm| format!("{nm},{}\n", if nm < 425.0 { least } else { 0.5 }));
+        std::fs::write(&file, lines.collect::<String>()).unwrap();
+        impasto(&["color", file.to_str().unwrap()])
+    };
+    let (zero, below) = (color(0.0), color(-0.019));
+    assert_eq!((below.status, &below.out), (0, &zero.out), "{}", below.err);
+    let said = "dark: 3 readings just below zero count as 0";
+    assert!(below.err.contains(said) && !zero.err.contains(said), "{}", below.err);
+    let far = color(-0.021);
+    assert!(far.status == 1 && far.err.contains("column `400 nm`"), "{}", far.err);
 }
 
 #[test]

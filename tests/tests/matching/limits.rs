@@ -122,3 +122,17 @@ fn a_least_share_that_leaves_no_room_gives_no_recipe_of_that_size() {
     let found = recipes(&library, &wanted, &request).unwrap();
     assert!(found.iter().all(|recipe| recipe.shares.len() <= 2), "{found:?}");
 }
+
+#[test]
+fn whole_parts_keep_the_least_share() {
+    let library = oils();
+    let sights = sights(&["D65"]);
+    let mut request = MatchRequest::new(&library, sights.clone(), FilmKind::Hiding);
+    (request.least_share, request.whole_parts) = (0.2, Some(12));
+    for wanted in colours() {
+        let target = Target::from_lab("", wanted, &sights);
+        for recipe in recipes(&library, &target, &request).unwrap() {
+            assert!(recipe.shares.iter().all(|(_, share)| *share >= 0.2 - 1e-9), "{recipe:?}");
+        }
+    }
+}

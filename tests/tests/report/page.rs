@@ -42,10 +42,10 @@ fn names_are_text() {
 fn every_caption_has_the_command_that_made_it() {
     let page = page();
     let command = format!(
-        "impasto report {} {} --out {}",
+        "impasto report {} --out {} {}",
         whole().text("library.json"),
-        whole().text("readings.csv"),
-        whole().text("out")
+        whole().text("out"),
+        whole().text("readings.csv")
     );
     let captions = page.matches("<figcaption>").count();
     assert!(captions >= 8, "{captions} captions");
