@@ -52,6 +52,14 @@ pub struct Comparison {
     pub resampled_from: Option<Grid>,
 }
 
+impl Comparison {
+    /// The films whose pigments are all measured and identified: those that the
+    /// errors are of.
+    pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
+        self.films.iter().filter(|film| !film.unsure)
+    }
+}
+
 /// The measurements that can be compared with a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparable {

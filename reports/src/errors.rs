@@ -30,8 +30,7 @@ struct Errors {
 fn histogram(subject: &Subject<'_>) -> Figure {
     let mut rows = Vec::new();
     if let Some(comparison) = &subject.comparison {
-        let sure = comparison.films.iter().filter(|film| !film.unsure);
-        let errors = sure.map(|film| film.delta_e).collect();
+        let errors = comparison.sure().map(|film| film.delta_e).collect();
         let summary = comparison.delta_e;
         rows.push(Errors { what: "samples, fitted", errors, summary, colour: SERIES[0] });
     }

@@ -82,9 +82,9 @@ pub fn head(subject: &Subject<'_>) -> Head {
         facts.push(fact("Unevenness", library.unevenness.to_string()));
     }
     facts.push(fact("Light", subject.light()));
-    if let Some(Comparison { films, delta_e, .. }) = &subject.comparison {
-        let samples = films.iter().filter(|film| !film.unsure).count();
-        facts.push(fact("Fitted", errors(samples, "samples", delta_e)));
+    if let Some(comparison) = &subject.comparison {
+        let samples = comparison.sure().count();
+        facts.push(fact("Fitted", errors(samples, "samples", &comparison.delta_e)));
     }
     if let Some(Validation { per_sample, delta_e, .. }) = &subject.validation {
         facts.push(fact("Left out", errors(per_sample.len(), "mixtures", delta_e)));

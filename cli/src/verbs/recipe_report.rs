@@ -92,8 +92,12 @@ impl Sheet<'_> {
         recipe: &Recipe,
         console: &mut Console<'_>,
     ) -> anyhow::Result<()> {
+        // Under the light's name, which may be the path of a lamp's file.
+        let under = |(difference, light): (&f64, &str)| {
+            format!("{difference:width$.2}", width = light.chars().count().max(8))
+        };
         let differences: Vec<String> =
-            recipe.delta_e.iter().map(|difference| format!("{difference:8.2}")).collect();
+            recipe.delta_e.iter().zip(self.lights()).map(under).collect();
         let rgb = self.shown(recipe.lab[0]);
         let mut line =
             format!("{rank:>3}  {}  {}{}", differences.join(" "), console.patch(rgb), rgb.to_hex());

@@ -169,7 +169,7 @@ impl Report {
             return console.json(&json!({
                 "page": path(PAGE),
                 "figures": figures.collect::<Vec<Value>>(),
-                "samples": comparison.as_ref().map(|c| c.films.len()),
+                "samples": comparison.as_ref().map(|c| c.sure().count()),
                 "delta_e": comparison.as_ref().map(|c| c.delta_e.rounded()),
                 "left_out": validation.as_ref().map(|v| v.delta_e.rounded()),
                 "absent": comparison.as_ref().map_or_else(Vec::new, absent),
@@ -178,8 +178,9 @@ impl Report {
         let told = |what: &str, count: usize, errors: &calibrate::evaluate::Summary| {
             format!("{count} {what}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
         };
-        if let Some(Comparison { films, delta_e, .. }) = comparison {
-            console.line(told("samples, CIEDE2000 of the fit", films.len(), delta_e))?;
+        if let Some(comparison) = comparison {
+            let samples = comparison.sure().count();
+            console.line(told("samples, CIEDE2000 of the fit", samples, &comparison.delta_e))?;
         }
         if let Some(Validation { per_sample, delta_e, .. }) = validation {
             console.line(told("mixtures left out, CIEDE2000", per_sample.len(), delta_e))?;
