@@ -16,6 +16,7 @@ use reports::subject::Subject;
 use serde_json::{Value, json};
 
 use crate::console::Console;
+use crate::failure::Refusal;
 use crate::input::{ViewingOptions, colour_weights, library};
 use crate::output::Output;
 use crate::progress::Progress;
@@ -64,6 +65,14 @@ impl Report {
             [first, second] => Some((library.find(first)?, library.find(second)?)),
             _ => None,
         };
+        if let Some((first, second)) = pair
+            && first == second
+        {
+            return Err(Refusal::usage(
+                format!("--pair takes two pigments, found {} twice", library.pigments[first].name),
+                "name another pigment beside it",
+            ));
+        }
         let measured = self.comparable(&library, console)?;
         let comparison = measured.as_ref().map(|set| set.with(&library, &viewing)).transpose()?;
         if let Some(comparison) = &comparison {
