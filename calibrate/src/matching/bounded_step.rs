@@ -210,6 +210,21 @@ mod tests {
     }
 
     #[test]
+    fn an_upper_bound_holds() {
+        let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+        (matrix[0][0], matrix[1][1]) = (1.0, 2.0);
+        let mut gradient = [0.0; UNKNOWNS];
+        gradient[1] = -30.0;
+        let mut upper = [1.0; UNKNOWNS];
+        upper[1] = 9.0;
+        let bounds = Bounds { count: 2, shares: 1, lower: [0.0; UNKNOWNS], upper };
+        let mut point = [0.0; UNKNOWNS];
+        point[0] = 1.0;
+        let step = bounded_step(&matrix, &gradient, &point, &bounds);
+        assert_eq!(step[..2], [0.0, 9.0]);
+    }
+
+    #[test]
     fn an_unknown_beside_the_shares_moves_by_itself() {
         let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
         (matrix[0][0], matrix[1][1]) = (1.0, 2.0);

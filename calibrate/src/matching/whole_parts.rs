@@ -177,6 +177,7 @@ mod tests {
     fn parts_are_rounded_to_their_sum() {
         assert_eq!(rounded(&[0.5, 0.3, 0.2], 10), [5, 3, 2]);
         assert_eq!(rounded(&[0.98, 0.01, 0.01], 4), [2, 1, 1]);
+        assert_eq!(rounded(&[0.22, 0.29, 0.49], 10), [2, 3, 5], "the largest remainders first");
         assert_eq!(rounded(&[0.4, 0.6], 2), [1, 1]);
         assert_eq!(rounded(&[1.0], 7), [7]);
     }

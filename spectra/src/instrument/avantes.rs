@@ -66,6 +66,10 @@ mod tests {
         let found = &read("x.txt", text).unwrap()[0];
         assert_eq!((found.line, &found.values), (4, &vec![47.4, 52.6]));
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Percent));
+        // The counts may stand behind it.
+        let behind = "Wave;Reflectance;Sample;Dark\n[nm];[%];[counts];[counts]\n\
+            400;47;10;1\n401;52;11;1\n";
+        assert_eq!(read("x.txt", behind).unwrap()[0].values, [47.0, 52.0]);
         let bad = read("x.txt", &text.replace("52,6", "?"));
         assert!(matches!(bad, Err(InstrumentError::Line { line: 5, .. })), "{bad:?}");
     }

@@ -87,6 +87,11 @@ mod tests {
         assert_eq!(records[0].quantity, MeasuredQuantity::Power);
         assert_eq!(records[0].wavelengths_nm, [400.0, 403.1]);
         assert_eq!(records[0].values, [0.034, 0.015]);
+        let (first, second) = DATA.split_at(DATA.find("\n").unwrap() + 1);
+        let third = first.replace("400.0", "402").replace("0.034", "1");
+        let mixed = read("f.spdx", &file("d", "flux", &[first, second, &third].concat())).unwrap();
+        assert_eq!(mixed[0].values, [0.034, 1.0, 0.015]);
+        assert!(mixed[0].remarks[0].contains("sorted"), "{:?}", mixed[0].remarks);
         let unnamed = read("a/lamp.spdx", &file("N/A", "reflectance", DATA)).unwrap();
         assert_eq!(unnamed[0].name, "lamp");
         assert_eq!(unnamed[0].quantity, MeasuredQuantity::Reflectance);

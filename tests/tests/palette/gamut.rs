@@ -1,8 +1,12 @@
 //! What a palette can mix.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use calibrate::evaluate::Viewing;
 use calibrate::library::AmountKind;
-use calibrate::palette::{Cards, Palette, sampled_gamut, spectral_locus, srgb_primaries};
+use calibrate::palette::{
+    Cards, GamutSample, Palette, Recipe, sampled_gamut, spectral_locus, srgb_primaries,
+};
 use suite::near::assert_near;
 
 use crate::made::{Oils, band, even, five, grid, library};
@@ -116,4 +120,68 @@ fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
         }
     }
     within
+}
+
+/// A colour's cell of the grid in which gaps are looked for: L* by 10, a* and b* by 3.
+fn cell(sample: &GamutSample) -> [i32; 3] {
+    let lab = sample.colour.lab;
+    [lab.lightness / 10.0, lab.a / 3.0, lab.b / 3.0].map(|side| side.floor() as i32)
+}
+
+/// One half of each recipe, by paint, in shares of 1e-9.
+fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<usize, i64> {
+    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+    for &(paint, share) in first.iter().chain(second) {
+        *shares.entry(paint).or_default() += share / 2.0;
+    }
+    shares.into_iter().map(|(paint, share)| (paint, (1e9 * share).round() as i64)).collect()
+}
+
+#[test]
+fn a_gap_between_two_samples_is_filled_or_was_tried() {
+    let five = five();
+    let viewing = Viewing::default();
+    let palette = Palette::new(&five, &viewing, Cards::standard(grid())).unwrap();
+    let samples = sampled_gamut(&palette).samples;
+    let mut first: BTreeMap<[i32; 3], usize> = BTreeMap::new();
+    for (at, sample) in samples.iter().enumerate() {
+        first.entry(cell(sample)).or_insert(at);
+    }
+    // All pairs of cells with one cell between them, and what their halves make.
+    let mut pairs = Vec::new();
+    for (&[band, a, b], &one) in &first {
+        for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
+            if let Some(&other) = first.get(&[band, a + 2 * da, b + 2 * db]) {
+                let mixed = halves(&samples[one].recipe, &samples[other].recipe);
+                pairs.push(([band, a + da, b + db], one.max(other), mixed));
+            }
+        }
+    }
+    let made: BTreeSet<_> = pairs.iter().map(|(_, _, mixed)| mixed).collect();
+    let recipe = |at: usize| halves(&samples[at].recipe, &samples[at].recipe);
+    // The gaps' mixtures stand last.
+    let own = (0..samples.len()).rev().find(|&at| !made.contains(&recipe(at))).unwrap() + 1;
+    let tried: BTreeSet<_> = (own..samples.len()).map(recipe).collect();
+    assert!(tried.len() > 300, "{} of {} fill gaps", tried.len(), samples.len());
+    let mut filled = 0;
+    for (gap, later, mixed) in pairs.iter().filter(|(_, later, _)| *later < own) {
+        let by = first.get(gap);
+        filled += usize::from(by.is_some_and(|&at| at >= own));
+        assert!(by.is_some() || tried.contains(mixed), "{gap:?} is empty, with {later} beside it");
+    }
+    assert!(filled > 100, "{filled} gaps between samples were filled");
+}
+
+#[test]
+fn no_mixture_holds_a_pigment_that_is_not_identified() {
+    let mut five = five();
+    five.pigments[1].identified = false;
+    let viewing = Viewing::default();
+    let palette = Palette::new(&five, &viewing, Cards::standard(grid())).unwrap();
+    let samples = sampled_gamut(&palette).samples;
+    for sample in &samples {
+        let total: f64 = sample.recipe.iter().map(|(_, share)| share).sum();
+        assert!((total - 1.0).abs() < 1e-9, "{:?}", sample.recipe);
+        assert!(sample.recipe.iter().all(|(paint, _)| *paint != 1), "{:?}", sample.recipe);
+    }
 }

@@ -106,21 +106,26 @@ fn pigments_without_a_known_s_are_marked() {
 
 #[test]
 fn wavelength_axes_are_all_the_same() {
-    // 400 to 700 nm at 100 nm: in small charts and large ones the ticks divide
-    // the same band in the same places.
-    for name in ["residuals", "light"] {
+    // Where the labels 400 and 700 stand, from left to right, in tenths of a px.
+    let places = |name: &str| {
         let svg = text(name, "svg");
-        let places: Vec<Vec<&str>> = ["400", "700"]
-            .iter()
-            .map(|tick| {
-                let labelled = svg.split("<text ").filter(|t| t.contains(&format!(">\n{tick}\n<")));
-                labelled.map(|t| t.split('"').nth(1).unwrap()).collect()
-            })
-            .collect();
-        for tick in &places {
-            assert!(tick.len() > 1 && tick.iter().all(|x| *x == tick[0]), "{name}: {places:?}");
-        }
+        ["400", "700"].map(|tick| -> Vec<f64> {
+            let labelled = svg.split("<text ").filter(|t| t.contains(&format!(">\n{tick}\n<")));
+            labelled.map(|t| t.split('"').nth(1).unwrap().parse().unwrap()).collect()
+        })
+    };
+    let [first, second] = places("residuals").map(|x| x[0]);
+    for name in ["residuals", "light"] {
+        let [short, long] = places(name);
+        assert!(short.len() > 1 && short.iter().all(|x| *x == first), "{name}: {short:?}");
+        assert!(long.len() > 1 && long.iter().all(|x| *x == second), "{name}: {long:?}");
     }
+    // The small charts divide the same band: as wide a share of their frames.
+    let [mut short, mut long] = places("samples");
+    [&mut short, &mut long].map(|x| x.sort_by(f64::total_cmp));
+    let (frame, small) = (8800.0, short[1] - short[0] - 100.0);
+    let shares = [(second - first) / frame, (long[0] - short[0]) / small];
+    assert!((shares[0] - shares[1]).abs() < 0.01, "{shares:?}");
 }
 
 #[test]
