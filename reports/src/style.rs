@@ -100,12 +100,6 @@ impl Colour {
         Self([mixed(0), mixed(1), mixed(2)])
     }
 
-    /// Black or white text on a patch of this colour.
-    #[must_use]
-    pub fn text_on_it(self) -> Self {
-        if self.lab().lightness > 55.0 { Self([0x10, 0x10, 0x10]) } else { Self([0xF4; 3]) }
-    }
-
     fn lab(self) -> Lab {
         let white = RgbSpace::Srgb.white();
         let linear = Rgb(self.0.map(|v| f64::from(v) / 255.0)).linear();
