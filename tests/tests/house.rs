@@ -75,7 +75,7 @@ fn own_crates() -> BTreeSet<String> {
 
 #[test]
 fn no_source_file_is_too_long() {
-    for (path, text) in texts(&[".rs"]) {
+    for (path, text) in texts(&[".rs", ".wgsl"]) {
         let lines = text.lines().count();
         assert!(lines <= LONGEST_FILE, "{path}: {lines} lines");
     }
@@ -83,7 +83,7 @@ fn no_source_file_is_too_long() {
 
 #[test]
 fn sources_are_ascii() {
-    for (path, text) in texts(&[".rs", ".py", ".toml"]) {
+    for (path, text) in texts(&[".rs", ".wgsl", ".py", ".toml"]) {
         for (line, number) in text.lines().zip(1..) {
             assert!(line.is_ascii(), "{path}:{number}: {line}");
         }
@@ -109,7 +109,8 @@ fn crates_depend_downwards_only() {
         ("spectra", &[][..]),
         ("calibrate", &["spectra"]),
         ("reports", &["spectra", "calibrate"]),
-        ("cli", &["spectra", "calibrate", "reports"]),
+        ("render", &["spectra", "calibrate"]),
+        ("cli", &["spectra", "calibrate", "reports", "render"]),
     ] {
         let manifest = format!("{name}/Cargo.toml");
         if !root().join(&manifest).exists() {
@@ -132,7 +133,7 @@ fn modules(lib: &str) -> Vec<&str> {
 
 #[test]
 fn modules_use_only_what_stands_above_them() {
-    for name in ["spectra", "calibrate", "reports"] {
+    for name in ["spectra", "calibrate", "reports", "render"] {
         let lib = text(&format!("{name}/src/lib.rs"));
         let order = modules(&lib);
         for path in files_below(&format!("{name}/src")) {

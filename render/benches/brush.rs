@@ -1,0 +1,5 @@
+//! How fast: brush.
+
+fn main() {
+    divan::main();
+}

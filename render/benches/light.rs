@@ -1,0 +1,5 @@
+//! How fast: light.
+
+fn main() {
+    divan::main();
+}

@@ -1,0 +1,5 @@
+//! How fast: motion.
+
+fn main() {
+    divan::main();
+}

@@ -1,0 +1,1 @@
+//! Kubelka-Munk films stacked over a ground, cell by cell.

@@ -1,0 +1,1 @@
+//! Pictures for others: PNG, OpenEXR, spectral OpenEXR, pigment maps.

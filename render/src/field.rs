@@ -1,0 +1,87 @@
+//! A value for every cell of a rectangle, row by row.
+
+use crate::tile::Rect;
+
+/// Values over `width` x `height` cells; the first row is the topmost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Field<T> {
+    width: usize,
+    height: usize,
+    values: Vec<T>,
+}
+
+impl<T: Clone> Field<T> {
+    /// `value` everywhere.
+    #[must_use]
+    pub fn filled(width: usize, height: usize, value: T) -> Self {
+        Self { width, height, values: vec![value; width * height] }
+    }
+}
+
+impl<T> Field<T> {
+    /// `values` in rows of `width`.
+    ///
+    /// # Panics
+    /// If they do not fill `height` rows.
+    #[must_use]
+    pub fn from_values(width: usize, height: usize, values: Vec<T>) -> Self {
+        let found = values.len();
+        assert_eq!(found, width * height, "{width} x {height} cells, found {found} values");
+        Self { width, height, values }
+    }
+
+    /// Cells in a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All cells.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        Rect { x: 0, y: 0, width: self.width, height: self.height }
+    }
+
+    /// The values, row by row.
+    #[must_use]
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// The values, to be changed.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// The cells `x..x + width` of row `y`.
+    #[must_use]
+    pub fn row(&self, y: usize, x: usize, width: usize) -> &[T] {
+        &self.values[y * self.width + x..][..width]
+    }
+
+    /// The cells `x..x + width` of row `y`, to be changed.
+    pub fn row_mut(&mut self, y: usize, x: usize, width: usize) -> &mut [T] {
+        &mut self.values[y * self.width + x..][..width]
+    }
+}
+
+impl<T> std::ops::Index<(usize, usize)> for Field<T> {
+    type Output = T;
+
+    /// The value at `(x, y)`.
+    fn index(&self, (x, y): (usize, usize)) -> &T {
+        &self.values[y * self.width + x]
+    }
+}
+
+impl<T> std::ops::IndexMut<(usize, usize)> for Field<T> {
+    fn index_mut(&mut self, (x, y): (usize, usize)) -> &mut T {
+        &mut self.values[y * self.width + x]
+    }
+}

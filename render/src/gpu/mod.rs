@@ -1,0 +1,1 @@
+//! The graphics device: adapters, buffers, kernels, readback. Knows nothing of paint.

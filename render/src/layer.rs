@@ -1,0 +1,117 @@
+//! A layer of paint: for every cell, how much of each of eight pigments, and of
+//! vehicle.
+
+use crate::amount::share_of_65536;
+use crate::field::Field;
+
+/// How many pigments a layer can hold.
+pub const SLOTS: usize = 8;
+
+/// What one cell holds, in quanta: the paint of each of the layer's pigments,
+/// and transparent vehicle (oil, medium). Their sum is the cell's volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cell {
+    /// Of each pigment's paint, by slot.
+    pub pigments: [u32; SLOTS],
+    /// Of vehicle.
+    pub vehicle: u32,
+}
+
+impl Cell {
+    /// The height of the column, in quanta.
+    #[inline(always)]
+    #[must_use]
+    pub fn volume(&self) -> u32 {
+        self.pigments.iter().sum::<u32>() + self.vehicle
+    }
+
+    /// `share` of 65536 parts of everything, rounded down.
+    #[inline(always)]
+    #[must_use]
+    pub fn share(&self, share: u32) -> Self {
+        Self {
+            pigments: self.pigments.map(|amount| share_of_65536(amount, share)),
+            vehicle: share_of_65536(self.vehicle, share),
+        }
+    }
+
+    /// This and `other` together.
+    #[inline(always)]
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            pigments: std::array::from_fn(|i| self.pigments[i] + other.pigments[i]),
+            vehicle: self.vehicle + other.vehicle,
+        }
+    }
+
+    /// This without `part`, which it holds.
+    #[inline(always)]
+    #[must_use]
+    pub fn minus(&self, part: &Self) -> Self {
+        Self {
+            pigments: std::array::from_fn(|i| self.pigments[i] - part.pigments[i]),
+            vehicle: self.vehicle - part.vehicle,
+        }
+    }
+}
+
+/// Paint over a rectangle of cells: wet or dry on the canvas, or on the head of
+/// a brush. 36 bytes a cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Of each pigment's paint, in quanta, by slot.
+    pub pigments: Field<[u32; SLOTS]>,
+    /// Of vehicle, in quanta.
+    pub vehicle: Field<u32>,
+}
+
+impl Layer {
+    /// No paint.
+    #[must_use]
+    pub fn empty(width: usize, height: usize) -> Self {
+        Self {
+            pigments: Field::filled(width, height, [0; SLOTS]),
+            vehicle: Field::filled(width, height, 0),
+        }
+    }
+
+    /// Cells in a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.vehicle.width()
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.vehicle.height()
+    }
+
+    /// The cell of this `index`, counted row by row.
+    #[inline(always)]
+    #[must_use]
+    pub fn cell(&self, index: usize) -> Cell {
+        Cell { pigments: self.pigments.values()[index], vehicle: self.vehicle.values()[index] }
+    }
+
+    /// Puts `cell` at this `index`.
+    #[inline(always)]
+    pub fn set_cell(&mut self, index: usize, cell: Cell) {
+        self.pigments.values_mut()[index] = cell.pigments;
+        self.vehicle.values_mut()[index] = cell.vehicle;
+    }
+
+    /// The sum of each pigment over all cells, and of vehicle last.
+    #[must_use]
+    pub fn totals(&self) -> [u64; SLOTS + 1] {
+        let mut totals = [0; SLOTS + 1];
+        for pigments in self.pigments.values() {
+            for (total, &amount) in totals.iter_mut().zip(pigments) {
+                *total += u64::from(amount);
+            }
+        }
+        totals[SLOTS] = self.vehicle.values().iter().map(|&amount| u64::from(amount)).sum();
+        totals
+    }
+}

@@ -1,0 +1,1 @@
+//! Brush heads: bending spines that carry a surface with paint on it.

@@ -1,0 +1,1 @@
+//! Paintings as OpenEXR files.

@@ -1,0 +1,1 @@
+//! What is painted on: linen, paper, panel, or a relief from a picture.

@@ -1,0 +1,45 @@
+//! What one sub-step does to one cell, in whole numbers: the specification that
+//! both backends follow.
+//!
+//! Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in
+//! quanta), times in sub-steps, in which the head moves by one cell at most.
+
+pub mod press;
+
+pub mod advect;
+
+pub mod transfer;
+
+use crate::amount::QUANTA_PER_CELL;
+
+/// The constants of motion, as whole numbers.
+///
+/// The paper's lengths have no unit. One of its units of height is taken as ten
+/// cells (1 mm at 0.1 mm), so that a sub-step may leave a hundredth of a cell.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Motion {
+    /// Quanta of difference in penetration, over two cells, that push paint by
+    /// 1/256 cell: the paper's c is `QUANTA_PER_CELL / 128 / push`.
+    pub push: i32,
+    /// The height, in quanta, that always stays behind; below 65536.
+    pub adhesion: u32,
+    /// The most that changes sides, in quanta; below 65536.
+    pub most: u32,
+    /// The difference in amounts, in quanta, from which the full share changes
+    /// sides; 256 and up.
+    pub cutoff: u32,
+}
+
+impl Default for Motion {
+    /// The paper's: at most 0.001, cutoff 1/30. Ours: c = 1/4, adhesion 1/500 of
+    /// a cell.
+    fn default() -> Self {
+        Self {
+            push: (QUANTA_PER_CELL / 32) as i32,
+            adhesion: QUANTA_PER_CELL / 500,
+            most: QUANTA_PER_CELL / 100,
+            cutoff: QUANTA_PER_CELL / 3,
+        }
+    }
+}

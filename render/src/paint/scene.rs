@@ -1,0 +1,1 @@
+//! A painting under a light, as numbers for the backends.

@@ -1,0 +1,1 @@
+//! From samples of a pen to sub-steps of at most one cell.

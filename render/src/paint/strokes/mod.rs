@@ -1,0 +1,1 @@
+//! Recorded strokes: the format strokes/1.

@@ -1,0 +1,1 @@
+//! Where f32 begins: K and S of a palette at the eight wavelengths.

@@ -1,0 +1,1 @@
+//! From photographs to pigments, and to strokes.

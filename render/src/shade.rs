@@ -1,0 +1,1 @@
+//! From reflectance to light: surface, relief and gloss.

@@ -1,0 +1,140 @@
+//! Rectangles of cells, and the tiles of 64 x 64 by which a canvas is saved and
+//! relit.
+
+use std::collections::BTreeSet;
+
+/// The width and height of a tile, in cells.
+pub const TILE: usize = 64;
+
+/// A rectangle of cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Rect {
+    /// The leftmost column.
+    pub x: usize,
+    /// The topmost row.
+    pub y: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+impl Rect {
+    /// Whether it holds no cell.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.width == 0 || self.height == 0
+    }
+
+    /// This rectangle with `margin` more cells on every side, within `bounds`.
+    #[must_use]
+    pub fn grown(&self, margin: usize, bounds: Self) -> Self {
+        let x = self.x.saturating_sub(margin).max(bounds.x);
+        let y = self.y.saturating_sub(margin).max(bounds.y);
+        let right = (self.x + self.width + margin).min(bounds.x + bounds.width);
+        let bottom = (self.y + self.height + margin).min(bounds.y + bounds.height);
+        Self { x, y, width: right.saturating_sub(x), height: bottom.saturating_sub(y) }
+    }
+
+    /// The cells that both have.
+    #[must_use]
+    pub fn intersection(&self, other: Self) -> Self {
+        self.grown(0, other)
+    }
+}
+
+/// One tile, by column and row of tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Tile {
+    /// Row of tiles.
+    pub row: usize,
+    /// Column of tiles.
+    pub column: usize,
+}
+
+impl Tile {
+    /// Its cells on a canvas of `bounds`; those at the right and lower edge may
+    /// be smaller.
+    #[must_use]
+    pub fn rect(&self, bounds: Rect) -> Rect {
+        let whole = Rect { x: self.column * TILE, y: self.row * TILE, width: TILE, height: TILE };
+        whole.intersection(bounds)
+    }
+}
+
+/// A set of tiles, in rows from the top.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct TileSet {
+    tiles: BTreeSet<Tile>,
+}
+
+impl TileSet {
+    /// Every tile that a canvas of `bounds` has.
+    #[must_use]
+    pub fn all(bounds: Rect) -> Self {
+        let mut set = Self::default();
+        set.insert(bounds);
+        set
+    }
+
+    /// Adds the tiles that `rect` touches.
+    pub fn insert(&mut self, rect: Rect) {
+        if rect.is_empty() {
+            return;
+        }
+        for row in rect.y / TILE..=(rect.y + rect.height - 1) / TILE {
+            for column in rect.x / TILE..=(rect.x + rect.width - 1) / TILE {
+                self.tiles.insert(Tile { row, column });
+            }
+        }
+    }
+
+    /// Adds one tile; whether it was new.
+    pub fn insert_tile(&mut self, tile: Tile) -> bool {
+        self.tiles.insert(tile)
+    }
+
+    /// The tiles, in rows from the top.
+    pub fn iter(&self) -> impl Iterator<Item = Tile> + '_ {
+        self.tiles.iter().copied()
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.tiles.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.tiles.is_empty()
+    }
+
+    /// Takes all tiles out.
+    pub fn take(&mut self) -> Self {
+        std::mem::take(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: Rect = Rect { x: 0, y: 0, width: 100, height: 70 };
+
+    #[test]
+    fn tiles_cover_a_canvas_once() {
+        let set = TileSet::all(BOUNDS);
+        let cells: usize =
+            set.iter().map(|tile| tile.rect(BOUNDS)).map(|r| r.width * r.height).sum();
+        assert_eq!((set.len(), cells), (4, 7000));
+    }
+
+    #[test]
+    fn growth_stays_within_bounds() {
+        let rect = Rect { x: 1, y: 60, width: 10, height: 5 };
+        assert_eq!(rect.grown(8, BOUNDS), Rect { x: 0, y: 52, width: 19, height: 18 });
+        assert!(rect.intersection(Rect { x: 50, y: 0, width: 5, height: 5 }).is_empty());
+    }
+}
