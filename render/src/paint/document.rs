@@ -56,7 +56,7 @@ impl Default for Lighting {
     fn default() -> Self {
         Self {
             illuminant: "D65".to_owned(),
-            observer: "1931".to_owned(),
+            observer: "1931-2".to_owned(),
             azimuth_deg: 315.0,
             elevation_deg: 50.0,
             ambient: 0.5,

@@ -1,5 +1,9 @@
 //! What light needs to know of paint: eight wavelengths, in f32.
 
+mod lanes;
+
+pub(crate) use lanes::{decay, greater, lesser, multiply_add};
+
 use crate::layer::SLOTS;
 
 /// How many wavelengths stand for the spectrum.
@@ -19,7 +23,8 @@ pub struct Coat {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gloss {
-    /// Linear light of the highlight, as a share of a perfect white; 0 and up.
+    /// Linear light of the highlight, as a share of a perfect white, where no
+    /// light is ambient; 0 and up.
     pub strength: f32,
     /// The exponent: 10 is satin, 100 a wet gloss.
     pub exponent: f32,

@@ -1,1 +1,0 @@
-//! An illuminant and an observer as eight wavelengths, and linear sRGB from them.

@@ -1,1 +1,0 @@
-//! A painting under a light, as numbers for the backends.
