@@ -1,1 +1,11 @@
-//! Tests of light.
+//! Light on paint: colour laws, and eight wavelengths against the full spectrum.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod colour;
+
+mod grounds;
+
+mod made_up;
+
+mod surface;
