@@ -43,7 +43,8 @@ pub(super) fn rgb_channels(
         FloatBits::Half => f16::MAX.to_f32(),
         FloatBits::Single => f32::MAX,
     };
-    let strange = |rgb: &[f32; 4]| rgb[..3].iter().copied().find(|v| !(v.abs() <= largest));
+    let strange =
+        |rgb: &[f32; 4]| rgb[..3].iter().copied().find(|v| v.is_nan() || v.abs() > largest);
     let values = picture.values();
     if let Some((index, found)) =
         values.iter().enumerate().find_map(|(index, rgb)| Some((index, strange(rgb)?)))
