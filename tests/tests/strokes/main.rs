@@ -1,1 +1,47 @@
-//! Tests of strokes.
+//! Scripts of strokes: what is written is read, and what nobody can paint is
+//! refused with its place.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod hostile;
+mod pigments;
+mod round_trip;
+
+use render::paint::strokes::{Strokes, StrokesError};
+
+/// A script with every action.
+const SOUND: &str = r##"{
+  "format": "strokes", "version": 1, "title": "A study", "licence": "CC0-1.0",
+  "canvas": {"width_mm": 100, "height_mm": 80, "cell_mm": 0.1,
+    "ground": {"kind": "linen", "seed": 1, "reflectance": {"rgb": "#f4f1e8"}}},
+  "medium": {"scattering_per_mm": 50, "wet": {"strength": 0.25, "exponent": 60},
+    "dry": {"strength": 0.06, "exponent": 20}},
+  "library": "oils.json",
+  "palette": {"W": "Zinc White", "B": "Prussian Blue"},
+  "brushes": {"big": {"shape": "flat", "size_mm": 12}, "knife": {"shape": "knife", "size_mm": 30}},
+  "actions": [
+    {"load": {"brush": "big", "recipe": {"W": 3, "B": 1}, "vehicle": 0.2, "amount_mm": 0.3}},
+    {"stroke": {"brush": "big", "samples": [[0, 10, 10, 0.2], [0.5, 60, 12, 0.6, 10, 0, 45]]}},
+    {"wipe": {"brush": "big", "keep": 0.2}},
+    {"wash": {"brush": "big"}},
+    {"dry": {"fraction": 0.5}},
+    {"dry": {}},
+    {"palette": ["Zinc White", "Viridian"]},
+    {"undo": {}},
+    {"redo": {}},
+    {"light": {"illuminant": "A", "observer": "1931", "azimuth_deg": 90, "elevation_deg": 30,
+      "ambient": 0.5, "relief": 1}},
+    {"opacity": {"layer": 0, "value": 0.5}},
+    {"swap": {"layer": "wet", "from": "Viridian", "to": "Prussian Blue"}},
+    {"merge": {"layer": 1}},
+    {"save": {"path": "out/study.exr"}}
+  ]
+}"##;
+
+/// The error of [`SOUND`] once `from` reads `to`.
+fn refused(from: &str, to: &str) -> StrokesError {
+    assert_eq!(SOUND.matches(from).count(), 1, "`{from}` stands once");
+    let error = Strokes::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap_err();
+    assert!(error.to_string().starts_with("a.json: "), "{error}");
+    error
+}

@@ -1,1 +1,60 @@
-//! Recorded strokes: the format strokes/1.
+//! Recorded strokes: the format `strokes`, version 1.
+//!
+//! JSON that says what is painted on, with which pigments and brushes, and what
+//! is done, action by action: one format for replay, tests, benches and
+//! recording. Units are mm, seconds and degrees.
+//!
+//! ```json
+//! {
+//!   "format": "strokes", "version": 1, "title": "A study", "licence": "CC0-1.0",
+//!   "canvas": {"width_mm": 100, "height_mm": 80, "cell_mm": 0.1, "ground": {"kind": "linen", "seed": 1}},
+//!   "library": "oils.json",
+//!   "palette": {"W": "Zinc White", "B": "Prussian Blue"},
+//!   "brushes": {"big": {"shape": "flat", "size_mm": 12}},
+//!   "actions": [
+//!     {"load": {"brush": "big", "recipe": {"W": 3, "B": 1}, "vehicle": 0.2, "amount_mm": 0.3}},
+//!     {"stroke": {"brush": "big", "samples": [[0, 10, 10, 0.2], [0.5, 60, 12, 0.6, 10, 0, 45]]}},
+//!     {"dry": {"fraction": 1}},
+//!     {"save": {"path": "study.exr"}}
+//!   ]
+//! }
+//! ```
+//!
+//! A sample is `[seconds, x, y, pressure, tilt x, tilt y, twist]`; what is left
+//! out at its end is 0. A palette is an object of short names, or a list of at
+//! most eight pigments; recipes name either. See [`Action`] for what can be done.
+//!
+//! A script may come from anywhere. Unknown and repeated keys, numbers out of
+//! range and files that are too long are refused with their place; what it saves
+//! stays below the folder that the caller chooses.
+
+mod action;
+
+mod check;
+
+mod error;
+
+mod file;
+
+mod names;
+
+mod palette;
+
+mod pending;
+
+mod rows;
+
+mod saved_path;
+
+mod script;
+
+mod resolve;
+
+pub use action::{Action, LayerName, Load, Recipe, Stroke};
+pub use check::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
+pub use error::{Fault, Place, StrokesError};
+pub use file::LONGEST_FILE;
+pub use palette::Palette;
+pub use pending::{GroundSpec, HeadShape};
+pub use resolve::{ActionPigments, Resolved};
+pub use script::{BrushSpec, Canvas, Strokes};

@@ -1,0 +1,67 @@
+//! Quanta as 32-bit floats in mm, and back.
+
+use crate::amount::QUANTA_PER_CELL;
+
+/// From here on a float in mm no longer tells every quantum from the next: its
+/// rounding, 2^-24 of the value, reaches half a quantum.
+pub(super) const ROUGH: u32 = 1 << 23;
+
+/// Between quanta and mm over cells of one size.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Millimetres {
+    quantum_mm: f64,
+}
+
+impl Millimetres {
+    pub(super) fn new(cell_mm: f64) -> Self {
+        Self { quantum_mm: cell_mm / f64::from(QUANTA_PER_CELL) }
+    }
+
+    /// The height in mm, to the nearest float.
+    pub(super) fn mm(self, quanta: f64) -> f32 {
+        (quanta * self.quantum_mm) as f32
+    }
+
+    /// What [`Self::mm`] left out, in mm.
+    pub(super) fn rest(self, quanta: f64) -> f32 {
+        let exact = quanta * self.quantum_mm;
+        (exact - f64::from(exact as f32)) as f32
+    }
+
+    /// The nearest whole number of quanta, as f64.
+    pub(super) fn quanta(self, mm: f32, rest: f32) -> f64 {
+        ((f64::from(mm) + f64::from(rest)) / self.quantum_mm).round()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amount::FULL;
+
+    #[test]
+    fn quanta_come_back_without_rest_below_the_rough_and_with_it_above() {
+        for cell_mm in [0.1, 0.25, 0.0317, 1.0] {
+            let scale = Millimetres::new(cell_mm);
+            let back = |q: f64| scale.quanta(scale.mm(q), 0.0);
+            let near = (0..1000).flat_map(|i| [i, ROUGH - 1 - i, (i * 8_388_593) % ROUGH]);
+            for quanta in near.map(f64::from) {
+                assert_eq!(back(quanta), quanta, "{cell_mm}");
+                assert_eq!(back(-quanta), -quanta, "{cell_mm}");
+            }
+            let high = (0..100_000_u32).map(|i| FULL - i * 21_474);
+            for quanta in high.filter(|q| *q >= ROUGH).map(f64::from) {
+                let rest = scale.rest(quanta);
+                assert_eq!(scale.quanta(scale.mm(quanta), rest), quanta, "{cell_mm}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_float_alone_would_lose_quanta_of_thick_paint() {
+        let scale = Millimetres::new(0.1);
+        let lost =
+            (ROUGH..ROUGH + 1000).map(f64::from).filter(|&q| scale.quanta(scale.mm(q), 0.0) != q);
+        assert!(lost.count() > 0, "the rest channel would be idle");
+    }
+}

@@ -1,0 +1,85 @@
+//! Names: objects that hold none twice, and which one may have been meant.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+
+/// The most entries an object of names may have.
+const MOST: usize = 256;
+
+/// An object whose keys all differ; plain maps would keep the last silently.
+pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error> {
+    struct Entries<T>(PhantomData<T>);
+
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+        type Value = BTreeMap<String, T>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("an object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut entries = BTreeMap::new();
+            while let Some(key) = map.next_key::<String>()? {
+                if entries.contains_key(&key) {
+                    return Err(de::Error::custom(format!("duplicate key `{key}`")));
+                }
+                if entries.len() == MOST {
+                    return Err(de::Error::custom(format!("more than {MOST} keys, at `{key}`")));
+                }
+                entries.insert(key, map.next_value()?);
+            }
+            Ok(entries)
+        }
+    }
+
+    deserializer.deserialize_map(Entries(PhantomData))
+}
+
+/// Up to three of `known` that are near to `name` by spelling, nearest first.
+pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
+    let mut ranked: Vec<_> = known
+        .into_iter()
+        .map(|other| {
+            let letters: Vec<char> = other.to_lowercase().chars().collect();
+            (edits(&name, &letters), other)
+        })
+        .filter(|(edits, other)| *edits <= (name.len().max(other.len()) / 3).max(1))
+        .collect();
+    ranked.sort_unstable();
+    ranked.into_iter().take(3).map(|(_, other)| other).collect()
+}
+
+/// The edits that make `b` of `a` (Levenshtein 1966): letters put in, taken out
+/// or exchanged.
+fn edits(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, left) in a.iter().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, right) in b.iter().enumerate() {
+            let exchanged = diagonal + usize::from(left != right);
+            diagonal = row[j + 1];
+            row[j + 1] = exchanged.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_pigment_finds_its_name() {
+        let known = ["Zinc White", "Prussian Blue", "Viridian", "Cobalt Blue"];
+        assert_eq!(nearest("prusian blue", known), ["Prussian Blue"]);
+        assert_eq!(nearest("Viridan", known), ["Viridian"]);
+        assert!(nearest("Octarine", known).is_empty(), "nothing is near");
+        assert_eq!(edits(&['a', 'b'], &['b', 'a', 'c']), 2);
+    }
+}

@@ -1,0 +1,132 @@
+//! Names of pigments become those of a library.
+
+use calibrate::library::{PigmentLibrary, RecipeError};
+
+use super::action::{Action, Recipe};
+use super::check::{At, near};
+use super::error::{Fault, StrokesError};
+use super::palette::Palette;
+use super::script::Strokes;
+use crate::layer::SLOTS;
+use crate::paint::document::Slots;
+
+/// The pigments of a script, by index into a library.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// The palette at first.
+    pub slots: Slots,
+    /// What each action names, action by action.
+    pub actions: Vec<ActionPigments>,
+}
+
+/// The pigments that an action names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ActionPigments {
+    /// It names none.
+    None,
+    /// Of a load: pigment and parts, in order of the library; parts above 0.
+    Recipe(Vec<(usize, f64)>),
+    /// Of a palette.
+    Palette(Slots),
+    /// Of a swap.
+    Swap {
+        /// The pigment that goes.
+        from: usize,
+        /// The one that takes its place.
+        to: usize,
+    },
+}
+
+impl Strokes {
+    /// The pigments that the script names, looked up in `library` after it was
+    /// checked. Short names are those of the latest palette that has them.
+    ///
+    /// A recipe may only name pigments of the first palette or of one that an
+    /// earlier action sets; whether it is the palette of that moment depends on
+    /// what was undone, so the painter sees to it.
+    ///
+    /// # Errors
+    /// [`StrokesError::Fault`] for values out of range (see [`Strokes::check`]),
+    /// names that the library has not or that fit several, a pigment named twice
+    /// in a palette or a recipe, and recipes beyond the palettes.
+    pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, StrokesError> {
+        self.check()?;
+        let mut scope = Scope { library, palettes: Vec::new() };
+        let top = At { action: None, sample: None };
+        let slots = scope.palette(&top, &self.palette)?;
+        let mut actions = Vec::with_capacity(self.actions.len());
+        for (index, action) in self.actions.iter().enumerate() {
+            let at = At { action: Some((index, action.kind())), sample: None };
+            actions.push(match action {
+                Action::Load(load) => ActionPigments::Recipe(scope.recipe(&at, &load.recipe)?),
+                Action::Palette(palette) => ActionPigments::Palette(scope.palette(&at, palette)?),
+                Action::Swap { from, to, .. } => ActionPigments::Swap {
+                    from: scope.pigment(&at, "from", from)?,
+                    to: scope.pigment(&at, "to", to)?,
+                },
+                _ => ActionPigments::None,
+            });
+        }
+        Ok(Resolved { slots, actions })
+    }
+}
+
+/// What names mean at some action.
+struct Scope<'a> {
+    library: &'a PigmentLibrary,
+    /// Those set so far.
+    palettes: Vec<(&'a Palette, Slots)>,
+}
+
+impl<'a> Scope<'a> {
+    fn palette(&mut self, at: &At, palette: &'a Palette) -> Result<Slots, Box<Fault>> {
+        let mut slots = [None; SLOTS];
+        for (slot, (_, name)) in palette.pigments.iter().enumerate() {
+            let index = self.named(at, "palette", name)?;
+            if slots.contains(&Some(index)) {
+                return Err(at.fault("palette", "each pigment once", name, None));
+            }
+            slots[slot] = Some(index);
+        }
+        self.palettes.push((palette, slots));
+        Ok(slots)
+    }
+
+    fn recipe(&self, at: &At, recipe: &Recipe) -> Result<Vec<(usize, f64)>, Box<Fault>> {
+        let mut parts: Vec<(usize, f64)> = Vec::new();
+        for (name, &part) in recipe {
+            let index = self.pigment(at, "recipe", name)?;
+            if !self.palettes.iter().any(|(_, slots)| slots.contains(&Some(index))) {
+                let known = self.palettes.iter().flat_map(|(palette, _)| &palette.pigments);
+                let known: Vec<_> = known.map(|(_, name)| name.as_str()).collect();
+                let hint = format!("the palette has {}", known.join(", "));
+                return Err(at.fault("recipe", "pigments of the palette", name, Some(hint)));
+            }
+            if parts.iter().any(|(other, _)| *other == index) {
+                return Err(at.fault("recipe", "each pigment once", name, None));
+            }
+            if part > 0.0 {
+                parts.push((index, part));
+            }
+        }
+        parts.sort_by_key(|(index, _)| *index);
+        Ok(parts)
+    }
+
+    /// The pigment behind a short name, or a name of the library.
+    fn pigment(&self, at: &At, field: &str, name: &str) -> Result<usize, Box<Fault>> {
+        let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.behind(name));
+        self.named(at, field, short.unwrap_or(name))
+    }
+
+    fn named(&self, at: &At, field: &str, name: &str) -> Result<usize, Box<Fault>> {
+        self.library.find(name).map_err(|error| {
+            let known = self.library.pigments.iter().map(|pigment| pigment.name.as_str());
+            let hint = match &error {
+                RecipeError::UnknownPigment { .. } => near(name, known).or_else(|| error.hint()),
+                _ => error.hint(),
+            };
+            at.fault(field, "a pigment of the library", &name, hint)
+        })
+    }
+}

@@ -1,0 +1,275 @@
+//! Files that are no paintings.
+
+use std::io::Cursor;
+
+use exr::prelude::{
+    AnyChannel, AttributeValue, FlatImage, FlatSamples, ReadChannels, ReadLayers, Text,
+    WritableImage,
+};
+use proptest::prelude::*;
+use render::paint::file::{PaintingFileError, read, read_within, write};
+
+use crate::made_up::{painting, small};
+
+fn image(bytes: &[u8]) -> FlatImage {
+    exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .unwrap()
+}
+
+/// The error of a sound file after `change`, which must name the file.
+fn refused(change: impl FnOnce(&mut FlatImage)) -> PaintingFileError {
+    let mut image = image(&write(&small()).unwrap());
+    change(&mut image);
+    let mut bytes = Vec::new();
+    image.write().to_buffered(Cursor::new(&mut bytes)).unwrap();
+    let error = read("a.exr", &bytes).unwrap_err();
+    assert!(error.to_string().starts_with("a.exr: "), "{error}");
+    error
+}
+
+fn edit_json(image: &mut FlatImage, change: impl FnOnce(&mut serde_json::Value)) {
+    let value = image.layer_data[0].attributes.other.get_mut(&Text::from("impasto")).unwrap();
+    let AttributeValue::Text(text) = value else { panic!("{value:?}") };
+    let mut json: serde_json::Value =
+        serde_json::from_str(&text.chars().collect::<String>()).unwrap();
+    json["title"] = "in ASCII, as the test writes it back".into();
+    change(&mut json);
+    *text = json.to_string().as_str().into();
+}
+
+fn channel<'a>(
+    image: &'a mut FlatImage,
+    part: usize,
+    name: &str,
+) -> &'a mut AnyChannel<FlatSamples> {
+    let list = &mut image.layer_data[part].channel_data.list;
+    list.iter_mut().find(|channel| channel.name.eq(name)).unwrap()
+}
+
+fn set(image: &mut FlatImage, part: usize, name: &str, index: usize, value: f32) {
+    let FlatSamples::F32(values) = &mut channel(image, part, name).sample_data else {
+        panic!("32 bits")
+    };
+    values[index] = value;
+}
+
+#[test]
+fn what_is_no_painting_is_told_so() {
+    for bytes in [&b""[..], b"\x76", b"hello, I am a text", &[0; 64]] {
+        let error = read("a.exr", bytes).unwrap_err();
+        assert!(matches!(error, PaintingFileError::Container { .. }), "{error}");
+    }
+    let error = refused(|image| drop(image.layer_data[0].attributes.other.drain()));
+    assert_eq!(
+        error.to_string(),
+        "a.exr: no impasto painting: attribute `impasto` of part `base` is missing"
+    );
+}
+
+#[test]
+fn a_newer_version_is_told_so() {
+    let error = refused(|image| edit_json(image, |json| json["version"] = 2.into()));
+    let wanted = "a.exr: this program reads paintings up to version 1, found `2`";
+    assert_eq!(error.to_string(), wanted);
+    assert_eq!(error.hint(), Some("a newer impasto may read it"));
+    let error = refused(|image| edit_json(image, |json| json["format"] = "other".into()));
+    assert!(matches!(error, PaintingFileError::Format { .. }), "{error}");
+}
+
+#[test]
+fn a_header_that_contradicts_itself_is_refused() {
+    type Change = fn(&mut serde_json::Value);
+    let cases: [(Change, &str); 8] = [
+        (|json| json["surprise"] = 1.into(), "unknown field `surprise`"),
+        (|json| json["cell_mm"] = 0.into(), "cell_mm is 0.0001 to 100, found `0`"),
+        (|json| json["layers"] = serde_json::json!([]), "no layers"),
+        (|json| json["layers"][1]["part"] = "dry.007".into(), "layer 1 is `dry.000`"),
+        (|json| json["layers"][0]["pigments"][0]["slot"] = 9.into(), "slots of `wet` are 0 to 7"),
+        (
+            |json| json["layers"][0]["pigments"][0]["name"] = "Octarine".into(),
+            "names no pigment of the library: `Octarine`",
+        ),
+        (|json| drop(json["ground"]["reflectance"].as_array_mut().unwrap().pop()), "reflectances"),
+        (|json| json["library"]["pigments"][2]["scattering"][3] = (-1).into(), "scattering at"),
+    ];
+    for (change, wanted) in cases {
+        let error = refused(|image| edit_json(image, change)).to_string();
+        assert!(error.contains(wanted), "{error} for {wanted}");
+    }
+}
+
+#[test]
+fn parts_that_lack_or_are_too_many_are_named() {
+    let error = refused(|image| drop(image.layer_data.remove(2)));
+    assert_eq!(error.to_string(), "a.exr: part `dry.000` is missing");
+    let error = refused(|image| image.layer_data[2].attributes.layer_name = Some("glaze".into()));
+    assert!(error.to_string().starts_with("a.exr: part `glaze` is none that"), "{error}");
+    let error = refused(|image| edit_json(image, |json| json["width"] = 41.into()));
+    assert!(error.to_string().contains("of another size than the canvas of 41 x 33"), "{error}");
+    let error = refused(|image| image.layer_data[1].attributes.layer_position.0 += 1);
+    assert!(error.to_string().contains("part `wet` leaves the canvas of 40 x 33"), "{error}");
+}
+
+#[test]
+fn channels_that_are_not_the_layers_own_are_named() {
+    let error = refused(|image| channel(image, 1, "vehicle").name = "water".into());
+    let wanted = "a.exr: part `wet`, channel `water` names no pigment of this layer";
+    assert_eq!(error.to_string(), wanted);
+    let error = refused(|image| {
+        image.layer_data[2].channel_data.list.retain(|channel| !channel.name.eq("thickness"));
+    });
+    assert_eq!(error.to_string(), "a.exr: part `dry.000`, channel `thickness` is missing");
+    let error = refused(|image| {
+        let vehicle = channel(image, 3, "vehicle");
+        let halves = vehicle.sample_data.values_as_f32().map(exr::prelude::f16::from_f32);
+        vehicle.sample_data = FlatSamples::F16(halves.collect());
+    });
+    assert!(error.to_string().contains("channel `vehicle` must hold 32-bit floats"), "{error}");
+    assert!(error.hint().is_some(), "a way out");
+}
+
+#[test]
+fn values_that_are_no_amounts_are_told_with_their_place() {
+    for (value, found) in [(f32::NAN, "NaN"), (-0.25, "-0.25"), (f32::INFINITY, "inf"), (9e9, "9")]
+    {
+        let mut place = (0, 0);
+        let error = refused(|image| {
+            let position = image.layer_data[1].attributes.layer_position;
+            let width = image.layer_data[1].size.width();
+            place = (position.x() + 1, position.y() + 1);
+            set(image, 1, "vehicle", width + 1, value);
+        });
+        let (x, y) = place;
+        let wanted = format!(
+            "a.exr: part `wet`, channel `vehicle`, x {x}, y {y}: an amount is 0 to 1024 cell \
+             widths, found `{found}"
+        );
+        assert!(error.to_string().starts_with(&wanted), "{error}");
+    }
+    let error = refused(|image| set(image, 0, "height", 42, f32::NAN));
+    assert!(error.to_string().contains("channel `height`, x 2, y 1: a height"), "{error}");
+}
+
+#[test]
+fn cells_that_overflow_are_told_with_their_place() {
+    let mut document = painting(5, (40, 33), 0, 0);
+    document.slots = [Some(0); 8];
+    let bytes = write(&document).unwrap();
+    let mut image = image(&bytes);
+    let high = (document.cell_mm * 900.0) as f32;
+    let name = document.library.pigments[0].name.clone();
+    set(&mut image, 1, &name, 0, high);
+    set(&mut image, 1, &format!("{name} 2"), 0, high);
+    let mut bytes = Vec::new();
+    image.write().to_buffered(Cursor::new(&mut bytes)).unwrap();
+    let error = read("a.exr", &bytes).unwrap_err().to_string();
+    assert!(error.contains("channel `thickness`, x 0, y 0: a cell holds 1024"), "{error}");
+}
+
+#[test]
+fn a_painting_beyond_the_memory_limit_is_refused_before_it_is_read() {
+    let bytes = write(&small()).unwrap();
+    let needed = 40 * 33 * (4 + 3 * 36);
+    assert!(read_within("a.exr", &bytes, needed).is_ok(), "{needed}");
+    let error = read_within("a.exr", &bytes, needed - 1).unwrap_err();
+    let wanted =
+        PaintingFileError::TooLarge { file: "a.exr".into(), bytes: needed, limit: needed - 1 };
+    assert_eq!(error, wanted);
+}
+
+/// A header may promise any size; it costs nothing until the bytes are there.
+#[test]
+fn a_short_file_cannot_promise_a_huge_canvas() {
+    let mut bytes = write(&painting(5, (40, 33), 0, 0)).unwrap();
+    // The canvas in both parts, then the window and the chunks of the first, `base`.
+    let mut patch = |key: &[u8], skip: usize, value: i32, times: usize| {
+        let places: Vec<_> =
+            (0..bytes.len() - key.len()).filter(|&at| bytes[at..].starts_with(key)).collect();
+        for at in places.into_iter().take(times) {
+            bytes[at + key.len() + skip..][..4].copy_from_slice(&value.to_le_bytes());
+        }
+    };
+    for (window, times) in [(&b"displayWindow\0box2i\0"[..], 2), (b"dataWindow\0box2i\0", 1)] {
+        patch(window, 4 + 8, 39_999, times);
+        patch(window, 4 + 12, 32_999, times);
+    }
+    patch(b"chunkCount\0int\0", 4, 2063, 1);
+    let at = |bytes: &[u8], key: &[u8]| bytes.windows(key.len()).position(|w| w == key).unwrap();
+    let json = at(&bytes, b"\"width\":40,\"height\":33");
+    bytes.splice(json..json + 22, *b"\"width\":40000,\"height\":33000");
+    let size = at(&bytes, b"impasto\0string\0") + 15;
+    let length = i32::from_le_bytes(bytes[size..][..4].try_into().unwrap()) + 6;
+    bytes[size..][..4].copy_from_slice(&length.to_le_bytes());
+    let error = read_within("a.exr", &bytes, u64::MAX).unwrap_err().to_string();
+    assert!(error.contains("cannot hold the"), "{error}");
+    let error = read("a.exr", &bytes).unwrap_err();
+    assert!(matches!(error, PaintingFileError::TooLarge { .. }), "{error}");
+}
+
+#[test]
+fn every_truncation_is_an_error() {
+    let bytes = write(&painting(3, (20, 18), 1, 1000)).unwrap();
+    let step = (bytes.len() / 700).max(1);
+    for length in (0..bytes.len()).step_by(step).chain([bytes.len() - 1]) {
+        let error = read("a.exr", &bytes[..length]).unwrap_err();
+        assert!(error.to_string().starts_with("a.exr: "), "{length}: {error}");
+    }
+}
+
+fn fuzz() -> ProptestConfig {
+    ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+proptest! {
+    #![proptest_config(fuzz())]
+
+    /// A damaged file is refused or read as another painting, never a panic.
+    #[test]
+    fn damage_never_panics(
+        flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+        early in any::<bool>(),
+    ) {
+        let mut bytes = sound().to_vec();
+        for (index, byte) in flips {
+            // Half of the damage goes where the structure is told.
+            let json = 1200.min(bytes.len());
+            let at = if early { index.index(json) } else { index.index(bytes.len()) };
+            bytes[at] = byte;
+        }
+        let _ = read_within("a.exr", &bytes, 1 << 30);
+    }
+
+    #[test]
+    fn noise_never_panics(noise in prop::collection::vec(any::<u8>(), 0..400)) {
+        let mut bytes = vec![0x76, 0x2f, 0x31, 0x01, 2, 16, 0, 0];
+        bytes.extend(&noise);
+        let _ = read_within("a.exr", &bytes, 1 << 30);
+    }
+}
+
+/// A sound file, made once. Its library is far longer than the rest, so that
+/// damage would rarely meet anything else: it is cut down to two pigments.
+fn sound() -> &'static [u8] {
+    static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
+    BYTES.get_or_init(|| {
+        let mut document = painting(3, (20, 18), 1, 1 << 24);
+        let all = document.library.pigments.len();
+        document.library.evidence = None;
+        document.library.reference = None;
+        document.library.pigments.truncate(2);
+        let fewer = |slots: &mut [Option<usize>; 8]| {
+            for slot in slots.iter_mut().flatten() {
+                *slot = *slot * 2 / all;
+            }
+        };
+        fewer(&mut document.slots);
+        document.dry.iter_mut().for_each(|layer| fewer(&mut layer.slots));
+        write(&document).unwrap()
+    })
+}

@@ -1,0 +1,90 @@
+//! Paintings of random amounts.
+
+use calibrate::library::PigmentLibrary;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::layer::{Cell, Layer, SLOTS};
+use render::optics::Gloss;
+use render::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use suite::program::repository;
+
+/// The shipped library.
+pub(crate) fn library() -> PigmentLibrary {
+    let path = repository("measurements/van-gogh-oils.pigments.json");
+    PigmentLibrary::from_json("oils", &std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// Paint on about a third of the cells within a rectangle, up to `highest`
+/// quanta of each pigment.
+fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), slots: &Slots, highest: u32) -> Layer {
+    let mut layer = Layer::empty(size.0, size.1);
+    let left = rng.random_range(0..size.0);
+    let top = rng.random_range(0..size.1);
+    for y in top..size.1 {
+        for x in left..size.0 {
+            if rng.random_range(0..3) > 0 {
+                continue;
+            }
+            let mut cell = Cell::default();
+            for (amount, slot) in cell.pigments.iter_mut().zip(slots) {
+                let some = slot.is_some() && rng.random_bool(0.5);
+                *amount = if some { rng.random_range(0..=highest) } else { 0 };
+            }
+            cell.vehicle = rng.random_range(0..=highest);
+            layer.set_cell(y * size.0 + x, cell);
+        }
+    }
+    layer
+}
+
+/// A painting of `width` x `height` cells with `dry` dry layers; `highest` is
+/// the most of each pigment, in quanta.
+pub(crate) fn painting(
+    seed: u64,
+    (width, height): (usize, usize),
+    dry: usize,
+    highest: u32,
+) -> Document {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let library = library();
+    let count = library.pigments.len();
+    let mut slots = || -> Slots {
+        std::array::from_fn(|_| rng.random_bool(0.7).then(|| rng.random_range(0..count)))
+    };
+    let palettes: Vec<Slots> = (0..=dry).map(|_| slots()).collect();
+    let rise = i32::try_from(highest.min(i32::MAX as u32)).unwrap();
+    let heights = (0..width * height).map(|_| rng.random_range(-rise..=rise)).collect();
+    let mut layers: Vec<DryLayer> = palettes
+        .iter()
+        .map(|slots| DryLayer {
+            slots: *slots,
+            opacity: rng.random_range(0.0..2.0),
+            paint: paint(&mut rng, (width, height), slots, highest),
+        })
+        .collect();
+    let wet = layers.remove(0);
+    Document {
+        title: "caf\u{e9} \u{1f3a8} \"quoted\"\n".to_owned(),
+        cell_mm: rng.random_range(0.01..1.0),
+        ground: Ground {
+            name: "linen, seed 1".to_owned(),
+            height: Field::from_values(width, height, heights),
+            reflectance: (0..library.grid.count()).map(|_| rng.random_range(0.0..1.0)).collect(),
+            gloss: Gloss { strength: 0.1, exponent: 17.3 },
+        },
+        library,
+        medium: Medium { scattering_per_mm: rng.random_range(1.0..100.0), ..Medium::default() },
+        dry: layers,
+        slots: wet.slots,
+        wet: wet.paint,
+        lighting: Lighting { azimuth_deg: rng.random_range(0.0..360.0), ..Lighting::default() },
+    }
+}
+
+/// A thin painting of the size that most tests want.
+pub(crate) fn small() -> Document {
+    let document = painting(5, (40, 33), 2, 1 << 20);
+    assert!(document.slots.iter().filter(|slot| slot.is_some()).count() <= SLOTS, "a palette");
+    document
+}

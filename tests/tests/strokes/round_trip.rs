@@ -1,0 +1,157 @@
+//! What is written is read.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+use render::paint::document::{Lighting, Medium};
+use render::paint::pose::Sample;
+use render::paint::strokes::{
+    Action, BrushSpec, Canvas, LayerName, Load, Palette, Stroke, Strokes,
+};
+
+use crate::SOUND;
+
+fn sample() -> impl Strategy<Value = Sample> {
+    let tilt = || prop_oneof![Just(0.0), -90.0..=90.0];
+    let place = (-100.0..200.0, -100.0..200.0, 0.0..=1.0);
+    (0.0..0.1, place, tilt(), tilt(), tilt()).prop_map(
+        |(seconds, (x_mm, y_mm, pressure), a, b, c)| Sample {
+            seconds,
+            x_mm,
+            y_mm,
+            pressure,
+            tilt_x_deg: a,
+            tilt_y_deg: b,
+            twist_deg: c,
+        },
+    )
+}
+
+fn stroke() -> impl Strategy<Value = Action> {
+    prop::collection::vec(sample(), 1..20).prop_map(|mut samples| {
+        let mut clock = 0.0;
+        for sample in &mut samples {
+            clock += sample.seconds;
+            sample.seconds = clock;
+        }
+        Action::Stroke(Stroke { brush: "big".to_owned(), samples })
+    })
+}
+
+fn layer() -> impl Strategy<Value = LayerName> {
+    prop_oneof![Just(LayerName::Wet), (0_usize..9).prop_map(LayerName::Dry)]
+}
+
+fn action() -> impl Strategy<Value = Action> {
+    let name = "[A-Za-z \u{e9}\"\\\\]{1,9}";
+    let recipe = prop::collection::btree_map(name, 0.001..1e6, 1..8);
+    let load = (recipe, 0.0..=1.0, 0.0..100.0).prop_map(|(recipe, vehicle, amount_mm)| {
+        Action::Load(Load { brush: "big".to_owned(), recipe, vehicle, amount_mm })
+    });
+    let pigments = prop::collection::vec(name, 1..8);
+    prop_oneof![
+        4 => stroke(),
+        2 => load,
+        1 => (0.0..=1.0).prop_map(|keep| Action::Wipe { brush: "big".to_owned(), keep }),
+        1 => Just(Action::Wash { brush: "big".to_owned() }),
+        1 => (0.001..=1.0).prop_map(|fraction| Action::Dry { fraction }),
+        1 => pigments.prop_map(|names| Action::Palette(Palette::of(names.iter().map(String::as_str)))),
+        1 => Just(Action::Undo {}),
+        1 => Just(Action::Redo {}),
+        1 => (0.0..360.0).prop_map(|azimuth_deg| {
+            Action::Light(Lighting { azimuth_deg, ..Lighting::default() })
+        }),
+        1 => (layer(), 0.0..1000.0).prop_map(|(layer, value)| Action::Opacity { layer, value }),
+        1 => (layer(), name, name).prop_map(|(layer, from, to)| Action::Swap { layer, from, to }),
+        1 => (1_usize..9).prop_map(|layer| Action::Merge { layer }),
+        1 => "[a-z]{1,8}".prop_map(|stem| Action::Save { path: format!("{stem}1.png") }),
+    ]
+}
+
+fn script() -> impl Strategy<Value = Strokes> {
+    let canvas = (1.0..300.0, 1.0..300.0, 0.05..2.0, any::<u64>());
+    let short = prop::collection::btree_map("[A-Z]", "[a-z ]{1,9}", 1..8);
+    let medium = prop::option::of(
+        (1.0..100.0)
+            .prop_map(|scattering_per_mm| Medium { scattering_per_mm, ..Medium::default() }),
+    );
+    let actions = prop::collection::vec(action(), 0..20);
+    (canvas, short, medium, any::<bool>(), 0.2..100.0, actions).prop_map(
+        |((width_mm, height_mm, cell_mm, seed), short, medium, light, size_mm, actions)| {
+            let ground = [("kind".to_owned(), "paper".into()), ("seed".to_owned(), seed.into())];
+            let ground = ground.into_iter().collect();
+            let canvas = Canvas { width_mm, height_mm, cell_mm, ground };
+            let pigments = short.into_iter().map(|(short, name)| (Some(short), name)).collect();
+            let mut script = Strokes::new("T\u{e9}st \"1\"", "CC0", canvas, Palette { pigments });
+            script.medium = medium;
+            script.lighting = light.then(Lighting::default);
+            let big = BrushSpec { shape: "mop".to_owned(), size_mm };
+            script.brushes = BTreeMap::from([("big".to_owned(), big)]);
+            script.actions = actions;
+            script
+        },
+    )
+}
+
+fn config() -> ProptestConfig {
+    ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// Every sample of a script, as numbers.
+fn numbers(script: &Strokes) -> Vec<f64> {
+    let strokes = script.actions.iter().filter_map(|action| match action {
+        Action::Stroke(stroke) => Some(&stroke.samples),
+        _ => None,
+    });
+    let one = |s: &Sample| {
+        [s.seconds, s.x_mm, s.y_mm, s.pressure, s.tilt_x_deg, s.tilt_y_deg, s.twist_deg]
+    };
+    strokes.flatten().flat_map(one).collect()
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn a_script_comes_back_as_it_was_written(script in script()) {
+        let text = script.to_json().unwrap();
+        let back = Strokes::from_json("a.json", text.as_bytes()).unwrap();
+        prop_assert_eq!(&back.to_json().unwrap(), &text);
+        // Once its numbers are short, it is the same script.
+        let again = Strokes::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
+        prop_assert_eq!(&again, &back);
+        prop_assert_eq!(back.actions.len(), script.actions.len());
+        for (got, wanted) in numbers(&back).iter().zip(numbers(&script)) {
+            prop_assert!((got - wanted).abs() <= 0.500_01e-4, "{} for {}", got, wanted);
+        }
+    }
+}
+
+#[test]
+fn the_canonical_form_is_short_and_an_action_a_line() {
+    let script = Strokes::from_json("a.json", SOUND.as_bytes()).unwrap();
+    let text = script.to_json().unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[..3], ["{", "  \"format\": \"strokes\",", "  \"version\": 1,"]);
+    assert_eq!(
+        lines[5],
+        "  \"canvas\": {\"width_mm\": 100, \"height_mm\": 80, \"cell_mm\": 0.1, \
+        \"ground\": {\"kind\": \"linen\", \"seed\": 1, \"reflectance\": {\"rgb\": \"#f4f1e8\"}}},"
+    );
+    let stroke = "    {\"stroke\": {\"brush\": \"big\", \"samples\": \
+        [[0,10,10,0.2], [0.5,60,12,0.6,10,0,45]]}},";
+    assert!(lines.contains(&stroke), "{text}");
+    assert_eq!(Strokes::from_json("b.json", text.as_bytes()).unwrap(), script);
+}
+
+#[test]
+fn what_may_be_left_out_has_its_usual_value() {
+    let text = r#"{"format": "strokes", "version": 1, "canvas": {"width_mm": 10, "height_mm": 5},
+        "palette": ["Zinc White"], "brushes": {}, "actions": [{"dry": {}}]}"#;
+    let script = Strokes::from_json("a.json", text.as_bytes()).unwrap();
+    assert_eq!((script.canvas.cell_mm, script.canvas.cells()), (0.1, (100, 50)));
+    assert_eq!(script.canvas.ground["kind"], "linen");
+    assert_eq!(script.actions, [Action::Dry { fraction: 1.0 }]);
+    let marked = [&b"\xef\xbb\xbf"[..], text.as_bytes()].concat();
+    assert_eq!(Strokes::from_json("a.json", &marked).unwrap(), script);
+}
