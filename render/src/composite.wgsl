@@ -36,18 +36,39 @@ fn film(k: vec4<f32>, s: vec4<f32>, g: vec4<f32>) -> vec4<f32> {
     return select(min(r, vec4(1.0)), g, k + s <= vec4(0.0));
 }
 
-// Amounts in quanta, by slot. What binds `now` gives it a `coat`: a uniform is
-// not handed to functions.
+struct Sums {
+    k: Nodes,
+    s: Nodes,
+}
+
+// What binds `now` gives it a `coat`: a uniform is not handed to functions.
+fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
+    let amount = f32(quanta);
+    return Sums(
+        Nodes(
+            sums.k.low + amount * now.coat.absorption[2u * slot],
+            sums.k.high + amount * now.coat.absorption[2u * slot + 1u],
+        ),
+        Nodes(
+            sums.s.low + amount * now.coat.scattering[2u * slot],
+            sums.s.high + amount * now.coat.scattering[2u * slot + 1u],
+        ),
+    );
+}
+
+// Amounts in quanta, by slot. Written out, as an index that varies sends a
+// vector through memory.
 fn lay_over(low: vec4<u32>, high: vec4<u32>, backing: Nodes) -> Nodes {
-    var k: Nodes;
-    var s: Nodes;
-    let amounts = array(vec4<f32>(low), vec4<f32>(high));
-    for (var slot = 0u; slot < 8u; slot++) {
-        let amount = amounts[slot / 4u][slot % 4u];
-        k.low += amount * now.coat.absorption[2u * slot];
-        k.high += amount * now.coat.absorption[2u * slot + 1u];
-        s.low += amount * now.coat.scattering[2u * slot];
-        s.high += amount * now.coat.scattering[2u * slot + 1u];
-    }
-    return Nodes(film(k.low, s.low, backing.low), film(k.high, s.high, backing.high));
+    var sums = with_slot(Sums(), 0u, low.x);
+    sums = with_slot(sums, 1u, low.y);
+    sums = with_slot(sums, 2u, low.z);
+    sums = with_slot(sums, 3u, low.w);
+    sums = with_slot(sums, 4u, high.x);
+    sums = with_slot(sums, 5u, high.y);
+    sums = with_slot(sums, 6u, high.z);
+    sums = with_slot(sums, 7u, high.w);
+    return Nodes(
+        film(sums.k.low, sums.s.low, backing.low),
+        film(sums.k.high, sums.s.high, backing.high),
+    );
 }

@@ -27,14 +27,13 @@ fn measured(skin: Skin, internal: vec4<f32>) -> vec4<f32> {
     return skin.floor + through * internal / (1.0 - skin.k2 * internal);
 }
 
-// What binds `now` gives it `skin` and `rgb_from_nodes`.
+// What binds `now` gives it `skin` and `rgb_from_nodes`: the latter by node, so
+// that a matrix of four of them times four reflectances is a colour.
 fn colour(internal: Nodes) -> vec3<f32> {
-    let seen = array(measured(now.skin, internal.low), measured(now.skin, internal.high));
-    var sum = vec3(0.0);
-    for (var node = 0u; node < 8u; node++) {
-        sum += seen[node / 4u][node % 4u] * now.rgb_from_nodes[node].xyz;
-    }
-    return sum;
+    let rgb = now.rgb_from_nodes;
+    let low = mat4x4(rgb[0], rgb[1], rgb[2], rgb[3]) * measured(now.skin, internal.low);
+    let high = mat4x4(rgb[4], rgb[5], rgb[6], rgb[7]) * measured(now.skin, internal.high);
+    return low.xyz + high.xyz;
 }
 
 // `heights` are those to the left, right, above and below.

@@ -7,10 +7,14 @@ struct Touch {
     weights: u32,
 }
 
-// Two's complement of 16 bits in either half.
+// Two numbers in one, each a two's complement of 16 bits.
+fn halves(both: u32) -> vec2<i32> {
+    let signed = bitcast<i32>(both);
+    return vec2((signed << 16u) >> 16u, signed >> 16u);
+}
+
 fn touch_velocity(touch: Touch) -> vec2<i32> {
-    let both = bitcast<i32>(touch.velocity);
-    return vec2((both << 16u) >> 16u, both >> 16u);
+    return halves(touch.velocity);
 }
 
 fn touch_speed(touch: Touch) -> u32 {

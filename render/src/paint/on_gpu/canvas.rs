@@ -60,18 +60,12 @@ impl Paint {
 pub(super) struct Head {
     pub(super) size: (usize, usize),
     pub(super) paint: Paint,
-    /// What each cell gains during a sub-step: nine numbers.
-    pub(super) gained: Buffer,
 }
 
 impl Head {
     pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, GpuError> {
         let cells = size.0 * size.1;
-        Ok(Self {
-            size,
-            paint: Paint::empty(device, "the head of a brush", cells)?,
-            gained: device.buffer("the head of a brush", 36 * cells as u64)?,
-        })
+        Ok(Self { size, paint: Paint::empty(device, "the head of a brush", cells)? })
     }
 
     pub(super) fn cells(&self) -> u32 {
@@ -83,16 +77,25 @@ impl Head {
 #[derive(Debug)]
 pub(super) struct Scratch {
     pub(super) cells: usize,
+    /// Penetration and volume.
+    pub(super) depths: Buffer,
+    /// The cell of the head above.
+    pub(super) above: Buffer,
+    /// Velocity and mobile share.
     pub(super) flow: Buffer,
+    /// The cell after its paint has moved.
     pub(super) moved: Buffer,
 }
 
 impl Scratch {
     pub(super) fn new(device: &Device, cells: usize) -> Result<Self, GpuError> {
+        let buffer = |bytes| device.buffer("the paint in motion", bytes * cells as u64);
         Ok(Self {
             cells,
-            flow: device.buffer("the paint in motion", 16 * cells as u64)?,
-            moved: device.buffer("the paint in motion", 48 * cells as u64)?,
+            depths: buffer(8)?,
+            above: buffer(48)?,
+            flow: buffer(8)?,
+            moved: buffer(48)?,
         })
     }
 }

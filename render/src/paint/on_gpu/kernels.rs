@@ -7,10 +7,10 @@ use crate::gpu::Kernel;
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
     vec![
+        &motion::BEGIN,
         &motion::PRESS,
         &motion::ADVECT,
         &motion::TRANSFER,
-        &motion::SETTLE,
         &rest::DRY,
         &rest::RAISE,
         &rest::KEEP,

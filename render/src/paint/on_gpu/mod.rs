@@ -24,7 +24,7 @@ use super::contact::{Contact, Touch};
 use super::engine::{BrushId, Engine, EngineError, Slot};
 use super::motion::Motion;
 use crate::field::Field;
-use crate::gpu::{Buffer, Device, GpuError, Recording, groups};
+use crate::gpu::{Adapter, Buffer, Device, GpuError, Recording, groups};
 use crate::layer::Layer;
 use crate::optics::Scene;
 use crate::tile::{Rect, TILE, Tile, TileSet};
@@ -60,6 +60,13 @@ impl From<GpuError> for EngineError {
             }
         }
     }
+}
+
+/// How many cells the largest canvas has that one buffer of `adapter` holds; its
+/// memory may end before.
+#[must_use]
+pub fn largest_canvas(adapter: &Adapter) -> u64 {
+    adapter.limits.binding_bytes / PIGMENTS
 }
 
 impl OnGpu {
@@ -140,29 +147,19 @@ impl OnGpu {
             contact: numbers(contact.rect),
             canvas: self.canvas(),
             first_touch: self.waiting.batch(&contact.touches),
-            brush_cells: head.cells(),
+            spare: 0,
         };
-        let (wet, paint, gained) = (&self.wet, &head.paint, &head.gained);
-        let Scratch { flow, moved, .. } = &self.scratch;
+        let Paint { pigments, vehicle } = &self.wet;
+        let Paint { pigments: head_pigments, vehicle: head_vehicle } = &head.paint;
+        let Scratch { depths, above, flow, moved, .. } = &self.scratch;
         let over = [groups(region.width), groups(region.height), 1];
         let to_do = &mut self.waiting;
-        let pressed = [&wet.pigments, &wet.vehicle, &self.floor, flow];
-        to_do.dispatch(&motion::PRESS, &step, &pressed, over);
-        to_do.dispatch(&motion::ADVECT, &step, &[&wet.pigments, &wet.vehicle, flow, moved], over);
-        let (on_head, on_canvas) = ([&paint.pigments, &paint.vehicle, gained], &wet);
-        let [head_pigments, head_vehicle, _] = on_head;
-        let exchanged = [
-            flow,
-            moved,
-            head_pigments,
-            head_vehicle,
-            gained,
-            &on_canvas.pigments,
-            &on_canvas.vehicle,
-        ];
+        let begun = [pigments, vehicle, &self.floor, head_pigments, head_vehicle, depths, above];
+        to_do.dispatch(&motion::BEGIN, &step, &begun, over);
+        to_do.dispatch(&motion::PRESS, &step, &[depths, flow], over);
+        to_do.dispatch(&motion::ADVECT, &step, &[pigments, vehicle, flow, moved], over);
+        let exchanged = [depths, moved, above, head_pigments, head_vehicle, pigments, vehicle];
         to_do.dispatch(&motion::TRANSFER, &step, &exchanged, over);
-        let settled = [gained, head_pigments, head_vehicle];
-        to_do.dispatch(&motion::SETTLE, &step, &settled, [step.brush_cells.div_ceil(64), 1, 1]);
         self.send_if_full()
     }
 

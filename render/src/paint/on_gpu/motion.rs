@@ -17,10 +17,10 @@ pub(super) struct Step {
     pub(super) canvas: [u32; 2],
     /// In the batch.
     pub(super) first_touch: u32,
-    pub(super) brush_cells: u32,
+    pub(super) spare: u32,
 }
 
-const STEP: Layout = layout!(Step { motion, region, contact, canvas, first_touch, brush_cells });
+const STEP: Layout = layout!(Step { motion, region, contact, canvas, first_touch, spare });
 
 const STRUCTS: &[Layout] = &[
     layout!(Motion { push, adhesion, most, cutoff }),
@@ -42,13 +42,31 @@ macro_rules! step_source {
     };
 }
 
-/// Velocity, mobile share and penetration of every cell.
+/// Penetration and volume of every cell, and the cell of the head above it.
+pub(super) static BEGIN: Kernel = Kernel {
+    name: "begin_cells",
+    source: step_source!("passes/begin.wgsl"),
+    parameters: STEP,
+    structs: STRUCTS,
+    storage: &[
+        Storage::Batch,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Write,
+        Storage::Write,
+    ],
+};
+
+/// Velocity and mobile share of every cell.
 pub(super) static PRESS: Kernel = Kernel {
     name: "press_cells",
     source: step_source!("../motion/advect.wgsl", "passes/press.wgsl"),
     parameters: STEP,
     structs: STRUCTS,
-    storage: &[Storage::Batch, Storage::Read, Storage::Read, Storage::Read, Storage::Write],
+    storage: &[Storage::Batch, Storage::Read, Storage::Write],
 };
 
 /// What every cell holds after the paint has moved.
@@ -71,18 +89,9 @@ pub(super) static TRANSFER: Kernel = Kernel {
         Storage::Read,
         Storage::Read,
         Storage::Read,
-        Storage::Read,
+        Storage::Write,
         Storage::Write,
         Storage::Write,
         Storage::Write,
     ],
-};
-
-/// The head after a sub-step.
-pub(super) static SETTLE: Kernel = Kernel {
-    name: "settle_brush",
-    source: step_source!("passes/settle.wgsl"),
-    parameters: STEP,
-    structs: STRUCTS,
-    storage: &[Storage::Write, Storage::Write, Storage::Write],
 };

@@ -1,38 +1,18 @@
-// The penetration of every cell, the velocity of its paint, and how much may move.
+// The velocity of every cell's paint, and how much of it may move.
 
 @group(0) @binding(0) var<uniform> now: Step;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
-@group(0) @binding(2) var<storage, read> pigments: array<vec4<u32>>;
-@group(0) @binding(3) var<storage, read> vehicle: array<u32>;
-@group(0) @binding(4) var<storage, read> ground: array<i32>;
-// Velocity x and y, mobile share, penetration; over the region.
-@group(0) @binding(5) var<storage, read_write> flow: array<vec4<i32>>;
+// Penetration and volume.
+@group(0) @binding(2) var<storage, read> depths: array<vec2<i32>>;
+// Velocity in two halves, as in a touch, and the mobile share; both 0 or neither.
+@group(0) @binding(3) var<storage, read_write> flow: array<vec2<u32>>;
 
-fn index(at: vec2<i32>) -> u32 {
-    return u32(at.y) * now.canvas.x + u32(at.x);
-}
-
-fn column(at: vec2<i32>) -> u32 {
-    let i = index(at);
-    return volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
-}
-
-fn within_contact(at: vec2<i32>) -> bool {
-    let place = at - vec2<i32>(now.contact.xy);
-    return all(place >= vec2(0)) && all(place < vec2<i32>(now.contact.zw));
-}
-
-fn touch_at(at: vec2<i32>) -> Touch {
-    let place = vec2<u32>(at) - now.contact.xy;
-    return touches[now.first_touch + place.y * now.contact.z + place.x];
-}
-
-// Apart counts as 0 in a slope.
-fn pressed(at: vec2<i32>) -> i32 {
-    if !within_contact(at) {
+// Apart, or beyond the region, counts as 0 in a slope.
+fn pressed(place: vec2<u32>) -> i32 {
+    if any(place >= now.region.zw) {
         return 0;
     }
-    let depth = penetration(touch_at(at), ground[index(at)], column(at));
+    let depth = depths[place.y * now.region.z + place.x].x;
     return select(depth, 0, depth == APART);
 }
 
@@ -41,26 +21,28 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= now.region.zw) {
         return;
     }
-    let at = vec2<i32>(now.region.xy + id.xy);
-    let wet = column(at);
+    let place = id.y * now.region.z + id.x;
+    let here = depths[place];
     var touch: Touch;
-    var here = APART;
-    if within_contact(at) {
-        touch = touch_at(at);
-        here = penetration(touch, ground[index(at)], wet);
+    if here.x != APART {
+        touch.velocity = touches[touch_index(id.xy)].velocity;
     }
+    // Places left of and above the region wrap, and so lie beyond it.
     let slopes = vec2(
-        pressed(at + vec2(1, 0)) - pressed(at - vec2(1, 0)),
-        pressed(at + vec2(0, 1)) - pressed(at - vec2(0, 1)),
+        pressed(id.xy + vec2(1u, 0u)) - pressed(id.xy - vec2(1u, 0u)),
+        pressed(id.xy + vec2(0u, 1u)) - pressed(id.xy - vec2(0u, 1u)),
     );
-    var speed = velocity(now.motion, touch, here, slopes);
+    var speed = velocity(now.motion, touch, here.x, slopes);
     // Nothing leaves the canvas.
-    let beyond = at + sign(speed);
+    let beyond = vec2<i32>(now.region.xy + id.xy) + sign(speed);
     let leaves = (beyond < vec2(0)) | (beyond >= vec2<i32>(now.canvas));
     speed = select(speed, vec2(0), leaves);
-    var mobile = 0u;
+    flow[place] = vec2(0u);
     if any(speed != vec2(0)) {
-        mobile = mobile_share(now.motion, wet);
+        let mobile = mobile_share(now.motion, bitcast<u32>(here.y));
+        if mobile != 0u {
+            let halves = vec2<u32>(speed) & vec2(0xffffu);
+            flow[place] = vec2(halves.x | (halves.y << 16u), mobile);
+        }
     }
-    flow[id.y * now.region.z + id.x] = vec4(speed, i32(mobile), here);
 }
