@@ -27,13 +27,15 @@ fn measured(skin: Skin, internal: vec4<f32>) -> vec4<f32> {
     return skin.floor + through * internal / (1.0 - skin.k2 * internal);
 }
 
-// What binds `now` gives it `skin` and `rgb_from_nodes`: the latter by node, so
-// that a matrix of four of them times four reflectances is a colour.
+// What binds `now` gives it `skin` and `rgb_from_nodes`.
 fn colour(internal: Nodes) -> vec3<f32> {
-    let rgb = now.rgb_from_nodes;
-    let low = mat4x4(rgb[0], rgb[1], rgb[2], rgb[3]) * measured(now.skin, internal.low);
-    let high = mat4x4(rgb[4], rgb[5], rgb[6], rgb[7]) * measured(now.skin, internal.high);
-    return low.xyz + high.xyz;
+    let low = measured(now.skin, internal.low);
+    let high = measured(now.skin, internal.high);
+    let sum = low.x * now.rgb_from_nodes[0] + low.y * now.rgb_from_nodes[1]
+        + low.z * now.rgb_from_nodes[2] + low.w * now.rgb_from_nodes[3]
+        + high.x * now.rgb_from_nodes[4] + high.y * now.rgb_from_nodes[5]
+        + high.z * now.rgb_from_nodes[6] + high.w * now.rgb_from_nodes[7];
+    return sum.xyz;
 }
 
 // `heights` are those to the left, right, above and below.

@@ -19,6 +19,8 @@ mod light;
 
 mod device;
 
+mod program;
+
 use std::io::Write;
 
 use render::gpu::{BackendChoice, Device, choose};
