@@ -163,6 +163,27 @@ fn the_solver_the_plotter_and_the_painter_are_each_named_in_one_file() {
 }
 
 #[test]
+fn the_graphics_device_is_named_in_one_folder() {
+    let needle = ["wgpu", "::"].concat();
+    let mut found = 0;
+    for (path, text) in texts(&[".rs"]) {
+        let named = text.contains(&needle);
+        assert!(!named || path.starts_with("render/src/gpu/"), "{path}: {needle}");
+        found += usize::from(named);
+    }
+    assert!(found > 0, "{needle} in no file");
+}
+
+#[test]
+fn every_shader_is_part_of_a_kernel() {
+    let sources: String = texts(&[".rs"]).into_values().collect();
+    for (path, _) in texts(&[".wgsl"]) {
+        let name = Path::new(&path).file_name().unwrap().to_str().unwrap();
+        assert!(sources.contains(&format!("{name}\"")), "{path} is in no kernel");
+    }
+}
+
+#[test]
 fn only_the_command_line_parses_arguments() {
     let needle = ["clap", "::"].concat();
     for (path, text) in texts(&[".rs"]) {

@@ -27,6 +27,8 @@ mod report;
 
 mod demo;
 
+mod gpu;
+
 use clap::Subcommand;
 
 use crate::console::Console;
@@ -44,6 +46,7 @@ pub(crate) enum Verb {
     Plan(plan::Plan),
     Report(report::Report),
     Demo(demo::Demo),
+    Gpu(gpu::Gpu),
 }
 
 impl Verb {
@@ -59,6 +62,7 @@ impl Verb {
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
+            Self::Gpu(verb) => verb.run(console),
         }
     }
 }

@@ -1,1 +1,27 @@
-//! The graphics device: adapters, buffers, kernels, readback. Knows nothing of paint.
+//! The graphics device: adapters, buffers, kernels, recording, readback. Knows
+//! nothing of paint; the only folder that names wgpu.
+//!
+//! Kernels keep to what every WebGPU device has: 8 storage buffers, groups of
+//! 8 x 8, 32-bit numbers. Buffers may be as large as the adapter lends.
+
+mod error;
+
+mod layout;
+
+mod kernel;
+
+mod adapter;
+
+mod recording;
+
+mod device;
+
+mod pipeline;
+
+pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best, choose};
+pub use device::{Buffer, Device};
+pub use error::GpuError;
+pub use kernel::{GROUP, Kernel, Storage, groups};
+pub use layout::Layout;
+pub(crate) use layout::layout;
+pub use recording::Recording;

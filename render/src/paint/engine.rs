@@ -154,6 +154,14 @@ pub enum EngineError {
         /// What there is.
         limit: u64,
     },
+    /// Within what one buffer may take, but there is no such memory left.
+    #[error("{what} takes {bytes} bytes, more than the device has left")]
+    OutOfMemory {
+        /// What was to be kept.
+        what: &'static str,
+        /// What it takes.
+        bytes: u64,
+    },
     /// No adapter that computes.
     #[error("no graphics adapter: {reason}")]
     NoAdapter {

@@ -1,0 +1,88 @@
+//! `impasto gpu`: which graphics adapter would be used, and why.
+
+use clap::Args;
+use render::gpu::{Adapter, BackendChoice, adapters, best};
+use render::paint::on_gpu::largest_canvas;
+use serde_json::{Value, json};
+
+use crate::console::Console;
+
+/// Tell which graphics adapter painting would use, and why
+///
+/// Hardware is used where it computes: discrete before integrated. A software adapter (lavapipe,
+/// SwiftShader) is slower than the processor painting by itself, so it is used only by --backend
+/// gpu where there is no hardware. With no adapter at all the processor paints; this is no error.
+/// "cells" is the largest canvas that one buffer of the adapter can hold, at 32 bytes a cell; its
+/// memory may end before that.
+#[derive(Debug, Args)]
+pub(crate) struct Gpu {
+    /// Print JSON: used, with_backend_gpu (null where there is none), why, adapters
+    #[arg(long)]
+    json: bool,
+}
+
+impl Gpu {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let found = adapters();
+        let used = best(&found, BackendChoice::Auto);
+        let forced = best(&found, BackendChoice::Gpu);
+        let why = why(&found, used);
+        if self.json {
+            let name = |adapter: Option<&Adapter>| adapter.map(|adapter| adapter.name.clone());
+            return console.json(&json!({
+                "used": name(used),
+                "with_backend_gpu": name(forced),
+                "why": why,
+                "adapters": found.iter().map(as_json).collect::<Vec<_>>(),
+            }));
+        }
+        let name = used.map_or("the processor", |adapter| &adapter.name);
+        console.line(format!("painting uses {name}: {why}"))?;
+        if let (None, Some(adapter)) = (used, forced) {
+            console.line(format!("--backend gpu would use {}", adapter.name))?;
+        }
+        for (adapter, number) in found.iter().zip(1..) {
+            let side = side(adapter);
+            console.line(format!("\n{number}. {}", adapter.name))?;
+            console.line(format!("   {}, {}", adapter.kind.name(), adapter.backend))?;
+            if !adapter.driver.is_empty() {
+                console.line(format!("   driver {}", adapter.driver))?;
+            }
+            console.line(format!(
+                "   a buffer of {} MiB: canvases of up to {} cells ({side} x {side})",
+                adapter.limits.binding_bytes >> 20,
+                largest_canvas(adapter),
+            ))?;
+            if let Some(reason) = &adapter.unfit {
+                console.line(format!("   cannot be used: {reason}"))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The side of the largest square canvas.
+fn side(adapter: &Adapter) -> u64 {
+    largest_canvas(adapter).isqrt()
+}
+
+fn why(found: &[Adapter], used: Option<&Adapter>) -> String {
+    match (found.first(), used) {
+        (_, Some(adapter)) => format!("it is hardware that computes ({})", adapter.kind.name()),
+        (None, None) => "no graphics driver offers an adapter".to_owned(),
+        (Some(Adapter { unfit: Some(_), .. }), None) => "no adapter can be used".to_owned(),
+        (Some(_), None) => "there is no hardware adapter, and software ones are slower".to_owned(),
+    }
+}
+
+fn as_json(adapter: &Adapter) -> Value {
+    json!({
+        "name": adapter.name,
+        "kind": adapter.kind.name(),
+        "backend": adapter.backend,
+        "driver": adapter.driver,
+        "buffer_bytes": adapter.limits.binding_bytes,
+        "largest_canvas_cells": largest_canvas(adapter),
+        "unfit": adapter.unfit,
+    })
+}

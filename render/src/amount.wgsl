@@ -1,0 +1,17 @@
+// Parts of an amount, in whole quanta; twin of amount.rs.
+
+fn share_of_256(amount: u32, share: u32) -> u32 {
+    return (amount >> 8u) * share + (((amount & 0xffu) * share) >> 8u);
+}
+
+fn shares_of_256(amounts: vec4<u32>, share: u32) -> vec4<u32> {
+    return (amounts >> vec4(8u)) * share + (((amounts & vec4(0xffu)) * share) >> vec4(8u));
+}
+
+fn share_of_65536(amount: u32, share: u32) -> u32 {
+    return (amount >> 16u) * share + (((amount & 0xffffu) * share) >> 16u);
+}
+
+fn shares_of_65536(amounts: vec4<u32>, share: u32) -> vec4<u32> {
+    return (amounts >> vec4(16u)) * share + (((amounts & vec4(0xffffu)) * share) >> vec4(16u));
+}

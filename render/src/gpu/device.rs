@@ -1,0 +1,279 @@
+//! An open device: its buffers, and how it tells that it cannot.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::adapter::Adapter;
+use super::error::GpuError;
+use super::pipeline::Pipeline;
+
+/// The most that is moved between processor and device at a time.
+const CHUNK: u64 = 64 << 20;
+
+/// Submissions that may wait on the device; a further one waits here.
+const IN_FLIGHT: usize = 3;
+
+/// Memory on the device. Clones are the same memory.
+#[derive(Debug, Clone)]
+pub struct Buffer {
+    pub(super) inner: wgpu::Buffer,
+}
+
+/// What the driver reported outside of any call.
+#[derive(Debug, Default)]
+struct Reported {
+    lost: Option<String>,
+    refused: Option<String>,
+}
+
+/// An open device. What it computes is asked for by submissions, one after the
+/// other; errors of one may come back with a later call.
+#[derive(Debug)]
+pub struct Device {
+    adapter: Adapter,
+    pub(super) inner: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    reported: Arc<Mutex<Reported>>,
+    pub(super) pipelines: BTreeMap<&'static str, Pipeline>,
+    pub(super) parameters: Option<Buffer>,
+    pub(super) batch: Option<Buffer>,
+    in_flight: VecDeque<wgpu::SubmissionIndex>,
+}
+
+impl Device {
+    /// Opens `adapter`, with all that it lends to buffers.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if it is unfit or the driver does not open it.
+    pub fn open(adapter: &Adapter) -> Result<Self, GpuError> {
+        if let Some(reason) = &adapter.unfit {
+            return Err(GpuError::NoAdapter { reason: format!("{}: {reason}", adapter.name) });
+        }
+        let own = adapter.inner.limits();
+        let limits = wgpu::Limits {
+            max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
+            max_buffer_size: own.max_buffer_size,
+            ..wgpu::Limits::downlevel_defaults()
+        };
+        let limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 8, ..limits };
+        let asked = wgpu::DeviceDescriptor {
+            label: Some("impasto"),
+            required_limits: limits,
+            ..wgpu::DeviceDescriptor::default()
+        };
+        let opened = pollster::block_on(adapter.inner.request_device(&asked));
+        let (inner, queue) = opened.map_err(|error| GpuError::NoAdapter {
+            reason: format!("{}: {error}", adapter.name),
+        })?;
+        let reported = Arc::new(Mutex::new(Reported::default()));
+        let (for_loss, for_errors) = (Arc::clone(&reported), Arc::clone(&reported));
+        inner.set_device_lost_callback(move |_, reason| {
+            let mut reported = for_loss.lock().unwrap_or_else(PoisonError::into_inner);
+            reported.lost.get_or_insert(reason);
+        });
+        inner.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            let mut reported = for_errors.lock().unwrap_or_else(PoisonError::into_inner);
+            reported.refused.get_or_insert_with(|| one_line(&error));
+        }));
+        Ok(Self {
+            adapter: adapter.clone(),
+            inner,
+            queue,
+            reported,
+            pipelines: BTreeMap::new(),
+            parameters: None,
+            batch: None,
+            in_flight: VecDeque::new(),
+        })
+    }
+
+    /// The adapter that it is of.
+    #[must_use]
+    pub fn adapter(&self) -> &Adapter {
+        &self.adapter
+    }
+
+    /// Gives the device back to the driver; every call after it is told that
+    /// the device was lost.
+    pub fn close(&self) {
+        self.inner.destroy();
+        self.reported().lost.get_or_insert("it was closed".to_owned());
+    }
+
+    fn reported(&self) -> std::sync::MutexGuard<'_, Reported> {
+        self.reported.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What the driver has reported since the last call.
+    pub(super) fn check(&self, what: &str) -> Result<(), GpuError> {
+        let mut reported = self.reported();
+        if let Some(reason) = reported.lost.clone() {
+            return Err(GpuError::Lost { reason });
+        }
+        match reported.refused.take() {
+            Some(reason) => Err(GpuError::Refused { what: what.to_owned(), reason }),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether `bytes` fit one buffer.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] if they do not.
+    pub fn check_size(&self, what: &'static str, bytes: u64) -> Result<(), GpuError> {
+        let limit = self.adapter.limits.binding_bytes;
+        if bytes > limit {
+            return Err(GpuError::TooLarge { what, bytes, limit });
+        }
+        Ok(())
+    }
+
+    /// A buffer of `bytes` zeros for `what`.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] beyond the adapter's limit,
+    /// [`GpuError::OutOfMemory`] if it has no more.
+    pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, GpuError> {
+        self.check_size(what, bytes)?;
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::UNIFORM
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST;
+        self.allocate(what, bytes, usage)
+    }
+
+    fn allocate(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<Buffer, GpuError> {
+        let memory = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let inner = self.inner.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size: bytes.max(16).next_multiple_of(16),
+            usage,
+            mapped_at_creation: false,
+        });
+        if pollster::block_on(memory.pop()).is_some() {
+            return Err(GpuError::OutOfMemory { what, bytes });
+        }
+        self.check(what)?;
+        Ok(Buffer { inner })
+    }
+
+    /// A buffer of `values`.
+    ///
+    /// # Errors
+    /// As [`Device::buffer`], and [`GpuError::Lost`].
+    pub fn buffer_of<T: bytemuck::Pod>(
+        &mut self,
+        what: &'static str,
+        values: &[T],
+    ) -> Result<Buffer, GpuError> {
+        let buffer = self.buffer(what, size_of_val(values) as u64)?;
+        self.write(&buffer, values)?;
+        Ok(buffer)
+    }
+
+    /// Puts `values` at the start of `buffer`, after all that was submitted.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`], or what the driver refuses.
+    pub fn write<T: bytemuck::Pod>(
+        &mut self,
+        buffer: &Buffer,
+        values: &[T],
+    ) -> Result<(), GpuError> {
+        let bytes: &[u8] = bytemuck::cast_slice(values);
+        for (chunk, i) in bytes.chunks(CHUNK as usize).zip(0..) {
+            self.queue.write_buffer(&buffer.inner, i * CHUNK, chunk);
+            if chunk.len() as u64 == CHUNK {
+                let index = self.queue.submit([]);
+                self.wait(index)?;
+            }
+        }
+        self.check("a write")
+    }
+
+    /// Reads `count` values from the start of `buffer`, after all that was
+    /// submitted.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`], or [`GpuError::OutOfMemory`] for what carries them.
+    pub fn read<T: bytemuck::Pod>(
+        &mut self,
+        buffer: &Buffer,
+        count: usize,
+    ) -> Result<Vec<T>, GpuError> {
+        let mut values = vec![T::zeroed(); count];
+        let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);
+        let carrier = self.allocate("readback", CHUNK.min(bytes.len() as u64), usage)?.inner;
+        for (chunk, i) in bytes.chunks_mut(CHUNK as usize).zip(0..) {
+            let length = (chunk.len() as u64).next_multiple_of(4);
+            let mut encoder = self.inner.create_command_encoder(&Default::default());
+            encoder.copy_buffer_to_buffer(&buffer.inner, i * CHUNK, &carrier, 0, length);
+            let index = self.queue.submit([encoder.finish()]);
+            let (tell, told) = channel();
+            carrier.map_async(wgpu::MapMode::Read, 0..length, move |mapped| {
+                // The receiver is gone only if the wait failed, which is told.
+                let _ = tell.send(mapped.is_ok());
+            });
+            self.wait(index)?;
+            let lost = || GpuError::Lost { reason: "its memory cannot be read".to_owned() };
+            if !told.try_recv().unwrap_or(false) {
+                return Err(lost());
+            }
+            let view = carrier.get_mapped_range(0..length).map_err(|_| lost())?;
+            chunk.copy_from_slice(&view[..chunk.len()]);
+            drop(view);
+            carrier.unmap();
+        }
+        self.check("a readback")?;
+        Ok(values)
+    }
+
+    /// Waits until a submission is done.
+    fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None })
+    }
+
+    /// Hands finished memory back. wgpu panics where a device is lost during a
+    /// wait; that is caught here.
+    fn poll(&self, how: wgpu::PollType) -> Result<(), GpuError> {
+        self.check("a submission")?;
+        let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
+        if !matches!(polled, Ok(Ok(_))) {
+            self.reported().lost.get_or_insert("it stopped answering".to_owned());
+        }
+        self.check("a submission")
+    }
+
+    /// Follows a submission, so that only a few wait on the device.
+    pub(super) fn follow(&mut self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.in_flight.push_back(index);
+        match self.in_flight.len() > IN_FLIGHT {
+            true => self.in_flight.pop_front().map_or(Ok(()), |oldest| self.wait(oldest)),
+            false => self.poll(wgpu::PollType::Poll),
+        }
+    }
+
+    /// Waits until all that was submitted is done.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`], or what the driver refused.
+    pub fn finish(&mut self) -> Result<(), GpuError> {
+        match self.in_flight.drain(..).last() {
+            Some(last) => self.wait(last),
+            None => self.check("a submission"),
+        }
+    }
+}
+
+/// An error of the driver in one line.
+pub(super) fn one_line(error: &wgpu::Error) -> String {
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}

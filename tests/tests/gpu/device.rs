@@ -1,0 +1,50 @@
+//! What a device cannot is an error.
+
+use render::field::Field;
+use render::gpu::GpuError;
+use render::layer::Layer;
+use render::paint::on_gpu::OnGpu;
+use render::paint::{Engine, EngineError};
+
+#[test]
+fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
+    let Some(device) = crate::device() else { return };
+    let limit = device.adapter().limits.binding_bytes;
+    // A strip of cells whose pigments pass the limit; its floor is an eighth.
+    let cells = (limit / 32 + 1) as usize;
+    if cells > 1 << 26 {
+        return;
+    }
+    let error = OnGpu::new(device, &Field::filled(cells, 1, 0)).unwrap_err();
+    let bytes = 32 * cells as u64;
+    assert_eq!(error, EngineError::TooLarge { what: "the canvas", bytes, limit });
+    assert_eq!(error.hint(), "paint on the CPU: --backend cpu");
+}
+
+#[test]
+fn a_lost_device_is_an_error_of_every_call() {
+    let Some(device) = crate::device() else { return };
+    let mut engine = OnGpu::new(device, &Field::filled(70, 70, 0)).unwrap();
+    let brush = engine.add_brush(4, 4).unwrap();
+    engine.device().close();
+    let lost = |found: Result<(), EngineError>| {
+        assert!(matches!(found, Err(EngineError::Lost { .. })), "{found:?}");
+    };
+    lost(engine.set_wet(&Layer::empty(70, 70)));
+    lost(engine.set_brush(brush, &Layer::empty(4, 4)));
+    lost(engine.wet().map(drop));
+    lost(engine.brush(brush).map(drop));
+    lost(engine.dry(100));
+    lost(engine.floor().map(drop));
+    lost(engine.picture().map(drop));
+    lost(engine.add_brush(4, 4).map(drop));
+    lost(engine.finish());
+}
+
+#[test]
+fn memory_that_is_not_there_is_an_error() {
+    let Some(device) = crate::device() else { return };
+    let limit = device.adapter().limits.binding_bytes;
+    let error = device.buffer("a test", limit + 1).unwrap_err();
+    assert_eq!(error, GpuError::TooLarge { what: "a test", bytes: limit + 1, limit });
+}

@@ -1,0 +1,71 @@
+//! What can be known of kernels without an adapter.
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{AddressSpace, StorageAccess, TypeInner};
+use render::gpu::{Kernel, Layout, Storage};
+use render::paint::on_gpu::kernels;
+
+fn parsed(kernel: &Kernel) -> naga::Module {
+    let parsed = naga::front::wgsl::parse_str(kernel.source);
+    parsed
+        .unwrap_or_else(|error| panic!("{}: {}", kernel.name, error.emit_to_string(kernel.source)))
+}
+
+#[test]
+fn every_kernel_is_valid_in_the_base_profile() {
+    for kernel in kernels() {
+        let module = parsed(kernel);
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let valid = validator.validate(&module);
+        assert!(valid.is_ok(), "{}: {valid:?}", kernel.name);
+        let entry = module.entry_points.iter().find(|entry| entry.name == kernel.name);
+        let size = entry.map(|entry| entry.workgroup_size);
+        assert_eq!(size, Some([8, 8, 1]), "{}", kernel.name);
+        assert!(kernel.storage.len() <= 8, "{}: {:?}", kernel.name, kernel.storage);
+    }
+}
+
+#[test]
+fn every_kernel_is_bound_as_it_says() {
+    for kernel in kernels() {
+        let module = parsed(kernel);
+        let mut found: Vec<_> = module.global_variables.iter().map(|(_, v)| v).collect();
+        found.sort_by_key(|variable| variable.binding.map(|binding| binding.binding));
+        assert_eq!(found.len(), kernel.storage.len() + 1, "{}", kernel.name);
+        assert_eq!(found[0].space, AddressSpace::Uniform, "{}", kernel.name);
+        let name = module.types[found[0].ty].name.as_deref();
+        assert_eq!(name, Some(kernel.parameters.name), "{}", kernel.name);
+        for (variable, storage) in found[1..].iter().zip(kernel.storage) {
+            let writes = match variable.space {
+                AddressSpace::Storage { access } => access.contains(StorageAccess::STORE),
+                _ => panic!("{}: {:?}", kernel.name, variable.name),
+            };
+            let says = *storage == Storage::Write;
+            assert_eq!(writes, says, "{}: {:?}", kernel.name, variable.name);
+        }
+    }
+}
+
+/// The WGSL struct of this name, as Rust would tell of its own.
+fn fields(module: &naga::Module, name: &str) -> Option<(u32, Vec<(String, usize)>)> {
+    let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(name);
+    let ty = module.types.iter().map(|(_, ty)| ty).find(of_name)?;
+    let TypeInner::Struct { members, span } = &ty.inner else { return None };
+    let field = |m: &naga::StructMember| (m.name.clone().unwrap(), m.offset as usize);
+    Some((*span, members.iter().map(field).collect()))
+}
+
+#[test]
+fn structs_have_the_same_fields_in_both_languages() {
+    for kernel in kernels() {
+        let module = parsed(kernel);
+        for layout in kernel.structs.iter().chain([&kernel.parameters]) {
+            let Layout { name, bytes, fields: own } = *layout;
+            let (span, found) = fields(&module, name)
+                .unwrap_or_else(|| panic!("{}: no struct {name}", kernel.name));
+            assert_eq!(span as usize, bytes, "{}: {name}", kernel.name);
+            let own: Vec<_> = own.iter().map(|&(name, at)| (name.to_owned(), at)).collect();
+            assert_eq!(found, own, "{}: {name}", kernel.name);
+        }
+    }
+}

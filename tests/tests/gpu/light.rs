@@ -1,0 +1,226 @@
+//! Light on the device against the formulas in f64.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::amount::QUANTA_PER_CELL;
+use render::field::Field;
+use render::layer::{Cell, Layer, SLOTS};
+use render::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
+use render::paint::Engine;
+use render::paint::on_gpu::OnGpu;
+use render::tile::TileSet;
+use spectra::optics::{Layer as Film, Specular, Surface};
+
+/// What f32 with the loose `exp`, `sqrt` and division of WGSL may be off, in
+/// reflectance. Measured on lavapipe: 4e-7 for one film.
+const NEAR: f64 = 3e-6;
+
+const NO_COAT: Coat = Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
+
+fn flat_scene(ground: f32, wet: Coat, dry: Vec<Coat>) -> Scene {
+    let gloss = Gloss { strength: 0.25, exponent: 60.0 };
+    // Red, green and blue each see other wavelengths.
+    let rgb = |node: usize| [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0];
+    Scene {
+        ground: [ground; NODES],
+        dry,
+        wet,
+        surface: SceneSurface { k1: 0.03, k2: 0.5, floor: 0.03 },
+        rgb_from_nodes: std::array::from_fn(rgb),
+        lamp: Lamp {
+            direction: [-0.45, -0.45, 0.771],
+            relief: 0.0,
+            ambient: 0.5,
+            wet: gloss,
+            dry: Gloss { strength: 0.06, ..gloss },
+            ground: Gloss { strength: 0.0, ..gloss },
+        },
+    }
+}
+
+/// Of each wavelength's internal reflectance, the flat colour.
+fn colour(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
+    let surface = Surface::new(0.03, 0.5, Specular::Included).unwrap();
+    let mut sum = [0.0; 3];
+    for (internal, rgb) in internal.into_iter().zip(scene.rgb_from_nodes) {
+        for (sum, weight) in sum.iter_mut().zip(rgb) {
+            *sum += surface.measured_from_internal(internal) * f64::from(weight);
+        }
+    }
+    sum
+}
+
+fn film(coat: &Coat, cell: &Cell, node: usize, backing: f64) -> f64 {
+    let of = |per: &[[f32; NODES]; SLOTS]| -> f64 {
+        let parts = per.iter().zip(cell.pigments);
+        parts.map(|(per, amount)| f64::from(per[node]) * f64::from(amount)).sum()
+    };
+    Film::new(of(&coat.absorption), of(&coat.scattering), 1.0).over(backing)
+}
+
+/// The largest difference of a picture, and where; nothing in it may be other
+/// than a number.
+fn largest(found: &Field<[f32; 4]>, wanted: impl Fn(usize) -> [f64; 3]) -> (f64, usize) {
+    let mut worst = (0.0, 0);
+    for (i, found) in found.values().iter().enumerate() {
+        assert!(found.iter().all(|value| value.is_finite()), "cell {i}: {found:?}");
+        assert!((found[3] - 1.0).abs() == 0.0, "cell {i}: {found:?}");
+        for (found, wanted) in found.iter().zip(wanted(i)) {
+            assert!(wanted.is_finite(), "cell {i} wants {wanted}");
+            let off = (f64::from(*found) - wanted).abs();
+            if off > worst.0 {
+                worst = (off, i);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
+    // Amounts of the first pigment make K d, of the second S d.
+    let steps: Vec<u32> =
+        std::iter::once(0).chain((0..32).map(|power| 1 << power)).chain([3, 1 << 31]).collect();
+    let count = steps.len();
+    let mut wet = Layer::empty(count, count);
+    for (y, k) in steps.iter().enumerate() {
+        for (x, s) in steps.iter().enumerate() {
+            let mut cell = Cell::default();
+            (cell.pigments[0], cell.pigments[1]) = (k / 2, s / 2);
+            wet.set_cell(y * count + x, cell);
+        }
+    }
+    for per_quantum in [1e-9, 1e-7, 1e-5] {
+        for ground in [0.0, 0.04, 0.5, 1.0] {
+            let mut coat = NO_COAT;
+            // Absorption falls over the wavelengths, scattering rises.
+            coat.absorption[0] = std::array::from_fn(|i| per_quantum * (8 - i) as f32);
+            coat.scattering[1] = std::array::from_fn(|i| per_quantum * (1 + i) as f32);
+            let scene = flat_scene(ground, coat, Vec::new());
+            let Some(device) = crate::device() else { return };
+            let mut engine = OnGpu::new(device, &Field::filled(count, count, 0)).unwrap();
+            engine.set_wet(&wet).unwrap();
+            let all = TileSet::all(engine.bounds());
+            engine.light(&scene, &all, &TileSet::default()).unwrap();
+            let picture = engine.picture().unwrap();
+            let (off, cell) = largest(&picture, |i| {
+                let nodes =
+                    std::array::from_fn(|node| film(&coat, &wet.cell(i), node, f64::from(ground)));
+                colour(&scene, nodes)
+            });
+            let found = wet.cell(cell).pigments;
+            assert!(off < NEAR, "{per_quantum} over {ground}: {off:e} off at {found:?}");
+        }
+    }
+}
+
+fn painted(rng: &mut ChaCha8Rng, size: usize) -> Layer {
+    let mut layer = Layer::empty(size, size);
+    for i in 0..size * size {
+        if rng.random_range(0..3) > 0 {
+            let pigments = std::array::from_fn(|_| rng.random_range(0..1 << 17));
+            layer.set_cell(i, Cell { pigments, vehicle: rng.random_range(0..1 << 18) });
+        }
+    }
+    layer
+}
+
+fn any_coat(rng: &mut ChaCha8Rng) -> Coat {
+    let mut any = || std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(0.0..4e-6)));
+    Coat { absorption: any(), scattering: any() }
+}
+
+#[test]
+fn layers_relief_and_gloss_are_those_of_the_formulas() {
+    const SIZE: usize = 100;
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let Some(device) = crate::device() else { return };
+    let floor = (0..SIZE * SIZE).map(|_| rng.random_range(-(1 << 19)..1 << 19)).collect();
+    let floor = Field::from_values(SIZE, SIZE, floor);
+    let layers: Vec<_> = (0..3).map(|_| painted(&mut rng, SIZE)).collect();
+    let coats: Vec<_> = (0..3).map(|_| any_coat(&mut rng)).collect();
+    let mut engine = OnGpu::new(device, &floor).unwrap();
+    engine.push_dry(&layers[0]).unwrap();
+    engine.push_dry(&layers[1]).unwrap();
+    engine.set_wet(&layers[2]).unwrap();
+    let floor = engine.floor().unwrap();
+    let mut scene = flat_scene(0.8, coats[2], coats[..2].to_vec());
+    scene.lamp.relief = 0.7;
+    let all = TileSet::all(engine.bounds());
+    // Baked under nothing, then shown only: no tile needs both at once.
+    engine.light(&scene, &all, &TileSet::default()).unwrap();
+    scene.lamp.ambient = 0.2;
+    engine.light(&scene, &TileSet::default(), &all).unwrap();
+
+    let top = |x: isize, y: isize| {
+        let end = SIZE as isize - 1;
+        let i = y.clamp(0, end) as usize * SIZE + x.clamp(0, end) as usize;
+        f64::from(floor.values()[i]) + f64::from(layers[2].cell(i).volume())
+    };
+    let unit = f64::from(QUANTA_PER_CELL);
+    let lamp = scene.lamp;
+    let light = lamp.direction.map(f64::from);
+    let halfway = [light[0], light[1], light[2] + 1.0];
+    let length = halfway.map(|v| v * v).iter().sum::<f64>().sqrt();
+    let (relief, ambient) = (f64::from(lamp.relief), f64::from(lamp.ambient));
+    let picture = engine.picture().unwrap();
+    let (off, cell) = largest(&picture, |i| {
+        let nodes = std::array::from_fn(|node| {
+            let stack = layers.iter().zip(&coats);
+            let ground = f64::from(scene.ground[node]);
+            stack.fold(ground, |backing, (paint, coat)| film(coat, &paint.cell(i), node, backing))
+        });
+        let (x, y) = ((i % SIZE) as isize, (i / SIZE) as isize);
+        let slope_x = relief * (top(x + 1, y) - top(x - 1, y)) / (2.0 * unit);
+        let slope_y = relief * (top(x, y + 1) - top(x, y - 1)) / (2.0 * unit);
+        let normal = [-slope_x, -slope_y, 1.0];
+        let size = normal.map(|v| v * v).iter().sum::<f64>().sqrt();
+        let along = |way: [f64; 3]| -> f64 {
+            normal.iter().zip(way).map(|(n, w)| n * w).sum::<f64>() / size
+        };
+        let diffuse = ambient + (1.0 - ambient) * along(light).max(0.0) / light[2];
+        let gloss = match bare(&layers, i) {
+            0 => lamp.wet,
+            1 => lamp.dry,
+            _ => lamp.ground,
+        };
+        let exponent = f64::from(gloss.exponent);
+        let level = (halfway[2] / length).powf(exponent);
+        let mirrored = along(halfway).max(0.0) / length;
+        let shine = f64::from(gloss.strength)
+            * (1.0 - ambient)
+            * (mirrored.powf(exponent) - level).max(0.0);
+        colour(&scene, nodes).map(|value| value * diffuse + shine)
+    });
+    assert!(off < 2e-5, "{off:e} off at cell {cell}");
+}
+
+/// What lies on top of a cell, the last layer being wet: 0 wet paint, 1 dry, 2
+/// the ground.
+fn bare(layers: &[Layer], cell: usize) -> u8 {
+    let has = |layer: &Layer| layer.cell(cell).volume() > 0;
+    match (has(&layers[2]), layers[..2].iter().any(has)) {
+        (true, _) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
+    }
+}
+
+#[test]
+fn only_the_tiles_that_are_named_change() {
+    let Some(device) = crate::device() else { return };
+    let mut engine = OnGpu::new(device, &Field::filled(200, 130, 0)).unwrap();
+    let all = TileSet::all(engine.bounds());
+    engine.light(&flat_scene(0.5, NO_COAT, Vec::new()), &all, &all).unwrap();
+    let before = engine.picture().unwrap();
+    let mut one = TileSet::default();
+    one.insert(render::tile::Rect { x: 70, y: 100, width: 1, height: 1 });
+    engine.light(&flat_scene(0.9, NO_COAT, Vec::new()), &one, &TileSet::default()).unwrap();
+    let after = engine.picture().unwrap();
+    for y in 0..130 {
+        for x in 0..200 {
+            let inside = (64..128).contains(&x) && (64..128).contains(&y);
+            assert_eq!(after[(x, y)] != before[(x, y)], inside, "cell {x}, {y}");
+        }
+    }
+}

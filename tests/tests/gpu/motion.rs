@@ -1,0 +1,122 @@
+//! Motion on the device is that of the processor, bit for bit.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::paint::Engine;
+use render::paint::motion::Motion;
+use render::paint::on_gpu::OnGpu;
+use render::tile::Rect;
+
+use crate::reference::{Amounts, Reference, contact, paint};
+
+const SIZE: (usize, usize) = (83, 41);
+const HEAD: (usize, usize) = (9, 7);
+
+fn reference(rng: &mut ChaCha8Rng, canvas: Amounts, head: Amounts) -> Reference {
+    let floor = (0..SIZE.0 * SIZE.1).map(|_| rng.random_range(-(1 << 18)..1 << 18)).collect();
+    Reference {
+        floor: Field::from_values(SIZE.0, SIZE.1, floor),
+        wet: paint(rng, SIZE, canvas),
+        brush: paint(rng, HEAD, head),
+    }
+}
+
+fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> render::paint::contact::Contact {
+    let top = |x: usize, y: usize| at.floor[(x, y)] + at.wet.cell(y * SIZE.0 + x).volume() as i32;
+    contact(rng, rect, top, (HEAD.0 * HEAD.1) as u32)
+}
+
+fn engine(start: &Reference) -> Option<(OnGpu, render::paint::BrushId)> {
+    let mut engine = OnGpu::new(crate::device()?, &start.floor).unwrap();
+    let brush = engine.add_brush(HEAD.0, HEAD.1).unwrap();
+    engine.set_wet(&start.wet).unwrap();
+    engine.set_brush(brush, &start.brush).unwrap();
+    Some((engine, brush))
+}
+
+/// Rectangles in the middle, at every edge, of one cell, and of the whole canvas.
+fn rects() -> Vec<Rect> {
+    let (width, height) = SIZE;
+    let rect = |x, y, width, height| Rect { x, y, width, height };
+    vec![
+        rect(20, 10, 24, 17),
+        rect(0, 0, 5, 6),
+        rect(width - 4, height - 9, 4, 9),
+        rect(0, 12, width, 1),
+        rect(40, 0, 1, height),
+        rect(width - 1, 0, 1, 1),
+        rect(30, 30, 1, 1),
+        rect(0, 0, width, height),
+    ]
+}
+
+#[test]
+fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
+    use Amounts::{Full, None, Thin, Usual};
+    for (canvas, head) in [
+        (Usual, Usual),
+        (None, Usual),
+        (Usual, None),
+        (Thin, Thin),
+        (Full, Usual),
+        (Usual, Full),
+        (None, None),
+    ] {
+        let mut rng = ChaCha8Rng::seed_from_u64(canvas as u64 * 7 + head as u64);
+        let mut wanted = reference(&mut rng, canvas, head);
+        let Some((mut engine, brush)) = engine(&wanted) else { return };
+        for rect in rects() {
+            let contact = contact_on(&mut rng, &wanted, rect);
+            wanted.step(&Motion::default(), &contact);
+            engine.play(brush, &Motion::default(), &[contact]).unwrap();
+            let told = format!("canvas {canvas:?}, head {head:?}, {rect:?}");
+            assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {told}");
+            assert!(engine.brush(brush).unwrap() == wanted.brush, "the head, {told}");
+        }
+    }
+}
+
+#[test]
+fn other_constants_are_followed_too() {
+    for motion in [
+        Motion { push: 1, adhesion: 0, most: 65535, cutoff: 256 },
+        Motion { push: 1 << 30, adhesion: 65535, most: 0, cutoff: 1 << 31 },
+    ] {
+        let mut rng = ChaCha8Rng::seed_from_u64(motion.most.into());
+        let mut wanted = reference(&mut rng, Amounts::Usual, Amounts::Usual);
+        let Some((mut engine, brush)) = engine(&wanted) else { return };
+        for rect in rects() {
+            let contact = contact_on(&mut rng, &wanted, rect);
+            wanted.step(&motion, &contact);
+            engine.play(brush, &motion, &[contact]).unwrap();
+        }
+        assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {motion:?}");
+        assert!(engine.brush(brush).unwrap() == wanted.brush, "the head, {motion:?}");
+    }
+}
+
+#[test]
+fn ten_thousand_sub_steps_keep_every_pigment() {
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let start = reference(&mut rng, Amounts::Usual, Amounts::Usual);
+    let Some((mut engine, brush)) = engine(&start) else { return };
+    let contacts: Vec<_> = (0..100)
+        .map(|_| {
+            let (x, y) = (rng.random_range(0..SIZE.0 - 12), rng.random_range(0..SIZE.1 - 9));
+            contact_on(&mut rng, &start, Rect { x, y, width: 12, height: 9 })
+        })
+        .collect();
+    for _ in 0..100 {
+        engine.play(brush, &Motion::default(), &contacts).unwrap();
+    }
+    let end = Reference {
+        wet: engine.wet().unwrap(),
+        brush: engine.brush(brush).unwrap(),
+        ..start.clone()
+    };
+    assert_eq!(end.totals(), start.totals());
+    assert!(end.wet != start.wet && end.brush != start.brush, "nothing moved");
+    let most = end.wet.vehicle.values().iter().chain(end.wet.pigments.values().as_flattened());
+    assert!(most.max() < Some(&(1 << 31)), "an amount below zero");
+}
