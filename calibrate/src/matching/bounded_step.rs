@@ -3,16 +3,21 @@
 //! The primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at
 //! most nine unknowns, on the stack.
 
-use super::forward::UNKNOWNS;
+/// The most unknowns: eight shares, and the logarithm of the thickness.
+pub const UNKNOWNS: usize = 9;
 
 /// Bounds of each unknown, and how many of them, from the first, are shares
 /// whose sum stays.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) count: usize,
-    pub(super) shares: usize,
-    pub(super) lower: [f64; UNKNOWNS],
-    pub(super) upper: [f64; UNKNOWNS],
+pub struct Bounds {
+    /// How many unknowns there are.
+    pub count: usize,
+    /// How many of them, from the first, keep their sum.
+    pub shares: usize,
+    /// The least of each.
+    pub lower: [f64; UNKNOWNS],
+    /// The most of each.
+    pub upper: [f64; UNKNOWNS],
 }
 
 /// The step d from `point`, inside the bounds, that minimises g d + d H d / 2.

@@ -4,17 +4,15 @@ use spectra::color::{Lab, Xyz};
 use spectra::optics::UnevenFilm;
 use spectra::{InterpolateError, TristimulusWeights};
 
+use super::bounded_descent::Cost;
+use super::bounded_step::UNKNOWNS;
 use super::film::FilmKind;
 use super::request::MatchRequest;
 use super::sight::{Metric, Target};
 use crate::library::PigmentLibrary;
 
 /// The most pigments of a recipe.
-pub(super) const MOST_PIGMENTS: usize = 8;
-
-/// Unknowns of a recipe: a share for each pigment, and the logarithm of the
-/// thickness.
-pub(super) const UNKNOWNS: usize = MOST_PIGMENTS + 1;
+pub(super) const MOST_PIGMENTS: usize = UNKNOWNS - 1;
 
 /// A library, a film and lights, ready for many recipes.
 pub(super) struct Forward<'a> {
@@ -26,15 +24,6 @@ pub(super) struct Forward<'a> {
     pub(super) weights: Vec<TristimulusWeights>,
     /// The square root of each light's share of all weights.
     roots: Vec<f64>,
-}
-
-/// Half the sum of weighted squares of colour differences, its gradient over the unknowns
-/// and the Gauss-Newton matrix.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cost {
-    pub(super) value: f64,
-    pub(super) gradient: [f64; UNKNOWNS],
-    pub(super) matrix: [[f64; UNKNOWNS]; UNKNOWNS],
 }
 
 /// Room for one evaluation.

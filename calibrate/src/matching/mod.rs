@@ -10,9 +10,11 @@ mod sight;
 
 mod film;
 
-mod forward;
-
 mod bounded_step;
+
+mod bounded_descent;
+
+mod forward;
 
 mod descent;
 
@@ -26,6 +28,8 @@ mod whole_parts;
 
 mod ranking;
 
+pub use bounded_descent::{Cost, descend_inside};
+pub use bounded_step::{Bounds, UNKNOWNS};
 pub use film::{FilmKind, Thickness};
 pub use ranking::{Recipe, recipes};
 pub use request::{MatchError, MatchRequest};
