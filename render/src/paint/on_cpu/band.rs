@@ -67,17 +67,18 @@ impl Band {
                 &self.touches,
                 &mut self.velocities,
             );
+            let velocities = &mut self.velocities[..moving.width];
             if y == 0 {
-                self.velocities.iter_mut().for_each(|v| v.1 = v.1.max(0));
+                velocities.iter_mut().for_each(|v| v.1 = v.1.max(0));
             }
             if y + 1 == step.bounds.height {
-                self.velocities.iter_mut().for_each(|v| v.1 = v.1.min(0));
+                velocities.iter_mut().for_each(|v| v.1 = v.1.min(0));
             }
             if moving.x == 0 {
-                self.velocities[0].0 = self.velocities[0].0.max(0);
+                velocities[0].0 = velocities[0].0.max(0);
             }
             if moving.x + moving.width == step.bounds.width {
-                let last = &mut self.velocities[moving.width - 1];
+                let last = &mut velocities[moving.width - 1];
                 last.0 = last.0.min(0);
             }
             let row = rows.row(y, moving.x, moving.width);
@@ -106,7 +107,7 @@ impl Band {
         let inflow_row = y + 1 - self.rows.start;
         let here = inflow_row * stride + left;
         let mut stirred = false;
-        for (i, &(x_speed, y_speed)) in self.velocities.iter().enumerate() {
+        for (i, &(x_speed, y_speed)) in self.velocities[..row.volume.len()].iter().enumerate() {
             if x_speed | y_speed == 0 {
                 continue;
             }

@@ -1,6 +1,6 @@
 //! Sub-steps in order, each on as many threads as its contact is worth.
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::band::{Band, SubStep};
 use super::columns::{Columns, Rows};
@@ -80,33 +80,21 @@ impl Player {
             band.begin(edge(i)..edge(i + 1), reach, brush.volume().len());
         }
         let pressed = &mut self.pressed;
-        arch.dispatch(
-            #[inline(always)]
-            || pressed.measure(contact, reach, floor, wet),
-        );
+        arch.dispatch(Measure { pressed, contact, reach, floor, wet });
         let step = SubStep { motion, contact, bounds, reach, pressed, brush };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each(bands, &mut rows, &|band, rows| {
-            arch.dispatch(
-                #[inline(always)]
-                || band.advect(&step, rows),
-            );
+            arch.dispatch(Advect { band, step, rows });
         });
         for i in 1..count {
             let (above, below) = bands.split_at_mut(i);
             above[i - 1].join(&mut below[0], reach.width);
         }
         on_each(bands, &mut rows, &|band, rows| {
-            arch.dispatch(
-                #[inline(always)]
-                || band.settle(&step, rows),
-            );
+            arch.dispatch(Settle { band, step, rows });
         });
         for band in bands {
-            arch.dispatch(
-                #[inline(always)]
-                || band.pay_out(brush),
-            );
+            arch.dispatch(PayOut { band, brush });
         }
     }
 }
@@ -124,4 +112,68 @@ fn on_each(
     let (above, below) = bands.split_at_mut(bands.len() / 2);
     let (mut rows_above, mut rows_below) = rows.split(below[0].rows.start);
     rayon::join(|| on_each(above, &mut rows_above, act), || on_each(below, &mut rows_below, act));
+}
+
+// What is compiled once for every instruction set. Closures will not do: their
+// shims are not inlined, and what is not inlined is not compiled anew.
+
+struct Measure<'a> {
+    pressed: &'a mut Pressed,
+    contact: &'a Contact,
+    reach: Rect,
+    floor: &'a Field<i32>,
+    wet: &'a Columns,
+}
+
+struct Advect<'a, 'b> {
+    band: &'a mut Band,
+    step: SubStep<'a>,
+    rows: &'a mut Rows<'b>,
+}
+
+struct Settle<'a, 'b> {
+    band: &'a mut Band,
+    step: SubStep<'a>,
+    rows: &'a mut Rows<'b>,
+}
+
+struct PayOut<'a> {
+    band: &'a mut Band,
+    brush: &'a mut Columns,
+}
+
+impl WithSimd for Measure<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.pressed.measure(self.contact, self.reach, self.floor, self.wet);
+    }
+}
+
+impl WithSimd for Advect<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.advect(&self.step, self.rows);
+    }
+}
+
+impl WithSimd for Settle<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.settle(&self.step, self.rows);
+    }
+}
+
+impl WithSimd for PayOut<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.pay_out(self.brush);
+    }
 }

@@ -71,10 +71,10 @@ impl Pressed {
         let here = &self.values[start - 1..][..width + 2];
         let above = &self.values[start - row..][..width];
         let below = &self.values[start + row..][..width];
-        found.clear();
-        found.extend((0..width).map(|i| {
+        found.resize(found.len().max(width), (0, 0));
+        for (i, (found, &touch)) in found.iter_mut().zip(touches).enumerate() {
             let slopes = (here[i + 2].max(0) - here[i].max(0), below[i].max(0) - above[i].max(0));
-            velocity(motion, touches[i], here[i + 1], slopes)
-        }));
+            *found = velocity(motion, touch, here[i + 1], slopes);
+        }
     }
 }
