@@ -1,7 +1,7 @@
 //! A layer of paint: for every cell, how much of each of eight pigments, and of
 //! vehicle.
 
-use crate::amount::share_of_65536;
+use crate::amount::{share_of_256, share_of_65536};
 use crate::field::Field;
 
 /// How many pigments a layer can hold.
@@ -35,6 +35,16 @@ impl Cell {
         }
     }
 
+    /// `share` of 256 parts of everything, rounded down.
+    #[inline(always)]
+    #[must_use]
+    pub fn small_share(&self, share: u32) -> Self {
+        Self {
+            pigments: self.pigments.map(|amount| share_of_256(amount, share)),
+            vehicle: share_of_256(self.vehicle, share),
+        }
+    }
+
     /// This and `other` together.
     #[inline(always)]
     #[must_use]
@@ -52,6 +62,26 @@ impl Cell {
         Self {
             pigments: std::array::from_fn(|i| self.pigments[i] - part.pigments[i]),
             vehicle: self.vehicle - part.vehicle,
+        }
+    }
+
+    /// This and `other` together, modulo 2^32: for sums that owe in between.
+    #[inline(always)]
+    #[must_use]
+    pub fn wrapping_plus(&self, other: &Self) -> Self {
+        Self {
+            pigments: std::array::from_fn(|i| self.pigments[i].wrapping_add(other.pigments[i])),
+            vehicle: self.vehicle.wrapping_add(other.vehicle),
+        }
+    }
+
+    /// This without `part`, modulo 2^32.
+    #[inline(always)]
+    #[must_use]
+    pub fn wrapping_minus(&self, part: &Self) -> Self {
+        Self {
+            pigments: std::array::from_fn(|i| self.pigments[i].wrapping_sub(part.pigments[i])),
+            vehicle: self.vehicle.wrapping_sub(part.vehicle),
         }
     }
 }

@@ -6,7 +6,6 @@
 //! below, and the corner between.
 
 use super::Motion;
-use crate::amount::{share_of_256, share_of_65536};
 use crate::layer::Cell;
 
 /// What leaves a cell, and where to; what stays is the rest.
@@ -36,15 +35,9 @@ pub fn mobile_share(motion: &Motion, volume: u32) -> u32 {
 #[inline(always)]
 #[must_use]
 pub fn outflow(cell: &Cell, mobile: u32, speed: (u32, u32)) -> Outflow {
-    let split = |amount: u32| {
-        let moving = share_of_65536(amount, mobile);
-        let sideways = share_of_256(moving, speed.0);
-        let corner = share_of_256(sideways, speed.1);
-        let along = share_of_256(moving - sideways, speed.1);
-        [sideways - corner, along, corner]
-    };
-    let parts = cell.pigments.map(split);
-    let vehicle = split(cell.vehicle);
-    let part = |i: usize| Cell { pigments: parts.map(|p| p[i]), vehicle: vehicle[i] };
-    Outflow { beside: part(0), along: part(1), corner: part(2) }
+    let moving = cell.share(mobile);
+    let sideways = moving.small_share(speed.0);
+    let corner = sideways.small_share(speed.1);
+    let along = moving.minus(&sideways).small_share(speed.1);
+    Outflow { beside: sideways.minus(&corner), along, corner }
 }

@@ -3,6 +3,24 @@
 //!
 //! Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in
 //! quanta), times in sub-steps, in which the head moves by one cell at most.
+//!
+//! # A sub-step
+//! On the contact's rectangle grown by two cells, within the canvas:
+//!
+//! 1. [`press::penetration`] of each touched cell, from the floor and the wet
+//!    volume at the start; [`press::APART`] everywhere else.
+//! 2. [`press::velocity`] of each cell of the rectangle grown by one, with the
+//!    central differences of penetration, where apart and cells beyond the
+//!    rectangle count as 0. A component that would carry paint off the canvas
+//!    counts as 0.
+//! 3. [`advect::outflow`] of each of these cells, of the amounts at the start,
+//!    for all cells at once.
+//! 4. [`transfer::exchange`] for every touched cell whose penetration in step 1
+//!    was not apart, with that penetration: between the cell of the canvas as
+//!    step 3 left it and the cell of the head as it was at the start, for all
+//!    cells at once. What several cells exchange with one cell of the head adds
+//!    up there; as none takes more than a tenth of its share, the head's cell
+//!    never owes.
 
 pub mod press;
 
