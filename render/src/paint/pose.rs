@@ -19,3 +19,45 @@ pub struct Sample {
     /// broad side of a flat head runs along x.
     pub twist_deg: f64,
 }
+
+/// Where a brush is at one sub-step, in cells of the canvas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// From the left edge to where the tip would touch, in cells.
+    pub x: f64,
+    /// From the upper edge, in cells.
+    pub y: f64,
+    /// As in [`Sample`].
+    pub pressure: f64,
+    /// As in [`Sample`].
+    pub tilt_x_deg: f64,
+    /// As in [`Sample`].
+    pub tilt_y_deg: f64,
+    /// As in [`Sample`].
+    pub twist_deg: f64,
+}
+
+impl Pose {
+    /// Whether every number is one.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let numbers =
+            [self.x, self.y, self.pressure, self.tilt_x_deg, self.tilt_y_deg, self.twist_deg];
+        numbers.iter().all(|number| number.is_finite())
+    }
+}
+
+impl Sample {
+    /// The pose over cells that are `cell_mm` wide.
+    #[must_use]
+    pub fn pose(&self, cell_mm: f64) -> Pose {
+        Pose {
+            x: self.x_mm / cell_mm,
+            y: self.y_mm / cell_mm,
+            pressure: self.pressure,
+            tilt_x_deg: self.tilt_x_deg,
+            tilt_y_deg: self.tilt_y_deg,
+            twist_deg: self.twist_deg,
+        }
+    }
+}

@@ -1,0 +1,371 @@
+//! The spines of a head: chains of masses held by springs, bent by the canvas.
+//!
+//! Hair is light and paint is thick, so that a head is at every sub-step nearly
+//! at rest. The springs are solved by position: every constraint moves its nodes
+//! to where it would be met, in turn, a few times over (Mueller et al. 2007,
+//! "Position based dynamics"). What a sub-step does not settle the next does,
+//! which is the damping. No step can overshoot, so that any pose is stable.
+
+use super::grip::Grip;
+use super::relief::View;
+use super::shape::{NODES, Proportions};
+use super::vector::Vector;
+
+/// How often the constraints are met in a sub-step.
+const ITERATIONS: usize = 6;
+
+/// The share of what a spine is out of line with the next that is mended in one
+/// iteration.
+const TOGETHER: f32 = 0.6;
+
+/// Friction over normal force, hair on a primed canvas.
+const FRICTION: f32 = 1.0;
+
+/// The part of its thickness that a head loses under full pressure.
+pub(super) const FLATTENED: f32 = 0.5;
+
+/// Cells between the lowest hair and the canvas as pressure begins.
+const CLEARANCE: f32 = 0.5;
+
+/// No wide head is thinner than this many cells: it could pass between their
+/// middles.
+const THINNEST: f32 = 2.0;
+
+/// The least that full pressure lowers a head, and that of a knife, in cells.
+const LEAST_DEPTH: f32 = 6.0;
+
+/// How far hair is pressed below the crests of the relief at `pressure`, in
+/// cells: a tenth where it just touches, 2.5 at full pressure.
+pub(super) fn sink(pressure: f32) -> f32 {
+    0.1 + 2.4 * pressure
+}
+
+/// The spines of one head, in cells.
+#[derive(Debug, Clone)]
+pub(super) struct Spines {
+    pub(super) of: &'static Proportions,
+    pub(super) width: f32,
+    /// Where each node is at rest: how far from the ferrule, how far across.
+    rest: Vec<(f32, f32)>,
+    /// Half the thickness at each level.
+    pub(super) half_thickness: [f32; NODES],
+    /// Half the breadth and thickness of the surface around one spine at each
+    /// level.
+    section: [(f32, f32); NODES],
+    /// By spine, from the ferrule to the tip.
+    pub(super) nodes: Vec<Vector>,
+    /// How much each level is pressed, 0..=1.
+    pub(super) load: [f32; NODES],
+    touching: Vec<bool>,
+    before: Vec<Vector>,
+    /// How far the hair around a node reaches down.
+    below: Vec<f32>,
+}
+
+impl Spines {
+    pub(super) fn new(of: &'static Proportions, width: f32) -> Self {
+        let margin = 0.5 * (of.thickness * width);
+        let half_thickness = of.depth.map(|d| {
+            let half = 0.5 * d * of.thickness * width;
+            if d > 0.0 && of.spines > 1 { half.max(0.5 * THINNEST) } else { half }
+        });
+        let half_breadth =
+            if of.spines == 1 { of.width.map(|w| 0.5 * w * width) } else { half_thickness };
+        let outermost = if of.spines == 1 { 0.0 } else { 0.5 * width - margin };
+        let length = of.length * width;
+        let mut rest = Vec::new();
+        for spine in 0..of.spines {
+            let place = 2.0 * spine as f32 / (of.spines.max(2) - 1) as f32 - 1.0;
+            let tip = if of.spines == 1 { 0.0 } else { place * outermost };
+            let spread = tip * (1.0 - of.root);
+            let along = (length * length - spread * spread).sqrt();
+            for node in 0..NODES {
+                let share = node as f32 / (NODES - 1) as f32;
+                rest.push((along * share, (tip * of.root + spread * share) * of.width[node]));
+            }
+        }
+        let nodes = rest.len();
+        Self {
+            of,
+            width,
+            rest,
+            half_thickness,
+            section: rounded(half_breadth, half_thickness),
+            nodes: vec![Vector::ZERO; nodes],
+            load: [0.0; NODES],
+            touching: vec![false; nodes],
+            before: vec![Vector::ZERO; nodes],
+            below: vec![0.0; nodes],
+        }
+    }
+
+    pub(super) fn length(&self) -> f32 {
+        self.of.length * self.width
+    }
+
+    /// The node `level` of `spine`.
+    pub(super) fn node(&self, spine: usize, level: usize) -> Vector {
+        self.nodes[spine * NODES + level]
+    }
+
+    /// The origin of coordinates moves by whole cells.
+    pub(super) fn rebase(&mut self, moved: Vector) {
+        for node in &mut self.nodes {
+            *node -= moved;
+        }
+    }
+
+    /// Lets the head hang just above the canvas at `grip`, bent a little to where it
+    /// will fall: behind `heading`, if that is a direction.
+    pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &View<'_>) {
+        let grip = &Grip { pressure: 0.0, ..*grip };
+        let ferrule = self.ferrule(grip, relief);
+        let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
+        for (i, rest) in self.rest.iter().enumerate() {
+            let share = (i % NODES) as f32 / (NODES - 1) as f32;
+            let bent = if self.of.rigid { Vector::ZERO } else { fall * (share * share) };
+            self.nodes[i] = placed(grip, ferrule, *rest) + bent;
+        }
+        self.touching.fill(false);
+        self.load = [0.0; NODES];
+    }
+
+    /// Presses the head, hanging before, down to `grip` without dragging it.
+    pub(super) fn lower(&mut self, grip: &Grip, relief: &View<'_>) {
+        const STAGES: usize = 16;
+        for stage in 1..=2 * STAGES {
+            let share = (stage as f32 / STAGES as f32).min(1.0);
+            self.settle(&Grip { pressure: grip.pressure * share, ..*grip }, relief, 0.0);
+        }
+    }
+
+    /// One sub-step, in which the handle came to `grip`.
+    pub(super) fn advance(&mut self, grip: &Grip, relief: &View<'_>) {
+        self.settle(grip, relief, FRICTION);
+    }
+
+    /// Where the ferrule is. Its height follows the canvas below the tip.
+    fn ferrule(&self, grip: &Grip, relief: &View<'_>) -> Vector {
+        let third = grip.broad * (self.width / 3.0);
+        let (x, y) = grip.tip;
+        let ride = (relief.height(x, y)
+            + relief.height(x + third.x, y + third.y)
+            + relief.height(x - third.x, y - third.y))
+            / 3.0;
+        let foot = grip.axis * self.length();
+        let mut lowest = f32::INFINITY;
+        for (i, &rest) in self.rest.iter().enumerate() {
+            let below = self.reach_down(i % NODES, grip.broad, grip.thin);
+            lowest = lowest.min(placed(grip, Vector::ZERO, rest).z - below);
+        }
+        let rim = self.reach_down(0, grip.broad, grip.thin);
+        let give = if self.of.rigid { 0.0 } else { self.of.give };
+        let depth = (give * (-lowest - rim)).max(LEAST_DEPTH) * grip.pressure;
+        Vector::new(x + foot.x, y + foot.y, ride + CLEARANCE - lowest - depth)
+    }
+
+    /// How far hair at `level` reaches below its node, if its section lies so.
+    fn reach_down(&self, level: usize, broad: Vector, thin: Vector) -> f32 {
+        let (breadth, thickness) = self.section[level];
+        let (a, b) = (breadth * broad.z, thickness * thin.z);
+        (a * a + b * b).sqrt()
+    }
+
+    fn settle(&mut self, grip: &Grip, relief: &View<'_>, friction: f32) {
+        let ferrule = self.ferrule(grip, relief);
+        if self.of.rigid {
+            for (node, &rest) in self.nodes.iter_mut().zip(&self.rest) {
+                *node = placed(grip, ferrule, rest);
+            }
+            return;
+        }
+        let dig = 2.0 * sink(grip.pressure);
+        self.before.copy_from_slice(&self.nodes);
+        for spine in 0..self.of.spines {
+            self.carry(spine, grip, ferrule);
+        }
+        self.measure(grip);
+        for _ in 0..ITERATIONS {
+            for spine in 0..self.of.spines {
+                self.relax(spine, grip, ferrule, relief, dig, friction);
+            }
+            self.hold_together(grip);
+        }
+        for spine in 0..self.of.spines {
+            self.fit(spine, grip, ferrule, relief, dig);
+        }
+        self.feel(grip, relief, dig);
+    }
+
+    /// What hangs free moves with the ferrule; what touches stays.
+    fn carry(&mut self, spine: usize, grip: &Grip, ferrule: Vector) {
+        let first = spine * NODES;
+        let root = placed(grip, ferrule, self.rest[first]);
+        let moved = root - self.nodes[first];
+        for i in first..first + NODES {
+            if !self.touching[i] {
+                self.nodes[i] += moved;
+            }
+        }
+        self.nodes[first] = root;
+    }
+
+    /// How far the hair around every node reaches down.
+    fn measure(&mut self, grip: &Grip) {
+        for i in 0..self.nodes.len() {
+            let level = i % NODES;
+            let next = if level + 1 < NODES { i + 1 } else { i };
+            let last = if level > 0 { i - 1 } else { i };
+            let along = (self.nodes[last] - self.nodes[next]).unit_or(grip.axis);
+            let broad = grip.broad.across(along).unit_or(grip.thin);
+            let thin = along.cross(broad);
+            let flattened = 1.0 - FLATTENED * self.load[level];
+            let reach = self.reach_down(level, broad, thin) * flattened;
+            // The surface rounds off a bend, by this much at its node.
+            let raised = (self.nodes[last].z - 2.0 * self.nodes[i].z + self.nodes[next].z) / 6.0;
+            let inner = level > 0 && level + 1 < NODES;
+            let most = 0.25 * self.length() / NODES as f32;
+            self.below[i] = reach - if inner { raised.clamp(0.0, most) } else { 0.0 };
+        }
+    }
+
+    /// Meets the constraints of one spine once.
+    fn relax(
+        &mut self,
+        spine: usize,
+        grip: &Grip,
+        ferrule: Vector,
+        relief: &View<'_>,
+        dig: f32,
+        friction: f32,
+    ) {
+        let range = spine * NODES..(spine + 1) * NODES;
+        let rest = &self.rest[range.clone()];
+        let below = &self.below[range.clone()];
+        let before = &self.before[range.clone()];
+        let nodes = &mut self.nodes[range];
+        let straight = placed(grip, ferrule, rest[1]) - placed(grip, ferrule, rest[0]);
+        bend(nodes, rest, grip.broad, straight, self.of.stiffness);
+        stretch(nodes, straight.length());
+        for i in 1..NODES {
+            let node = &mut nodes[i];
+            let floor = relief.height(node.x, node.y) - dig + below[i];
+            let pressed = floor - node.z;
+            if pressed > 0.0 {
+                node.z = floor;
+                drag(node, before[i], friction * pressed);
+            }
+        }
+    }
+
+    /// The springs between spines side by side: hair of one head moves together.
+    fn hold_together(&mut self, grip: &Grip) {
+        for i in NODES..self.nodes.len() {
+            if i % NODES > 0 {
+                let beside = grip.broad * (self.rest[i].1 - self.rest[i - NODES].1);
+                let off = (self.nodes[i] - self.nodes[i - NODES] - beside) * (0.5 * TOGETHER);
+                self.nodes[i - NODES] += off;
+                self.nodes[i] -= off;
+            }
+        }
+    }
+
+    /// Pulls a spine along that is longer than it can be, and keeps it above the
+    /// canvas. It only pulls: hair that is pushed bends.
+    fn fit(&mut self, spine: usize, grip: &Grip, ferrule: Vector, relief: &View<'_>, dig: f32) {
+        let range = spine * NODES..(spine + 1) * NODES;
+        let rest = &self.rest[range.clone()];
+        let below = &self.below[range.clone()];
+        let nodes = &mut self.nodes[range];
+        let straight = placed(grip, ferrule, rest[1]) - placed(grip, ferrule, rest[0]);
+        let segment = straight.length();
+        for i in 1..NODES {
+            let apart = nodes[i] - nodes[i - 1];
+            let length = apart.length();
+            if length > segment {
+                nodes[i] = nodes[i - 1] + apart * (segment / length);
+            }
+            let floor = relief.height(nodes[i].x, nodes[i].y) - dig + below[i];
+            nodes[i].z = nodes[i].z.max(floor);
+        }
+    }
+
+    /// Which nodes touch, and how much each level is pressed.
+    fn feel(&mut self, grip: &Grip, relief: &View<'_>, dig: f32) {
+        let mut pressed = [0.0; NODES];
+        for (i, node) in self.nodes.iter().enumerate() {
+            let gap = node.z - self.below[i] - (relief.height(node.x, node.y) - dig);
+            self.touching[i] = i % NODES > 0 && gap < 0.5;
+            if self.touching[i] {
+                pressed[i % NODES] += grip.pressure / self.of.spines as f32;
+            }
+        }
+        for level in 0..NODES {
+            let above = pressed[level.saturating_sub(1)];
+            let under = pressed[(level + 1).min(NODES - 1)];
+            let wanted = 0.25 * above + 0.5 * pressed[level] + 0.25 * under;
+            self.load[level] += 0.25 * (wanted - self.load[level]);
+        }
+    }
+}
+
+/// Profiles as the surface rounds them off.
+fn rounded(breadth: [f32; NODES], thickness: [f32; NODES]) -> [(f32, f32); NODES] {
+    let at = |of: &[f32; NODES], i: usize| match i {
+        0 => of[0],
+        i if i + 1 == NODES => of[i],
+        i => (of[i - 1] + 4.0 * of[i] + of[i + 1]) / 6.0,
+    };
+    std::array::from_fn(|i| (at(&breadth, i), at(&thickness, i)))
+}
+
+/// A place on the unbent head.
+fn placed(grip: &Grip, ferrule: Vector, (along, across): (f32, f32)) -> Vector {
+    ferrule - grip.axis * along + grip.broad * across
+}
+
+/// The bending springs: three nodes in a row are straight, or as they are at
+/// rest; the ferrule holds the first. Hair thins out, so that tips bend more than
+/// roots.
+fn bend(
+    nodes: &mut [Vector],
+    rest: &[(f32, f32)],
+    broad: Vector,
+    straight: Vector,
+    stiffness: f32,
+) {
+    nodes[1] += (nodes[0] + straight - nodes[1]) * stiffness;
+    for i in 1..NODES - 1 {
+        let thinned = 1.0 - 0.75 * i as f32 / NODES as f32;
+        let at_rest = broad * (rest[i + 1].1 - 2.0 * rest[i].1 + rest[i - 1].1);
+        let bent = nodes[i + 1] - nodes[i] * 2.0 + nodes[i - 1] - at_rest;
+        let above = if i == 1 { 0.0 } else { 1.0 };
+        let part = bent * (stiffness * thinned / (5.0 + above));
+        nodes[i - 1] -= part * above;
+        nodes[i] += part * 2.0;
+        nodes[i + 1] -= part;
+    }
+}
+
+/// The stretching springs, which are stiff.
+fn stretch(nodes: &mut [Vector], segment: f32) {
+    for i in 1..NODES {
+        let apart = nodes[i] - nodes[i - 1];
+        let length = apart.length().max(1e-4);
+        let excess = apart * ((length - segment) / length);
+        if i == 1 {
+            nodes[1] -= excess;
+        } else {
+            nodes[i - 1] += excess * 0.5;
+            nodes[i] -= excess * 0.5;
+        }
+    }
+}
+
+/// Takes back up to `most` of how far a node slid over the canvas.
+fn drag(node: &mut Vector, before: Vector, most: f32) {
+    let slid = Vector::new(node.x - before.x, node.y - before.y, 0.0);
+    let length = slid.length();
+    let back = if length <= most { 1.0 } else { most / length };
+    *node -= slid * back;
+}

@@ -1,0 +1,189 @@
+//! The limit surface of the control net, as a grid of facets.
+//!
+//! Catmull and Clark 1978: over a regular net the limit of the subdivision is
+//! the uniform bicubic B-spline, so that it can be evaluated where it is wanted.
+
+use super::net::{Net, Point, ROWS};
+
+/// Cells of the head to a facet, along each side, where there is room for them.
+const FACET: f32 = 4.0;
+
+/// The most cells a head has for paint. On a larger head they are wider than
+/// those of the canvas.
+const MOST_CELLS: f32 = 1_048_576.0;
+
+/// Spans of the surface along the head.
+const SPANS: usize = ROWS - 3;
+
+/// The facets of one span, along or around.
+#[derive(Debug, Clone)]
+struct Span {
+    facets: usize,
+    /// Cells of the head's paint to a facet.
+    cells: usize,
+    /// Weights of four points at the start of each facet, and at the end.
+    weights: Vec<[f32; 4]>,
+}
+
+impl Span {
+    /// For a span of `length`, in cells of the head.
+    fn new(length: f32) -> Self {
+        let facets = (length / FACET).round().max(1.0);
+        let cells = (length / facets).round().clamp(1.0, FACET);
+        let weights = (0..=facets as usize).map(|i| b_spline(i as f32 / facets)).collect();
+        Self { facets: facets as usize, cells: cells as usize, weights }
+    }
+}
+
+/// Uniform cubic B-spline.
+fn b_spline(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    let inner = |t: f32, s: f32| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t;
+    [s * s * s, inner(t, s) + t * t * t, inner(s, t) + s * s * s, t * t * t].map(|w| w / 6.0)
+}
+
+/// The surface of a head; vertices row by row from the ferrule.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    around: Span,
+    along: Span,
+    columns: usize,
+    /// Points and displacements, where [`Surface::is_near`].
+    pub(super) vertices: Vec<Point>,
+    near: Vec<bool>,
+    /// The net, evaluated along but not around.
+    line: Vec<Point>,
+}
+
+impl Surface {
+    /// For a net of `columns` around a head of this perimeter and length, in
+    /// cells of the canvas.
+    pub(super) fn new(columns: usize, perimeter: f32, length: f32) -> Self {
+        let cell = (perimeter * length / MOST_CELLS).sqrt().max(1.0);
+        let around = Span::new(perimeter / columns as f32 / cell);
+        let along = Span::new(length / SPANS as f32 / cell);
+        let vertices = (SPANS * along.facets + 1) * columns * around.facets;
+        Self {
+            columns,
+            vertices: vec![[0.0; 8]; vertices],
+            near: vec![false; SPANS * columns],
+            line: vec![[0.0; 8]; columns],
+            around,
+            along,
+        }
+    }
+
+    /// Facets around and along.
+    pub(super) fn facets(&self) -> (usize, usize) {
+        (self.columns * self.around.facets, SPANS * self.along.facets)
+    }
+
+    /// Cells of the head's paint to a facet, around and along.
+    pub(super) fn cells_of_facet(&self) -> (usize, usize) {
+        (self.around.cells, self.along.cells)
+    }
+
+    /// Whether a facet may reach below the ceiling of the last evaluation.
+    #[inline]
+    pub(super) fn is_near(&self, column: usize, row: usize) -> bool {
+        self.near[row / self.along.facets * self.columns + column / self.around.facets]
+    }
+
+    /// Facets to a span, around: those are near or not together.
+    pub(super) fn facets_of_span(&self) -> usize {
+        self.around.facets
+    }
+
+    /// Evaluates the surface where it may reach below `ceiling`, and hands every
+    /// vertex to `finish`.
+    pub(super) fn evaluate(&mut self, net: &Net, ceiling: f32, finish: impl Fn(&mut Point)) {
+        self.find_near(net, ceiling);
+        let columns = self.columns;
+        let width = columns * self.around.facets;
+        for row in 0..=SPANS * self.along.facets {
+            let span = (row / self.along.facets).min(SPANS - 1);
+            let step = row - span * self.along.facets;
+            // A row between two spans belongs to both.
+            let other = if step == 0 { span.saturating_sub(1) } else { span };
+            let near = |c: usize| self.near[span * columns + c] || self.near[other * columns + c];
+            if !(0..columns).any(near) {
+                continue;
+            }
+            let weights = &self.along.weights[step];
+            for (column, point) in self.line.iter_mut().enumerate() {
+                let control = |i: usize| &net.points[(span + i) * columns + column];
+                *point = combined(weights, control(0), control(1), control(2), control(3));
+            }
+            for column in 0..columns {
+                let before = if column == 0 { columns - 1 } else { column - 1 };
+                let count = match (near(column), near(before)) {
+                    (true, _) => self.around.facets,
+                    (false, true) => 1,
+                    (false, false) => continue,
+                };
+                let after =
+                    |i: usize| if column + i < columns { column + i } else { column + i - columns };
+                let line = [before, column, after(1), after(2)].map(|i| self.line[i]);
+                let vertices =
+                    &mut self.vertices[row * width + column * self.around.facets..][..count];
+                for (vertex, weights) in vertices.iter_mut().zip(&self.around.weights) {
+                    *vertex = combined(weights, &line[0], &line[1], &line[2], &line[3]);
+                    finish(vertex);
+                }
+            }
+        }
+    }
+
+    fn find_near(&mut self, net: &Net, ceiling: f32) {
+        for span in 0..SPANS {
+            // The lowest of four points along; then of four of these around.
+            for column in 0..self.columns {
+                let lowest = (0..4).map(|i| net.points[(span + i) * self.columns + column][2]);
+                self.line[column][2] = lowest.fold(f32::INFINITY, f32::min);
+            }
+            for column in 0..self.columns {
+                let around =
+                    (0..4).map(|i| self.line[(column + self.columns - 1 + i) % self.columns][2]);
+                self.near[span * self.columns + column] =
+                    around.fold(f32::INFINITY, f32::min) < ceiling;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn combined(weights: &[f32; 4], a: &Point, b: &Point, c: &Point, d: &Point) -> Point {
+    std::array::from_fn(|i| {
+        weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i] + weights[3] * d[i]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_sum_to_one_and_reproduce_a_line() {
+        for i in 0..=10 {
+            let t = i as f32 / 10.0;
+            let w = b_spline(t);
+            let line: f32 = w.iter().zip([-1.0, 0.0, 1.0, 2.0]).map(|(w, x)| w * x).sum();
+            assert!((w.iter().sum::<f32>() - 1.0).abs() < 1e-6, "{t}: {w:?}");
+            assert!((line - t).abs() < 1e-6, "{t}: {line}");
+        }
+    }
+
+    #[test]
+    fn facets_have_three_to_four_cells_and_large_heads_wider_ones() {
+        for length in 5..200 {
+            let span = Span::new(length as f32);
+            let cell = length as f32 / (span.facets * span.cells) as f32;
+            assert!((3..=4).contains(&span.cells) || length < 6, "{length}: {span:?}");
+            assert!((0.7..1.4).contains(&cell), "{length}: {cell}");
+        }
+        let large = Surface::new(8, 6000.0, 5000.0);
+        let (around, along) = (large.facets(), large.cells_of_facet());
+        let cells = around.0 * along.0 * around.1 * along.1;
+        assert!(cells < 1_100_000, "{cells}");
+    }
+}
