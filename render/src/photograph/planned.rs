@@ -155,16 +155,21 @@ struct Square {
 }
 
 impl Square {
-    /// Its worst point, in cells, and its mean difference; none for an empty one.
+    /// Its worst point, in cells, the nearest to its middle among nearly equal
+    /// ones, and its mean difference; none for an empty square.
     fn worst(&self, off: &Field<f32>) -> Option<([f64; 2], f32)> {
+        let middle = [self.x, self.y].map(|(from, to)| (from + to) as f64 / 2.0);
+        let reach = between([self.x.0 as f64, self.y.0 as f64], middle);
         let mut sum = 0.0;
         let mut worst = None;
         for y in self.y.0..self.y.1 {
             for x in self.x.0..self.x.1 {
+                let place = [x as f64 + 0.5, y as f64 + 0.5];
                 let here = off[(x, y)];
                 sum += here;
-                if worst.is_none_or(|(value, _)| here > value) {
-                    worst = Some((here, [x as f64 + 0.5, y as f64 + 0.5]));
+                let counts = f64::from(here) * (1.0 - 0.1 * between(place, middle) / reach);
+                if worst.is_none_or(|(value, _)| counts > value) {
+                    worst = Some((counts, place));
                 }
             }
         }

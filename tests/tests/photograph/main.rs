@@ -1,1 +1,9 @@
-//! Tests of photograph.
+//! From photographs to pigments and to strokes: reading, separation, planning.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+mod choosing;
+mod made;
+mod pictures;
+mod separation;
+mod strokes;

@@ -1,0 +1,73 @@
+//! Palettes chosen for a photograph.
+
+use render::field::Field;
+use render::layer::SLOTS;
+use render::paint::document::Slots;
+use render::photograph::{
+    ChosenPalette, PaintFilm, Picture, SeparationError, SeparationSettings, choose_palette,
+};
+
+use crate::made::STUDIO;
+
+fn chosen(picture: &Picture) -> ChosenPalette {
+    let materials = STUDIO.materials(&[None; SLOTS]);
+    let film = |materials: render::photograph::Materials<'_>| {
+        PaintFilm::at_nodes(materials, &STUDIO.quadrature)
+    };
+    choose_palette(picture, materials, film, &SeparationSettings::default()).unwrap()
+}
+
+/// Tints and shades of one pigment, from the oils.
+fn tints(name: &str) -> Picture {
+    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
+    let mut slots: Slots = [None; SLOTS];
+    slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
+    let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
+    let colours = (0..60).map(|at| {
+        let (white, black) = (0.28 * (at % 10) as f32 / 10.0, 0.02 * (at / 10) as f32 / 6.0);
+        let mut heights = [0.0; SLOTS];
+        heights[..3].copy_from_slice(&[white, 0.3 - white - black, black]);
+        film.rgb(&heights).map(|value| value.clamp(0.0, 1.0))
+    });
+    Field::from_values(60, 1, colours.collect())
+}
+
+#[test]
+fn a_photograph_of_one_hue_gets_a_palette_that_paints_it() {
+    for name in ["Cobalt Blue", "Vermilion"] {
+        let found = chosen(&tints(name));
+        assert!(found.mean < 0.8, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_palette_holds_no_pigment_twice_and_none_unidentified() {
+    let colours = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
+    let found = chosen(&Field::from_values(216, 1, colours.collect()));
+    let mut indices: Vec<usize> = found.slots.iter().flatten().copied().collect();
+    assert_eq!(indices.len(), SLOTS, "all of sRGB wants a full palette: {found:?}");
+    assert!(indices.iter().all(|&index| STUDIO.library.pigments[index].identified));
+    indices.sort_unstable();
+    indices.dedup();
+    assert_eq!(indices.len(), SLOTS, "{found:?}");
+}
+
+#[test]
+fn the_same_photograph_gets_the_same_palette() {
+    let picture = tints("Viridian");
+    assert_eq!(chosen(&picture), chosen(&picture));
+}
+
+#[test]
+fn a_library_of_unknown_scattering_is_refused() {
+    let mut library = STUDIO.library.clone();
+    library.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
+    let materials = STUDIO.materials(&[None; SLOTS]);
+    let materials = render::photograph::Materials { library: &library, ..materials };
+    let film = |materials: render::photograph::Materials<'_>| {
+        PaintFilm::at_nodes(materials, &STUDIO.quadrature)
+    };
+    let picture = Field::filled(2, 2, [0.5; 3]);
+    let found = choose_palette(&picture, materials, film, &SeparationSettings::default());
+    assert_eq!(found, Err(SeparationError::NoPigment));
+}

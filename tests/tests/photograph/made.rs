@@ -1,0 +1,89 @@
+//! The oils on a white ground under daylight, tables of them, and mixtures.
+
+use std::sync::LazyLock;
+
+use calibrate::evaluate::Viewing;
+use calibrate::library::PigmentLibrary;
+use calibrate::quadrature::Quadrature;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::layer::SLOTS;
+use render::paint::document::{Medium, Slots};
+use render::photograph::{Materials, PaintFilm, Picture, Separation, SeparationSettings};
+use suite::program::repository;
+
+/// The shipped oils, eight wavelengths for daylight, and a white ground.
+pub(crate) struct Studio {
+    pub(crate) library: PigmentLibrary,
+    pub(crate) viewing: Viewing,
+    pub(crate) quadrature: Quadrature,
+    pub(crate) ground: Vec<f64>,
+    /// White, black, three yellows to reds, two blues and a green.
+    pub(crate) slots: Slots,
+}
+
+pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
+    let path = repository("measurements/van-gogh-oils.pigments.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let library = PigmentLibrary::from_json(&path, &text).unwrap();
+    let viewing = Viewing::default();
+    let quadrature = Quadrature::library(&viewing, &library, 8).unwrap();
+    let ground = vec![0.85; library.grid.count()];
+    let slots = [
+        "Zinc White",
+        "Bone Black",
+        "Chrome Yellow (Otero)",
+        "Vermilion",
+        "Eosin Lake",
+        "Ultramarine",
+        "Prussian Blue",
+        "Viridian",
+    ]
+    .map(|name| Some(library.find(name).unwrap()));
+    Studio { library, viewing, quadrature, ground, slots }
+});
+
+impl Studio {
+    pub(crate) fn materials<'a>(&'a self, slots: &'a Slots) -> Materials<'a> {
+        let scattering_per_mm = Medium::default().scattering_per_mm;
+        Materials { library: &self.library, slots, ground: &self.ground, scattering_per_mm }
+    }
+
+    pub(crate) fn film(&self) -> PaintFilm {
+        PaintFilm::at_nodes(self.materials(&self.slots), &self.quadrature)
+    }
+}
+
+/// The palette's table as it is by default, but coarser.
+pub(crate) static HIDING: LazyLock<Separation> = LazyLock::new(|| {
+    let settings = SeparationSettings { lattice: 17, ..SeparationSettings::default() };
+    Separation::new(STUDIO.film(), &settings).unwrap()
+});
+
+/// The table of films that may be thin.
+pub(crate) static THIN: LazyLock<Separation> = LazyLock::new(|| {
+    let settings =
+        SeparationSettings { lattice: 17, hides: false, ..SeparationSettings::default() };
+    Separation::new(STUDIO.film(), &settings).unwrap()
+});
+
+/// Colours that films of up to four pigments make, all within sRGB; heights from
+/// `least_mm` to 0.3 mm.
+pub(crate) fn mixtures(seed: u64, count: usize, least_mm: f32) -> Picture {
+    let film = STUDIO.film();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut colours = Vec::new();
+    while colours.len() < count {
+        let mut parts = [0.0_f32; SLOTS];
+        for _ in 0..random.random_range(1..=4) {
+            parts[random.random_range(0..SLOTS)] += random.random_range(0.05..1.0_f32).powi(3);
+        }
+        let height = random.random_range(least_mm..=0.3);
+        let total: f32 = parts.iter().sum();
+        let rgb = film.rgb(&parts.map(|part| part / total * height));
+        if rgb.iter().all(|value| (0.0..=1.0).contains(value)) {
+            colours.push(rgb);
+        }
+    }
+    Picture::from_values(count, 1, colours)
+}

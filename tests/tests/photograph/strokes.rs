@@ -1,0 +1,184 @@
+//! Strokes planned for a picture.
+
+use render::field::Field;
+use render::photograph::{Order, Picture, Plan, PlanError, PlannedStroke, plan_layer, rebuilt};
+
+use crate::made::HIDING;
+
+const CELL_MM: f64 = 0.5;
+
+/// A plan for the small pictures here.
+fn plan() -> Plan {
+    Plan { sizes_mm: vec![12.0, 4.0], ..Plan::default() }
+}
+
+/// A blank canvas.
+fn blank(picture: &Picture) -> Picture {
+    Field::filled(picture.width(), picture.height(), HIDING.film().rgb(&[0.0; 8]))
+}
+
+fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
+    plan_layer(picture, &blank(picture), &HIDING, &plan(), level, CELL_MM)
+}
+
+/// Waves of brown and cream whose crests run at an angle from x towards y.
+fn grating(degrees: f64) -> Picture {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let colour = |i: usize| {
+        let (x, y) = ((i % 160) as f64, (i / 160) as f64);
+        let share = 0.5 + 0.5 * ((y * cos - x * sin) * 0.25).sin();
+        [(0.2, 0.6), (0.15, 0.5), (0.1, 0.35)]
+            .map(|(low, high)| (low + share * (high - low)) as f32)
+    };
+    Field::from_values(160, 120, (0..160 * 120).map(colour).collect())
+}
+
+#[test]
+fn strokes_follow_a_grating() {
+    for degrees in [0.0, 25.0, 90.0, 140.0_f64] {
+        let strokes = planned(&grating(degrees), 1);
+        assert!(strokes.len() > 50, "{} strokes", strokes.len());
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let mut off = Vec::new();
+        for stroke in &strokes {
+            let (first, last) = (stroke.samples[0], stroke.samples[stroke.samples.len() - 1]);
+            let (x, y) = (last.x_mm - first.x_mm, last.y_mm - first.y_mm);
+            if x.hypot(y) > 3.0 {
+                off.push(((y * cos - x * sin) / x.hypot(y)).abs().asin().to_degrees());
+            }
+        }
+        assert!(off.len() > 30, "{} long strokes", off.len());
+        off.sort_by(f64::total_cmp);
+        assert!(off[off.len() * 9 / 10] < 10.0, "{degrees}: {}", off[off.len() * 9 / 10]);
+    }
+}
+
+#[test]
+fn strokes_stay_near_the_canvas_and_within_the_plan() {
+    let picture = grating(60.0);
+    for (level, size) in [12.0, 4.0].into_iter().enumerate() {
+        for stroke in planned(&picture, level) {
+            assert_eq!(stroke.level, level);
+            let mut length = 0.0;
+            for pair in stroke.samples.windows(2) {
+                length += (pair[1].x_mm - pair[0].x_mm).hypot(pair[1].y_mm - pair[0].y_mm);
+                assert!(pair[1].seconds > pair[0].seconds);
+            }
+            assert!(length <= 8.0 * size + 1e-9, "{length} mm by a brush of {size} mm");
+            for sample in &stroke.samples {
+                assert!((-size / 2.0..=80.0 + size / 2.0).contains(&sample.x_mm), "{sample:?}");
+                assert!((-size / 2.0..=60.0 + size / 2.0).contains(&sample.y_mm), "{sample:?}");
+                assert!((0.0..=0.6).contains(&sample.pressure), "{sample:?}");
+            }
+            let shares: f64 = stroke.recipe.iter().sum();
+            assert!((shares - 1.0).abs() < 1e-9 && stroke.recipe.iter().all(|s| *s >= 0.0));
+            assert!((0.029_999..0.301).contains(&stroke.height_mm), "{} mm", stroke.height_mm);
+            assert!(stroke.amount_mm >= stroke.height_mm, "{} mm", stroke.amount_mm);
+        }
+    }
+}
+
+#[test]
+fn pressure_tapers_and_the_broad_side_lies_across() {
+    let strokes = planned(&grating(0.0), 1);
+    let long = strokes.iter().find(|stroke| stroke.samples.len() > 20).unwrap();
+    let pressures: Vec<f64> = long.samples.iter().map(|sample| sample.pressure).collect();
+    assert!((pressures[0] - 0.15).abs() < 1e-9 && (pressures[10] - 0.6).abs() < 1e-9);
+    assert!((pressures[pressures.len() - 1] - 0.15).abs() < 1e-9, "{pressures:?}");
+    for sample in &long.samples {
+        let across = sample.twist_deg.rem_euclid(180.0);
+        assert!((across - 90.0).abs() < 15.0, "{}", sample.twist_deg);
+    }
+}
+
+#[test]
+fn one_level_covers_a_blank_canvas_with_about_two_coats_at_most() {
+    let picture = Field::filled(160, 120, [0.25, 0.2, 0.1]);
+    let strokes = planned(&picture, 1);
+    let mut coats = Field::filled(160, 120, 0_u32);
+    let mut area = 0.0;
+    for stroke in &strokes {
+        for pair in stroke.samples.windows(2) {
+            area += 4.0 * (pair[1].x_mm - pair[0].x_mm).hypot(pair[1].y_mm - pair[0].y_mm);
+        }
+        for sample in &stroke.samples {
+            let (x, y) = (sample.x_mm / CELL_MM, sample.y_mm / CELL_MM);
+            for row in 0..120 {
+                for column in 0..160 {
+                    let apart = (column as f64 + 0.5 - x).hypot(row as f64 + 0.5 - y);
+                    coats[(column, row)] += u32::from(apart <= 4.0);
+                }
+            }
+        }
+    }
+    let bare = coats.values().iter().filter(|count| **count == 0).count();
+    assert!(bare < 160 * 120 / 50, "{bare} bare cells");
+    assert!(area < 2.2 * 80.0 * 60.0, "{area} mm2 of strokes");
+}
+
+#[test]
+fn without_a_difference_there_is_no_stroke() {
+    let picture = grating(30.0);
+    assert_eq!(plan_layer(&picture, &picture, &HIDING, &plan(), 0, CELL_MM), []);
+    // Nor where the painting is as near as the palette comes.
+    let vivid = Field::filled(160, 120, [0.0, 1.0, 0.0]);
+    let reached = rebuilt(HIDING.film(), &HIDING.separate(&vivid));
+    assert_eq!(plan_layer(&vivid, &reached, &HIDING, &plan(), 1, CELL_MM), []);
+    assert_ne!(plan_layer(&vivid, &blank(&vivid), &HIDING, &plan(), 1, CELL_MM), []);
+}
+
+#[test]
+fn only_what_is_off_is_painted() {
+    let picture = grating(0.0);
+    let mut current = picture.clone();
+    for y in 0..60 {
+        current.row_mut(y, 0, 80).fill([0.9; 3]);
+    }
+    let strokes = plan_layer(&picture, &current, &HIDING, &plan(), 1, CELL_MM);
+    assert!(!strokes.is_empty());
+    for stroke in strokes {
+        let middle = stroke.samples[stroke.samples.len() / 2];
+        assert!(middle.x_mm < 46.0 && middle.y_mm < 36.0, "{middle:?}");
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_strokes_and_another_gives_others() {
+    let picture = grating(110.0);
+    let with = |seed| {
+        let plan = Plan { seed, ..plan() };
+        plan_layer(&picture, &blank(&picture), &HIDING, &plan, 1, CELL_MM)
+    };
+    assert_eq!(with(1), with(1));
+    assert_ne!(with(1), with(2));
+}
+
+#[test]
+fn strokes_are_bounded_and_may_go_from_dark_to_light() {
+    let picture = grating(45.0);
+    let with = |plan: &Plan| plan_layer(&picture, &blank(&picture), &HIDING, plan, 1, CELL_MM);
+    assert_eq!(with(&Plan { most_strokes: 7, ..plan() }).len(), 7);
+    let strokes = with(&Plan { order: Order::DarkToLight, ..plan() });
+    let lightness = |stroke: &PlannedStroke| {
+        let heights = stroke.recipe.map(|share| share * stroke.height_mm);
+        HIDING.film().lab(&heights).lightness
+    };
+    for pair in strokes.windows(2) {
+        assert!(lightness(&pair[1]) > lightness(&pair[0]) - 5.001);
+    }
+}
+
+#[test]
+fn plans_that_cannot_be_are_refused_by_field() {
+    assert_eq!(plan().check(), Ok(()));
+    assert_eq!(Plan::for_width(100.0).sizes_mm, [8.0, 4.0, 2.0, 1.0, 0.5]);
+    assert_eq!(Plan { sizes_mm: vec![], ..plan() }.check(), Err(PlanError::NoBrush));
+    let field = |plan: Plan| match plan.check() {
+        Err(PlanError::Number { field, .. }) => field,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(field(Plan { sizes_mm: vec![4.0, f64::NAN], ..plan() }), "sizes_mm");
+    assert_eq!(field(Plan { longest: 1.0, ..plan() }), "longest");
+    assert_eq!(field(Plan { pressure: 1.5, ..plan() }), "pressure");
+    assert_eq!(field(Plan { spacing: 0.0, ..plan() }), "spacing");
+}
