@@ -12,9 +12,9 @@ use super::parts::BASE;
 use crate::layer::SLOTS;
 use crate::tile::Rect;
 
-/// What deflate can make of a byte, at most (1032), with room for headers: a
-/// file that promises more is cut off or a trap.
-const DEFLATE_LIMIT: u64 = 1100;
+/// What a stored byte can become, at most: 1032 by ZIP, less by PIZ, and room
+/// for headers. A file that promises more is cut off or a trap.
+const EXPANSION: u64 = 1100;
 
 /// A part of the file, found sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,7 +85,7 @@ pub(super) fn layout(
         cells.saturating_mul(4 * part.channels as u64)
     });
     let stored = stored.fold(0, u64::saturating_add);
-    if stored > DEFLATE_LIMIT.saturating_mul(file_bytes as u64) {
+    if stored > EXPANSION.saturating_mul(file_bytes as u64) {
         return Err(PaintingFileError::Container {
             file: file.to_owned(),
             reason: format!("{file_bytes} bytes cannot hold the {stored} that its header tells of"),
@@ -105,10 +105,10 @@ fn one(file: &str, part: &Header, header: &FileHeader) -> Result<PartLayout, Pai
     if part.blocks != BlockDescription::ScanLines || part.deep {
         return Err(fault.part("has tiles or is deep; scan lines are wanted".to_owned()));
     }
-    use Compression::{Uncompressed, ZIP1, ZIP16};
-    if ![Uncompressed, ZIP1, ZIP16].contains(&part.compression) {
+    use Compression::{PIZ, Uncompressed, ZIP1, ZIP16};
+    if ![Uncompressed, ZIP1, ZIP16, PIZ].contains(&part.compression) {
         let found = part.compression;
-        return Err(fault.part(format!("must be stored plain or by ZIP, found `{found}`")));
+        return Err(fault.part(format!("must be stored plain, by ZIP or by PIZ, found `{found}`")));
     }
     let window = window(&fault, part, header, layer.is_none())?;
     let wanted = match layer {

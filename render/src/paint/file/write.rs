@@ -73,7 +73,7 @@ fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Heade
     Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())
         .with_attributes(own)
         .with_shared_attributes(ImageAttributes::new(canvas))
-        .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
+        .with_encoding(Compression::PIZ, BlockDescription::ScanLines, LineOrder::Increasing)
 }
 
 fn check(document: &Document) -> Result<(), PaintingFileError> {
