@@ -26,8 +26,14 @@ pub(crate) fn lesser(a: f32, b: f32) -> f32 {
 
 /// (2^r - 1) / r for r in -1/2..=1/2, by rising powers: minimax, relative error
 /// 2.2e-8 with the coefficients in f32.
-const EXP2_MINUS_1: [f32; 6] =
-    [0.693_147_2, 0.240_226_5, 0.055_503_574, 0.009_618_238, 0.001_339_073_6, 0.000_154_035_12];
+const EXP2_MINUS_1: [f32; 6] = [
+    std::f32::consts::LN_2,
+    0.240_226_5,
+    0.055_503_574,
+    0.009_618_238,
+    0.001_339_073_6,
+    0.000_154_035_12,
+];
 
 /// `(exp(-x), 1 - exp(-x))` for `x` of 0 and up; to a relative error of 5e-7 and 2e-7
 /// while exp(-x) is above 1e-3, beyond to an absolute one below 1e-7.

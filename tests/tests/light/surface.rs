@@ -17,7 +17,7 @@ fn lit(scene: &Scene, slopes: (f32, f32), bare: u8) -> f32 {
     let mut out = [[0.0; 4]];
     let relief = Relief { above: &[0, -y, 0], here: &[-x, 0, x], below: &[0, y, 0] };
     shade_row(scene, &relief, &[[0.5; 8]], &[bare], &mut out);
-    assert_eq!(out[0][3], 1.0);
+    assert_eq!(out[0][3], 1.0, "the fourth number");
     out[0][1]
 }
 
