@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,10 +16,15 @@ const CHUNK: u64 = 64 << 20;
 /// Submissions that may wait on the device; a further one waits here.
 const IN_FLIGHT: usize = 3;
 
+/// How many buffers were made.
+static MADE: AtomicU64 = AtomicU64::new(0);
+
 /// Memory on the device. Clones are the same memory.
 #[derive(Debug, Clone)]
 pub struct Buffer {
     pub(super) inner: wgpu::Buffer,
+    /// Its number among all that were made.
+    pub(super) number: u64,
 }
 
 /// What the driver reported outside of any call.
@@ -161,7 +167,7 @@ impl Device {
             return Err(GpuError::OutOfMemory { what, bytes });
         }
         self.check(what)?;
-        Ok(Buffer { inner })
+        Ok(Buffer { inner, number: MADE.fetch_add(1, Ordering::Relaxed) })
     }
 
     /// A buffer of `values`.
@@ -266,7 +272,9 @@ impl Device {
     /// # Errors
     /// [`GpuError::Lost`], or what the driver refused.
     pub fn finish(&mut self) -> Result<(), GpuError> {
-        match self.in_flight.drain(..).last() {
+        let last = self.in_flight.pop_back();
+        self.in_flight.clear();
+        match last {
             Some(last) => self.wait(last),
             None => self.check("a submission"),
         }

@@ -14,8 +14,9 @@ pub(super) struct Pipeline {
     layout: wgpu::BindGroupLayout,
 }
 
-/// What a bind group holds, in the order of bindings; equal keys share one.
-type Bound = (&'static str, Vec<wgpu::Buffer>);
+/// A kernel and the numbers of its buffers: dispatches of equal ones share a
+/// bind group.
+type Bound = (&'static str, Vec<u64>);
 
 impl Device {
     /// Compiles `kernel` unless it is; by itself when first dispatched.
@@ -155,9 +156,10 @@ impl Device {
                 Command::Dispatch { kernel, buffers, parameters: start, groups } => {
                     let pipeline = &self.pipelines[kernel.name];
                     let all = all_buffers(kernel, buffers, batch);
+                    let numbers = all.iter().map(|buffer| buffer.number).collect();
                     let group = bound
-                        .entry((kernel.name, all))
-                        .or_insert_with_key(|key| self.bind(kernel, pipeline, parameters, &key.1));
+                        .entry((kernel.name, numbers))
+                        .or_insert_with(|| self.bind(kernel, pipeline, parameters, &all));
                     let pass = pass.get_or_insert_with(|| {
                         encoder.begin_compute_pass(&Default::default()).forget_lifetime()
                     });
@@ -176,7 +178,7 @@ impl Device {
         kernel: &Kernel,
         pipeline: &Pipeline,
         parameters: &Buffer,
-        storage: &[wgpu::Buffer],
+        storage: &[&Buffer],
     ) -> wgpu::BindGroup {
         let parameters = wgpu::BufferBinding {
             buffer: &parameters.inner,
@@ -189,7 +191,7 @@ impl Device {
         };
         let rest = storage.iter().zip(1..).map(|(buffer, binding)| wgpu::BindGroupEntry {
             binding,
-            resource: buffer.as_entire_binding(),
+            resource: buffer.inner.as_entire_binding(),
         });
         self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(kernel.name),
@@ -200,7 +202,7 @@ impl Device {
 }
 
 /// The buffers that `kernel` is bound to, the batch in its place.
-fn all_buffers(kernel: &Kernel, buffers: &[Buffer], batch: &Buffer) -> Vec<wgpu::Buffer> {
+fn all_buffers<'a>(kernel: &Kernel, buffers: &'a [Buffer], batch: &'a Buffer) -> Vec<&'a Buffer> {
     let wanted = kernel.storage.iter().filter(|&&storage| storage != Storage::Batch).count();
     assert_eq!(buffers.len(), wanted, "buffers of {}", kernel.name);
     let mut own = buffers.iter();
@@ -208,5 +210,5 @@ fn all_buffers(kernel: &Kernel, buffers: &[Buffer], batch: &Buffer) -> Vec<wgpu:
         Storage::Batch => Some(batch),
         _ => own.next(),
     });
-    all.map(|buffer| buffer.inner.clone()).collect()
+    all.collect()
 }

@@ -42,7 +42,7 @@ fn a_lost_device_is_an_error_of_every_call() {
 }
 
 #[test]
-fn memory_that_is_not_there_is_an_error() {
+fn a_buffer_beyond_the_limit_is_refused() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
     let error = device.buffer("a test", limit + 1).unwrap_err();

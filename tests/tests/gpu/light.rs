@@ -12,8 +12,11 @@ use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
 /// What f32 with the loose `exp`, `sqrt` and division of WGSL may be off, in
-/// reflectance. Measured on lavapipe: 4e-7 for one film.
+/// linear light. Found on lavapipe: 4e-7.
 const NEAR: f64 = 3e-6;
+
+/// The same for three films, relief and gloss. Found on lavapipe: 1.9e-6.
+const NEAR_STACK: f64 = 2e-5;
 
 const NO_COAT: Coat = Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
 
@@ -192,7 +195,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
             * (mirrored.powf(exponent) - level).max(0.0);
         colour(&scene, nodes).map(|value| value * diffuse + shine)
     });
-    assert!(off < 2e-5, "{off:e} off at cell {cell}");
+    assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }
 
 /// What lies on top of a cell, the last layer being wet: 0 wet paint, 1 dry, 2
@@ -214,12 +217,12 @@ fn only_the_tiles_that_are_named_change() {
     engine.light(&flat_scene(0.5, NO_COAT, Vec::new()), &all, &all).unwrap();
     let before = engine.picture().unwrap();
     let mut one = TileSet::default();
-    one.insert(render::tile::Rect { x: 70, y: 100, width: 1, height: 1 });
+    one.insert(render::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
     engine.light(&flat_scene(0.9, NO_COAT, Vec::new()), &one, &TileSet::default()).unwrap();
     let after = engine.picture().unwrap();
     for y in 0..130 {
         for x in 0..200 {
-            let inside = (64..128).contains(&x) && (64..128).contains(&y);
+            let inside = (128..192).contains(&x) && (64..128).contains(&y);
             assert_eq!(after[(x, y)] != before[(x, y)], inside, "cell {x}, {y}");
         }
     }
