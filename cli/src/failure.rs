@@ -10,6 +10,13 @@ use calibrate::library::{LibraryError, RecipeError};
 use calibrate::matching::MatchError;
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
+use render::gpu::GpuError;
+use render::paint::EngineError;
+use render::paint::file::PaintingFileError;
+use render::paint::ground::GroundError;
+use render::paint::painting::PaintingError;
+use render::paint::strokes::StrokesError;
+use render::photograph::{PhotographError, SeparationError};
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
 use spectra::swatch_file::SwatchFileError;
@@ -108,12 +115,47 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<MatchError>() {
         return error.hint().map(str::to_owned);
     }
+    if let Some(hint) = painting_hint(cause) {
+        return Some(hint);
+    }
     cause.downcast_ref::<Refusal>()?.hint.clone()
+}
+
+/// Hints of what paints.
+fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
+    if let Some(error) = cause.downcast_ref::<PaintingError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<StrokesError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<PaintingFileError>() {
+        return error.hint().map(Into::into);
+    }
+    if let Some(error) = cause.downcast_ref::<GroundError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<EngineError>() {
+        return Some(error.hint().to_owned());
+    }
+    if cause.is::<GpuError>() {
+        return Some("paint on the processor: --backend cpu".to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<PhotographError>() {
+        return Some(error.hint().to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<SeparationError>() {
+        return Some(error.hint().to_owned());
+    }
+    None
 }
 
 fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     if let Some(refusal) = cause.downcast_ref::<Refusal>() {
         return Some(refusal.status);
+    }
+    if let Some(PaintingError::Engine(_)) = cause.downcast_ref() {
+        return Some(2);
     }
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
     let data = cause.is::<MeasurementError>()
@@ -130,6 +172,12 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<TableError>()
         || cause.is::<SwatchFileError>()
         || cause.is::<LampError>()
+        || cause.is::<PaintingError>()
+        || cause.is::<StrokesError>()
+        || cause.is::<PaintingFileError>()
+        || cause.is::<GroundError>()
+        || cause.is::<PhotographError>()
+        || cause.is::<SeparationError>()
         || faulty_lamp;
     data.then_some(1)
 }

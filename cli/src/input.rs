@@ -97,6 +97,12 @@ pub(crate) fn library(path: &Path) -> anyhow::Result<PigmentLibrary> {
     Ok(PigmentLibrary::from_json(&name, &String::from_utf8_lossy(&text))?)
 }
 
+/// The oils of Van Gogh's palette that ship with the program.
+pub(crate) fn built_in_library() -> PigmentLibrary {
+    const OILS: &str = include_str!("../../measurements/van-gogh-oils.pigments.json");
+    PigmentLibrary::from_json("van-gogh-oils.pigments.json", OILS).expect("a test reads it")
+}
+
 pub(crate) fn unreadable(path: &Path) -> String {
     format!("{}: cannot be read", path.display())
 }

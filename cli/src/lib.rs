@@ -27,6 +27,10 @@ mod surface;
 
 mod output;
 
+mod engine;
+
+mod pictures;
+
 mod progress;
 
 mod verbs;

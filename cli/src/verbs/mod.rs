@@ -27,6 +27,12 @@ mod report;
 
 mod demo;
 
+mod paint_photograph;
+
+mod paint;
+
+mod relight;
+
 mod gpu;
 
 use clap::Subcommand;
@@ -46,6 +52,8 @@ pub(crate) enum Verb {
     Plan(plan::Plan),
     Report(report::Report),
     Demo(demo::Demo),
+    Paint(Box<paint::Paint>),
+    Relight(Box<relight::Relight>),
     Gpu(gpu::Gpu),
 }
 
@@ -62,6 +70,8 @@ impl Verb {
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
+            Self::Paint(verb) => verb.run(console),
+            Self::Relight(verb) => verb.run(console),
             Self::Gpu(verb) => verb.run(console),
         }
     }

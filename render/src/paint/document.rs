@@ -111,3 +111,21 @@ pub struct Document {
     /// The light it is shown under.
     pub lighting: Lighting,
 }
+
+impl Document {
+    /// A canvas without paint.
+    #[must_use]
+    pub fn bare(
+        title: &str,
+        cell_mm: f64,
+        ground: Ground,
+        library: PigmentLibrary,
+        medium: Medium,
+        slots: Slots,
+        lighting: Lighting,
+    ) -> Self {
+        let wet = Layer::empty(ground.height.width(), ground.height.height());
+        let title = title.to_owned();
+        Self { title, cell_mm, ground, library, medium, dry: Vec::new(), slots, wet, lighting }
+    }
+}

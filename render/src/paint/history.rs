@@ -61,7 +61,6 @@ enum DryChange {
 
 /// Whether an action can be undone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[must_use]
 pub enum Kept {
     /// Yes.
     Undoable,

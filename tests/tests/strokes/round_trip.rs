@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
+use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
+use render::paint::ground::GroundSpec;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
     Action, BrushSpec, Canvas, LayerName, Load, Palette, Stroke, Strokes,
@@ -78,14 +80,14 @@ fn script() -> impl Strategy<Value = Strokes> {
     let actions = prop::collection::vec(action(), 0..20);
     (canvas, short, medium, any::<bool>(), 0.2..100.0, actions).prop_map(
         |((width_mm, height_mm, cell_mm, seed), short, medium, light, size_mm, actions)| {
-            let ground = [("kind".to_owned(), "paper".into()), ("seed".to_owned(), seed.into())];
-            let ground = ground.into_iter().collect();
+            let ground = serde_json::json!({"kind": "paper", "seed": seed});
+            let ground = serde_json::from_value(ground).unwrap();
             let canvas = Canvas { width_mm, height_mm, cell_mm, ground };
             let pigments = short.into_iter().map(|(short, name)| (Some(short), name)).collect();
             let mut script = Strokes::new("T\u{e9}st \"1\"", "CC0", canvas, Palette { pigments });
             script.medium = medium;
             script.lighting = light.then(Lighting::default);
-            let big = BrushSpec { shape: "mop".to_owned(), size_mm };
+            let big = BrushSpec { shape: HeadShape::Mop, size_mm };
             script.brushes = BTreeMap::from([("big".to_owned(), big)]);
             script.actions = actions;
             script
@@ -136,7 +138,8 @@ fn the_canonical_form_is_short_and_an_action_a_line() {
     assert_eq!(
         lines[5],
         "  \"canvas\": {\"width_mm\": 100, \"height_mm\": 80, \"cell_mm\": 0.1, \
-        \"ground\": {\"kind\": \"linen\", \"seed\": 1, \"reflectance\": {\"rgb\": \"#f4f1e8\"}}},"
+        \"ground\": {\"kind\": \"linen\", \"seed\": 1, \"threads_per_cm\": 14, \"relief_mm\": 0.12, \
+        \"reflectance\": {\"rgb\": \"#f4f1e8\"}}},"
     );
     let stroke = "    {\"stroke\": {\"brush\": \"big\", \"samples\": \
         [[0,10,10,0.2], [0.5,60,12,0.6,10,0,45]]}},";
@@ -150,7 +153,7 @@ fn what_may_be_left_out_has_its_usual_value() {
         "palette": ["Zinc White"], "brushes": {}, "actions": [{"dry": {}}]}"#;
     let script = Strokes::from_json("a.json", text.as_bytes()).unwrap();
     assert_eq!((script.canvas.cell_mm, script.canvas.cells()), (0.1, (100, 50)));
-    assert_eq!(script.canvas.ground["kind"], "linen");
+    assert_eq!(script.canvas.ground, GroundSpec::default());
     assert_eq!(script.actions, [Action::Dry { fraction: 1.0 }]);
     let marked = [&b"\xef\xbb\xbf"[..], text.as_bytes()].concat();
     assert_eq!(Strokes::from_json("a.json", &marked).unwrap(), script);

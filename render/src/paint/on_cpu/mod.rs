@@ -69,7 +69,8 @@ impl Engine for OnCpu {
     fn name(&self) -> String {
         let threads = rayon::current_num_threads();
         let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
-        format!("CPU, {threads}, {:?}", pulp::Arch::new())
+        let wide = !matches!(pulp::Arch::new(), pulp::Arch::Scalar);
+        format!("the processor, {threads}{}", if wide { ", AVX2" } else { "" })
     }
 
     fn bounds(&self) -> Rect {

@@ -10,7 +10,7 @@ pub use spectral::Spectral;
 
 use crate::light::Light;
 use crate::optics::{Lamp, Scene};
-use crate::paint::document::{Document, Lighting};
+use crate::paint::document::{Document, Ground, Lighting, Medium, Slots};
 use crate::palette::{at_nodes, coat, scene_surface, thickness_per_quantum};
 use calibrate::library::PigmentLibrary;
 
@@ -18,31 +18,60 @@ use calibrate::library::PigmentLibrary;
 /// what a level surface gets, which at 0 is nothing.
 const LOWEST_DEG: f64 = 1.0;
 
+/// What of a painting decides how its paint is seen; all but the paint.
+#[derive(Debug, Clone, Copy)]
+pub struct Appearance<'a> {
+    /// The pigments that slots name.
+    pub library: &'a PigmentLibrary,
+    /// The binder.
+    pub medium: &'a Medium,
+    /// What is painted on.
+    pub ground: &'a Ground,
+    /// Width and height of a cell in mm.
+    pub cell_mm: f64,
+    /// Pigments and opacity of the dry layers, lowest first.
+    pub dry: &'a [(Slots, f64)],
+    /// The pigments of the wet layer.
+    pub slots: &'a Slots,
+    /// Where the light stands.
+    pub lighting: &'a Lighting,
+}
+
 /// All that turns the paint of `document` into linear light under `light`.
 ///
 /// `light` must be made for the document's library. A ground darker than the
 /// surface's own reflection counts as black below it.
 #[must_use]
 pub fn scene(document: &Document, light: &Light) -> Scene {
-    let Document { library, medium, ground, .. } = document;
-    let thickness = thickness_per_quantum(document.cell_mm, medium.scattering_per_mm);
-    let coat = |slots, opacity| coat(library, slots, &light.quadrature, thickness, opacity);
-    let below = internal_ground(library, &ground.reflectance);
-    let lighting = &document.lighting;
-    Scene {
-        ground: at_nodes(&light.quadrature, library.grid, &below, 1.0),
-        dry: document.dry.iter().map(|layer| coat(&layer.slots, layer.opacity)).collect(),
-        wet: coat(&document.slots, 1.0),
-        surface: scene_surface(&library.saunderson),
-        rgb_from_nodes: light.rgb_from_nodes,
-        lamp: Lamp {
-            direction: direction(lighting),
-            relief: lighting.relief as f32,
-            ambient: lighting.ambient as f32,
-            wet: medium.wet,
-            dry: medium.dry,
-            ground: ground.gloss,
-        },
+    let Document { library, medium, ground, cell_mm, slots, lighting, .. } = document;
+    let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
+    let cell_mm = *cell_mm;
+    Appearance { library, medium, ground, cell_mm, dry: &dry, slots, lighting }.scene(light)
+}
+
+impl Appearance<'_> {
+    /// The same of a painting at work.
+    #[must_use]
+    pub fn scene(&self, light: &Light) -> Scene {
+        let Self { library, medium, ground, lighting, .. } = *self;
+        let thickness = thickness_per_quantum(self.cell_mm, medium.scattering_per_mm);
+        let coat = |slots, opacity| coat(library, slots, &light.quadrature, thickness, opacity);
+        let below = internal_ground(library, &ground.reflectance);
+        Scene {
+            ground: at_nodes(&light.quadrature, library.grid, &below, 1.0),
+            dry: self.dry.iter().map(|(slots, opacity)| coat(slots, *opacity)).collect(),
+            wet: coat(self.slots, 1.0),
+            surface: scene_surface(&library.saunderson),
+            rgb_from_nodes: light.rgb_from_nodes,
+            lamp: Lamp {
+                direction: direction(lighting),
+                relief: lighting.relief as f32,
+                ambient: lighting.ambient as f32,
+                wet: medium.wet,
+                dry: medium.dry,
+                ground: ground.gloss,
+            },
+        }
     }
 }
 

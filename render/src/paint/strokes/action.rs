@@ -19,7 +19,7 @@ pub type Recipe = BTreeMap<String, f64>;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Action {
-    /// Puts paint on a brush, in place of what it had.
+    /// Puts paint on a brush, beside what it has: wash it for a clean colour.
     Load(Load),
     /// Leads a brush over the canvas.
     Stroke(Stroke),

@@ -4,7 +4,6 @@ use super::action::{Action, Load, Stroke};
 use super::error::{Fault, Place, StrokesError};
 use super::names::nearest;
 use super::palette::Palette;
-use super::pending::{KINDS, SHAPES};
 use super::rows::numbers;
 use super::saved_path;
 use super::script::{Canvas, Strokes};
@@ -50,11 +49,6 @@ impl Strokes {
         }
         check_palette(&top, &self.palette)?;
         for (name, brush) in &self.brushes {
-            if !SHAPES.contains(&brush.shape.as_str()) {
-                let wanted = format!("one of {}", SHAPES.join(", "));
-                let field = format!("brushes.{name}.shape");
-                return Err(top.fault(&field, &wanted, &brush.shape, near(&brush.shape, SHAPES)));
-            }
             let field = format!("brushes.{name}.size_mm");
             top.range(&field, brush.size_mm, 0.2, 100.0)?;
         }
@@ -178,11 +172,6 @@ fn check_canvas(canvas: &Canvas) -> Checked {
         let least = (canvas.width_mm * canvas.height_mm / MOST_CELLS as f64).sqrt();
         let hint = format!("\"cell_mm\": {:.3}", (least * 1000.0).ceil() / 1000.0 + 0.001);
         return Err(at.fault("canvas", &wanted, &format!("{width} x {height}"), Some(hint)));
-    }
-    let kind = canvas.ground.get("kind").and_then(|kind| kind.as_str()).unwrap_or_default();
-    if !KINDS.contains(&kind) {
-        let wanted = format!("one of {}", KINDS.join(", "));
-        return Err(at.fault("canvas.ground.kind", &wanted, &kind, near(kind, KINDS)));
     }
     Ok(())
 }

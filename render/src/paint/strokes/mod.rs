@@ -40,8 +40,6 @@ mod names;
 
 mod palette;
 
-mod pending;
-
 mod rows;
 
 mod saved_path;
@@ -50,11 +48,13 @@ mod script;
 
 mod resolve;
 
+mod replay;
+
 pub use action::{Action, LayerName, Load, Recipe, Stroke};
 pub use check::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
 pub use error::{Fault, Place, StrokesError};
 pub use file::LONGEST_FILE;
 pub use palette::Palette;
-pub use pending::{GroundSpec, HeadShape};
+pub use replay::{ReplayError, ReplayReport};
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, Canvas, Strokes};

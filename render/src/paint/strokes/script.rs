@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::action::Action;
 use super::names::distinct_keys;
 use super::palette::Palette;
-use super::pending::{GroundSpec, HeadShape};
+use crate::paint::brush::HeadShape;
 use crate::paint::document::{Lighting, Medium};
+use crate::paint::ground::GroundSpec;
 
 /// A script of strokes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -78,7 +79,7 @@ pub struct Canvas {
     #[serde(default = "tenth")]
     pub cell_mm: f64,
     /// Its ground; linen if not given.
-    #[serde(default = "linen")]
+    #[serde(default)]
     pub ground: GroundSpec,
 }
 
@@ -94,10 +95,6 @@ impl Canvas {
 
 fn tenth() -> f64 {
     0.1
-}
-
-fn linen() -> GroundSpec {
-    GroundSpec::from_iter([("kind".to_owned(), "linen".into()), ("seed".to_owned(), 1.into())])
 }
 
 /// A brush.

@@ -1,0 +1,63 @@
+//! What computes a painting: the processor or a graphics device.
+
+use clap::{Args, ValueEnum};
+use render::field::Field;
+use render::gpu::{BackendChoice, choose};
+use render::paint::Engine;
+use render::paint::on_cpu::OnCpu;
+use render::paint::on_gpu::OnGpu;
+use render::paint::painting::UNDO_BYTES;
+
+use crate::console::Console;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BackendName {
+    /// Hardware where there is some (see `impasto gpu`), else the processor
+    Auto,
+    /// The processor
+    Cpu,
+    /// A graphics adapter, even one in software
+    Gpu,
+}
+
+/// Where to compute, and how much undo may keep.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct EngineOptions {
+    /// What computes
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: BackendName,
+    /// Memory that undo may keep, in MiB; what does not fit is forgotten, oldest first
+    #[arg(long, value_name = "MIB", default_value_t = UNDO_BYTES >> 20, value_parser = clap::value_parser!(u64).range(0..=1 << 20))]
+    undo_memory: u64,
+}
+
+impl EngineOptions {
+    /// A backend for a canvas over the ground `floor`. With `auto`, a device that
+    /// cannot hold the canvas gives way to the processor, and that is said.
+    pub(crate) fn engine(
+        &self,
+        floor: &Field<i32>,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<Box<dyn Engine>> {
+        let choice = match self.backend {
+            BackendName::Auto => BackendChoice::Auto,
+            BackendName::Cpu => BackendChoice::Cpu,
+            BackendName::Gpu => BackendChoice::Gpu,
+        };
+        let on_cpu = || Box::new(OnCpu::new(floor.clone()));
+        let Some(device) = choose(choice)? else { return Ok(on_cpu()) };
+        match OnGpu::new(device, floor) {
+            Ok(engine) => Ok(Box::new(engine)),
+            Err(error) if self.backend == BackendName::Auto => {
+                console.warnings(&[format!("{error}; painting on the processor")])?;
+                Ok(on_cpu())
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Bytes for undo.
+    pub(crate) fn undo_bytes(&self) -> u64 {
+        self.undo_memory << 20
+    }
+}

@@ -1,0 +1,203 @@
+//! `impasto paint`: a recorded script, or a photograph, to a painting.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use calibrate::library::PigmentLibrary;
+use clap::Args;
+use render::paint::ground::GroundRelief;
+use render::paint::painting::Painting;
+use render::paint::strokes::{Action, ReplayReport, Strokes};
+use serde_json::json;
+
+use super::paint_photograph::PhotographOptions;
+use crate::console::Console;
+use crate::engine::EngineOptions;
+use crate::failure::Refusal;
+use crate::input::{built_in_library, library, unreadable};
+use crate::output::Output;
+use crate::pictures::{Bits, Exports, picture_file};
+use crate::progress::Progress;
+
+/// Paint a script of strokes, or a photograph, with calibrated pigments
+///
+/// A script (strokes/1, JSON) names canvas, pigments and brushes, and then what is done: load,
+/// stroke, wipe, dry, light .. The paint is thick and wet, and moves as Baxter, Wendt and Lin (2004)
+/// describe it; colour is Kubelka-Munk at eight wavelengths chosen for the light. The same script
+/// gives the same bytes, on every machine and backend as far as paint goes.
+///
+/// With --from, a photograph is separated into pigments and painted stroke by stroke, coarse to
+/// fine; --separate writes how much of each pigment every pixel takes, and paints nothing.
+#[derive(Debug, Args)]
+pub(crate) struct Paint {
+    /// The script (.json)
+    #[arg(required_unless_present = "from", conflicts_with = "from")]
+    script: Option<PathBuf>,
+    /// The pigment library (JSON) [default: the one the script names, where it is found beside the
+    /// script; else the Van Gogh oils]
+    #[arg(long, value_name = "LIBRARY")]
+    library: Option<PathBuf>,
+    #[command(flatten)]
+    photograph: PhotographOptions,
+    #[command(flatten)]
+    engine: EngineOptions,
+    #[command(flatten)]
+    exports: Exports,
+    /// Print JSON: actions, strokes, substeps, cells, backend, canvas
+    #[arg(long)]
+    json: bool,
+}
+
+impl Paint {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        match &self.script {
+            Some(script) => {
+                let script = script.clone();
+                self.script(&script, console)
+            }
+            None => {
+                let Self { library: path, photograph, engine, exports, json, .. } = self;
+                let library = match path {
+                    Some(path) => library(&path)?,
+                    None => built_in_library(),
+                };
+                photograph.run(library, &engine, exports, json, console)
+            }
+        }
+    }
+
+    fn script(self, path: &Path, console: &mut Console<'_>) -> anyhow::Result<()> {
+        self.photograph.refuse_with_script()?;
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
+        let mut script = Strokes::from_json(&name, &bytes)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).to_owned();
+        let library = self.script_library(&script, &folder, console)?;
+        let resolved = script.resolve(&library)?;
+        let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
+        if !self.exports.any() && !saves {
+            return Err(Refusal::usage(
+                "nothing would be written",
+                "add --picture painting.png, or --output painting.exr",
+            ));
+        }
+        if let GroundRelief::Image(picture) = &mut script.canvas.ground.relief {
+            picture.path = folder.join(&picture.path).display().to_string();
+        }
+        let (width, height) = script.canvas.cells();
+        let cell_mm = script.canvas.cell_mm;
+        let ground = script.canvas.ground.ground(width, height, cell_mm, &library)?;
+        let inputs: Vec<PathBuf> = std::iter::once(path.to_owned()).chain(self.library).collect();
+        let exports = self.exports.open(&inputs)?;
+        let engine = self.engine.engine(&ground.height, console)?;
+        let document = script.bare(&library, &resolved, ground);
+        let mut painting = Painting::open(document, engine, self.engine.undo_bytes())?;
+        let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
+        let mut remarks = Vec::new();
+        let report = script.replay(
+            &resolved,
+            &mut painting,
+            |path, painting| save(&folder, path, &inputs, painting, &mut remarks).map_err(Saving),
+            || bar.step(),
+        );
+        bar.done();
+        for remark in remarks {
+            console.remark(remark)?;
+        }
+        let report = match report {
+            Ok(report) => report,
+            Err(error) => return Err(anyhow::Error::new(error).context(name)),
+        };
+        exports.write(&mut painting, console)?;
+        tell(&report, &painting, self.json, console)
+    }
+
+    fn script_library(
+        &self,
+        script: &Strokes,
+        folder: &Path,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<PigmentLibrary> {
+        if let Some(path) = &self.library {
+            return library(path);
+        }
+        let Some(named) = &script.library else { return Ok(built_in_library()) };
+        let built_in = built_in_library();
+        if *named == built_in.title {
+            return Ok(built_in);
+        }
+        let path = folder.join(named);
+        if path.is_file() {
+            return library(&path);
+        }
+        console.warnings(&[format!(
+            "the script was made for the library `{named}`, which is not there; the built-in oils are used (--library takes another)"
+        )])?;
+        Ok(built_in)
+    }
+}
+
+/// An error of saving, with all its causes.
+#[derive(Debug, thiserror::Error)]
+#[error("{0:#}")]
+struct Saving(anyhow::Error);
+
+/// Saves for an action of the script, below its folder.
+fn save(
+    folder: &Path,
+    path: &str,
+    inputs: &[PathBuf],
+    painting: &mut Painting,
+    remarks: &mut Vec<String>,
+) -> anyhow::Result<()> {
+    let path = folder.join(path);
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent)?;
+    }
+    let output = Output::open(&path, inputs)?;
+    let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+        let picture = painting.picture()?;
+        let (bytes, remark) = picture_file(&path, Bits::Eight, &picture, painting.cell_mm())?;
+        remarks.extend(remark);
+        bytes
+    } else {
+        render::paint::file::write(&painting.document()?)?
+    };
+    output.write(bytes)
+}
+
+fn tell(
+    report: &ReplayReport,
+    painting: &Painting,
+    as_json: bool,
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    let bounds = painting.bounds();
+    let ReplayReport { actions, strokes, substeps, cells, idle, not_undoable } = *report;
+    if idle > 0 {
+        console.warnings(&[format!("{idle} undo or redo found nothing to do")])?;
+    }
+    if not_undoable > 0 {
+        console.warnings(&[format!(
+            "{not_undoable} strokes were too large for undo (--undo-memory takes more)"
+        )])?;
+    }
+    if as_json {
+        return console.json(&json!({
+            "actions": actions,
+            "strokes": strokes,
+            "substeps": substeps,
+            "cells": cells,
+            "backend": painting.backend(),
+            "canvas": [bounds.width, bounds.height],
+        }));
+    }
+    console.line(format!(
+        "{} x {} cells, {actions} actions, {strokes} strokes of {substeps} sub-steps, {} dry layers, on {}",
+        bounds.width,
+        bounds.height,
+        painting.state().dry.len(),
+        painting.backend(),
+    ))
+}

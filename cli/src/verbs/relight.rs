@@ -1,0 +1,194 @@
+//! `impasto relight`: a painting under another light, or with other pigments.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::Args;
+use render::paint::document::Lighting;
+use render::paint::painting::{Coating, Painting};
+use serde_json::json;
+
+use crate::console::Console;
+use crate::engine::EngineOptions;
+use crate::failure::Refusal;
+use crate::input::{unreadable, viewing};
+use crate::pictures::Exports;
+
+/// Show a painting under another light, or as if painted with other pigments
+///
+/// Every layer keeps its pigments, so a new light is computed from their K and S, not from colours.
+/// Without options the painting is shown as it was saved.
+#[derive(Debug, Args)]
+pub(crate) struct Relight {
+    /// The painting (.exr, as `impasto paint --output` writes it)
+    painting: PathBuf,
+    /// Light, as other verbs take it: D65, A, FL11, 5600K, a lamp's file [default: the painting's]
+    #[arg(long, value_name = "LIGHT")]
+    illuminant: Option<String>,
+    /// Observer: 1931-2, 1964-10, 2015-2, 2015-10 [default: the painting's]
+    #[arg(long, value_name = "NAME")]
+    observer: Option<String>,
+    /// Where the light stands, in degrees clockwise from the top of the canvas
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    azimuth: Option<f64>,
+    /// How high it stands, in degrees above the canvas, 1 to 90
+    #[arg(long, value_name = "DEG")]
+    elevation: Option<f64>,
+    /// Share of the light that comes from all sides, 0 to 1
+    #[arg(long, value_name = "SHARE")]
+    ambient: Option<f64>,
+    /// How much the relief counts: 0 flat, 1 as it is
+    #[arg(long, value_name = "X")]
+    relief: Option<f64>,
+    /// Exchange a pigment: LAYER:FROM=TO, LAYER being `wet`, a number from 0 (the lowest dry
+    /// layer), or `all`; may be repeated
+    #[arg(long, value_name = "LAYER:FROM=TO")]
+    swap: Vec<String>,
+    /// Multiply a dry layer's optical thickness: LAYER=X, 0 hides it; may be repeated
+    #[arg(long, value_name = "LAYER=X")]
+    opacity: Vec<String>,
+    #[command(flatten)]
+    engine: EngineOptions,
+    #[command(flatten)]
+    exports: Exports,
+    /// Print JSON: canvas, cell_mm, layers with their pigments, lighting, wavelengths_nm
+    #[arg(long)]
+    json: bool,
+}
+
+impl Relight {
+    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+        let name = self.painting.display().to_string();
+        let bytes = std::fs::read(&self.painting).with_context(|| unreadable(&self.painting))?;
+        let document = render::paint::file::read(&name, &bytes)?;
+        drop(bytes);
+        let saved = document.lighting.clone();
+        let lighting = self.lighting(&saved)?;
+        let exports = self.exports.open(std::slice::from_ref(&self.painting))?;
+        let engine = self.engine.engine(&document.ground.height, console)?;
+        let mut painting = Painting::open(document, engine, self.engine.undo_bytes())?;
+        for text in &self.swap {
+            swap(&mut painting, text)?;
+        }
+        for text in &self.opacity {
+            opacity(&mut painting, text)?;
+        }
+        if lighting != saved {
+            let seen = viewing(&lighting.illuminant, &lighting.observer)?;
+            painting.relight_with(&seen, lighting)?;
+        }
+        exports.write(&mut painting, console)?;
+        tell(&mut painting, self.json, console)
+    }
+
+    fn lighting(&self, saved: &Lighting) -> anyhow::Result<Lighting> {
+        let number = |name: &str, given: Option<f64>, saved: f64, least: f64, most: f64| match given
+        {
+            Some(value) if !(least..=most).contains(&value) => Err(Refusal::usage(
+                format!("--{name} takes {least} to {most}, found `{value}`"),
+                "see impasto relight --help",
+            )),
+            given => Ok(given.unwrap_or(saved)),
+        };
+        Ok(Lighting {
+            illuminant: self.illuminant.clone().unwrap_or_else(|| saved.illuminant.clone()),
+            observer: self.observer.clone().unwrap_or_else(|| saved.observer.clone()),
+            azimuth_deg: number("azimuth", self.azimuth, saved.azimuth_deg, -360.0, 360.0)?,
+            elevation_deg: number("elevation", self.elevation, saved.elevation_deg, 1.0, 90.0)?,
+            ambient: number("ambient", self.ambient, saved.ambient, 0.0, 1.0)?,
+            relief: number("relief", self.relief, saved.relief, 0.0, 10.0)?,
+        })
+    }
+}
+
+/// `LAYER:FROM=TO`.
+fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
+    let wrong = || {
+        Refusal::usage(
+            format!("--swap takes LAYER:FROM=TO, found `{text}`"),
+            "try --swap \"all:Emerald Green=Viridian\"",
+        )
+    };
+    let (layer, names) = text.split_once(':').ok_or_else(wrong)?;
+    let (from, to) = names.split_once('=').ok_or_else(wrong)?;
+    let from = painting.library().find(from)?;
+    let to = painting.library().find(to)?;
+    let coatings = match layer.trim() {
+        "wet" => vec![Coating::Wet],
+        "all" => {
+            let dry = (0..painting.state().dry.len()).map(Coating::Dry);
+            let all: Vec<Coating> = dry.chain([Coating::Wet]).collect();
+            let has = |coating: &Coating| {
+                painting.slots(*coating).is_ok_and(|slots| slots.contains(&Some(from)))
+            };
+            let found: Vec<Coating> = all.into_iter().filter(has).collect();
+            if found.is_empty() {
+                return Err(Refusal::data(
+                    format!("no layer has {}", painting.library().pigments[from].name),
+                    "impasto relight PAINTING tells what each layer has",
+                ));
+            }
+            found
+        }
+        number => vec![Coating::Dry(number.parse().map_err(|_| wrong())?)],
+    };
+    for coating in coatings {
+        painting.swap_pigment(coating, from, to)?;
+    }
+    Ok(())
+}
+
+/// `LAYER=X`.
+fn opacity(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
+    let wrong = || {
+        Refusal::usage(format!("--opacity takes LAYER=X, found `{text}`"), "try --opacity 0=0.5")
+    };
+    let (layer, value) = text.split_once('=').ok_or_else(wrong)?;
+    let layer = layer.trim().parse().map_err(|_| wrong())?;
+    let value = value.trim().parse().map_err(|_| wrong())?;
+    Ok(painting.set_opacity(Coating::Dry(layer), value)?)
+}
+
+fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
+    let bounds = painting.bounds();
+    let names = |coating| -> anyhow::Result<Vec<String>> {
+        let slots = painting.slots(coating)?;
+        let name = |&index: &usize| painting.library().pigments[index].name.clone();
+        Ok(slots.iter().flatten().map(name).collect())
+    };
+    let mut layers = Vec::new();
+    for (index, dry) in painting.state().dry.iter().enumerate() {
+        layers.push((format!("dry {index}"), dry.opacity, names(Coating::Dry(index))?));
+    }
+    layers.push(("wet".to_owned(), 1.0, names(Coating::Wet)?));
+    let lighting = &painting.state().lighting;
+    let nodes = &painting.light().quadrature.nodes_nm;
+    if as_json {
+        let layers: Vec<_> = layers
+            .iter()
+            .map(|(name, opacity, pigments)| {
+                json!({"layer": name, "opacity": opacity, "pigments": pigments})
+            })
+            .collect();
+        return console.json(&json!({
+            "canvas": [bounds.width, bounds.height],
+            "cell_mm": painting.cell_mm(),
+            "layers": layers,
+            "lighting": serde_json::to_value(lighting)?,
+            "wavelengths_nm": nodes,
+        }));
+    }
+    let (width, height) = (bounds.width, bounds.height);
+    console.line(format!("{width} x {height} cells of {} mm", painting.cell_mm()))?;
+    for (name, opacity, pigments) in &layers {
+        let opacity = if *opacity == 1.0 { String::new() } else { format!(", opacity {opacity}") };
+        console.line(format!("{name:>7}: {}{opacity}", pigments.join(", ")))?;
+    }
+    let nodes: Vec<String> = nodes.iter().map(|nm| format!("{nm:.0}")).collect();
+    console.line(format!(
+        "light {}, observer {}, at {} nm",
+        lighting.illuminant,
+        lighting.observer,
+        nodes.join(" ")
+    ))
+}

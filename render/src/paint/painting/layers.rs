@@ -1,0 +1,161 @@
+//! Drying, and what can be changed of layers later.
+
+use super::brushes::share_of_65536_parts;
+use super::failure::PaintingError;
+use super::state::{DryState, Painting};
+use crate::paint::brush::Relief;
+use crate::paint::document::Slots;
+use crate::tile::TileSet;
+
+/// One layer of a painting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coating {
+    /// The wet layer.
+    Wet,
+    /// A dry layer, counted from the lowest.
+    Dry(usize),
+}
+
+impl Painting {
+    /// Dries the share `fraction` (0..1) of all wet paint, from the bottom; it
+    /// becomes the topmost dry layer. Whether there was any.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a share outside 0..1, or without memory.
+    pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
+        let share = share_of_65536_parts("fraction", fraction)?;
+        if share == 0 || self.engine.wet()?.totals().iter().all(|&total| total == 0) {
+            return Ok(false);
+        }
+        self.history.begin(self.state.clone());
+        self.history.dry(self.engine.as_mut(), share)?;
+        self.state.dry.push(DryState { slots: self.state.slots, opacity: 1.0 });
+        self.history.commit();
+        self.floor_changed()?;
+        Ok(true)
+    }
+
+    /// Puts other pigments on the palette. Those that stay keep their slots.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for more than eight, or where a pigment that leaves is
+    /// still wet on the canvas or on a brush.
+    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+        let mut wanted: Vec<usize> = Vec::new();
+        for &pigment in pigments {
+            if !wanted.contains(&pigment) {
+                wanted.push(pigment);
+            }
+        }
+        if wanted.len() > self.state.slots.len() {
+            return Err(PaintingError::TooManyPigments { found: wanted.len() });
+        }
+        let wet = self.wet_totals_mm()?;
+        let mut slots: Slots = self.state.slots;
+        for (slot, amount) in slots.iter_mut().zip(wet) {
+            let Some(pigment) = *slot else { continue };
+            if wanted.contains(&pigment) {
+                wanted.retain(|&other| other != pigment);
+            } else if amount > 0.0 {
+                return Err(PaintingError::StillWet { pigment: self.pigment_name(pigment) });
+            } else {
+                *slot = None;
+            }
+        }
+        for pigment in wanted {
+            let free = slots.iter().position(Option::is_none).expect("eight pigments have room");
+            slots[free] = Some(pigment);
+        }
+        self.history.begin(self.state.clone());
+        self.state.slots = slots;
+        self.history.commit();
+        Ok(())
+    }
+
+    /// Exchanges a pigment of a layer for another of the library, as if it had
+    /// been painted with that.
+    ///
+    /// # Errors
+    /// [`PaintingError`] where the layer lacks the first or has the second.
+    pub fn swap_pigment(
+        &mut self,
+        coating: Coating,
+        from: usize,
+        to: usize,
+    ) -> Result<(), PaintingError> {
+        let slots = self.slots(coating)?;
+        if slots.contains(&Some(to)) {
+            return Err(PaintingError::AlreadyThere { pigment: self.pigment_name(to) });
+        }
+        let place = slots
+            .iter()
+            .position(|&slot| slot == Some(from))
+            .ok_or_else(|| PaintingError::NotThere { pigment: self.pigment_name(from) })?;
+        self.history.begin(self.state.clone());
+        match coating {
+            Coating::Wet => self.state.slots[place] = Some(to),
+            Coating::Dry(index) => self.state.dry[index].slots[place] = Some(to),
+        }
+        self.history.commit();
+        self.all_unseen();
+        Ok(())
+    }
+
+    /// Multiplies the optical thickness of a dry layer with `opacity` (1 as it
+    /// was painted, 0 hides it); its height stays.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for the wet layer, one that is not there, or an opacity
+    /// outside 0..1000.
+    pub fn set_opacity(&mut self, coating: Coating, opacity: f64) -> Result<(), PaintingError> {
+        let Coating::Dry(index) = coating else { return Err(PaintingError::WetOpacity) };
+        self.slots(coating)?;
+        if !(0.0..=1000.0).contains(&opacity) {
+            return Err(PaintingError::Opacity { value: opacity });
+        }
+        self.history.begin(self.state.clone());
+        self.state.dry[index].opacity = opacity;
+        self.history.commit();
+        self.all_unseen();
+        Ok(())
+    }
+
+    /// The pigments of a layer.
+    ///
+    /// # Errors
+    /// [`PaintingError::NoLayer`] for a layer that is not there.
+    pub fn slots(&self, coating: Coating) -> Result<Slots, PaintingError> {
+        match coating {
+            Coating::Wet => Ok(self.state.slots),
+            Coating::Dry(index) => match self.state.dry.get(index) {
+                Some(state) => Ok(state.slots),
+                None => Err(PaintingError::NoLayer { index, count: self.state.dry.len() }),
+            },
+        }
+    }
+
+    /// The slot of the palette that holds a pigment of the library.
+    ///
+    /// # Errors
+    /// [`PaintingError::OffPalette`] if none does.
+    pub fn slot_of(&self, pigment: usize) -> Result<usize, PaintingError> {
+        let found = self.state.slots.iter().position(|&slot| slot == Some(pigment));
+        found.ok_or_else(|| PaintingError::OffPalette { pigment: self.pigment_name(pigment) })
+    }
+
+    pub(super) fn pigment_name(&self, index: usize) -> String {
+        self.library.pigments[index].name.clone()
+    }
+
+    /// After the floor rose or sank.
+    pub(super) fn floor_changed(&mut self) -> Result<(), PaintingError> {
+        self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
+        self.all_unseen();
+        Ok(())
+    }
+
+    pub(super) fn all_unseen(&mut self) {
+        self.unbaked = TileSet::all(self.engine.bounds());
+        self.unshown = self.unbaked.clone();
+    }
+}

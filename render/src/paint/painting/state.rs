@@ -1,0 +1,194 @@
+//! What a painting consists of while it is worked on.
+
+use calibrate::library::PigmentLibrary;
+
+use super::brushes::Brush;
+use super::failure::PaintingError;
+use crate::amount::mm_from_quanta;
+use crate::layer::Layer;
+use crate::light::Light;
+use crate::paint::brush::Relief;
+use crate::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use crate::paint::engine::Engine;
+use crate::paint::history::History;
+use crate::paint::motion::Motion;
+use crate::tile::{Rect, TileSet};
+
+/// How a dry layer is seen: what can be changed of it later.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DryState {
+    /// Its pigments.
+    pub slots: Slots,
+    /// What its optical thickness is multiplied with.
+    pub opacity: f64,
+}
+
+/// All of a painting that is no paint; an undo brings it back with the paint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// The pigments of the wet layer.
+    pub slots: Slots,
+    /// The dry layers, lowest first.
+    pub dry: Vec<DryState>,
+    /// The light.
+    pub lighting: Lighting,
+}
+
+/// A painting at work.
+#[derive(Debug)]
+pub struct Painting {
+    pub(super) title: String,
+    pub(super) cell_mm: f64,
+    pub(super) ground: Ground,
+    pub(super) library: PigmentLibrary,
+    pub(super) medium: Medium,
+    pub(super) motion: Motion,
+    pub(super) engine: Box<dyn Engine>,
+    pub(super) state: State,
+    pub(super) light: Light,
+    pub(super) relief: Relief,
+    pub(super) brushes: Vec<Brush>,
+    pub(super) history: History<State>,
+    /// Tiles whose dry paint was not yet seen under this light.
+    pub(super) unbaked: TileSet,
+    /// Tiles whose wet paint was not yet seen.
+    pub(super) unshown: TileSet,
+}
+
+/// The bytes that undo may keep unless told otherwise: 512 MiB.
+pub const UNDO_BYTES: u64 = 512 << 20;
+
+impl Painting {
+    /// Takes up the painting of `document` with a backend made for its ground
+    /// (`engine`, without paint yet); undo keeps at most `undo_bytes`.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the light is unknown or the device has no room.
+    pub fn open(
+        document: Document,
+        mut engine: Box<dyn Engine>,
+        undo_bytes: u64,
+    ) -> Result<Self, PaintingError> {
+        let Document { title, cell_mm, ground, library, medium, dry, slots, wet, lighting } =
+            document;
+        let light = Light::named(&library, &lighting.illuminant, &lighting.observer)?;
+        let mut states = Vec::with_capacity(dry.len());
+        for DryLayer { slots, opacity, paint } in dry {
+            engine.push_dry(&paint)?;
+            states.push(DryState { slots, opacity });
+        }
+        engine.set_wet(&wet)?;
+        let relief = Relief::from_floor(&engine.floor()?, cell_mm);
+        let all = TileSet::all(engine.bounds());
+        Ok(Self {
+            title,
+            cell_mm,
+            ground,
+            library,
+            medium,
+            motion: Motion::default(),
+            engine,
+            state: State { slots, dry: states, lighting },
+            light,
+            relief,
+            brushes: Vec::new(),
+            history: History::new(undo_bytes),
+            unbaked: all.clone(),
+            unshown: all,
+        })
+    }
+
+    /// The painting as a file keeps it.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn document(&mut self) -> Result<Document, PaintingError> {
+        let mut dry = Vec::with_capacity(self.state.dry.len());
+        for (index, state) in self.state.dry.iter().enumerate() {
+            let paint = self.engine.dry_layer(index)?;
+            dry.push(DryLayer { slots: state.slots, opacity: state.opacity, paint });
+        }
+        Ok(Document {
+            title: self.title.clone(),
+            cell_mm: self.cell_mm,
+            ground: self.ground.clone(),
+            library: self.library.clone(),
+            medium: self.medium.clone(),
+            dry,
+            slots: self.state.slots,
+            wet: self.engine.wet()?,
+            lighting: self.state.lighting.clone(),
+        })
+    }
+
+    /// The cells of the canvas.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        self.engine.bounds()
+    }
+
+    /// Width and height of a cell in mm.
+    #[must_use]
+    pub fn cell_mm(&self) -> f64 {
+        self.cell_mm
+    }
+
+    /// What is no paint.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The pigments that the slots name.
+    #[must_use]
+    pub fn library(&self) -> &PigmentLibrary {
+        &self.library
+    }
+
+    /// The light that the picture is computed for.
+    #[must_use]
+    pub fn light(&self) -> &Light {
+        &self.light
+    }
+
+    /// The binder.
+    #[must_use]
+    pub fn medium(&self) -> &Medium {
+        &self.medium
+    }
+
+    /// What is painted on.
+    #[must_use]
+    pub fn ground(&self) -> &Ground {
+        &self.ground
+    }
+
+    /// What computes.
+    #[must_use]
+    pub fn backend(&self) -> String {
+        self.engine.name()
+    }
+
+    /// All wet paint, on the canvas and on the brushes: the height in mm of each
+    /// slot and of vehicle last, summed over cells.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn wet_totals_mm(&mut self) -> Result<[f64; crate::layer::SLOTS + 1], PaintingError> {
+        let mut totals = self.engine.wet()?.totals();
+        for brush in &self.brushes {
+            for (total, more) in totals.iter_mut().zip(self.engine.brush(brush.id)?.totals()) {
+                *total += more;
+            }
+        }
+        Ok(totals.map(|quanta| quanta as f64 * mm_from_quanta(1, self.cell_mm)))
+    }
+
+    /// The wet paint.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn wet(&mut self) -> Result<Layer, PaintingError> {
+        Ok(self.engine.wet()?)
+    }
+}
