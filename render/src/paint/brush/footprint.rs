@@ -209,7 +209,7 @@ impl Canvas<'_> {
         if top >= bottom {
             return;
         }
-        let (right, down) = slopes(a, b, c, [bx, by, cx, cy].map(|d| d / area));
+        let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
         for y in top..bottom {
@@ -225,8 +225,10 @@ impl Canvas<'_> {
                 continue;
             }
             let (x, y_off) = (start as f32 + 0.5 - a.x, middle - a.y);
-            let begin: Point =
-                std::array::from_fn(|i| a.values[i] + right[i] * x + down[i] * y_off);
+            let mut begin = a.values;
+            for i in 0..8 {
+                begin[i] += right[i] * x + down[i] * y_off;
+            }
             let row = &mut self.touches[y * self.width..][start..end];
             let mut at = whole(&begin);
             for touch in row {
@@ -238,8 +240,8 @@ impl Canvas<'_> {
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
                     touch.weights = (at[SPEED] >> 16).max(0).min(256) as u32;
                 }
-                for (value, step) in at.iter_mut().zip(&step) {
-                    *value = value.wrapping_add(*step);
+                for i in 0..8 {
+                    at[i] = at[i].wrapping_add(step[i]);
                 }
             }
         }
@@ -288,7 +290,12 @@ fn first_middle(place: f32, end: usize) -> usize {
 
 #[inline(always)]
 fn whole(values: &Point) -> [i32; 8] {
-    values.map(|value| value as i32)
+    // A loop: `map` is not always seen through.
+    let mut wholes = [0; 8];
+    for i in 0..8 {
+        wholes[i] = values[i] as i32;
+    }
+    wholes
 }
 
 /// `f32::max` without its care for what is not a number, which costs time.
