@@ -209,9 +209,13 @@ impl Canvas<'_> {
         if top >= bottom {
             return;
         }
-        let (right, down) = slopes(a, b, c, [bx, by, cx, cy].map(|d| d / area));
+        let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
+        // Slopes of a sliver are hardly known; its heights are.
+        let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
+        let lowest = min(min(heights[0], heights[1]), heights[2]);
+        let highest = max(max(heights[0], heights[1]), heights[2]);
         for y in top..bottom {
             let middle = y as f32 + 0.5;
             let (mut from, mut to) = (0.0_f32, self.width as f32);
@@ -225,8 +229,11 @@ impl Canvas<'_> {
                 continue;
             }
             let (x, y_off) = (start as f32 + 0.5 - a.x, middle - a.y);
-            let begin: Point =
-                std::array::from_fn(|i| a.values[i] + right[i] * x + down[i] * y_off);
+            let mut begin = a.values;
+            for i in 0..8 {
+                begin[i] += right[i] * x + down[i] * y_off;
+            }
+            begin[HEIGHT] = min(max(begin[HEIGHT], lowest), highest);
             let row = &mut self.touches[y * self.width..][start..end];
             let mut at = whole(&begin);
             for touch in row {
@@ -238,8 +245,8 @@ impl Canvas<'_> {
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
                     touch.weights = (at[SPEED] >> 16).max(0).min(256) as u32;
                 }
-                for (value, step) in at.iter_mut().zip(&step) {
-                    *value = value.wrapping_add(*step);
+                for i in 0..8 {
+                    at[i] = at[i].wrapping_add(step[i]);
                 }
             }
         }
@@ -282,13 +289,27 @@ impl Edge {
 #[inline(always)]
 fn first_middle(place: f32, end: usize) -> usize {
     let cells = min(max(place - 0.5, 0.0), end as f32);
-    let cut = cells as i32;
-    (cut + i32::from((cut as f32) < cells)) as usize
+    let near = nearest(cells);
+    (near + i32::from((near as f32) < cells)) as usize
 }
 
 #[inline(always)]
 fn whole(values: &Point) -> [i32; 8] {
-    values.map(|value| value as i32)
+    // A loop: `map` is not always seen through.
+    let mut wholes = [0; 8];
+    for i in 0..8 {
+        wholes[i] = nearest(values[i]);
+    }
+    wholes
+}
+
+/// The nearest whole number, of which 32 bits are kept. What `as` does about
+/// numbers out of range takes longer than the rest of a row.
+#[inline(always)]
+fn nearest(value: f32) -> i32 {
+    /// In f64 one unit of the last place is 1 here.
+    const UNIT: f64 = 6_755_399_441_055_744.0;
+    (f64::from(value) + UNIT).to_bits() as i32
 }
 
 /// `f32::max` without its care for what is not a number, which costs time.

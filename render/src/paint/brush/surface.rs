@@ -153,9 +153,11 @@ impl Surface {
 
 #[inline(always)]
 fn combined(weights: &[f32; 4], a: &Point, b: &Point, c: &Point, d: &Point) -> Point {
-    std::array::from_fn(|i| {
-        weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i] + weights[3] * d[i]
-    })
+    let mut sum = [0.0; 8];
+    for i in 0..8 {
+        sum[i] = weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i] + weights[3] * d[i];
+    }
+    sum
 }
 
 #[cfg(test)]
