@@ -23,6 +23,9 @@ mod reference;
 #[cfg(test)]
 mod laws;
 
+#[cfg(test)]
+mod keeping;
+
 use self::columns::Columns;
 use self::lighting::Lit;
 use self::play::Player;

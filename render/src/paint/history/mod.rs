@@ -10,16 +10,18 @@
 //! layers; all of it is counted, and never passes the limit for longer than
 //! one call.
 
-use std::collections::{BTreeMap, VecDeque};
+mod action;
 
+#[cfg(test)]
+mod laws;
+
+use std::collections::VecDeque;
+
+use self::action::{Action, DryChange, bytes_of};
+pub use self::action::{Restored, TILE_BYTES};
 use super::engine::{BrushId, Engine, EngineError, Slot};
-use crate::layer::{Layer, SLOTS};
-use crate::tile::{Rect, TILE, Tile, TileSet};
-
-/// What a tile takes, in bytes: 144 KiB.
-pub const TILE_BYTES: u64 = (TILE * TILE) as u64 * CELL_BYTES;
-
-const CELL_BYTES: u64 = 4 * (SLOTS as u64 + 1);
+use crate::layer::Layer;
+use crate::tile::{Rect, TileSet};
 
 /// Actions that can be undone and redone. `T` is what the caller wants to have
 /// back with each, such as a document's metadata.
@@ -41,24 +43,6 @@ enum Open<T> {
     TooLarge,
 }
 
-/// What is exchanged with the engine to undo, and again to redo.
-#[derive(Debug)]
-struct Action<T> {
-    caller: T,
-    tiles: BTreeMap<Tile, Slot>,
-    brushes: BTreeMap<BrushId, Layer>,
-    /// In the order in which they were done.
-    dry: Vec<DryChange>,
-}
-
-#[derive(Debug)]
-enum DryChange {
-    /// A layer was put on top, and is in the engine.
-    Pushed,
-    /// The topmost layer was taken away.
-    Popped(Layer),
-}
-
 /// Whether an action can be undone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kept {
@@ -67,17 +51,6 @@ pub enum Kept {
     /// It takes more than all the memory that the history may have. It stays
     /// done, and neither it nor anything before it can be undone.
     TooLarge,
-}
-
-/// What an undo or redo brought back.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Restored<T> {
-    /// What the caller had kept.
-    pub caller: T,
-    /// Tiles whose wet paint changed.
-    pub tiles: TileSet,
-    /// Whether dry layers came or went, and with them the floor.
-    pub dry_changed: bool,
 }
 
 impl<T> History<T> {
@@ -105,8 +78,7 @@ impl<T> History<T> {
         while let Some(action) = self.undone.pop() {
             self.forget(action);
         }
-        let (tiles, brushes, dry) = Default::default();
-        self.open = Some(Open::Kept(Action { caller: before, tiles, brushes, dry }));
+        self.open = Some(Open::Kept(Action::new(before)));
     }
 
     /// Keeps the wet paint of the tiles that `rect` touches, before they change.
@@ -231,8 +203,10 @@ impl<T> History<T> {
         current: T,
     ) -> Result<Option<Restored<T>>, EngineError> {
         assert!(self.open.is_none(), "an action is open");
-        let Some(action) = self.done.pop_back() else { return Ok(None) };
-        let (action, restored) = self.exchange(action, engine, current)?;
+        let Some(mut action) = self.done.pop_back() else { return Ok(None) };
+        self.bytes -= action.bytes();
+        let restored = action.exchange(engine, current)?;
+        self.bytes += action.bytes();
         self.undone.push(action);
         self.shrink();
         Ok(Some(restored))
@@ -252,8 +226,10 @@ impl<T> History<T> {
         current: T,
     ) -> Result<Option<Restored<T>>, EngineError> {
         assert!(self.open.is_none(), "an action is open");
-        let Some(action) = self.undone.pop() else { return Ok(None) };
-        let (action, restored) = self.exchange(action, engine, current)?;
+        let Some(mut action) = self.undone.pop() else { return Ok(None) };
+        self.bytes -= action.bytes();
+        let restored = action.exchange(engine, current)?;
+        self.bytes += action.bytes();
         self.done.push_back(action);
         self.shrink();
         Ok(Some(restored))
@@ -321,53 +297,4 @@ impl<T> History<T> {
         self.bytes -= action.bytes();
         self.free.extend(action.tiles.into_values());
     }
-
-    /// Exchanges all that `action` keeps with what is there.
-    fn exchange(
-        &mut self,
-        mut action: Action<T>,
-        engine: &mut dyn Engine,
-        current: T,
-    ) -> Result<(Action<T>, Restored<T>), EngineError> {
-        self.bytes -= action.bytes();
-        let mut tiles = TileSet::default();
-        for (&tile, &slot) in &action.tiles {
-            engine.swap(tile, slot)?;
-            tiles.insert_tile(tile);
-        }
-        for (&brush, paint) in &mut action.brushes {
-            let now = engine.brush(brush)?;
-            engine.set_brush(brush, paint)?;
-            *paint = now;
-        }
-        action.dry.reverse();
-        for change in &mut action.dry {
-            *change = match change {
-                DryChange::Pushed => DryChange::Popped(engine.pop_dry()?),
-                DryChange::Popped(layer) => {
-                    engine.push_dry(layer)?;
-                    DryChange::Pushed
-                }
-            };
-        }
-        let caller = std::mem::replace(&mut action.caller, current);
-        self.bytes += action.bytes();
-        let dry_changed = !action.dry.is_empty();
-        Ok((action, Restored { caller, tiles, dry_changed }))
-    }
-}
-
-impl<T> Action<T> {
-    fn bytes(&self) -> u64 {
-        let brushes = self.brushes.values();
-        let dry = self.dry.iter().filter_map(|change| match change {
-            DryChange::Popped(layer) => Some(layer),
-            DryChange::Pushed => None,
-        });
-        self.tiles.len() as u64 * TILE_BYTES + brushes.chain(dry).map(bytes_of).sum::<u64>()
-    }
-}
-
-fn bytes_of(layer: &Layer) -> u64 {
-    layer.vehicle.values().len() as u64 * CELL_BYTES
 }
