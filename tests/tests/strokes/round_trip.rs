@@ -144,6 +144,8 @@ fn the_canonical_form_is_short_and_an_action_a_line() {
     let stroke = "    {\"stroke\": {\"brush\": \"big\", \"samples\": \
         [[0,10,10,0.2], [0.5,60,12,0.6,10,0,45]]}},";
     assert!(lines.contains(&stroke), "{text}");
+    let actions = lines.iter().filter(|line| line.starts_with("    {\"")).count();
+    assert_eq!(actions, script.actions.len(), "{text}");
     assert_eq!(Strokes::from_json("b.json", text.as_bytes()).unwrap(), script);
 }
 
