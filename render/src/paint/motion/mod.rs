@@ -21,6 +21,10 @@
 //!    cells at once. What several cells exchange with one cell of the head adds
 //!    up there; as none takes more than a tenth of its share, the head's cell
 //!    never owes.
+//!
+//! Nothing here holds a column below [`crate::amount::FULL`]: it may receive
+//! from eight neighbours at once. Paint of ordinary height stays far below, but
+//! whoever lets columns in that are near it must bound them first.
 
 pub mod press;
 
