@@ -13,3 +13,15 @@ mod backends;
 
 mod undo;
 
+mod keeping;
+
+mod changes;
+
+mod laws;
+
+mod program;
+
+mod hostile;
+
+mod killed;
+

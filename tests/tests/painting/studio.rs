@@ -18,7 +18,6 @@ use render::paint::on_gpu::OnGpu;
 use render::paint::painting::{Painting, UNDO_BYTES};
 use render::paint::pose::Sample;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
-use suite::program::repository;
 
 pub(crate) const CELL_MM: f64 = 0.2;
 
@@ -41,10 +40,7 @@ pub(crate) const RED: usize = 3;
 /// The oils that ship.
 pub(crate) fn oils() -> &'static PigmentLibrary {
     static OILS: OnceLock<PigmentLibrary> = OnceLock::new();
-    OILS.get_or_init(|| {
-        let path = repository("measurements/van-gogh-oils.pigments.json");
-        PigmentLibrary::from_json(&path, &std::fs::read_to_string(&path).unwrap()).unwrap()
-    })
+    OILS.get_or_init(suite::oils::library)
 }
 
 /// Daylight for them.
