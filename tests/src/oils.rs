@@ -40,3 +40,14 @@ pub fn fitted(method: Method, surface: Surface) -> Calibration {
     let (set, white) = swatches();
     calibrate(&set, white, surface, &settings(method), &Viewing::default()).expect("a fit")
 }
+
+/// The pigment library that ships.
+///
+/// # Panics
+/// If it cannot be read.
+#[must_use]
+pub fn library() -> calibrate::library::PigmentLibrary {
+    let path = crate::program::repository("measurements/van-gogh-oils.pigments.json");
+    let text = std::fs::read_to_string(&path).expect("the shipped library is there");
+    calibrate::library::PigmentLibrary::from_json(&path, &text).expect("it is sound")
+}

@@ -11,14 +11,9 @@ use render::light::Light;
 use render::optics::Gloss;
 use render::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
 use spectra::{Observer, light_from_text};
-use suite::program::repository;
+pub(crate) use suite::oils::library as oils;
 
 pub(crate) const CELL_MM: f64 = 0.1;
-
-pub(crate) fn oils() -> PigmentLibrary {
-    let file = repository("measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json(&file, &std::fs::read_to_string(&file).unwrap()).unwrap()
-}
 
 pub(crate) fn slots(library: &PigmentLibrary, names: &[&str]) -> Slots {
     let index = |i: usize| names.get(i).map(|name| library.find(name).unwrap());

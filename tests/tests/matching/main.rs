@@ -15,12 +15,7 @@ use calibrate::library::PigmentLibrary;
 use calibrate::matching::{Sight, Target};
 use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
-
-/// The library that ships.
-fn oils() -> PigmentLibrary {
-    let text = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).unwrap()
-}
+use suite::oils::library as oils;
 
 /// Lights by name, counting alike.
 fn sights(lights: &[&str]) -> Vec<Sight> {

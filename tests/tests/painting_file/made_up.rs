@@ -1,19 +1,12 @@
 //! Paintings of random amounts.
 
-use calibrate::library::PigmentLibrary;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
 use render::optics::Gloss;
 use render::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
-use suite::program::repository;
-
-/// The shipped library.
-pub(crate) fn library() -> PigmentLibrary {
-    let path = repository("measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("oils", &std::fs::read_to_string(path).unwrap()).unwrap()
-}
+pub(crate) use suite::oils::library;
 
 /// Paint on about a third of the cells within a rectangle, up to `highest`
 /// quanta of each pigment.

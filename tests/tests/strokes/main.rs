@@ -29,7 +29,7 @@ const SOUND: &str = r##"{
     {"palette": ["Zinc White", "Viridian"]},
     {"undo": {}},
     {"redo": {}},
-    {"light": {"illuminant": "A", "observer": "1931", "azimuth_deg": 90, "elevation_deg": 30,
+    {"light": {"illuminant": "A", "observer": "1931-2", "azimuth_deg": 90, "elevation_deg": 30,
       "ambient": 0.5, "relief": 1}},
     {"opacity": {"layer": 0, "value": 0.5}},
     {"swap": {"layer": "wet", "from": "Viridian", "to": "Prussian Blue"}},
@@ -44,4 +44,24 @@ fn refused(from: &str, to: &str) -> StrokesError {
     let error = Strokes::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap_err();
     assert!(error.to_string().starts_with("a.json: "), "{error}");
     error
+}
+
+#[test]
+fn the_guide_shows_a_script_that_can_be_painted() {
+    let page = std::fs::read_to_string(suite::program::repository("docs/painting.md")).unwrap();
+    let script = page.split("```json\n").nth(1).unwrap().split("```").next().unwrap();
+    let script = Strokes::from_json("docs/painting.md", script.as_bytes()).unwrap();
+    script.resolve(&suite::oils::library()).unwrap();
+}
+
+#[test]
+fn lights_and_observers_nobody_knows_are_refused_before_painting() {
+    let error = refused("\"illuminant\": \"A\"", "\"illuminant\": \"D666\"");
+    assert!(
+        error.to_string().contains("action 9 (light), illuminant: a CIE illuminant"),
+        "{error}"
+    );
+    let error = refused("\"observer\": \"1931-2\"", "\"observer\": \"1932\"");
+    assert!(error.to_string().contains("action 9 (light), observer"), "{error}");
+    assert!(error.hint().unwrap().contains("1931-2"), "{:?}", error.hint());
 }

@@ -1,15 +1,9 @@
 //! Pigments by name.
 
-use calibrate::library::PigmentLibrary;
 use render::paint::strokes::{ActionPigments, Strokes};
-use suite::program::repository;
+use suite::oils::library;
 
 use crate::SOUND;
-
-fn library() -> PigmentLibrary {
-    let path = repository("measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("oils", &std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (String, String)> {
     let script = Strokes::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();

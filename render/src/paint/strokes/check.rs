@@ -1,5 +1,7 @@
 //! Whether what a script says can be done at all.
 
+use spectra::{Observer, light_from_text};
+
 use super::action::{Action, Load, Stroke};
 use super::error::{Fault, Place, StrokesError};
 use super::names::nearest;
@@ -192,7 +194,16 @@ fn check_light(at: &At, prefix: &str, lighting: &Lighting) -> Checked {
     at.range(&field("elevation_deg"), lighting.elevation_deg, 0.0, 90.0)?;
     at.above_zero(&field("elevation_deg"), lighting.elevation_deg)?;
     at.range(&field("ambient"), lighting.ambient, 0.0, 1.0)?;
-    at.range(&field("relief"), lighting.relief, 0.0, 100.0)
+    at.range(&field("relief"), lighting.relief, 0.0, 100.0)?;
+    if let Err(error) = light_from_text(&lighting.illuminant) {
+        let wanted = "a CIE illuminant, a temperature or a lamp's file";
+        return Err(at.fault(&field("illuminant"), wanted, &lighting.illuminant, error.hint()));
+    }
+    if let Err(error) = Observer::named(&lighting.observer) {
+        let hint = Some(error.to_string());
+        return Err(at.fault(&field("observer"), "an observer", &lighting.observer, hint));
+    }
+    Ok(())
 }
 
 fn check_palette(at: &At, palette: &Palette) -> Checked {
