@@ -82,25 +82,3 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
         ));
     }
 }
-
-#[test]
-fn a_brush_filled_again_and_again_piles_no_cell_full() {
-    for amount_mm in [0.2, 0.8, 3.2, 63.0 * CELL_MM] {
-    for mut painting in on_both(&bare(40, 40)).into_iter().take(1) {
-        let brush = painting.add_brush(HeadShape::Knife, 4.0).unwrap();
-        let recipe = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-        for k in 0..60 {
-            painting.wash(brush).unwrap();
-            painting.load(brush, &recipe, 0.0, amount_mm).unwrap();
-            painting.stroke(brush, &along(&[(4.0, 4.0)], 1.0)).unwrap();
-            painting.stroke(brush, &along(&[(2.0, 4.0), (6.0, 4.0)], 1.0)).unwrap();
-        let wet = painting.wet().unwrap();
-        let (highest, i) = (0..1600).map(|index| (wet.cell(index).volume(), index)).max().unwrap();
-        let t: u64 = (0..1600).map(|index| wet.cell(index).volume() as u64).sum();
-        if k % 20 == 19 || k == 0 {
-        tell(&format!("{amount_mm} {k}: {} cell widths at {} {} of {}", highest as f64 / 2097152.0, i % 40, i / 40, t >> 21));
-        }
-        }
-    }
-    }
-}

@@ -118,8 +118,8 @@ fn exported_pictures_have_the_colours_that_were_shown() {
         shown.values().iter().map(|rgb| rgb.map(|value| value.clamp(0.0, 1.0))).collect(),
     );
     for (bytes, within) in [
-        // A step of 8 bits is more than 0.1 in the darks, and cannot be less.
-        (png8(&shown, CELL_MM).unwrap().bytes, 0.7),
+        // Half a step of 8 bits in each channel is as much near black, and cannot be less.
+        (png8(&shown, CELL_MM).unwrap().bytes, 1.0),
         (png16(&shown, CELL_MM).unwrap().bytes, UNSEEN),
     ] {
         let decoder = image::codecs::png::PngDecoder::new(std::io::Cursor::new(bytes)).unwrap();

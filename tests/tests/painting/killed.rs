@@ -60,8 +60,10 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     let saved = folder.join("saved.exr");
     let short = script(folder, "", "");
     let saved_name = saved.to_str().unwrap();
-    assert!(told(program(&["paint", &short, "--backend", "cpu", "--output", saved_name]))
-        .contains("status 0"));
+    assert!(
+        told(program(&["paint", &short, "--backend", "cpu", "--output", saved_name]))
+            .contains("status 0")
+    );
     let old = std::fs::read(&saved).unwrap();
     let (mut kept, mut new) = (0, 0);
     for moment in 0..12 {

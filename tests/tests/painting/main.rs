@@ -24,4 +24,3 @@ mod program;
 mod hostile;
 
 mod killed;
-

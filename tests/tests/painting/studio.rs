@@ -123,7 +123,8 @@ pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
         pressure,
         tilt_x_deg: 10.0,
         tilt_y_deg: -15.0,
-        twist_deg: 5.0 * index as f64,
+        // Along x a flat head paints with its broad side.
+        twist_deg: 90.0 + 5.0 * index as f64,
     };
     places.iter().enumerate().map(sample).collect()
 }

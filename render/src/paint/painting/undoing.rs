@@ -71,9 +71,8 @@ impl Painting {
     fn back_to(&mut self, restored: Restored<Before>) -> Result<(), PaintingError> {
         let Before { state, light, wet_tiles, brushes } = restored.caller;
         let other_palette = state.slots != self.state.slots;
-        let rebake = other_palette
-            || state.dry != self.state.dry
-            || !Arc::ptr_eq(&light, &self.light);
+        let rebake =
+            other_palette || state.dry != self.state.dry || !Arc::ptr_eq(&light, &self.light);
         let other_lamp = state.lighting != self.state.lighting;
         (self.state, self.light, self.wet_tiles) = (state, light, wet_tiles);
         if other_palette {
