@@ -35,7 +35,7 @@ fn finished(painting: &mut Painting) {
 }
 
 fn same_paint(a: &Document, b: &Document) {
-    assert_eq!(a.dry.len(), b.dry.len());
+    assert_eq!(a.dry.len(), b.dry.len(), "dry layers");
     for (index, (a, b)) in a.dry.iter().zip(&b.dry).enumerate() {
         assert!(a == b, "dry layer {index}");
     }

@@ -69,8 +69,12 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     for moment in 0..12 {
         std::fs::write(&saved, &old).unwrap();
         let mut child = program(&["paint", &endless, "--backend", "cpu"]).spawn().unwrap();
-        // From before the first save to amid many.
-        std::thread::sleep(Duration::from_millis(60 * moment * moment / 4 + 17 * moment));
+        // Some before the first save, the others amid many.
+        while moment > 3 && std::fs::read(&saved).unwrap() == old {
+            assert!(child.try_wait().unwrap().is_none(), "it ended without a save");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(7 * moment));
         child.kill().unwrap();
         let _ = child.wait().unwrap();
         let found = std::fs::read(&saved).unwrap();

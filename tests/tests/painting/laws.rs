@@ -53,7 +53,6 @@ fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
         .iter()
         .filter(|(lab, share)| (0.005..0.5).contains(share) && lab.a < ends - 10.0 && lab.b > 0.0);
     let green = green.count();
-    super::studio::tell(&format!("{green} {} {ends} {} {}", both.len(), yellow.len(), blue.len()));
     assert!(green > 50, "{green} of {} cells are green; a* of the ends {ends}", both.len());
 }
 

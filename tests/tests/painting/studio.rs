@@ -154,7 +154,7 @@ pub(crate) fn crossing(painting: &mut Painting) {
 
 /// CIEDE2000 of every cell, in rising order.
 pub(crate) fn differences(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> Vec<f64> {
-    assert_eq!((a.width(), a.height()), (b.width(), b.height()));
+    assert_eq!((a.width(), a.height()), (b.width(), b.height()), "sizes of pictures");
     let pairs = a.values().iter().zip(b.values());
     sorted(pairs.map(|(a, b)| delta_e_ciede2000(lab(a), lab(b))).collect())
 }
