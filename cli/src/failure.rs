@@ -11,6 +11,7 @@ use calibrate::matching::MatchError;
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
 use render::gpu::GpuError;
+use render::light::LightFailure;
 use render::paint::EngineError;
 use render::paint::file::PaintingFileError;
 use render::paint::ground::GroundError;
@@ -124,6 +125,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
 /// Hints of what paints.
 fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<PaintingError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<LightFailure>() {
         return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<StrokesError>() {

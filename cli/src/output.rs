@@ -20,7 +20,8 @@ impl Output {
     /// Checks, before the slow part, that `path` can be written and is none of
     /// `inputs`.
     pub(crate) fn open(path: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
-        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let target = path.canonicalize().or_else(|_| std::path::absolute(path));
+        let target = target.with_context(|| format!("{}: cannot be written", path.display()))?;
         if target.exists() && !target.is_file() {
             return Err(Refusal::usage(
                 format!("{}: an ordinary file is wanted", path.display()),
@@ -37,6 +38,16 @@ impl Output {
         let output = Self { path: path.to_owned(), target };
         output.beside()?;
         Ok(output)
+    }
+
+    /// Where the user wants it.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether both would be the same file.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        self.target == other.target
     }
 
     /// Writes `content` to a temporary file and gives that the wanted name.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use render::amount::mm_from_quanta;
 use render::export::{FloatBits, PigmentMap, linear_exr, pigment_maps, png8, png16, spectral_exr};
@@ -77,7 +78,7 @@ impl Exports {
 
     /// Checks, before the slow part, that all can be written.
     pub(crate) fn open(self, inputs: &[PathBuf]) -> anyhow::Result<OpenExports> {
-        let wanted = |path: &Option<PathBuf>, endings: &[&str]| {
+        let wanted = |path: &Option<PathBuf>, endings: &[&str]| -> anyhow::Result<_> {
             let Some(path) = path else { return Ok(None) };
             let found = path.extension().map(|e| e.to_string_lossy().to_lowercase());
             if !endings.iter().any(|ending| found.as_deref() == Some(ending)) {
@@ -88,12 +89,24 @@ impl Exports {
             }
             Ok(Some(Output::open(path, inputs)?))
         };
-        Ok(OpenExports {
-            picture: wanted(&self.picture, &["png", "exr"])?,
-            spectral: wanted(&self.spectral, &["exr"])?,
-            painting: wanted(&self.output, &["exr"])?,
-            options: self,
-        })
+        let picture = wanted(&self.picture, &["png", "exr"])?;
+        let spectral = wanted(&self.spectral, &["exr"])?;
+        let painting = wanted(&self.output, &["exr"])?;
+        let all: Vec<&Output> = [&picture, &spectral, &painting].into_iter().flatten().collect();
+        for (index, output) in all.iter().enumerate() {
+            if all[..index].iter().any(|other| output.is_same_as(other)) {
+                return Err(Refusal::usage(
+                    format!("{}: two exports would be this file", output.path().display()),
+                    "give each a name of its own",
+                ));
+            }
+        }
+        if let Some(folder) = &self.pigment_maps {
+            let cannot = || format!("{}: this folder cannot be made", folder.display());
+            std::fs::create_dir_all(folder).with_context(cannot)?;
+            Output::open(&folder.join("painting.csv"), inputs)?;
+        }
+        Ok(OpenExports { picture, spectral, painting, options: self })
     }
 }
 
@@ -135,7 +148,6 @@ impl OpenExports {
             output.write(spectral_exr(&picture, &wavelengths_nm, &planes, cell_mm)?)?;
         }
         if let Some(folder) = self.options.pigment_maps {
-            std::fs::create_dir_all(&folder)?;
             for file in pigment_maps("painting", &maps(&document), cell_mm)? {
                 Output::open(&folder.join(file.name), &[])?.write(file.bytes)?;
             }

@@ -1,5 +1,6 @@
 //! `impasto paint`: a recorded script, or a photograph, to a painting.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -88,8 +89,13 @@ impl Paint {
         let (width, height) = script.canvas.cells();
         let cell_mm = script.canvas.cell_mm;
         let ground = script.canvas.ground.ground(width, height, cell_mm, &library)?;
-        let inputs: Vec<PathBuf> = std::iter::once(path.to_owned()).chain(self.library).collect();
+        let mut inputs = vec![path.to_owned()];
+        inputs.extend(self.library);
+        if let GroundRelief::Image(picture) = &script.canvas.ground.relief {
+            inputs.push(PathBuf::from(&picture.path));
+        }
         let exports = self.exports.open(&inputs)?;
+        check_saves(&script, &folder, &inputs).with_context(|| name.clone())?;
         let engine = self.engine.engine(&ground.height, console)?;
         let document = script.bare(&library, &resolved, ground);
         let mut painting = Painting::open(document, engine, self.engine.undo_bytes())?;
@@ -143,6 +149,29 @@ impl Paint {
 #[error("{0:#}")]
 struct Saving(anyhow::Error);
 
+/// Checks, before the slow part, that all that the script saves can be written.
+fn check_saves(script: &Strokes, folder: &Path, inputs: &[PathBuf]) -> anyhow::Result<()> {
+    let mut checked = BTreeSet::new();
+    for (index, action) in script.actions.iter().enumerate() {
+        if let Action::Save { path } = action
+            && checked.insert(path)
+        {
+            open_save(folder, path, inputs).with_context(|| format!("action {index} (save)"))?;
+        }
+    }
+    Ok(())
+}
+
+/// The file of an action that saves, below the script's folder.
+fn open_save(folder: &Path, path: &str, inputs: &[PathBuf]) -> anyhow::Result<Output> {
+    let path = folder.join(path);
+    if let Some(parent) = path.parent() {
+        let cannot = || format!("{}: this folder cannot be made", parent.display());
+        std::fs::create_dir_all(parent).with_context(cannot)?;
+    }
+    Output::open(&path, inputs)
+}
+
 /// Saves for an action of the script, below its folder.
 fn save(
     folder: &Path,
@@ -151,14 +180,11 @@ fn save(
     painting: &mut Painting,
     remarks: &mut Vec<String>,
 ) -> anyhow::Result<()> {
-    let path = folder.join(path);
-    if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent)?;
-    }
-    let output = Output::open(&path, inputs)?;
+    let output = open_save(folder, path, inputs)?;
+    let path = output.path();
     let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         let picture = painting.picture()?;
-        let (bytes, remark) = picture_file(&path, Bits::Eight, &picture, painting.cell_mm())?;
+        let (bytes, remark) = picture_file(path, Bits::Eight, &picture, painting.cell_mm())?;
         remarks.extend(remark);
         bytes
     } else {

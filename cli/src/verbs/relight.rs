@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
+use render::light::Light;
 use render::paint::document::Lighting;
 use render::paint::painting::{Coating, Painting};
 use serde_json::json;
@@ -60,22 +61,20 @@ impl Relight {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let name = self.painting.display().to_string();
         let bytes = std::fs::read(&self.painting).with_context(|| unreadable(&self.painting))?;
-        let document = render::paint::file::read(&name, &bytes)?;
+        let mut document = render::paint::file::read(&name, &bytes)?;
         drop(bytes);
-        let saved = document.lighting.clone();
-        let lighting = self.lighting(&saved)?;
+        document.lighting = self.lighting(&document.lighting)?;
+        let Lighting { illuminant, observer, .. } = &document.lighting;
+        let light = Light::new(&document.library, &viewing(illuminant, observer)?)?;
         let exports = self.exports.open(std::slice::from_ref(&self.painting))?;
         let engine = self.engine.engine(&document.ground.height, console)?;
-        let mut painting = Painting::open(document, engine, self.engine.undo_bytes())?;
+        let undo_bytes = self.engine.undo_bytes();
+        let mut painting = Painting::open_under(document, light, engine, undo_bytes)?;
         for text in &self.swap {
             swap(&mut painting, text)?;
         }
         for text in &self.opacity {
             opacity(&mut painting, text)?;
-        }
-        if lighting != saved {
-            let seen = viewing(&lighting.illuminant, &lighting.observer)?;
-            painting.relight_with(&seen, lighting)?;
         }
         exports.write(&mut painting, console)?;
         tell(&mut painting, self.json, console)

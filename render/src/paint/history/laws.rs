@@ -10,7 +10,7 @@ use crate::paint::contact::{Contact, Touch};
 use crate::paint::engine::{BrushId, Engine};
 use crate::paint::motion::Motion;
 use crate::paint::on_cpu::OnCpu;
-use crate::tile::Rect;
+use crate::tile::{Rect, TileSet};
 
 /// Six tiles, those at the right and lower edge smaller.
 const WIDTH: usize = 150;
@@ -24,6 +24,10 @@ fn state(engine: &mut OnCpu, caller: usize) -> State {
     let brushes = [0, 1].map(|i| engine.brush(BrushId(i)).expect("paint")).to_vec();
     let dry = (0..engine.dry_count()).map(|i| engine.dry_layer(i).expect("paint")).collect();
     (engine.wet().expect("paint"), brushes, dry, engine.floor().expect("a floor"), caller)
+}
+
+fn all() -> TileSet {
+    TileSet::all(Rect { x: 0, y: 0, width: WIDTH, height: HEIGHT })
 }
 
 fn painted(width: usize, height: usize, random: &mut ChaCha8Rng) -> Layer {
@@ -70,11 +74,11 @@ fn act(history: &mut History<usize>, engine: &mut OnCpu, random: &mut ChaCha8Rng
             let layer = painted(WIDTH, HEIGHT, random);
             history.push_dry(engine, &layer).expect("room");
         }
-        2 => history.dry(engine, random.random_range(0..=65536)).expect("room"),
+        2 => history.dry(engine, &all(), random.random_range(0..=65536)).expect("room"),
         4 => {
             stroke(history, engine, random);
             history.pop_dry(engine).expect("a layer");
-            history.dry(engine, 30_000).expect("room");
+            history.dry(engine, &all(), 30_000).expect("room");
         }
         _ => stroke(history, engine, random),
     }
@@ -155,7 +159,7 @@ fn an_action_beyond_the_limit_stays_done_and_cannot_be_undone() {
     other.dry(1000).expect("room");
     history.begin(1);
     // Six tiles.
-    history.dry(&mut engine, 1000).expect("room");
+    history.dry(&mut engine, &all(), 1000).expect("room");
     assert_eq!(history.commit(), Kept::TooLarge);
     assert!(engine.wet().expect("paint") == other.wet().expect("paint"), "dried otherwise");
     assert!(history.undo(&mut engine, 2).expect("no device to lose").is_none(), "undone");

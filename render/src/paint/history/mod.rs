@@ -131,16 +131,24 @@ impl<T> History<T> {
         Ok(())
     }
 
-    /// [`Engine::dry`] as part of the open action.
+    /// [`Engine::dry`] as part of the open action; `wet` are the tiles that hold
+    /// wet paint.
     ///
     /// # Errors
     /// [`EngineError`] if there is no memory for it.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn dry(&mut self, engine: &mut dyn Engine, share: u32) -> Result<(), EngineError> {
-        let all = engine.bounds();
-        self.touch(engine, all)?;
+    pub fn dry(
+        &mut self,
+        engine: &mut dyn Engine,
+        wet: &TileSet,
+        share: u32,
+    ) -> Result<(), EngineError> {
+        let bounds = engine.bounds();
+        for tile in wet.iter() {
+            self.touch(engine, tile.rect(bounds))?;
+        }
         engine.dry(share)?;
         self.kept().into_iter().for_each(|action| action.dry.push(DryChange::Pushed));
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::failure::PaintingError;
 use super::state::Painting;
-use crate::amount::{FULL, quanta_from_mm};
+use crate::amount::{FULL, mm_from_quanta, quanta_from_mm};
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::paint::brush::{Head, HeadShape};
 use crate::paint::engine::BrushId;
@@ -20,7 +20,8 @@ pub struct Brush {
 const CAPACITY: u32 = FULL / 16;
 
 impl Painting {
-    /// Takes a new, clean brush; its number is the number of brushes before it.
+    /// Takes a new, clean brush; its number, by which the other calls know it, is
+    /// the number of brushes before it.
     ///
     /// # Errors
     /// [`PaintingError`] for a size that no brush has, or where the device has
@@ -35,11 +36,15 @@ impl Painting {
 
     /// Takes up paint from the palette: to every cell of the head `amount_mm` of
     /// the mixture of `recipe` (parts by slot), of which the share `vehicle`
-    /// (0..1) is clear medium. It joins what the brush already holds.
+    /// (0..1) is clear medium; with 1 the recipe may be empty. It joins what the
+    /// brush already holds.
     ///
     /// # Errors
     /// [`PaintingError`] for parts of slots that hold no pigment, for no parts,
     /// and where the brush would hold more than it can.
+    ///
+    /// # Panics
+    /// If there is no such brush, as the calls below.
     pub fn load(
         &mut self,
         brush: usize,
@@ -50,18 +55,14 @@ impl Painting {
         let fresh = self.mixture(recipe, vehicle, amount_mm)?;
         let Brush { id, cells, .. } = self.brushes[brush];
         let mut paint = self.engine.brush(id)?;
-        for index in 0..cells.0 * cells.1 {
-            let cell = paint.cell(index);
-            let volume = u64::from(cell.volume()) + u64::from(fresh.volume());
-            if volume > u64::from(CAPACITY) {
-                return Err(PaintingError::Overloaded {
-                    amount_mm,
-                    most_mm: f64::from(CAPACITY - cell.volume().min(CAPACITY))
-                        / f64::from(crate::amount::QUANTA_PER_CELL)
-                        * self.cell_mm,
-                });
-            }
-            paint.set_cell(index, cell.plus(&fresh));
+        let cells = 0..cells.0 * cells.1;
+        let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
+        let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm);
+        if amount_mm > most_mm {
+            return Err(PaintingError::Overloaded { amount_mm, most_mm });
+        }
+        for index in cells {
+            paint.set_cell(index, paint.cell(index).plus(&fresh));
         }
         self.change_brush(brush, &paint)
     }
@@ -73,12 +74,13 @@ impl Painting {
         vehicle: f64,
         amount_mm: f64,
     ) -> Result<Cell, PaintingError> {
-        let total: f64 = recipe.iter().sum();
-        if !(total > 0.0 && total.is_finite() && recipe.iter().all(|&part| part >= 0.0)) {
-            return Err(PaintingError::NoMixture);
-        }
-        if !(0.0..1.0).contains(&vehicle) {
+        if !(0.0..=1.0).contains(&vehicle) {
             return Err(PaintingError::Share { what: "vehicle", value: vehicle });
+        }
+        let total: f64 = recipe.iter().sum();
+        let parts = total.is_finite() && recipe.iter().all(|&part| part >= 0.0);
+        if !(parts && (total > 0.0 || vehicle == 1.0)) {
+            return Err(PaintingError::NoMixture);
         }
         if !(amount_mm >= 0.0 && amount_mm.is_finite()) {
             return Err(PaintingError::Amount { value: amount_mm });
@@ -88,7 +90,11 @@ impl Painting {
         }
         let quanta = |share: f64| quanta_from_mm(amount_mm * share, self.cell_mm);
         Ok(Cell {
-            pigments: recipe.map(|part| quanta(part / total * (1.0 - vehicle))),
+            // Clear vehicle alone needs no parts.
+            pigments: match total {
+                0.0 => [0; SLOTS],
+                _ => recipe.map(|part| quanta(part / total * (1.0 - vehicle))),
+            },
             vehicle: quanta(vehicle),
         })
     }

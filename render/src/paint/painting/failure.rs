@@ -21,7 +21,7 @@ pub enum PaintingError {
     #[error(transparent)]
     Stroke(#[from] StrokeError),
     /// A recipe without parts, or with negative ones.
-    #[error("a recipe needs parts above 0, none below")]
+    #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
     NoMixture,
     /// A share outside 0..1.
     #[error("{what} is a share of 0 to 1, found `{value}`")]
@@ -90,6 +90,14 @@ pub enum PaintingError {
         /// What was given.
         value: f64,
     },
+    /// No room left above.
+    #[error("the paint is piled as high as it can be, 512 cell widths, at column {x}, row `{y}`")]
+    TooHigh {
+        /// The column of cells.
+        x: usize,
+        /// The row.
+        y: usize,
+    },
     /// Two layers to be merged that are seen differently.
     #[error("the two layers have different opacities")]
     UnlikeOpacity,
@@ -121,6 +129,10 @@ impl PaintingError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Engine(error) => Some(error.hint().to_owned()),
+            Self::Light(error) => error.hint(),
+            Self::Brush(error) => Some(error.hint().to_owned()),
+            Self::Stroke(error) => Some(error.hint().to_owned()),
+            Self::TooHigh { .. } => Some("paint thinner, or with larger cells".to_owned()),
             Self::StillWet { .. } => Some("dry the painting and wash the brushes first".to_owned()),
             Self::TooManyPigments { .. } => {
                 Some("dry the painting, then go on with another palette".to_owned())

@@ -2,10 +2,13 @@
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
-use super::state::{DryState, Painting};
+use super::state::{DryState, HIGHEST, Painting};
 use crate::paint::brush::Relief;
 use crate::paint::document::Slots;
 use crate::tile::TileSet;
+
+/// The share that is everything, of 65536 parts.
+const ALL: u32 = 65_536;
 
 /// One layer of a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,14 +27,23 @@ impl Painting {
     /// [`PaintingError`] for a share outside 0..1, or without memory.
     pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
         let share = share_of_65536_parts("fraction", fraction)?;
-        if share == 0 || self.engine.wet()?.totals().iter().all(|&total| total == 0) {
+        let wet = |painting: &mut Self| -> Result<bool, PaintingError> {
+            Ok(painting.engine.wet()?.totals().iter().any(|&total| total > 0))
+        };
+        if share == 0 || self.wet_tiles.is_empty() || !wet(self)? {
             return Ok(false);
         }
-        self.history.begin(self.state.clone());
-        self.history.dry(self.engine.as_mut(), share)?;
-        self.state.dry.push(DryState { slots: self.state.slots, opacity: 1.0 });
-        self.history.commit();
-        self.floor_changed()?;
+        if let Some((x, y)) = self.too_high()? {
+            return Err(PaintingError::TooHigh { x, y });
+        }
+        self.acting(|painting| {
+            painting.history.dry(painting.engine.as_mut(), &painting.wet_tiles, share)?;
+            painting.state.dry.push(DryState { slots: painting.state.slots, opacity: 1.0 });
+            if share == ALL {
+                painting.wet_tiles.take();
+            }
+            painting.floor_changed()
+        })?;
         Ok(true)
     }
 
@@ -50,25 +62,33 @@ impl Painting {
         if wanted.len() > self.state.slots.len() {
             return Err(PaintingError::TooManyPigments { found: wanted.len() });
         }
-        let wet = self.wet_totals_mm()?;
         let mut slots: Slots = self.state.slots;
-        for (slot, amount) in slots.iter_mut().zip(wet) {
-            let Some(pigment) = *slot else { continue };
-            if wanted.contains(&pigment) {
-                wanted.retain(|&other| other != pigment);
-            } else if amount > 0.0 {
-                return Err(PaintingError::StillWet { pigment: self.pigment_name(pigment) });
-            } else {
-                *slot = None;
+        let leaves = |slot: Option<usize>| slot.is_some_and(|pigment| !wanted.contains(&pigment));
+        if slots.iter().any(|&slot| leaves(slot)) {
+            let wet = self.wet_totals_mm()?;
+            for (slot, amount) in slots.iter_mut().zip(wet).filter(|(slot, _)| leaves(**slot)) {
+                match *slot {
+                    Some(pigment) if amount > 0.0 => {
+                        let pigment = self.pigment_name(pigment);
+                        return Err(PaintingError::StillWet { pigment });
+                    }
+                    _ => *slot = None,
+                }
             }
         }
+        wanted.retain(|&pigment| !slots.contains(&Some(pigment)));
         for pigment in wanted {
             let free = slots.iter().position(Option::is_none).expect("eight pigments have room");
             slots[free] = Some(pigment);
         }
-        self.history.begin(self.state.clone());
-        self.state.slots = slots;
-        self.history.commit();
+        self.acting(|painting| {
+            // What they take up from now on is paint of this palette.
+            for brush in &painting.brushes {
+                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
+            }
+            painting.state.slots = slots;
+            Ok(())
+        })?;
         Ok(())
     }
 
@@ -91,13 +111,14 @@ impl Painting {
             .iter()
             .position(|&slot| slot == Some(from))
             .ok_or_else(|| PaintingError::NotThere { pigment: self.pigment_name(from) })?;
-        self.history.begin(self.state.clone());
-        match coating {
-            Coating::Wet => self.state.slots[place] = Some(to),
-            Coating::Dry(index) => self.state.dry[index].slots[place] = Some(to),
-        }
-        self.history.commit();
-        self.all_unseen();
+        self.acting(|painting| {
+            match coating {
+                Coating::Wet => painting.state.slots[place] = Some(to),
+                Coating::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
+            }
+            painting.all_unseen();
+            Ok(())
+        })?;
         Ok(())
     }
 
@@ -113,10 +134,11 @@ impl Painting {
         if !(0.0..=1000.0).contains(&opacity) {
             return Err(PaintingError::Opacity { value: opacity });
         }
-        self.history.begin(self.state.clone());
-        self.state.dry[index].opacity = opacity;
-        self.history.commit();
-        self.all_unseen();
+        self.acting(|painting| {
+            painting.state.dry[index].opacity = opacity;
+            painting.all_unseen();
+            Ok(())
+        })?;
         Ok(())
     }
 
@@ -154,8 +176,22 @@ impl Painting {
         Ok(())
     }
 
+    /// The first cell where ground and dry paint are as high as they can be.
+    fn too_high(&mut self) -> Result<Option<(usize, usize)>, PaintingError> {
+        let floor = self.engine.floor()?;
+        let highest = HIGHEST as i32;
+        let found = floor.values().iter().position(|&height| height > highest);
+        Ok(found.map(|index| (index % floor.width(), index / floor.width())))
+    }
+
+    /// After what is dry changed, or the light.
     pub(super) fn all_unseen(&mut self) {
         self.unbaked = TileSet::all(self.engine.bounds());
-        self.unshown = self.unbaked.clone();
+        self.all_unshown();
+    }
+
+    /// After the lamp moved.
+    pub(super) fn all_unshown(&mut self) {
+        self.unshown = TileSet::all(self.engine.bounds());
     }
 }

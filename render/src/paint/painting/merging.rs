@@ -21,8 +21,8 @@ impl Painting {
     /// [`MERGE_TOLERANCE`], where the two need more than eight pigments, and
     /// for layers that are not there.
     pub fn merge(&mut self, index: usize) -> Result<(), PaintingError> {
-        let lower = self.slots(Coating::Dry(index))?;
         let upper = self.slots(Coating::Dry(index + 1))?;
+        let lower = self.slots(Coating::Dry(index))?;
         if self.state.dry[index].opacity != self.state.dry[index + 1].opacity {
             return Err(PaintingError::UnlikeOpacity);
         }
@@ -48,16 +48,17 @@ impl Painting {
             return Err(PaintingError::MergeShows { delta_e, x, y });
         }
 
-        self.history.begin(self.state.clone());
-        while self.engine.dry_count() > index {
-            self.history.pop_dry(self.engine.as_mut())?;
-        }
-        for layer in &merged {
-            self.history.push_dry(self.engine.as_mut(), layer)?;
-        }
-        self.state.dry.splice(index..index + 2, [state]);
-        self.history.commit();
-        self.floor_changed()
+        self.acting(|painting| {
+            while painting.engine.dry_count() > index {
+                painting.history.pop_dry(painting.engine.as_mut())?;
+            }
+            for layer in &merged {
+                painting.history.push_dry(painting.engine.as_mut(), layer)?;
+            }
+            painting.state.dry.splice(index..index + 2, [state]);
+            painting.floor_changed()
+        })?;
+        Ok(())
     }
 
     /// Puts `layers` in place of the dry layers from `index` up; gives those.

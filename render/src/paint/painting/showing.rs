@@ -1,5 +1,7 @@
 //! The painting as it is seen.
 
+use std::sync::Arc;
+
 use calibrate::evaluate::Viewing;
 
 use super::failure::PaintingError;
@@ -9,7 +11,6 @@ use crate::light::Light;
 use crate::optics::Scene;
 use crate::paint::document::Lighting;
 use crate::paint::scene::Appearance;
-use crate::tile::TileSet;
 
 impl Painting {
     /// Shows the painting under another light, one that has a name.
@@ -22,8 +23,7 @@ impl Painting {
         } else {
             Some(Light::named(&self.library, &lighting.illuminant, &lighting.observer)?)
         };
-        self.shine(lighting, light);
-        Ok(())
+        self.shine(lighting, light)
     }
 
     /// Shows the painting under a measured light, which `lighting` calls by some
@@ -37,8 +37,7 @@ impl Painting {
         lighting: Lighting,
     ) -> Result<(), PaintingError> {
         let light = Light::new(&self.library, viewing)?;
-        self.shine(lighting, Some(light));
-        Ok(())
+        self.shine(lighting, Some(light))
     }
 
     fn same_lamp(&self, lighting: &Lighting) -> bool {
@@ -46,14 +45,19 @@ impl Painting {
         (&now.illuminant, &now.observer) == (&lighting.illuminant, &lighting.observer)
     }
 
-    fn shine(&mut self, lighting: Lighting, light: Option<Light>) {
-        self.history.begin(self.state.clone());
-        self.state.lighting = lighting;
-        self.history.commit();
-        if let Some(light) = light {
-            self.light = light;
-        }
-        self.all_unseen();
+    fn shine(&mut self, lighting: Lighting, light: Option<Light>) -> Result<(), PaintingError> {
+        self.acting(|painting| {
+            painting.state.lighting = lighting;
+            match light {
+                Some(light) => {
+                    painting.light = Arc::new(light);
+                    painting.all_unseen();
+                }
+                None => painting.all_unshown(),
+            }
+            Ok(())
+        })?;
+        Ok(())
     }
 
     /// The picture in linear sRGB, white at 1. Only what changed since the last
@@ -77,9 +81,9 @@ impl Painting {
         for gloss in [&mut lamp.wet, &mut lamp.dry, &mut lamp.ground] {
             gloss.strength = 0.0;
         }
-        self.unshown = TileSet::all(self.engine.bounds());
+        self.all_unshown();
         let picture = self.shown(&scene);
-        self.unshown = TileSet::all(self.engine.bounds());
+        self.all_unshown();
         picture
     }
 

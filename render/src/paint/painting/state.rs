@@ -1,11 +1,14 @@
 //! What a painting consists of while it is worked on.
 
+use std::sync::Arc;
+
 use calibrate::library::PigmentLibrary;
 
 use super::brushes::Brush;
 use super::failure::PaintingError;
-use crate::amount::mm_from_quanta;
-use crate::layer::Layer;
+use super::undoing::Before;
+use crate::amount::{FULL, mm_from_quanta};
+use crate::layer::{Layer, SLOTS};
 use crate::light::Light;
 use crate::paint::brush::Relief;
 use crate::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
@@ -45,15 +48,21 @@ pub struct Painting {
     pub(super) motion: Motion,
     pub(super) engine: Box<dyn Engine>,
     pub(super) state: State,
-    pub(super) light: Light,
+    pub(super) light: Arc<Light>,
     pub(super) relief: Relief,
     pub(super) brushes: Vec<Brush>,
-    pub(super) history: History<State>,
+    pub(super) history: History<Before>,
+    /// Tiles that may hold wet paint; no other does.
+    pub(super) wet_tiles: TileSet,
     /// Tiles whose dry paint was not yet seen under this light.
     pub(super) unbaked: TileSet,
     /// Tiles whose wet paint was not yet seen.
     pub(super) unshown: TileSet,
 }
+
+/// The most that ground and dry paint rise together, and wet paint on them, in
+/// quanta: 512 cell widths, so that no sum passes 32 bits.
+pub(super) const HIGHEST: u32 = FULL / 2;
 
 /// The bytes that undo may keep unless told otherwise: 512 MiB.
 pub const UNDO_BYTES: u64 = 512 << 20;
@@ -63,15 +72,32 @@ impl Painting {
     /// (`engine`, without paint yet); undo keeps at most `undo_bytes`.
     ///
     /// # Errors
-    /// [`PaintingError`] if the light is unknown or the device has no room.
+    /// [`PaintingError`] if the light is unknown, for paint piled too high, or if
+    /// the device has no room.
     pub fn open(
         document: Document,
+        engine: Box<dyn Engine>,
+        undo_bytes: u64,
+    ) -> Result<Self, PaintingError> {
+        let Lighting { illuminant, observer, .. } = &document.lighting;
+        let light = Light::named(&document.library, illuminant, observer)?;
+        Self::open_under(document, light, engine, undo_bytes)
+    }
+
+    /// The same under a light that is known already, made for the document's
+    /// library, such as a measured one; the document calls it by some name.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for paint piled too high, or if the device has no room.
+    pub fn open_under(
+        document: Document,
+        light: Light,
         mut engine: Box<dyn Engine>,
         undo_bytes: u64,
     ) -> Result<Self, PaintingError> {
+        check_heights(&document)?;
         let Document { title, cell_mm, ground, library, medium, dry, slots, wet, lighting } =
             document;
-        let light = Light::named(&library, &lighting.illuminant, &lighting.observer)?;
         let mut states = Vec::with_capacity(dry.len());
         for DryLayer { slots, opacity, paint } in dry {
             engine.push_dry(&paint)?;
@@ -89,10 +115,11 @@ impl Painting {
             motion: Motion::default(),
             engine,
             state: State { slots, dry: states, lighting },
-            light,
+            light: Arc::new(light),
             relief,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
+            wet_tiles: painted(&wet),
             unbaked: all.clone(),
             unshown: all,
         })
@@ -174,7 +201,7 @@ impl Painting {
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
-    pub fn wet_totals_mm(&mut self) -> Result<[f64; crate::layer::SLOTS + 1], PaintingError> {
+    pub fn wet_totals_mm(&mut self) -> Result<[f64; SLOTS + 1], PaintingError> {
         let mut totals = self.engine.wet()?.totals();
         for brush in &self.brushes {
             for (total, more) in totals.iter_mut().zip(self.engine.brush(brush.id)?.totals()) {
@@ -191,4 +218,34 @@ impl Painting {
     pub fn wet(&mut self) -> Result<Layer, PaintingError> {
         Ok(self.engine.wet()?)
     }
+}
+
+/// Refuses paint that rises above [`HIGHEST`].
+fn check_heights(document: &Document) -> Result<(), PaintingError> {
+    let width = document.wet.width();
+    let lowest = -i64::from(HIGHEST);
+    for (index, &ground) in document.ground.height.values().iter().enumerate() {
+        let dry = document.dry.iter().map(|layer| i64::from(layer.paint.cell(index).volume()));
+        let floor = i64::from(ground) + dry.sum::<i64>();
+        let wet = document.wet.cell(index).volume();
+        if !(lowest..=i64::from(HIGHEST)).contains(&floor) || wet > HIGHEST {
+            return Err(PaintingError::TooHigh { x: index % width, y: index / width });
+        }
+    }
+    Ok(())
+}
+
+/// The tiles in which `layer` has paint.
+fn painted(layer: &Layer) -> TileSet {
+    let mut tiles = TileSet::default();
+    let bounds = layer.vehicle.bounds();
+    for tile in TileSet::all(bounds).iter() {
+        let rect = tile.rect(bounds);
+        let rows = rect.y..rect.y + rect.height;
+        let row = |y: usize| (0..rect.width).map(move |x| y * bounds.width + rect.x + x);
+        if rows.flat_map(row).any(|index| layer.cell(index).volume() > 0) {
+            tiles.insert_tile(tile);
+        }
+    }
+    tiles
 }

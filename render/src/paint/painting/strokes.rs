@@ -4,7 +4,7 @@ use super::failure::PaintingError;
 use super::state::Painting;
 use crate::paint::contact::Contact;
 use crate::paint::history::Kept;
-use crate::paint::pose::Sample;
+use crate::paint::pose::{Pose, Sample};
 use crate::paint::stroke::substeps;
 use crate::tile::Rect;
 
@@ -33,14 +33,27 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] for impossible samples, before anything is painted, or
     /// if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush.
     pub fn stroke(
         &mut self,
         brush: usize,
         samples: &[Sample],
     ) -> Result<StrokeReport, PaintingError> {
-        let mut poses = substeps(samples, self.cell_mm)?.peekable();
+        let poses = substeps(samples, self.cell_mm)?;
+        let (mut report, kept) = self.acting(|painting| painting.draw(brush, poses))?;
+        report.undoable = kept == Kept::Undoable;
+        Ok(report)
+    }
+
+    fn draw(
+        &mut self,
+        brush: usize,
+        poses: impl Iterator<Item = Pose> + Send,
+    ) -> Result<StrokeReport, PaintingError> {
+        let mut poses = poses.peekable();
         let bounds = self.engine.bounds();
-        self.history.begin(self.state.clone());
         let tool = &mut self.brushes[brush];
         self.history.touch_brush(self.engine.as_mut(), tool.id)?;
         if let Some(first) = poses.next() {
@@ -77,6 +90,7 @@ impl Painting {
             played?;
             for contact in playing {
                 self.unshown.insert(contact.rect.grown(2, bounds));
+                self.wet_tiles.insert(contact.rect.grown(2, bounds));
                 report.substeps += 1;
                 report.cells += (contact.rect.width * contact.rect.height) as u64;
             }
@@ -86,7 +100,6 @@ impl Painting {
             std::mem::swap(&mut current, &mut next);
             ready = made;
         }
-        report.undoable = self.history.commit() == Kept::Undoable;
         Ok(report)
     }
 }

@@ -1,18 +1,34 @@
 //! Undo and redo.
 
+use std::sync::Arc;
+
 use super::failure::PaintingError;
 use super::state::{Painting, State};
+use crate::layer::Layer;
 use crate::light::Light;
-use crate::paint::document::Lighting;
-use crate::paint::history::Restored;
+use crate::paint::history::{Kept, Restored};
+use crate::tile::TileSet;
+
+/// What an undo brings back besides paint.
+#[derive(Debug, Clone)]
+pub(super) struct Before {
+    state: State,
+    light: Arc<Light>,
+    wet_tiles: TileSet,
+    /// How many brushes there were.
+    brushes: usize,
+}
 
 impl Painting {
-    /// Takes the last action back; whether there was one.
+    /// Takes the last action back; whether there was one. Loading, wiping and
+    /// washing are no actions of their own: a stroke taken back takes its brush
+    /// back to what it held before. Brushes that came since then hold paint of
+    /// another palette if that changes; they are washed.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub fn undo(&mut self) -> Result<bool, PaintingError> {
-        let now = self.state.clone();
+        let now = self.now();
         match self.history.undo(self.engine.as_mut(), now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
             None => Ok(false),
@@ -24,33 +40,59 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub fn redo(&mut self) -> Result<bool, PaintingError> {
-        let now = self.state.clone();
+        let now = self.now();
         match self.history.redo(self.engine.as_mut(), now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
             None => Ok(false),
         }
     }
 
-    fn back_to(&mut self, restored: Restored<State>) -> Result<(), PaintingError> {
-        let state = restored.caller;
-        let lamp =
-            |state: &State| (state.lighting.illuminant.clone(), state.lighting.observer.clone());
-        if lamp(&state) != lamp(&self.state) {
-            let Lighting { illuminant, observer, .. } = &state.lighting;
-            self.light = Light::named(&self.library, illuminant, observer)?;
+    /// Does `change` as one action of the history. What fails half way can be
+    /// taken back as well.
+    pub(super) fn acting<T>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T, PaintingError>,
+    ) -> Result<(T, Kept), PaintingError> {
+        self.history.begin(self.now());
+        let done = change(self);
+        let kept = self.history.commit();
+        Ok((done?, kept))
+    }
+
+    fn now(&self) -> Before {
+        Before {
+            state: self.state.clone(),
+            light: Arc::clone(&self.light),
+            wet_tiles: self.wet_tiles.clone(),
+            brushes: self.brushes.len(),
         }
-        let same = state == self.state;
-        self.state = state;
+    }
+
+    fn back_to(&mut self, restored: Restored<Before>) -> Result<(), PaintingError> {
+        let Before { state, light, wet_tiles, brushes } = restored.caller;
+        let other_palette = state.slots != self.state.slots;
+        let rebake =
+            other_palette || state.dry != self.state.dry || !Arc::ptr_eq(&light, &self.light);
+        let other_lamp = state.lighting != self.state.lighting;
+        (self.state, self.light, self.wet_tiles) = (state, light, wet_tiles);
+        if other_palette {
+            for brush in &self.brushes[brushes.min(self.brushes.len())..] {
+                let clean = Layer::empty(brush.cells.0, brush.cells.1);
+                self.engine.set_brush(brush.id, &clean)?;
+            }
+        }
         if restored.dry_changed {
-            return self.floor_changed();
+            self.floor_changed()?;
         }
-        if same {
+        if rebake {
+            self.all_unseen();
+        } else if other_lamp {
+            self.all_unshown();
+        } else {
             let bounds = self.engine.bounds();
             for tile in restored.tiles.iter() {
                 self.unshown.insert(tile.rect(bounds));
             }
-        } else {
-            self.all_unseen();
         }
         Ok(())
     }

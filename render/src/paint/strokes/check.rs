@@ -256,7 +256,9 @@ impl At {
         if (least..=most).contains(&value) {
             return Ok(());
         }
-        Err(self.fault(field, &format!("{least} to {most}"), &value, None))
+        // Written out, 1e300 would be 301 digits.
+        let found = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
+        Err(self.fault(field, &format!("{least} to {most}"), &found, None))
     }
 
     fn above_zero(&self, field: &str, value: f64) -> Checked {

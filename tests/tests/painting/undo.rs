@@ -1,0 +1,185 @@
+//! Undo and redo of whatever a painting can do, to the bit.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::layer::Layer;
+use render::paint::brush::HeadShape;
+use render::paint::document::{Document, Lighting};
+use render::paint::history::TILE_BYTES;
+use render::paint::on_cpu::OnCpu;
+use render::paint::painting::{Coating, Painting};
+
+use super::studio::{
+    BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,
+    pure,
+};
+
+/// All that there is, and how it looks.
+type Whole = (Document, Vec<Layer>, Field<[f32; 4]>);
+
+fn whole(painting: &mut Painting, brushes: usize) -> Whole {
+    let paint = (0..brushes).map(|brush| painting.brush_paint(brush).unwrap()).collect();
+    (painting.document().unwrap(), paint, painting.picture().unwrap())
+}
+
+/// One action, chosen by `random`; whether something was done that can be undone.
+fn act(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
+    let layers = painting.state().dry.len();
+    match random.random_range(0..10) {
+        0 => painting.dry(random.random_range(0.1..=1.0)).unwrap(),
+        1 if layers > 0 => {
+            let opacity = random.random_range(0.0..2.0);
+            painting.set_opacity(Coating::Dry(random.random_range(0..layers)), opacity).unwrap();
+            true
+        }
+        2 => {
+            let layer = random.random_range(0..=layers);
+            let coating = if layer == layers { Coating::Wet } else { Coating::Dry(layer) };
+            let (a, b) = (pigment("Vermilion"), pigment("Minium"));
+            painting.swap_pigment(coating, a, b).is_ok()
+                || painting.swap_pigment(coating, b, a).is_ok()
+        }
+        3 => {
+            let more = ["Ultramarine", "Cobalt Blue"][random.random_range(0..2)];
+            let names = PALETTE[..5].iter().chain([&more]);
+            let pigments: Vec<usize> = names.map(|name| pigment(name)).collect();
+            painting.set_palette(&pigments).is_ok()
+        }
+        4 => {
+            let illuminant = ["A", "D65"][random.random_range(0..2)].to_owned();
+            let azimuth_deg = random.random_range(0.0..360.0);
+            painting.relight(Lighting { illuminant, azimuth_deg, ..Lighting::default() }).unwrap();
+            true
+        }
+        5 if layers > 1 => painting.merge(random.random_range(0..layers - 1)).is_ok(),
+        _ => {
+            let brush = random.random_range(0..2);
+            let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
+            let places: Vec<_> = (0..3).map(|_| place()).collect();
+            let report = painting.stroke(brush, &along(&places, 0.6)).unwrap();
+            assert!(report.undoable, "it takes too much memory");
+            true
+        }
+    }
+}
+
+#[test]
+fn any_sequence_of_actions_is_undone_and_redone_to_the_bit() {
+    for mut painting in on_both(&bare(130, 100)) {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let _ = loaded(&mut painting, HeadShape::Flat, 5.0, WHITE, 0.6);
+        let _ = loaded(&mut painting, HeadShape::Round, 3.0, BLUE, 0.6);
+        let mut past = vec![whole(&mut painting, 2)];
+        for round in 0..24 {
+            if act(&mut painting, &mut random) {
+                past.push(whole(&mut painting, 2));
+            } else {
+                let same = whole(&mut painting, 2) == past[past.len() - 1];
+                assert!(same, "round {round}: refused, and yet something changed");
+            }
+        }
+        assert!(past.len() > 12, "only {} actions", past.len());
+        let back: usize = past.len() - 1;
+        for index in (0..back).rev() {
+            assert!(painting.undo().unwrap(), "no undo left at {index}");
+            assert!(whole(&mut painting, 2) == past[index], "undone to {index}");
+        }
+        assert!(!painting.undo().unwrap(), "more was undone than was done");
+        assert!(whole(&mut painting, 2) == past[0], "an idle undo");
+        for (index, then) in past.iter().enumerate().skip(1) {
+            assert!(painting.redo().unwrap(), "no redo left at {index}");
+            assert!(whole(&mut painting, 2) == *then, "redone to {index}");
+        }
+        assert!(!painting.redo().unwrap(), "more was redone than was undone");
+    }
+}
+
+#[test]
+fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
+    let document = bare(130, 100);
+    let brush_bytes = {
+        let mut painting = on_cpu(document.clone());
+        let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
+        painting.brush_paint(brush).unwrap().vehicle.values().len() as u64 * 36
+    };
+    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let mut painting = open(document, engine, 3 * (TILE_BYTES + brush_bytes));
+    let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.5);
+    let mut past = Vec::new();
+    // Each within one tile, so that three fit.
+    for place in [(4.0, 4.0), (6.0, 6.0), (4.0, 8.0), (8.0, 4.0), (5.0, 5.0)] {
+        past.push(painting.wet().unwrap());
+        let dab = along(&[place, (place.0 + 0.5, place.1)], 0.5);
+        assert!(painting.stroke(brush, &dab).unwrap().undoable, "one tile fits");
+    }
+    for index in [4, 3, 2] {
+        assert!(painting.undo().unwrap(), "{index} was forgotten");
+        assert!(painting.wet().unwrap() == past[index], "undone to {index}");
+    }
+    assert!(!painting.undo().unwrap(), "older ones do not fit");
+    // Right across, through more tiles than fit.
+    let long = along(&[(2.0, 2.0), (24.0, 2.0), (24.0, 18.0), (2.0, 18.0)], 0.5);
+    assert!(!painting.stroke(brush, &long).unwrap().undoable, "eight tiles do not fit");
+    assert!(!painting.undo().unwrap(), "what came before it is gone too");
+}
+
+#[test]
+fn a_drying_keeps_only_the_tiles_that_were_wet() {
+    let document = bare(400, 400);
+    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let mut painting = open(document, engine, 4 * TILE_BYTES);
+    let brush = loaded(&mut painting, HeadShape::Round, 1.0, YELLOW, 0.5);
+    painting.stroke(brush, &along(&[(4.0, 4.0), (5.0, 4.0)], 0.5)).unwrap();
+    let before = painting.wet().unwrap();
+    assert!(painting.dry(1.0).unwrap(), "there was paint");
+    assert!(painting.undo().unwrap(), "49 tiles do not fit, one does");
+    assert!(painting.wet().unwrap() == before, "undone");
+    assert!(painting.dry(1.0).unwrap() && !painting.dry(1.0).unwrap(), "nothing stays wet");
+}
+
+#[test]
+fn a_brush_never_changes_its_pigment_by_an_undo() {
+    for mut painting in on_both(&bare(60, 60)) {
+        let keep: Vec<usize> = PALETTE[1..].iter().map(|name| pigment(name)).collect();
+        let with = |first: &str| {
+            let all: Vec<usize> = [pigment(first)].into_iter().chain(keep.clone()).collect();
+            all
+        };
+        let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
+        painting.set_palette(&with("Ultramarine")).unwrap();
+        assert_eq!(painting.slot_of(pigment("Ultramarine")).unwrap(), WHITE);
+        painting.load(brush, &pure(WHITE), 0.0, 0.2).unwrap();
+        let late = painting.add_brush(HeadShape::Round, 2.0).unwrap();
+        painting.load(late, &pure(WHITE), 0.0, 0.2).unwrap();
+        assert!(painting.undo().unwrap(), "the palette");
+        let clean = [0; 9];
+        for brush in [brush, late] {
+            let paint = painting.brush_paint(brush).unwrap().totals();
+            assert_eq!(paint, clean, "ultramarine became lead white on brush {brush}");
+        }
+        assert!(painting.redo().unwrap(), "the palette again");
+        assert!(painting.brush_paint(brush).unwrap().totals()[WHITE] > 0, "as it was");
+    }
+}
+
+#[test]
+fn a_measured_light_comes_back_with_an_undo() {
+    let mut painting = on_cpu(bare(60, 60));
+    crossing(&mut painting);
+    let lamp: Vec<String> = (380..=780).step_by(10).map(|nm| format!("{nm},{nm}")).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("lamp.csv");
+    std::fs::write(&file, lamp.join("\n")).unwrap();
+    let viewing = calibrate::evaluate::Viewing {
+        illuminant: spectra::light_from_text(file.to_str().unwrap()).unwrap(),
+        ..calibrate::evaluate::Viewing::default()
+    };
+    let lighting = Lighting { illuminant: "my lamp".to_owned(), ..Lighting::default() };
+    painting.relight_with(&viewing, lighting).unwrap();
+    let seen = painting.picture().unwrap();
+    painting.relight(Lighting::default()).unwrap();
+    assert!(painting.picture().unwrap() != seen, "the light changed");
+    assert!(painting.undo().unwrap(), "nobody knows `my lamp` by name");
+    assert!(painting.picture().unwrap() == seen, "undone");
+}
