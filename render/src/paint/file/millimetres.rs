@@ -49,7 +49,7 @@ mod tests {
                 assert_eq!(back(quanta), quanta, "{cell_mm}");
                 assert_eq!(back(-quanta), -quanta, "{cell_mm}");
             }
-            let high = (0..100_000_u32).map(|i| FULL - i * 21_474);
+            let high = (0..100_000_u32).map(|i| FULL - i * 10_737);
             for quanta in high.filter(|q| *q >= ROUGH).map(f64::from) {
                 let rest = scale.rest(quanta);
                 assert_eq!(scale.quanta(scale.mm(quanta), rest), quanta, "{cell_mm}");
