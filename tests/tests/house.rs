@@ -218,6 +218,15 @@ fn every_measurement_has_its_source() {
 }
 
 #[test]
+fn every_painting_has_its_source() {
+    let page = text("paintings/README.md");
+    for path in files_below("paintings").iter().filter(|path| !path.ends_with("README.md")) {
+        let name = path.strip_prefix("paintings/").unwrap();
+        assert!(page.contains(&format!("`{name}`")), "paintings/README.md does not name {name}");
+    }
+}
+
+#[test]
 fn every_golden_file_says_how_it_was_made_and_is_compared() {
     let tests: String = texts(&[".rs"]).into_values().collect();
     let golden = files_below("tests/golden");

@@ -24,6 +24,8 @@ const ALONG: usize = 5;
 pub(super) struct Footprint {
     /// Whether there is hair, by facet; empty if there is everywhere.
     hair: Vec<bool>,
+    /// How far the bristles of each column of the head's cells draw back, in quanta.
+    bristles: Vec<i32>,
     facets: Vec<Facet>,
     /// How many cells lie under each cell of the head.
     sharers: Vec<u16>,
@@ -39,9 +41,16 @@ struct Facet {
 }
 
 impl Footprint {
-    /// For a head of `width` x `height` cells with hair on these facets.
-    pub(super) fn new(width: usize, height: usize, hair: Vec<bool>) -> Self {
-        Self { hair, facets: Vec::new(), sharers: vec![0; width * height], width: width as u32 }
+    /// For a head of `bristles.len()` x `height` cells with hair on these facets.
+    pub(super) fn new(bristles: Vec<i32>, height: usize, hair: Vec<bool>) -> Self {
+        let width = bristles.len();
+        Self {
+            hair,
+            bristles,
+            facets: Vec::new(),
+            sharers: vec![0; width * height],
+            width: width as u32,
+        }
     }
 
     /// Fills `out` with what of `surface` is below `ceiling` (in quanta) and
@@ -86,6 +95,7 @@ impl Footprint {
                 cell: facet.cell,
                 row: self.width,
                 most,
+                bristles: &self.bristles[facet.cell as usize % self.bristles.len()..],
             };
             canvas.triangle(&corners[0], &corners[1], &corners[2]);
             canvas.triangle(&corners[3], &corners[2], &corners[1]);
@@ -191,6 +201,8 @@ struct Canvas<'a> {
     row: u32,
     /// The facet's last cell, around and along.
     most: (i32, i32),
+    /// From the facet's first column on.
+    bristles: &'a [i32],
 }
 
 impl Canvas<'_> {
@@ -237,10 +249,11 @@ impl Canvas<'_> {
             let row = &mut self.touches[y * self.width..][start..end];
             let mut at = whole(&begin);
             for touch in row {
-                if at[HEIGHT] < touch.height {
-                    let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
+                let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
+                let height = at[HEIGHT] + self.bristles[around as usize];
+                if height < touch.height {
                     let along = (at[ALONG] >> 16).max(0).min(self.most.1) as u32;
-                    touch.height = at[HEIGHT];
+                    touch.height = height;
                     touch.brush_cell = self.cell + along * self.row + around;
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
                     touch.weights = (at[SPEED] >> 16).clamp(0, 256) as u32;

@@ -1,5 +1,8 @@
 //! A brush head: what bends, what is around it, and what it touches.
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
 use super::footprint::Footprint;
 use super::grip::Grip;
 use super::net::{Net, Point, columns};
@@ -78,7 +81,7 @@ impl Head {
             cell_mm,
             net: Net::new(&spines),
             spines,
-            footprint: Footprint::new(around, along, hair),
+            footprint: Footprint::new(bristles(of.bristles, around, size_mm), along, hair),
             surface,
             origin: None,
         })
@@ -210,6 +213,25 @@ fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
         0.0,
         0.0,
     ]
+}
+
+/// How far the bristles of each column of cells draw back, in quanta: up to
+/// `most` cells, few of them far. They cling together in locks about 0.5 mm wide.
+/// Heads of one size are alike.
+fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
+    let mut random = ChaCha8Rng::seed_from_u64(size_mm.to_bits());
+    // Around the head is a little more than twice its width.
+    let locks = ((4.0 * size_mm) as usize).max(4);
+    let lock: Vec<f32> = (0..locks).map(|_| random.random::<f32>()).collect();
+    let bristle = |column: usize| {
+        let place = column as f32 * locks as f32 / columns as f32;
+        let (left, share) = (place as usize % locks, place.fract());
+        let smooth = share * share * (3.0 - 2.0 * share);
+        let high = lock[left] + (lock[(left + 1) % locks] - lock[left]) * smooth;
+        let hair = 0.7 * high * high + 0.3 * random.random::<f32>() * high;
+        (most * hair * QUANTA_PER_CELL as f32) as i32
+    };
+    (0..columns).map(bristle).collect()
 }
 
 /// Where a fan has hair: all of it near the ferrule, tufts around its spines

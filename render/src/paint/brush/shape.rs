@@ -131,6 +131,8 @@ pub(super) struct Proportions {
     pub(super) gaps: bool,
     /// It does not bend.
     pub(super) rigid: bool,
+    /// How far bristles draw back at most from where the surface is, in cells.
+    pub(super) bristles: f32,
 }
 
 const ROUND: Proportions = Proportions {
@@ -145,6 +147,7 @@ const ROUND: Proportions = Proportions {
     depth: [0.82, 0.94, 1.0, 0.9, 0.6, 0.0],
     gaps: false,
     rigid: false,
+    bristles: 0.5,
 };
 
 const FLAT: Proportions = Proportions {
@@ -154,6 +157,7 @@ const FLAT: Proportions = Proportions {
     width: [1.0, 1.0, 1.0, 1.0, 1.0, 0.98],
     depth: [1.0, 0.95, 0.85, 0.65, 0.45, 0.0],
     splay: 0.2,
+    bristles: 1.2,
     ..ROUND
 };
 
@@ -184,6 +188,7 @@ const RIGGER: Proportions = Proportions {
     splay: 0.3,
     width: [0.95, 1.0, 0.92, 0.8, 0.6, 0.0],
     depth: [0.95, 1.0, 0.92, 0.8, 0.6, 0.0],
+    bristles: 0.0,
     ..ROUND
 };
 
@@ -194,6 +199,7 @@ const MOP: Proportions = Proportions {
     splay: 0.8,
     width: [0.6, 0.9, 1.0, 1.0, 0.8, 0.0],
     depth: [0.6, 0.9, 1.0, 1.0, 0.8, 0.0],
+    bristles: 0.3,
     ..ROUND
 };
 
@@ -205,6 +211,7 @@ const KNIFE: Proportions = Proportions {
     width: [0.7, 0.9, 1.0, 1.0, 1.0, 1.0],
     depth: [1.0, 1.0, 1.0, 1.0, 1.0, 0.0],
     rigid: true,
+    bristles: 0.0,
     ..FLAT
 };
 

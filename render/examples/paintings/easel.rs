@@ -1,0 +1,163 @@
+//! What the painters of all scripts have in common: an easel with brushes, and
+//! a hand that is never quite steady.
+
+use std::collections::BTreeMap;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::paint::brush::HeadShape;
+use render::paint::pose::Sample;
+use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Recipe, Stroke, Strokes};
+
+/// A place on the canvas in mm.
+pub(crate) type Place = (f64, f64);
+
+/// How often a brush is asked for the same mixture before it is loaded anew.
+const FRESH: usize = 5;
+
+/// A script at work.
+pub(crate) struct Easel {
+    /// What was done so far.
+    pub(crate) script: Strokes,
+    random: ChaCha8Rng,
+    /// What each brush was loaded with last, and the strokes since.
+    laden: BTreeMap<String, (String, usize)>,
+}
+
+impl Easel {
+    /// A canvas without paint; `seed` is that of the hand.
+    pub(crate) fn new(title: &str, canvas: Canvas, pigments: &[(&str, &str)], seed: u64) -> Self {
+        let mut script = Strokes::new(title, "CC0-1.0", canvas, palette(pigments));
+        script.library = Some("Van Gogh's oils".to_owned());
+        Self { script, random: ChaCha8Rng::seed_from_u64(seed), laden: BTreeMap::new() }
+    }
+
+    /// Puts a brush in the jar.
+    pub(crate) fn brush(&mut self, name: &str, shape: HeadShape, size_mm: f64) {
+        self.script.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
+    }
+
+    /// A number from -`most` to `most`.
+    pub(crate) fn about(&mut self, most: f64) -> f64 {
+        self.random.random_range(-1.0..1.0) * most
+    }
+
+    /// One of `count`, evenly.
+    pub(crate) fn one_of(&mut self, count: usize) -> usize {
+        self.random.random_range(0..count)
+    }
+
+    /// Loads a brush with `recipe`: short names, each followed by its parts, as
+    /// in `W10C1.5`.
+    pub(crate) fn load(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
+        let load = Load { brush: brush.to_owned(), recipe: parts(recipe), vehicle, amount_mm };
+        self.script.actions.push(Action::Load(load));
+    }
+
+    /// Washes a brush and loads it, unless it still has enough of this mixture.
+    pub(crate) fn fresh(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
+        match self.laden.get_mut(brush) {
+            Some((before, strokes)) if before == recipe && *strokes < FRESH => *strokes += 1,
+            _ => {
+                self.wash(brush);
+                self.load(brush, recipe, vehicle, amount_mm);
+                self.laden.insert(brush.to_owned(), (recipe.to_owned(), 1));
+            }
+        }
+    }
+
+    /// Washes a brush.
+    pub(crate) fn wash(&mut self, brush: &str) {
+        self.script.actions.push(Action::Wash { brush: brush.to_owned() });
+    }
+
+    /// Dries the wet paint.
+    pub(crate) fn dry(&mut self) {
+        self.script.actions.push(Action::Dry { fraction: 1.0 });
+    }
+
+    /// Takes other pigments.
+    pub(crate) fn palette(&mut self, pigments: &[(&str, &str)]) {
+        self.script.actions.push(Action::Palette(palette(pigments)));
+    }
+
+    /// A stroke through `places`, the brush across its way and leaning forward,
+    /// its pressure swelling to `pressure` and falling again.
+    pub(crate) fn stroke(&mut self, brush: &str, places: &[Place], pressure: f64) {
+        let last = places.len() - 1;
+        self.pull(brush, places, |i| if i == 0 || i == last { 0.6 * pressure } else { pressure });
+    }
+
+    /// A stroke of even pressure.
+    pub(crate) fn even(&mut self, brush: &str, places: &[Place], pressure: f64) {
+        self.pull(brush, places, |_| pressure);
+    }
+
+    fn pull(&mut self, brush: &str, places: &[Place], pressure: impl Fn(usize) -> f64) {
+        let last = places.len() - 1;
+        let mut seconds = 0.0;
+        let mut twist = 0.0;
+        let mut samples = Vec::with_capacity(places.len());
+        for (i, &(x, y)) in places.iter().enumerate() {
+            let (from, to) = (places[i.saturating_sub(1)], places[(i + 1).min(last)]);
+            let way = (to.1 - from.1).atan2(to.0 - from.0);
+            if i > 0 {
+                seconds += (x - places[i - 1].0).hypot(y - places[i - 1].1) / 80.0;
+            }
+            twist = nearest_turn(way.to_degrees() + 90.0, twist);
+            samples.push(Sample {
+                seconds: tidy(seconds, 10.0),
+                x_mm: tidy(x, 10.0),
+                y_mm: tidy(y, 10.0),
+                pressure: tidy(pressure(i).clamp(0.0, 1.0), 100.0),
+                tilt_x_deg: (25.0 * way.cos()).round(),
+                tilt_y_deg: (25.0 * way.sin()).round(),
+                twist_deg: twist.round(),
+            });
+        }
+        self.script.actions.push(Action::Stroke(Stroke { brush: brush.to_owned(), samples }));
+    }
+
+    /// A dab of a brush that leans to the lower right.
+    pub(crate) fn dab(&mut self, brush: &str, (x, y): Place, pressure: f64, twist_deg: f64) {
+        let sample = Sample {
+            seconds: 0.0,
+            x_mm: tidy(x, 10.0),
+            y_mm: tidy(y, 10.0),
+            pressure: tidy(pressure, 100.0),
+            tilt_x_deg: 15.0,
+            tilt_y_deg: 20.0,
+            twist_deg: twist_deg.round(),
+        };
+        let brush = brush.to_owned();
+        self.script.actions.push(Action::Stroke(Stroke { brush, samples: vec![sample] }));
+    }
+}
+
+fn palette(pigments: &[(&str, &str)]) -> Palette {
+    let named = |(short, name): &(&str, &str)| (Some((*short).to_owned()), (*name).to_owned());
+    Palette { pigments: pigments.iter().map(named).collect() }
+}
+
+/// `W10C1.5` as parts.
+fn parts(recipe: &str) -> Recipe {
+    let mut found = Recipe::new();
+    let mut rest = recipe;
+    while let Some(short) = rest.chars().next() {
+        let end = rest[1..].find(|c: char| c.is_ascii_alphabetic()).map_or(rest.len(), |i| i + 1);
+        let number = rest[1..end].parse().expect("a letter and its parts");
+        found.insert(short.to_string(), number);
+        rest = &rest[end..];
+    }
+    found
+}
+
+/// The angle nearest to `before` that stands for the same way of the brush: half
+/// a turn makes no difference.
+fn nearest_turn(angle: f64, before: f64) -> f64 {
+    angle - 180.0 * ((angle - before) / 180.0).round()
+}
+
+fn tidy(value: f64, per_unit: f64) -> f64 {
+    (value * per_unit).round() / per_unit
+}

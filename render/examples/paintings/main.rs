@@ -1,0 +1,26 @@
+//! Writes the scripts of `paintings/`, the same bytes each time:
+//! `cargo run -p impasto-render --example paintings -- paintings`.
+
+mod easel;
+
+mod colour_study;
+
+mod glaze;
+
+mod growth;
+
+mod landscape;
+
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "paintings".to_owned()));
+    for (name, script) in [
+        ("colour-study", colour_study::script()),
+        ("glaze", glaze::script()),
+        ("landscape", landscape::script()),
+    ] {
+        std::fs::write(folder.join(format!("{name}.json")), script.to_json()?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! The shipped paintings: each is what its program makes, and can be painted.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+#[path = "../../../render/examples/paintings/colour_study.rs"]
+mod colour_study;
+
+#[path = "../../../render/examples/paintings/easel.rs"]
+mod easel;
+
+#[path = "../../../render/examples/paintings/glaze.rs"]
+mod glaze;
+
+#[path = "../../../render/examples/paintings/growth.rs"]
+mod growth;
+
+#[path = "../../../render/examples/paintings/landscape.rs"]
+mod landscape;
+
+use std::convert::Infallible;
+
+use calibrate::library::PigmentLibrary;
+use render::field::Field;
+use render::paint::on_cpu::OnCpu;
+use render::paint::painting::{Painting, UNDO_BYTES};
+use render::paint::strokes::{ReplayReport, Strokes};
+use suite::program::repository;
+
+fn shipped(name: &str) -> String {
+    std::fs::read_to_string(repository(&format!("paintings/{name}.json"))).unwrap()
+}
+
+fn painted(script: &Strokes) -> (ReplayReport, Painting) {
+    let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.pigments.json"));
+    let library = PigmentLibrary::from_json("oils", &oils.unwrap()).unwrap();
+    let resolved = script.resolve(&library).unwrap();
+    let (width, height) = script.canvas.cells();
+    let ground = script.canvas.ground.ground(width, height, script.canvas.cell_mm, &library);
+    let ground = ground.unwrap();
+    let engine = Box::new(OnCpu::new(ground.height.clone()));
+    let document = script.bare(&library, &resolved, ground);
+    let mut painting = Painting::open(document, engine, UNDO_BYTES).unwrap();
+    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
+    let report = script.replay(&resolved, &mut painting, save, || ()).unwrap();
+    (report, painting)
+}
+
+/// Its first actions only.
+fn begun(script: &Strokes, actions: usize) -> Strokes {
+    let mut begun = script.clone();
+    begun.actions.truncate(actions);
+    begun
+}
+
+#[test]
+fn every_script_is_what_its_program_makes() {
+    for (name, script) in [
+        ("colour-study", colour_study::script()),
+        ("glaze", glaze::script()),
+        ("landscape", landscape::script()),
+    ] {
+        let made = script.to_json().unwrap();
+        assert!(made == shipped(name), "{name}: run the example `paintings` again");
+        assert_eq!(script.licence, "CC0-1.0");
+        let read = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+        assert_eq!(read.actions.len(), script.actions.len(), "{name}");
+    }
+}
+
+#[test]
+fn the_long_ones_begin_well() {
+    for name in ["glaze", "landscape"] {
+        let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+        let (report, mut painting) = painted(&begun(&script, 60));
+        assert_eq!((report.actions, report.idle), (60, 0), "{name}");
+        let wet = painting.document().unwrap().wet;
+        let dry = painting.state().dry.len();
+        assert!(
+            dry > 0 || (0..wet.vehicle.values().len()).any(|i| wet.cell(i).volume() > 0),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn the_study_is_the_same_twice_and_yellow_meets_blue_through_green() {
+    let name = "colour-study";
+    let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+    let picture = || painted(&script).1.picture().unwrap();
+    let first: Field<[f32; 4]> = picture();
+    assert!(first.values() == picture().values(), "another picture");
+    let cell = |mm: f64| (mm / script.canvas.cell_mm) as usize;
+    let green = |x_mm: f64| {
+        let cells = first.row(cell(12.0), cell(x_mm), cell(10.0));
+        let is = |c: &&[f32; 4]| c[1] > 1.2 * c[0] && c[1] > 1.2 * c[2];
+        cells.iter().filter(is).count() as f64 / cells.len() as f64
+    };
+    assert!(green(15.0) < 0.05, "pure yellow: {}", green(15.0));
+    assert!(green(60.0) > 0.5, "mixed: {}", green(60.0));
+    assert!(green(120.0) < 0.05, "pure blue: {}", green(120.0));
+}
