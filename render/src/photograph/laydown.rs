@@ -5,19 +5,18 @@
 //! cell: on its shape, size and pressure. That is measured, not modelled; where
 //! one stroke is too thin, the brush goes back over its path.
 
-use calibrate::library::PigmentLibrary;
-
 use super::plan::Plan;
 use super::planned::{COVER, samples};
-use crate::amount::mm_from_quanta;
+use crate::amount::{mm_from_quanta, quanta_from_mm};
 use crate::field::Field;
-use crate::layer::SLOTS;
-use crate::optics::Gloss;
-use crate::paint::brush::{Head, HeadShape};
-use crate::paint::document::{Document, Ground, Lighting, Medium};
+use crate::layer::Layer;
+use crate::paint::brush::{Head, HeadShape, Relief};
+use crate::paint::motion::Motion;
 use crate::paint::on_cpu::OnCpu;
-use crate::paint::painting::{Painting, PaintingError};
+use crate::paint::painting::PaintingError;
 use crate::paint::pose::Sample;
+use crate::paint::stroke::{contacts, substeps};
+use crate::paint::{BrushId, Engine};
 
 /// The most times that a brush goes over one path.
 const MOST_PASSES: usize = 4;
@@ -53,12 +52,11 @@ impl Laydown {
         size_mm: f64,
         cell_mm: f64,
         plan: &Plan,
-        library: &PigmentLibrary,
         most_mm: f64,
     ) -> Result<Self, PaintingError> {
-        let (around, along) = Head::new(shape, size_mm, cell_mm)?.paint_grid();
+        let mut trial = Trial::new(shape, size_mm, cell_mm, plan)?;
+        let (around, along) = trial.head.paint_grid();
         let head_area = (around * along) as f64 * (cell_mm / size_mm).powi(2);
-        let mut trial = Trial { shape, size_mm, cell_mm, plan, library };
         let mut curves: Vec<Vec<[f64; 2]>> = Vec::new();
         for passes in 1..=MOST_PASSES {
             let mut curve = Vec::with_capacity(LOADS);
@@ -108,60 +106,62 @@ fn load_for(curve: &[[f64; 2]], height_mm: f64) -> Option<f64> {
 
 /// What all trials of a brush share.
 struct Trial<'a> {
-    shape: HeadShape,
-    size_mm: f64,
-    cell_mm: f64,
+    head: Head,
     plan: &'a Plan,
-    library: &'a PigmentLibrary,
+    relief: Relief,
+    engine: OnCpu,
+    brush: BrushId,
 }
 
-impl Trial<'_> {
+impl<'a> Trial<'a> {
+    fn new(
+        shape: HeadShape,
+        size_mm: f64,
+        cell_mm: f64,
+        plan: &'a Plan,
+    ) -> Result<Self, PaintingError> {
+        let head = Head::new(shape, size_mm, cell_mm)?;
+        let size = size_mm / cell_mm;
+        let (width, height) = (((LENGTH + 3.0) * size).ceil(), (3.0 * size).ceil());
+        let (width, height) = (width as usize, height as usize);
+        let mut engine = OnCpu::new(Field::filled(width, height, 0));
+        let (around, along) = head.paint_grid();
+        let brush = engine.add_brush(around, along)?;
+        let relief = Relief::flat(width, height, cell_mm);
+        Ok(Self { head, plan, relief, engine, brush })
+    }
+
     /// The mean height, in mm, that a straight stroke leaves along its middle
     /// half, over what it is to cover.
     fn height_mm(&mut self, passes: usize, load_mm: f64) -> Result<f64, PaintingError> {
-        let size = self.size_mm / self.cell_mm;
-        let width = ((LENGTH + 3.0) * size).ceil() as usize;
-        let height = (3.0 * size).ceil() as usize;
-        let mut painting = self.canvas(width, height)?;
-        let brush = painting.add_brush(self.shape, self.size_mm)?;
-        let recipe = std::array::from_fn(|slot| if slot == 0 { 1.0 } else { 0.0 });
-        painting.load(brush, &recipe, 0.0, load_mm)?;
+        let cell_mm = self.head.cell_mm();
+        let size = self.head.size_mm() / cell_mm;
+        let bounds = self.engine.bounds();
+        let middle = bounds.height as f64 / 2.0;
+        self.engine.set_wet(&Layer::empty(bounds.width, bounds.height))?;
+        let (around, along) = self.head.paint_grid();
+        let mut loaded = Layer::empty(around, along);
+        loaded.vehicle.values_mut().fill(quanta_from_mm(load_mm, cell_mm));
+        self.engine.set_brush(self.brush, &loaded)?;
         let points = (4.0 * LENGTH) as usize;
-        let path: Vec<[f64; 2]> = (0..=points)
-            .map(|point| [size * (1.5 + 0.25 * point as f64), height as f64 / 2.0])
-            .collect();
-        let samples = samples(&path, self.plan, size, self.cell_mm);
-        painting.stroke(brush, &to_and_fro(&samples, passes))?;
-        let wet = painting.wet()?;
+        let path: Vec<[f64; 2]> =
+            (0..=points).map(|point| [size * (1.5 + 0.25 * point as f64), middle]).collect();
+        let samples = to_and_fro(&samples(&path, self.plan, size, cell_mm), passes);
+        let poses = substeps(&samples, cell_mm)?;
+        for contact in contacts(&mut self.head, poses, &self.relief, bounds) {
+            self.engine.play(self.brush, &Motion::default(), &[contact])?;
+        }
+        let wet = self.engine.wet()?;
         let span = |middle: f64, reach: f64| (middle - reach) as usize..(middle + reach) as usize;
         let mut quanta = 0;
         let mut cells = 0;
-        let reach = (COVER * size / 2.0).max(0.5);
-        for y in span(height as f64 / 2.0, reach) {
+        for y in span(middle, (COVER * size / 2.0).max(0.5)) {
             for x in span(size * (1.5 + LENGTH / 2.0), LENGTH * size / 4.0) {
-                quanta += u64::from(wet.cell(y * width + x).volume());
+                quanta += u64::from(wet.vehicle[(x, y)]);
                 cells += 1;
             }
         }
-        Ok(quanta as f64 * mm_from_quanta(1, self.cell_mm) / f64::from(cells.max(1)))
-    }
-
-    /// A smooth bare canvas.
-    fn canvas(&self, width: usize, height: usize) -> Result<Painting, PaintingError> {
-        let floor = Field::filled(width, height, 0);
-        let engine = Box::new(OnCpu::new(floor.clone()));
-        let ground = Ground {
-            name: "trial".to_owned(),
-            height: floor,
-            reflectance: vec![1.0; self.library.grid.count()],
-            gloss: Gloss { strength: 0.0, exponent: 10.0 },
-        };
-        let mut slots = [None; SLOTS];
-        slots[0] = Some(0);
-        let (library, medium) = (self.library.clone(), Medium::default());
-        let light = Lighting::default();
-        let bare = Document::bare("trial", self.cell_mm, ground, library, medium, slots, light);
-        Painting::open(bare, engine, 0)
+        Ok(quanta as f64 * mm_from_quanta(1, cell_mm) / f64::from(cells.max(1)))
     }
 }
 
@@ -179,4 +179,63 @@ pub(super) fn to_and_fro(samples: &[Sample], passes: usize) -> Vec<Sample> {
         }
     }
     way
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CELL_MM: f64 = 0.25;
+
+    #[test]
+    fn strokes_come_out_within_a_factor_of_two() {
+        let plan = Plan::default();
+        for (shape, size_mm) in [(HeadShape::Filbert, 8.0), (HeadShape::Round, 2.0)] {
+            let laydown = Laydown::tried(shape, size_mm, CELL_MM, &plan, 0.1).unwrap();
+            let mut trial = Trial::new(shape, size_mm, CELL_MM, &plan).unwrap();
+            for height_mm in [0.02, 0.03, 0.05] {
+                let Touch { passes, load_mm } = laydown.touch(height_mm, LENGTH);
+                let found = trial.height_mm(passes, load_mm).unwrap();
+                let ratio = found / height_mm;
+                assert!((0.5..2.0).contains(&ratio), "{shape} {size_mm}: {found} for {height_mm}");
+            }
+        }
+    }
+
+    #[test]
+    fn longer_strokes_take_more_paint() {
+        let laydown = Laydown { curves: vec![vec![[0.1, 0.02], [0.2, 0.06]]], head_area: 4.0 };
+        let touch = |height, length| laydown.touch(height, length);
+        assert_eq!(touch(0.04, LENGTH), Touch { passes: 1, load_mm: 0.15 });
+        assert!(touch(0.04, 2.0 * LENGTH).load_mm > 0.18);
+        assert!(touch(0.04, 1.0).load_mm < 0.15);
+        assert!((touch(0.5, LENGTH).load_mm - 0.1925).abs() < 1e-9, "as near as it comes");
+    }
+
+    #[test]
+    fn going_back_keeps_the_path_and_the_clock() {
+        let sample = |seconds: f64| Sample {
+            seconds,
+            x_mm: seconds,
+            y_mm: 0.0,
+            pressure: 0.5,
+            tilt_x_deg: 0.0,
+            tilt_y_deg: 0.0,
+            twist_deg: 90.0,
+        };
+        let way = to_and_fro(&[sample(0.0), sample(1.0), sample(3.0)], 3);
+        let told: Vec<(f64, f64)> = way.iter().map(|s| (s.seconds, s.x_mm)).collect();
+        let wanted = [
+            (0.0, 0.0),
+            (1.0, 1.0),
+            (3.0, 3.0),
+            (3.0, 3.0),
+            (5.0, 1.0),
+            (6.0, 0.0),
+            (6.0, 0.0),
+            (7.0, 1.0),
+            (9.0, 3.0),
+        ];
+        assert_eq!(told, wanted);
+    }
 }

@@ -154,8 +154,7 @@ impl Painter<'_> {
         planned: &[PlannedStroke],
     ) -> Result<Laydown, PaintingError> {
         let most_mm = planned.iter().map(|stroke| stroke.height_mm).fold(0.0, f64::max);
-        let (cell_mm, library) = (painting.cell_mm(), painting.library());
-        Laydown::tried(brush.shape, brush.size_mm, cell_mm, self.plan, library, most_mm)
+        Laydown::tried(brush.shape, brush.size_mm, painting.cell_mm(), self.plan, most_mm)
     }
 }
 

@@ -4,6 +4,8 @@
 
 mod choosing;
 mod made;
+mod painter;
 mod pictures;
+mod program;
 mod separation;
 mod strokes;

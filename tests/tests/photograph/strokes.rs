@@ -68,7 +68,7 @@ fn strokes_stay_near_the_canvas_and_within_the_plan() {
             for sample in &stroke.samples {
                 assert!((-size / 2.0..=80.0 + size / 2.0).contains(&sample.x_mm), "{sample:?}");
                 assert!((-size / 2.0..=60.0 + size / 2.0).contains(&sample.y_mm), "{sample:?}");
-                assert!((0.0..=0.6).contains(&sample.pressure), "{sample:?}");
+                assert!((0.0..=0.9).contains(&sample.pressure), "{sample:?}");
             }
             let shares: f64 = stroke.recipe.iter().sum();
             assert!((shares - 1.0).abs() < 1e-9 && stroke.recipe.iter().all(|s| *s >= 0.0));
@@ -83,8 +83,8 @@ fn pressure_tapers_and_the_broad_side_lies_across() {
     let strokes = planned(&grating(0.0), 1);
     let long = strokes.iter().find(|stroke| stroke.samples.len() > 20).unwrap();
     let pressures: Vec<f64> = long.samples.iter().map(|sample| sample.pressure).collect();
-    assert!((pressures[0] - 0.15).abs() < 1e-9 && (pressures[10] - 0.6).abs() < 1e-9);
-    assert!((pressures[pressures.len() - 1] - 0.15).abs() < 1e-9, "{pressures:?}");
+    assert!((pressures[0] - 0.225).abs() < 1e-9 && (pressures[10] - 0.9).abs() < 1e-9);
+    assert!((pressures[pressures.len() - 1] - 0.225).abs() < 1e-9, "{pressures:?}");
     for sample in &long.samples {
         let across = sample.twist_deg.rem_euclid(180.0);
         assert!((across - 90.0).abs() < 15.0, "{}", sample.twist_deg);

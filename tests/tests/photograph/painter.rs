@@ -1,0 +1,138 @@
+//! Photographs painted: nearer stroke by stroke, and the same when replayed.
+
+use std::convert::Infallible;
+
+use render::field::Field;
+use render::paint::document::Document;
+use render::paint::on_cpu::OnCpu;
+use render::paint::painting::Painting;
+use render::paint::strokes::{Action, Canvas, Palette, ReplayReport, Strokes};
+use render::photograph::{
+    LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuilt,
+};
+
+use crate::made::{HIDING, STUDIO};
+
+const CELL_MM: f64 = 0.5;
+
+/// A red disc on blue over ochre, 48 x 36 cells.
+fn target() -> Picture {
+    let colour = |i: usize| {
+        let (x, y) = ((i % 48) as f32 - 20.0, (i / 48) as f32 - 16.0);
+        match (x.hypot(y) < 9.0, y > 6.0) {
+            (true, _) => [0.5, 0.08 + 0.004 * (x + 10.0), 0.06],
+            (_, true) => [0.45, 0.3, 0.12],
+            _ => [0.12, 0.16, 0.3 + 0.005 * y],
+        }
+    };
+    let picture = Field::from_values(48, 36, (0..48 * 36).map(colour).collect());
+    black_compensated(&picture, HIDING.black())
+}
+
+fn plan() -> Plan {
+    Plan { sizes_mm: vec![5.0, 2.5, 1.5], seed: 3, ..Plan::default() }
+}
+
+/// A script without strokes on a smooth panel.
+fn bare_script() -> Strokes {
+    let canvas =
+        r#"{"width_mm": 24, "height_mm": 18, "cell_mm": 0.5, "ground": {"kind": "panel"}}"#;
+    let canvas: Canvas = serde_json::from_str(canvas).unwrap();
+    let names = STUDIO.slots.iter().flatten().map(|&i| STUDIO.library.pigments[i].name.as_str());
+    Strokes::new("disc", "CC0-1.0", canvas, Palette::of(names))
+}
+
+fn opened(script: &Strokes) -> Painting {
+    let resolved = script.resolve(&STUDIO.library).unwrap();
+    let (width, height) = script.canvas.cells();
+    let ground = script.canvas.ground.ground(width, height, CELL_MM, &STUDIO.library).unwrap();
+    let engine = Box::new(OnCpu::new(ground.height.clone()));
+    Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
+}
+
+/// What a painter made of the target.
+struct Finished {
+    script: Strokes,
+    painting: Painting,
+    levels: Vec<LevelReport>,
+    /// Strokes that were announced, and strokes that were told as laid.
+    told: (usize, usize),
+}
+
+fn painted(plan: &Plan) -> Finished {
+    let mut script = bare_script();
+    let mut painting = opened(&script);
+    let mut told = (0, 0);
+    let target = target();
+    let painter = Painter { target: &target, separation: &HIDING, plan };
+    let levels = painter
+        .paint(&mut painting, &mut script, |painted| match painted {
+            Painted::Planned(strokes) => told.0 += strokes,
+            Painted::Stroke => told.1 += 1,
+        })
+        .unwrap();
+    Finished { script, painting, levels, told }
+}
+
+fn replayed(text: &str) -> (Document, ReplayReport) {
+    let script = Strokes::from_json("disc.json", text.as_bytes()).unwrap();
+    let resolved = script.resolve(&STUDIO.library).unwrap();
+    let mut painting = opened(&script);
+    let report =
+        script.replay(&resolved, &mut painting, |_, _| Ok::<_, Infallible>(()), || ()).unwrap();
+    (painting.document().unwrap(), report)
+}
+
+#[test]
+fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
+    let mut finished = painted(&plan());
+    let target = target();
+    let plan = plan();
+    let painter = Painter { target: &target, separation: &HIDING, plan: &plan };
+    let before = painter.errors(&mut opened(&bare_script()), 0.0).unwrap();
+    let after = painter.errors(&mut finished.painting, 0.0).unwrap();
+    assert!(after.mean < before.mean / 4.0, "{} of {}", after.mean, before.mean);
+    let sizes: Vec<f64> = finished.levels.iter().map(|level| level.size_mm).collect();
+    assert_eq!(sizes, plan.sizes_mm);
+    for pair in finished.levels.windows(2) {
+        assert!(pair[1].mean_error < 1.2 * pair[0].mean_error, "{:?}", finished.levels);
+    }
+    assert!(finished.painting.wet().unwrap().totals().iter().all(|total| *total == 0), "wet");
+}
+
+#[test]
+fn the_recorded_strokes_paint_the_same_bit_for_bit() {
+    let mut finished = painted(&plan());
+    let strokes = finished.script.actions.iter().filter(|a| a.kind() == "stroke").count();
+    let laid: u64 = finished.levels.iter().map(|level| level.strokes).sum();
+    assert!(strokes > 20, "{strokes} strokes");
+    assert_eq!((strokes, strokes), finished.told);
+    let text = finished.script.to_json().unwrap();
+    let (document, report) = replayed(&text);
+    let wanted = finished.painting.document().unwrap();
+    assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
+    assert!(document.wet == wanted.wet && document.dry == wanted.dry, "another painting");
+    assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));
+    // Every stroke has paint of its own.
+    for actions in finished.script.actions.windows(3) {
+        if let [first, Action::Load(load), stroke] = actions {
+            assert_eq!((first.kind(), stroke.kind()), ("wash", "stroke"));
+            assert!(load.amount_mm > 0.0 && load.recipe.values().all(|part| *part >= 1e-3));
+        }
+    }
+}
+
+#[test]
+fn a_seed_gives_the_same_bytes_and_another_gives_others() {
+    let text = |seed| painted(&Plan { seed, ..plan() }).script.to_json().unwrap();
+    let (first, other) = (text(3), text(4));
+    assert!(first == text(3), "the same seed, another script");
+    assert!(first != other, "another seed, the same script");
+}
+
+#[test]
+fn what_is_as_near_as_the_palette_comes_is_left_alone() {
+    let target = target();
+    let reached = rebuilt(HIDING.film(), &HIDING.separate(&target));
+    assert_eq!(plan_layer(&target, &reached, &HIDING, &plan(), 2, CELL_MM), []);
+}

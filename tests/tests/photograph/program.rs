@@ -1,0 +1,146 @@
+//! `impasto paint --from`.
+
+use std::path::Path;
+
+use render::export::png8;
+use render::field::Field;
+use render::light::Light;
+use render::paint::document::Medium;
+use render::paint::ground::GroundSpec;
+use render::photograph::{
+    ColourErrors, Framing, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
+    black_compensated, rebuilt,
+};
+use suite::program::{Run, impasto};
+
+use crate::made::STUDIO;
+
+const PALETTE: &str = "Zinc White,Vermilion,Prussian Blue";
+
+/// A small photograph in `folder`: red to blue, dark to light, 32 x 24 pixels.
+fn photograph(folder: &Path) -> String {
+    let colour = |i: usize| {
+        let (x, y) = ((i % 32) as f32 / 31.0, (i / 32) as f32 / 23.0);
+        [0.1 + 0.5 * (1.0 - x), 0.1 + 0.2 * y, 0.1 + 0.3 * x, 1.0]
+    };
+    let picture = Field::from_values(32, 24, (0..32 * 24).map(colour).collect());
+    let path = folder.join("ramp.png");
+    std::fs::write(&path, png8(&picture, 1.0).unwrap().bytes).unwrap();
+    path.display().to_string()
+}
+
+fn paint(from: &str, more: &[&str]) -> Run {
+    impasto(&[&["paint", "--from", from], more].concat())
+}
+
+#[test]
+fn what_cannot_be_painted_is_refused_with_a_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let photo = photograph(folder.path());
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (missing, text, out) = (file("none.png"), file("text.png"), file("out.png"));
+    std::fs::write(&text, "no picture").unwrap();
+    let with = |option, value| paint(&photo, &["--picture", &out, option, value]);
+    let refused: [(Run, u8, &str, &str); 11] = [
+        (paint(&missing, &["--picture", &out]), 1, "none.png", "hint:"),
+        (paint(&text, &["--picture", &out]), 1, "text.png", "hint:"),
+        (with("--palette", "Zinc White,Mauvein"), 1, "`Mauvein`", "hint:"),
+        (with("--palette", "Zinc White,Zinc White"), 2, "once", "hint: leave"),
+        (with("--brushes", "16,0"), 2, "--brushes takes 0.5 to 100, found `0`", "hint: brushes"),
+        (with("--width-mm", "1e9"), 2, "--width-mm takes 5 to 5000", "hint: 200 mm"),
+        (with("--width-mm", "NaN"), 2, "found `NaN`", "hint: 200 mm"),
+        (with("--cell-mm", "0"), 2, "--cell-mm takes 0.02 to 5", "hint:"),
+        (
+            paint(&photo, &["--picture", &out, "--cell-mm", "0.02", "--width-mm", "5000"]),
+            2,
+            "at most 67108864 cells",
+            "hint:",
+        ),
+        (paint(&photo, &[]), 2, "nothing would be written", "hint: add --picture"),
+        (with("--tolerance", "0"), 2, "--tolerance takes 0.5 to 100", "hint:"),
+    ];
+    for (run, status, what, hint) in refused {
+        assert_eq!(run.status, status, "{what}: {}", run.err);
+        assert!(run.err.contains(what) && run.err.contains(hint), "{what}: {}", run.err);
+        assert!(!Path::new(&out).exists(), "{what}: something was written");
+    }
+    let script = impasto(&["paint", "strokes.json", "--from", &photo, "--picture", &out]);
+    assert_eq!(script.status, 2, "{}", script.err);
+    let alone = impasto(&["paint", "strokes.json", "--seed", "2", "--picture", &out]);
+    assert!(alone.status == 2 && alone.err.contains("--from"), "{}", alone.err);
+    let maps = file("maps");
+    let thin = paint(&photo, &["--separate", &maps, "--thin", "--picture", &out]);
+    assert!(thin.status == 2 && thin.err.contains("hint: leave --thin"), "{}", thin.err);
+    assert!(!Path::new(&maps).exists(), "a folder was made");
+    let own = paint(&photo, &["--picture", &photo]);
+    assert!(own.status == 2 && own.err.contains("never written over"), "{}", own.err);
+}
+
+#[test]
+fn separating_writes_maps_and_tells_the_error_of_the_library() {
+    let folder = tempfile::tempdir().unwrap();
+    let photo = photograph(folder.path());
+    let maps = folder.path().join("maps");
+    let into = maps.display().to_string();
+    let options = ["--width-mm", "16", "--cell-mm", "0.5", "--palette", PALETTE, "--json"];
+    let run = paint(&photo, &[&["--separate", &into], &options[..]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    for pigment in ["zinc-white", "vermilion", "prussian-blue", "thickness", "rebuilt"] {
+        let file = maps.join(format!("separation.{pigment}.png"));
+        assert_eq!(Photograph::open(&file).unwrap().size(), (32, 24), "{pigment}");
+    }
+    for file in ["separation.maps.json", "separation.recipe.csv"] {
+        assert!(maps.join(file).is_file(), "{file}");
+    }
+    let told = run.json();
+    let written = std::fs::read_to_string(maps.join("separation.errors.json")).unwrap();
+    assert_eq!(told, serde_json::from_str::<serde_json::Value>(&written).unwrap());
+
+    let library = &STUDIO.library;
+    let light = Light::named(library, "D65", "1931-2").unwrap();
+    let mut slots = [None; 8];
+    for (slot, name) in slots.iter_mut().zip(PALETTE.split(',')) {
+        *slot = Some(library.find(name).unwrap());
+    }
+    let ground = GroundSpec::default().ground(1, 1, 0.5, library).unwrap().reflectance;
+    let scattering_per_mm = Medium::default().scattering_per_mm;
+    let materials = Materials { library, slots: &slots, ground: &ground, scattering_per_mm };
+    let film = PaintFilm::at_nodes(materials, &light.quadrature);
+    let settings =
+        SeparationSettings { least_mm: 0.03, most_mm: 0.12, ..SeparationSettings::default() };
+    let separation = Separation::new(film, &settings).unwrap();
+    let seen = Photograph::open(Path::new(&photo)).unwrap().on_canvas(32, 24, Framing::Stretched);
+    let target = black_compensated(&seen, separation.black());
+    let made = rebuilt(separation.film(), &separation.separate(&target));
+    let errors = ColourErrors::between(&separation, &target, &made);
+    assert_eq!(told["error"], serde_json::to_value(errors).unwrap());
+    assert_eq!(told["palette"][2], "Prussian Blue");
+}
+
+#[test]
+fn a_photograph_is_painted_and_its_strokes_paint_it_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let photo = photograph(folder.path());
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (first, script, again) = (file("first.exr"), file("strokes.json"), file("again.exr"));
+    let options = [
+        ["--palette", PALETTE],
+        ["--width-mm", "24"],
+        ["--cell-mm", "0.5"],
+        ["--brushes", "3,6"],
+        ["--ground", "panel"],
+        ["--output", &first],
+        ["--strokes-out", &script],
+    ];
+    let run = paint(&photo, &[options.concat(), vec!["--json", "--backend", "cpu"]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    let told = run.json();
+    assert_eq!(told["canvas"], serde_json::json!([48, 36]));
+    assert_eq!(told["levels"][0]["size_mm"], 6.0, "coarse before fine");
+    assert!(told["levels"][1]["strokes"].as_u64() > Some(3), "{told}");
+    assert!(told["error"]["mean_in_gamut"].as_f64().unwrap() < 4.0, "{told}");
+    let run = impasto(&["paint", &script, "--output", &again, "--backend", "cpu"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let [first, again] = [first, again].map(|path| std::fs::read(path).unwrap());
+    assert!(first == again, "the script paints something else");
+}
