@@ -22,67 +22,92 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn volume(&self) -> u32 {
-        self.pigments.iter().sum::<u32>() + self.vehicle
+        let mut volume = self.vehicle;
+        for amount in self.pigments {
+            volume += amount;
+        }
+        volume
     }
 
     /// `share` of 65536 parts of everything, rounded down.
     #[inline(always)]
     #[must_use]
     pub fn share(&self, share: u32) -> Self {
-        Self {
-            pigments: self.pigments.map(|amount| share_of_65536(amount, share)),
-            vehicle: share_of_65536(self.vehicle, share),
-        }
+        self.with(
+            self,
+            #[inline(always)]
+            |amount, _| share_of_65536(amount, share),
+        )
     }
 
     /// `share` of 256 parts of everything, rounded down.
     #[inline(always)]
     #[must_use]
     pub fn small_share(&self, share: u32) -> Self {
-        Self {
-            pigments: self.pigments.map(|amount| share_of_256(amount, share)),
-            vehicle: share_of_256(self.vehicle, share),
-        }
+        self.with(
+            self,
+            #[inline(always)]
+            |amount, _| share_of_256(amount, share),
+        )
     }
 
     /// This and `other` together.
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
-        Self {
-            pigments: std::array::from_fn(|i| self.pigments[i] + other.pigments[i]),
-            vehicle: self.vehicle + other.vehicle,
-        }
+        self.with(
+            other,
+            #[inline(always)]
+            |amount, other| amount + other,
+        )
     }
 
     /// This without `part`, which it holds.
     #[inline(always)]
     #[must_use]
     pub fn minus(&self, part: &Self) -> Self {
-        Self {
-            pigments: std::array::from_fn(|i| self.pigments[i] - part.pigments[i]),
-            vehicle: self.vehicle - part.vehicle,
-        }
+        self.with(
+            part,
+            #[inline(always)]
+            |amount, part| amount - part,
+        )
     }
 
     /// This and `other` together, modulo 2^32: for sums that owe in between.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_plus(&self, other: &Self) -> Self {
-        Self {
-            pigments: std::array::from_fn(|i| self.pigments[i].wrapping_add(other.pigments[i])),
-            vehicle: self.vehicle.wrapping_add(other.vehicle),
-        }
+        self.with(
+            other,
+            #[inline(always)]
+            |amount, other| amount.wrapping_add(other),
+        )
     }
 
     /// This without `part`, modulo 2^32.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_minus(&self, part: &Self) -> Self {
-        Self {
-            pigments: std::array::from_fn(|i| self.pigments[i].wrapping_sub(part.pigments[i])),
-            vehicle: self.vehicle.wrapping_sub(part.vehicle),
+        self.with(
+            part,
+            #[inline(always)]
+            |amount, part| amount.wrapping_sub(part),
+        )
+    }
+
+    /// `act` on each amount and that of `other`. A loop, as the closures of
+    /// `map` and `from_fn` are not always inlined, and then are not compiled for
+    /// the instructions that the caller chose.
+    #[inline(always)]
+    fn with(&self, other: &Self, act: impl Fn(u32, u32) -> u32) -> Self {
+        let mut result = *self;
+        let mut i = 0;
+        while i < SLOTS {
+            result.pigments[i] = act(self.pigments[i], other.pigments[i]);
+            i += 1;
         }
+        result.vehicle = act(self.vehicle, other.vehicle);
+        result
     }
 }
 

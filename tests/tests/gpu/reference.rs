@@ -37,7 +37,8 @@ impl Reference {
                 penetration(touch, self.floor.values()[i()], before.cell(i()).volume())
             })
         };
-        let pressed = |x: isize, y: isize| match depth(x, y) {
+        let inside = |x: isize, size: usize| x.clamp(0, size as isize - 1);
+        let pressed = |x, y| match depth(inside(x, canvas.width), inside(y, canvas.height)) {
             APART => 0,
             depth => depth,
         };

@@ -66,15 +66,16 @@ fn stroke(history: &mut History<usize>, engine: &mut OnCpu, random: &mut ChaCha8
     }
 }
 
-/// A stroke, or now and then drying, a dry layer more or one less.
-fn act(history: &mut History<usize>, engine: &mut OnCpu, random: &mut ChaCha8Rng) {
-    match random.random_range(0..8) {
-        0 => history.dry(engine, &all(), random.random_range(0..=65536)).expect("room"),
+/// Strokes, and in turn a dry layer more, drying, and a layer exchanged for
+/// another.
+fn act(history: &mut History<usize>, engine: &mut OnCpu, random: &mut ChaCha8Rng, turn: usize) {
+    match turn % 5 {
         1 => {
             let layer = painted(WIDTH, HEIGHT, random);
             history.push_dry(engine, &layer).expect("room");
         }
-        2 if engine.dry_count() > 0 => {
+        2 => history.dry(engine, &all(), random.random_range(0..=65536)).expect("room"),
+        4 => {
             stroke(history, engine, random);
             history.pop_dry(engine).expect("a layer");
             history.dry(engine, &all(), 30_000).expect("room");
@@ -91,7 +92,7 @@ fn undo_and_redo_walk_the_same_states_to_the_bit() {
     let mut states = vec![state(&mut engine, 0)];
     for now in 0..25 {
         history.begin(now);
-        act(&mut history, &mut engine, random);
+        act(&mut history, &mut engine, random, now);
         assert_eq!(history.commit(), Kept::Undoable);
         states.push(state(&mut engine, now + 1));
     }

@@ -11,7 +11,8 @@
 //!    volume at the start; [`press::APART`] everywhere else.
 //! 2. [`press::velocity`] of each cell of the rectangle grown by one, with the
 //!    central differences of penetration, where apart and cells beyond the
-//!    rectangle count as 0. A component that would carry paint off the canvas
+//!    rectangle count as 0, those beyond the canvas as the cell at its edge, so
+//!    that paint driven to the edge is pushed back by its height. A component that would carry paint off the canvas
 //!    counts as 0.
 //! 3. [`advect::outflow`] of each of these cells, of the amounts at the start,
 //!    for all cells at once.
@@ -21,6 +22,10 @@
 //!    cells at once. What several cells exchange with one cell of the head adds
 //!    up there; as none takes more than a tenth of its share, the head's cell
 //!    never owes.
+//!
+//! Nothing here holds a column below [`crate::amount::FULL`]: it may receive
+//! from eight neighbours at once. Paint of ordinary height stays far below, but
+//! whoever lets columns in that are near it must bound them first.
 
 pub mod press;
 

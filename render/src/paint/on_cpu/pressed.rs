@@ -8,8 +8,8 @@ use crate::paint::motion::Motion;
 use crate::paint::motion::press::{APART, penetration, velocity};
 use crate::tile::Rect;
 
-/// The penetration over the reach of a contact, with a rim of one cell apart on
-/// every side.
+/// The penetration over the reach of a contact, with a rim of one cell on every
+/// side: apart, or as the canvas' edge where it ends there.
 #[derive(Debug, Default)]
 pub(super) struct Pressed {
     reach: Rect,
@@ -40,6 +40,31 @@ impl Pressed {
             {
                 *here = penetration(touch, floor, volume);
             }
+        }
+        self.mirror_edges(floor.bounds());
+    }
+
+    /// Beyond the canvas is what is at its edge.
+    #[inline(always)]
+    fn mirror_edges(&mut self, canvas: Rect) {
+        let Rect { x, y, width, height } = self.reach;
+        let row = width + 2;
+        let (left, right) = (x == 0, x + width == canvas.width);
+        if left || right {
+            for values in self.values.chunks_exact_mut(row) {
+                if left {
+                    values[0] = values[1];
+                }
+                if right {
+                    values[row - 1] = values[row - 2];
+                }
+            }
+        }
+        if y == 0 {
+            self.values.copy_within(row..2 * row, 0);
+        }
+        if y + height == canvas.height {
+            self.values.copy_within(height * row..(height + 1) * row, (height + 1) * row);
         }
     }
 

@@ -33,7 +33,8 @@ pub(super) fn sub_step(
         let (x, y) = (x as usize, y as usize);
         penetration(touch(x as i64, y as i64), floor[(x, y)], start.cell(y * width + x).volume())
     };
-    let depth = |x: i64, y: i64| pressed(x, y).max(0);
+    let inside = |x: i64, size: usize| x.clamp(0, size as i64 - 1);
+    let depth = |x: i64, y: i64| pressed(inside(x, width), inside(y, height)).max(0);
     let change = |wet: &mut Layer, x: i64, y: i64, act: &dyn Fn(&Cell) -> Cell| {
         let index = y as usize * width + x as usize;
         let cell = act(&wet.cell(index));

@@ -7,12 +7,16 @@
 // Velocity in two halves, as in a touch, and the mobile share; both 0 or neither.
 @group(0) @binding(3) var<storage, read_write> flow: array<vec2<u32>>;
 
-// Apart, or beyond the region, counts as 0 in a slope.
+// Apart, or beyond the region, counts as 0 in a slope; beyond the canvas is what
+// is at its edge.
 fn pressed(place: vec2<u32>) -> i32 {
-    if any(place >= now.region.zw) {
+    let last = vec2<i32>(now.canvas) - vec2(1);
+    let inside = clamp(vec2<i32>(now.region.xy + place), vec2(0), last);
+    let there = vec2<u32>(inside) - now.region.xy;
+    if any(there >= now.region.zw) {
         return 0;
     }
-    let depth = depths[place.y * now.region.z + place.x].x;
+    let depth = depths[there.y * now.region.z + there.x].x;
     return select(depth, 0, depth == APART);
 }
 
