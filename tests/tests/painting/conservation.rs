@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::amount::{FULL, QUANTA_PER_CELL, mm_from_quanta};
+use render::amount::{FULL, mm_from_quanta};
 use render::layer::{Layer, SLOTS};
 use render::paint::brush::HeadShape;
 use render::paint::painting::Painting;
@@ -80,23 +80,5 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
             "{}: {substeps} sub-steps, {strokes} strokes, kept {wanted:?}",
             painting.backend()
         ));
-    }
-}
-
-#[test]
-fn paint_driven_to_the_edge_of_the_canvas_does_not_pile_up_in_a_cell() {
-    for mut painting in on_both(&bare(40, 40)) {
-        let brush = painting.add_brush(HeadShape::Knife, 4.0).unwrap();
-        let recipe = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-        for _ in 0..60 {
-            painting.wash(brush).unwrap();
-            painting.load(brush, &recipe, 0.0, 0.8).unwrap();
-            painting.stroke(brush, &along(&[(2.0, 4.0), (9.0, 4.0)], 1.0)).unwrap();
-        }
-        let wet = painting.wet().unwrap();
-        let highest = (0..1600).map(|index| wet.cell(index).volume()).max().unwrap();
-        let widths = f64::from(highest) / f64::from(QUANTA_PER_CELL);
-        tell(&format!("{}: {widths:.1} cell widths at most", painting.backend()));
-        assert!(widths < 64.0, "{widths} cell widths on {}", painting.backend());
     }
 }

@@ -6,7 +6,7 @@ use crate::layer::{Cell, Layer};
 use crate::paint::contact::{Contact, Touch};
 use crate::paint::motion::Motion;
 use crate::paint::motion::advect::{mobile_share, outflow};
-use crate::paint::motion::press::{APART, penetration, velocity};
+use crate::paint::motion::press::{APART, CROWDED, penetration, velocity, yielding};
 use crate::paint::motion::transfer::{Giver, exchange, handed_over};
 
 /// Plays one sub-step.
@@ -33,8 +33,7 @@ pub(super) fn sub_step(
         let (x, y) = (x as usize, y as usize);
         penetration(touch(x as i64, y as i64), floor[(x, y)], start.cell(y * width + x).volume())
     };
-    let inside = |x: i64, size: usize| x.clamp(0, size as i64 - 1);
-    let depth = |x: i64, y: i64| pressed(inside(x, width), inside(y, height)).max(0);
+    let depth = |x: i64, y: i64| pressed(x, y).max(0);
     let change = |wet: &mut Layer, x: i64, y: i64, act: &dyn Fn(&Cell) -> Cell| {
         let index = y as usize * width + x as usize;
         let cell = act(&wet.cell(index));
@@ -51,6 +50,10 @@ pub(super) fn sub_step(
             if (y == 0 && down < 0) || (y + 1 == height as i64 && down > 0) {
                 down = 0;
             }
+            let (right, down) = yielding((right, down), |to_x, to_y| {
+                let at = (y + i64::from(to_y)) as usize * width + (x + i64::from(to_x)) as usize;
+                start.cell(at).volume() > CROWDED
+            });
             let cell = start.cell(y as usize * width + x as usize);
             let mobile = mobile_share(motion, cell.volume());
             let out = outflow(&cell, mobile, (right.unsigned_abs(), down.unsigned_abs()));
