@@ -35,6 +35,11 @@ impl Progress {
         self.bar.inc(1);
     }
 
+    /// So many steps more are to come.
+    pub(crate) fn expect(&self, steps: usize) {
+        self.bar.inc_length(steps as u64);
+    }
+
     /// Clears the bar.
     pub(crate) fn done(&self) {
         self.bar.finish_and_clear();

@@ -9,8 +9,8 @@
 /// How many quanta high a column is that is as high as its cell is wide.
 pub const QUANTA_PER_CELL: u32 = 1 << 21;
 
-/// The most that a cell may hold: 1024 cell widths of height.
-pub const FULL: u32 = 1 << 31;
+/// The most that a cell may hold: 512 cell widths of height.
+pub const FULL: u32 = 1 << 30;
 
 /// `amount * share / 256`, rounded down, for a `share` of 0 to 256; the
 /// product would not fit 32 bits, and shaders have no more.

@@ -27,6 +27,8 @@ mod report;
 
 mod demo;
 
+mod separated;
+
 mod paint_photograph;
 
 mod paint;

@@ -58,17 +58,16 @@ impl Paint {
             }
             None => {
                 let Self { library: path, photograph, engine, exports, json, .. } = self;
-                let library = match path {
-                    Some(path) => library(&path)?,
+                let library = match &path {
+                    Some(path) => library(path)?,
                     None => built_in_library(),
                 };
-                photograph.run(library, &engine, exports, json, console)
+                photograph.run(library, path, &engine, exports, json, console)
             }
         }
     }
 
     fn script(self, path: &Path, console: &mut Console<'_>) -> anyhow::Result<()> {
-        self.photograph.refuse_with_script()?;
         let name = path.display().to_string();
         let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
         let mut script = Strokes::from_json(&name, &bytes)?;

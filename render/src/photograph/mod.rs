@@ -2,7 +2,7 @@
 //!
 //! [`Photograph`] reads a picture and brings it to a canvas; [`PaintFilm`] tells
 //! the colour of any film of a palette over a ground; [`Separation`] finds the film for
-//! a colour; [`plan_layer`] lays such films down as strokes, coarse to fine.
+//! a colour; [`plan_layer`] plans such films as strokes, coarse to fine; [`Painter`] paints them.
 
 mod source;
 
@@ -30,9 +30,14 @@ mod trace;
 
 mod planned;
 
+mod laydown;
+
+mod painter;
+
 pub use errors::{ColourErrors, rebuilt};
 pub use film::{Materials, PaintFilm};
 pub use flow::Flow;
+pub use painter::{LevelReport, Painted, Painter, PainterError};
 pub use plan::{Order, Plan, PlanError};
 pub use planned::{PlannedStroke, plan_layer};
 pub use selection::{ChosenPalette, choose_palette};

@@ -60,7 +60,7 @@ impl Default for Plan {
             spacing: 0.5,
             bending: 0.7,
             most_strokes: 30_000,
-            pressure: 0.6,
+            pressure: 0.9,
             ends: 0.25,
             speed: 10.0,
             order: Order::Shuffled,

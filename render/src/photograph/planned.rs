@@ -22,11 +22,11 @@ use crate::layer::SLOTS;
 use crate::paint::pose::Sample;
 
 /// Width of the blur that a brush sees by, in its sizes.
-const SIGHT: f64 = 0.2;
+pub(super) const SIGHT: f64 = 0.2;
 /// How often gaps between strokes are looked for.
 const PASSES: usize = 3;
 /// A stroke covers this share of its brush's width.
-const COVER: f64 = 0.8;
+pub(super) const COVER: f64 = 0.8;
 
 /// One stroke to be painted.
 #[derive(Debug, Clone, PartialEq)]
@@ -246,7 +246,7 @@ fn mean_colour(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
 
 /// The pose of the brush along a path, its broad side across the motion, its
 /// pressure rising over the first brush size and falling over the last.
-fn samples(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
+pub(super) fn samples(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
     let mut walked = vec![0.0];
     for ends in path.windows(2) {
         walked.push(walked[walked.len() - 1] + between(ends[0], ends[1]));

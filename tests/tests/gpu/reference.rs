@@ -8,7 +8,7 @@ use render::layer::{Cell, Layer};
 use render::paint::contact::{Contact, Touch};
 use render::paint::motion::Motion;
 use render::paint::motion::advect::{mobile_share, outflow};
-use render::paint::motion::press::{APART, penetration, velocity};
+use render::paint::motion::press::{APART, CROWDED, penetration, velocity, yielding};
 use render::paint::motion::transfer::{Giver, exchange, handed_over};
 use render::tile::Rect;
 
@@ -55,6 +55,10 @@ impl Reference {
                 };
                 u = if stays(i, u, canvas.width) { u } else { 0 };
                 v = if stays(j, v, canvas.height) { v } else { 0 };
+                let (u, v) = yielding((u, v), |to_x, to_y| {
+                    let there = (j + to_y as isize) as usize * width + (i + to_x as isize) as usize;
+                    before.cell(there).volume() > CROWDED
+                });
                 let here = y * width + x;
                 let cell = before.cell(here);
                 let share = mobile_share(motion, cell.volume());

@@ -147,7 +147,7 @@ fn values_that_are_no_amounts_are_told_with_their_place() {
         });
         let (x, y) = place;
         let wanted = format!(
-            "a.exr: part `wet`, channel `vehicle`, x {x}, y {y}: an amount is 0 to 1024 cell \
+            "a.exr: part `wet`, channel `vehicle`, x {x}, y {y}: an amount is 0 to 512 cell \
              widths, found `{found}"
         );
         assert!(error.to_string().starts_with(&wanted), "{error}");
@@ -162,14 +162,14 @@ fn cells_that_overflow_are_told_with_their_place() {
     document.slots = [Some(0); 8];
     let bytes = write(&document).unwrap();
     let mut image = image(&bytes);
-    let high = (document.cell_mm * 900.0) as f32;
+    let high = (document.cell_mm * 450.0) as f32;
     let name = document.library.pigments[0].name.clone();
     set(&mut image, 1, &name, 0, high);
     set(&mut image, 1, &format!("{name} 2"), 0, high);
     let mut bytes = Vec::new();
     image.write().to_buffered(Cursor::new(&mut bytes)).unwrap();
     let error = read("a.exr", &bytes).unwrap_err().to_string();
-    assert!(error.contains("channel `thickness`, x 0, y 0: a cell holds 1024"), "{error}");
+    assert!(error.contains("channel `thickness`, x 0, y 0: a cell holds 512"), "{error}");
 }
 
 #[test]

@@ -199,7 +199,7 @@ impl Place<'_> {
                 continue;
             }
             if quanta.is_nan() || mm < 0.0 || quanta < 0.0 || quanta > f64::from(FULL) {
-                let wanted = "an amount is 0 to 1024 cell widths";
+                let wanted = "an amount is 0 to 512 cell widths";
                 return Err(self.value(x, &plane.name, wanted, told()));
             }
             match cell.pigments.get_mut(plane.slot) {
@@ -217,7 +217,7 @@ impl Place<'_> {
                 cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q)).sum();
             if volume > u64::from(FULL) {
                 let found = format!("{volume} quanta");
-                return Err(self.value(x, "thickness", "a cell holds 1024 cell widths", found));
+                return Err(self.value(x, "thickness", "a cell holds 512 cell widths", found));
             }
         }
         Ok(())

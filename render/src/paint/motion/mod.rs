@@ -12,7 +12,7 @@
 //! 2. [`press::velocity`] of each cell of the rectangle grown by one, with the
 //!    central differences of penetration, where apart and cells beyond the
 //!    rectangle count as 0. A component that would carry paint off the canvas
-//!    counts as 0.
+//!    counts as 0; near crowded columns, [`press::yielding`].
 //! 3. [`advect::outflow`] of each of these cells, of the amounts at the start,
 //!    for all cells at once.
 //! 4. [`transfer::exchange`] for every touched cell whose penetration in step 1
@@ -22,9 +22,8 @@
 //!    up there; as none takes more than a tenth of its share, the head's cell
 //!    never owes.
 //!
-//! Nothing here holds a column below [`crate::amount::FULL`]: it may receive
-//! from eight neighbours at once. Paint of ordinary height stays far below, but
-//! whoever lets columns in that are near it must bound them first.
+//! A column receives from eight neighbours at most, none of them crowded, so that
+//! advection leaves every column below [`crate::amount::FULL`].
 
 pub mod press;
 

@@ -1,6 +1,8 @@
 // How deep the head is in the paint, and which way it pushes it; twin of press.rs.
 
 const APART: i32 = -1;
+// A tenth of amount::FULL.
+const CROWDED: u32 = 107374182u;
 
 fn penetration(touch: Touch, ground: i32, wet: u32) -> i32 {
     let top = ground + bitcast<i32>(wet);

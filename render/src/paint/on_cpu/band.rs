@@ -81,6 +81,7 @@ impl Band {
                 let last = &mut velocities[moving.width - 1];
                 last.0 = last.0.min(0);
             }
+            step.pressed.yields((moving.x, y), velocities);
             let row = rows.row(y, moving.x, moving.width);
             self.scatter(step, row, y, moving.x - step.reach.x);
         }

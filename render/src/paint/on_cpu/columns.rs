@@ -21,6 +21,11 @@ impl Columns {
         &self.layer
     }
 
+    /// Cells in a row.
+    pub(super) fn width(&self) -> usize {
+        self.layer.width()
+    }
+
     /// Of each cell, row by row.
     pub(super) fn volume(&self) -> &[u32] {
         &self.volume

@@ -11,6 +11,7 @@ use crate::layer::{Cell, Layer, SLOTS};
 use crate::paint::contact::{Contact, Touch};
 use crate::paint::engine::{BrushId, Engine};
 use crate::paint::motion::Motion;
+use crate::paint::motion::press::CROWDED;
 use crate::tile::Rect;
 
 const BRUSH: BrushId = BrushId(0);
@@ -34,9 +35,19 @@ fn random_layer(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u
 
 /// An engine with paint up to four cells high on it and on its brush.
 fn painted(random: &mut ChaCha8Rng, canvas: (usize, usize), brush: (usize, usize)) -> OnCpu {
+    painted_to(4 * QUANTA_PER_CELL, random, canvas, brush)
+}
+
+/// The same, the paint on the canvas up to `highest` high.
+fn painted_to(
+    highest: u32,
+    random: &mut ChaCha8Rng,
+    canvas: (usize, usize),
+    brush: (usize, usize),
+) -> OnCpu {
     let heights = (0..canvas.0 * canvas.1).map(|_| random.random_range(-9999..300_000)).collect();
     let mut engine = OnCpu::new(Field::from_values(canvas.0, canvas.1, heights));
-    let wet = random_layer(random, canvas.0, canvas.1, 4 * QUANTA_PER_CELL);
+    let wet = random_layer(random, canvas.0, canvas.1, highest);
     engine.set_wet(&wet).expect("room");
     engine.add_brush(brush.0, brush.1).expect("room");
     let paint = random_layer(random, brush.0, brush.1, 4 * QUANTA_PER_CELL);
@@ -101,9 +112,18 @@ fn over_ten_thousand_sub_steps_no_pigment_is_lost_or_made_and_no_cell_is_overful
 #[test]
 fn the_fast_path_agrees_with_the_specification() {
     let random = &mut ChaCha8Rng::seed_from_u64(2);
-    for canvas in [(50, 30), (7, 90), (1, 1), (3, 2), (90, 90)] {
+    let low = 4 * QUANTA_PER_CELL;
+    for (canvas, highest) in [
+        ((50, 30), low),
+        ((7, 90), low),
+        ((1, 1), low),
+        ((3, 2), low),
+        ((90, 90), low),
+        ((50, 30), 4 * CROWDED),
+        ((1, 9), 4 * CROWDED),
+    ] {
         let brush = (11, 13);
-        let mut engine = painted(random, canvas, brush);
+        let mut engine = painted_to(highest, random, canvas, brush);
         let motions = [
             Motion::default(),
             Motion { push: 7, adhesion: 65535, most: 65535, cutoff: 256 },
@@ -122,6 +142,27 @@ fn the_fast_path_agrees_with_the_specification() {
             assert!(engine.wet.volume().iter().copied().eq(columns), "volumes, sub-step {i}");
         }
     }
+}
+
+#[test]
+fn columns_pushed_together_stay_below_full_and_whole() {
+    let random = &mut ChaCha8Rng::seed_from_u64(8);
+    let (canvas, brush) = ((40, 40), (9, 9));
+    let mut engine = OnCpu::new(Field::filled(40, 40, 0));
+    let vehicle = Field::filled(40, 40, CROWDED - 1);
+    let wet = Layer { vehicle, ..Layer::empty(40, 40) };
+    engine.set_wet(&wet).expect("room");
+    engine.add_brush(brush.0, brush.1).expect("room");
+    let before = totals(&mut engine);
+    let pushy = Motion { push: 7, ..Motion::default() };
+    for _ in 0..400 {
+        let contact = random_contact(random, canvas, brush, None);
+        engine.play(BRUSH, &pushy, &[contact]).expect("played");
+    }
+    let wet = engine.wet().expect("paint");
+    let highest = (0..40 * 40).map(|i| wet.cell(i).volume()).max().expect("cells");
+    assert!((CROWDED..FULL).contains(&highest), "{highest} in a cell");
+    assert_eq!(totals(&mut engine), before);
 }
 
 #[test]

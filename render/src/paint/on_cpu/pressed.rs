@@ -5,7 +5,7 @@ use super::columns::Columns;
 use crate::field::Field;
 use crate::paint::contact::{Contact, Touch};
 use crate::paint::motion::Motion;
-use crate::paint::motion::press::{APART, penetration, velocity};
+use crate::paint::motion::press::{APART, CROWDED, penetration, velocity, yielding};
 use crate::tile::Rect;
 
 /// The penetration over the reach of a contact, with a rim of one cell apart on
@@ -14,6 +14,8 @@ use crate::tile::Rect;
 pub(super) struct Pressed {
     reach: Rect,
     values: Vec<i32>,
+    /// Which columns are crowded; empty where none is, as nearly always.
+    crowded: Vec<bool>,
 }
 
 impl Pressed {
@@ -28,6 +30,7 @@ impl Pressed {
     ) {
         let rect = contact.rect;
         self.reach = reach;
+        self.find_crowded(wet);
         self.values.clear();
         self.values.resize((reach.width + 2) * (reach.height + 2), APART);
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
@@ -40,6 +43,40 @@ impl Pressed {
             {
                 *here = penetration(touch, floor, volume);
             }
+        }
+    }
+
+    #[inline(always)]
+    fn find_crowded(&mut self, wet: &Columns) {
+        let reach = self.reach;
+        self.crowded.clear();
+        let rows = reach.y..reach.y + reach.height;
+        let row = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
+        let highest = rows.clone().map(|y| highest(row(y))).max().unwrap_or(0);
+        if highest > CROWDED {
+            self.crowded.resize((reach.width + 2) * (reach.height + 2), false);
+            for y in rows {
+                let start = self.start(y);
+                for (crowded, &volume) in self.crowded[start..].iter_mut().zip(row(y)) {
+                    *crowded = volume > CROWDED;
+                }
+            }
+        }
+    }
+
+    /// Step 2's yielding for the cells of row `y` from `x` on.
+    #[inline(always)]
+    pub(super) fn yields(&self, (x, y): (usize, usize), velocities: &mut [(i32, i32)]) {
+        if self.crowded.is_empty() {
+            return;
+        }
+        let row = (self.reach.width + 2) as isize;
+        let start = self.start(y) + x - self.reach.x;
+        for (i, velocity) in velocities.iter_mut().enumerate() {
+            *velocity = yielding(*velocity, |right, down| {
+                let step = down as isize * row + right as isize;
+                self.crowded[(start + i).wrapping_add_signed(step)]
+            });
         }
     }
 
@@ -77,4 +114,13 @@ impl Pressed {
             *found = velocity(motion, touch, here[i + 1], slopes);
         }
     }
+}
+
+#[inline(always)]
+fn highest(volumes: &[u32]) -> u32 {
+    let mut highest = 0;
+    for &volume in volumes {
+        highest = highest.max(volume);
+    }
+    highest
 }

@@ -6,7 +6,7 @@ use crate::layer::{Cell, Layer};
 use crate::paint::contact::{Contact, Touch};
 use crate::paint::motion::Motion;
 use crate::paint::motion::advect::{mobile_share, outflow};
-use crate::paint::motion::press::{APART, penetration, velocity};
+use crate::paint::motion::press::{APART, CROWDED, penetration, velocity, yielding};
 use crate::paint::motion::transfer::{Giver, exchange, handed_over};
 
 /// Plays one sub-step.
@@ -50,6 +50,10 @@ pub(super) fn sub_step(
             if (y == 0 && down < 0) || (y + 1 == height as i64 && down > 0) {
                 down = 0;
             }
+            let (right, down) = yielding((right, down), |to_x, to_y| {
+                let at = (y + i64::from(to_y)) as usize * width + (x + i64::from(to_x)) as usize;
+                start.cell(at).volume() > CROWDED
+            });
             let cell = start.cell(y as usize * width + x as usize);
             let mobile = mobile_share(motion, cell.volume());
             let out = outflow(&cell, mobile, (right.unsigned_abs(), down.unsigned_abs()));

@@ -16,6 +16,29 @@ fn pressed(place: vec2<u32>) -> i32 {
     return select(depth, 0, depth == APART);
 }
 
+fn crowded(place: vec2<u32>, way: vec2<i32>) -> bool {
+    let there = vec2<u32>(vec2<i32>(place) + way);
+    return bitcast<u32>(depths[there.y * now.region.z + there.x].y) > CROWDED;
+}
+
+// The velocity near crowded columns; what moves stays within the region.
+fn yielding(place: vec2<u32>, velocity: vec2<i32>) -> vec2<i32> {
+    var left = velocity;
+    if crowded(place, vec2(0)) {
+        return vec2(0);
+    }
+    if left.x != 0 && crowded(place, vec2(sign(left.x), 0)) {
+        left.x = 0;
+    }
+    if left.y != 0 && crowded(place, vec2(0, sign(left.y))) {
+        left.y = 0;
+    }
+    if left.x != 0 && left.y != 0 && crowded(place, sign(left)) {
+        left.y = 0;
+    }
+    return left;
+}
+
 @compute @workgroup_size(8, 8)
 fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= now.region.zw) {
@@ -38,6 +61,9 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     let leaves = (beyond < vec2(0)) | (beyond >= vec2<i32>(now.canvas));
     speed = select(speed, vec2(0), leaves);
     flow[place] = vec2(0u);
+    if any(speed != vec2(0)) {
+        speed = yielding(id.xy, speed);
+    }
     if any(speed != vec2(0)) {
         let mobile = mobile_share(now.motion, bitcast<u32>(here.y));
         if mobile != 0u {
