@@ -7,8 +7,10 @@ use rayon::prelude::*;
 
 use super::columns::Columns;
 use super::sparse::SparseLayer;
+use crate::composite::lay_over;
 use crate::field::Field;
 use crate::optics::{NODES, Scene};
+use crate::shade::{Relief, shade_row};
 use crate::tile::{Rect, TILE, Tile, TileSet};
 
 /// What is lit.
@@ -159,48 +161,3 @@ fn show(
 const WET: u8 = 0;
 const DRY: u8 = 1;
 const BARE: u8 = 2;
-
-// Stand-ins of `crate::composite::lay_over` and `crate::shade::shade_row`, to be
-// deleted when these are there.
-
-use crate::layer::SLOTS;
-use crate::optics::Coat;
-
-struct Relief<'a> {
-    above: &'a [i32],
-    here: &'a [i32],
-    below: &'a [i32],
-}
-
-fn lay_over(coat: &Coat, pigments: &[[u32; SLOTS]], backing: &mut [[f32; NODES]]) {
-    for (amounts, backing) in pigments.iter().zip(backing) {
-        for (node, g) in backing.iter_mut().enumerate() {
-            let sum = |table: &[[f32; NODES]; SLOTS]| -> f64 {
-                let terms = amounts.iter().zip(table);
-                terms.map(|(&a, row)| f64::from(a) * f64::from(row[node])).sum()
-            };
-            let film =
-                spectra::optics::Layer::new(sum(&coat.absorption), sum(&coat.scattering), 1.0);
-            *g = film.over(f64::from(*g)) as f32;
-        }
-    }
-}
-
-fn shade_row(
-    scene: &Scene,
-    relief: &Relief<'_>,
-    internal: &[[f32; NODES]],
-    bare: &[u8],
-    out: &mut [[f32; 4]],
-) {
-    for (i, (out, internal)) in out.iter_mut().zip(internal).enumerate() {
-        let slope = relief.here[i + 2] - relief.here[i] + relief.below[i + 1] - relief.above[i + 1];
-        let lean = slope as f32 * scene.lamp.relief / crate::amount::QUANTA_PER_CELL as f32;
-        let shine = [scene.lamp.wet, scene.lamp.dry, scene.lamp.ground][usize::from(bare[i])];
-        let light = 1.0 + lean * shine.strength;
-        for (channel, out) in out.iter_mut().take(3).enumerate() {
-            let rgb = |(r, row): (&f32, &[f32; 3])| r * row[channel];
-            *out = light * internal.iter().zip(&scene.rgb_from_nodes).map(rgb).sum::<f32>();
-        }
-    }
-}
