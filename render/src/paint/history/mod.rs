@@ -139,8 +139,10 @@ impl<T> History<T> {
     /// # Panics
     /// If no action is open.
     pub fn dry(&mut self, engine: &mut dyn Engine, share: u32) -> Result<(), EngineError> {
-        let all = engine.bounds();
-        self.touch(engine, all)?;
+        let bounds = engine.bounds();
+        for tile in engine.painted()?.iter() {
+            self.touch(engine, tile.rect(bounds))?;
+        }
         engine.dry(share)?;
         self.kept().into_iter().for_each(|action| action.dry.push(DryChange::Pushed));
         Ok(())

@@ -24,14 +24,18 @@ impl Painting {
     /// [`PaintingError`] for a share outside 0..1, or without memory.
     pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
         let share = share_of_65536_parts("fraction", fraction)?;
-        if share == 0 || self.engine.wet()?.totals().iter().all(|&total| total == 0) {
+        let painted = self.engine.painted()?;
+        if share == 0 || painted.is_empty() {
             return Ok(false);
         }
         self.history.begin(self.state.clone());
         self.history.dry(self.engine.as_mut(), share)?;
         self.state.dry.push(DryState { slots: self.state.slots, opacity: 1.0 });
         self.history.commit();
-        self.floor_changed()?;
+        self.feel_floor()?;
+        for tile in painted.iter() {
+            self.unbaked.insert_tile(tile);
+        }
         Ok(true)
     }
 
@@ -50,8 +54,11 @@ impl Painting {
         if wanted.len() > self.state.slots.len() {
             return Err(PaintingError::TooManyPigments { found: wanted.len() });
         }
-        let wet = self.wet_totals_mm()?;
         let mut slots: Slots = self.state.slots;
+        let leaves = |slot: &Option<usize>| slot.is_some_and(|pigment| !wanted.contains(&pigment));
+        // All paint is looked through only where some must not be there.
+        let any = slots.iter().any(leaves);
+        let wet = if any { self.wet_totals_mm()? } else { Default::default() };
         for (slot, amount) in slots.iter_mut().zip(wet) {
             let Some(pigment) = *slot else { continue };
             if wanted.contains(&pigment) {
@@ -149,8 +156,13 @@ impl Painting {
 
     /// After the floor rose or sank.
     pub(super) fn floor_changed(&mut self) -> Result<(), PaintingError> {
-        self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
+        self.feel_floor()?;
         self.all_unseen();
+        Ok(())
+    }
+
+    fn feel_floor(&mut self) -> Result<(), PaintingError> {
+        self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
     }
 

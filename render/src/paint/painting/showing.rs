@@ -52,8 +52,11 @@ impl Painting {
         self.history.commit();
         if let Some(light) = light {
             self.light = light;
+            self.all_unseen();
+        } else {
+            // The same lamp from elsewhere: what is baked does not know it.
+            self.unshown = TileSet::all(self.engine.bounds());
         }
-        self.all_unseen();
     }
 
     /// The picture in linear sRGB, white at 1. Only what changed since the last
