@@ -77,6 +77,18 @@ impl TileSet {
         set
     }
 
+    /// The tiles of a canvas of `bounds` with a cell that `has`, which is asked
+    /// by index, row by row.
+    #[must_use]
+    pub fn with(bounds: Rect, has: impl Fn(usize) -> bool) -> Self {
+        let any = |tile: &Tile| {
+            let rect = tile.rect(bounds);
+            let rows = (rect.y..rect.y + rect.height).map(|y| y * bounds.width + rect.x);
+            rows.into_iter().any(|first| (first..first + rect.width).any(&has))
+        };
+        Self { tiles: Self::all(bounds).tiles.into_iter().filter(any).collect() }
+    }
+
     /// Adds the tiles that `rect` touches.
     pub fn insert(&mut self, rect: Rect) {
         if rect.is_empty() {
@@ -129,6 +141,13 @@ mod tests {
         let cells: usize =
             set.iter().map(|tile| tile.rect(BOUNDS)).map(|r| r.width * r.height).sum();
         assert_eq!((set.len(), cells), (4, 7000));
+    }
+
+    #[test]
+    fn tiles_with_something_are_found_by_their_cells() {
+        let set = TileSet::with(BOUNDS, |index| index == 63 * 100 + 64 || index == 69 * 100);
+        let tiles: Vec<_> = set.iter().map(|tile| (tile.row, tile.column)).collect();
+        assert_eq!(tiles, [(0, 1), (1, 0)]);
     }
 
     #[test]

@@ -72,6 +72,12 @@ pub trait Engine: std::fmt::Debug + Send {
     /// [`EngineError`] if the device was lost.
     fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError>;
 
+    /// The tiles that have wet paint.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device was lost.
+    fn painted(&mut self) -> Result<TileSet, EngineError>;
+
     /// Dries `share` of 65536 parts of all wet paint, from the bottom: it
     /// becomes the topmost dry layer.
     ///

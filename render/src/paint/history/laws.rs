@@ -26,10 +26,6 @@ fn state(engine: &mut OnCpu, caller: usize) -> State {
     (engine.wet().expect("paint"), brushes, dry, engine.floor().expect("a floor"), caller)
 }
 
-fn all() -> TileSet {
-    TileSet::all(Rect { x: 0, y: 0, width: WIDTH, height: HEIGHT })
-}
-
 fn painted(width: usize, height: usize, random: &mut ChaCha8Rng) -> Layer {
     let mut layer = Layer::empty(width, height);
     for index in 0..width * height {
@@ -74,11 +70,11 @@ fn act(history: &mut History<usize>, engine: &mut OnCpu, random: &mut ChaCha8Rng
             let layer = painted(WIDTH, HEIGHT, random);
             history.push_dry(engine, &layer).expect("room");
         }
-        2 => history.dry(engine, &all(), random.random_range(0..=65536)).expect("room"),
+        2 => history.dry(engine, random.random_range(0..=65536)).expect("room"),
         4 => {
             stroke(history, engine, random);
             history.pop_dry(engine).expect("a layer");
-            history.dry(engine, &all(), 30_000).expect("room");
+            history.dry(engine, 30_000).expect("room");
         }
         _ => stroke(history, engine, random),
     }
@@ -159,7 +155,7 @@ fn an_action_beyond_the_limit_stays_done_and_cannot_be_undone() {
     other.dry(1000).expect("room");
     history.begin(1);
     // Six tiles.
-    history.dry(&mut engine, &all(), 1000).expect("room");
+    history.dry(&mut engine, 1000).expect("room");
     assert_eq!(history.commit(), Kept::TooLarge);
     assert!(engine.wet().expect("paint") == other.wet().expect("paint"), "dried otherwise");
     assert!(history.undo(&mut engine, 2).expect("no device to lose").is_none(), "undone");

@@ -139,14 +139,9 @@ impl<T> History<T> {
     ///
     /// # Panics
     /// If no action is open.
-    pub fn dry(
-        &mut self,
-        engine: &mut dyn Engine,
-        wet: &TileSet,
-        share: u32,
-    ) -> Result<(), EngineError> {
+    pub fn dry(&mut self, engine: &mut dyn Engine, share: u32) -> Result<(), EngineError> {
         let bounds = engine.bounds();
-        for tile in wet.iter() {
+        for tile in engine.painted()?.iter() {
             self.touch(engine, tile.rect(bounds))?;
         }
         engine.dry(share)?;

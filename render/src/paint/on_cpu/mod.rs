@@ -117,10 +117,14 @@ impl Engine for OnCpu {
         Ok(())
     }
 
+    fn painted(&mut self) -> Result<TileSet, EngineError> {
+        Ok(TileSet::with(self.bounds(), |index| self.wet.volume()[index] > 0))
+    }
+
     fn dry(&mut self, share: u32) -> Result<(), EngineError> {
         let bounds = self.bounds();
         let mut layer = SparseLayer::empty(bounds);
-        for tile in TileSet::all(bounds).iter() {
+        for tile in self.painted()?.iter() {
             let rect = tile.rect(bounds);
             let mut part = Layer::empty(rect.width, rect.height);
             for index in 0..rect.width * rect.height {

@@ -245,6 +245,11 @@ impl Engine for OnGpu {
         Ok(self.wet.write(&mut self.device, paint)?)
     }
 
+    fn painted(&mut self) -> Result<TileSet, EngineError> {
+        let wet = self.wet()?;
+        Ok(TileSet::with(self.bounds, |index| wet.cell(index).volume() > 0))
+    }
+
     fn dry(&mut self, share: u32) -> Result<(), EngineError> {
         assert!(share <= 65536, "a share of 65536 parts, found {share}");
         let layer = self.empty_dry()?;

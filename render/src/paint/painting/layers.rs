@@ -7,9 +7,6 @@ use crate::paint::brush::Relief;
 use crate::paint::document::Slots;
 use crate::tile::TileSet;
 
-/// The share that is everything, of 65536 parts.
-const ALL: u32 = 65_536;
-
 /// One layer of a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coating {
@@ -27,22 +24,21 @@ impl Painting {
     /// [`PaintingError`] for a share outside 0..1, or without memory.
     pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
         let share = share_of_65536_parts("fraction", fraction)?;
-        let wet = |painting: &mut Self| -> Result<bool, PaintingError> {
-            Ok(painting.engine.wet()?.totals().iter().any(|&total| total > 0))
-        };
-        if share == 0 || self.wet_tiles.is_empty() || !wet(self)? {
+        let painted = self.engine.painted()?;
+        if share == 0 || painted.is_empty() {
             return Ok(false);
         }
         if let Some((x, y)) = self.too_high()? {
             return Err(PaintingError::TooHigh { x, y });
         }
         self.acting(|painting| {
-            painting.history.dry(painting.engine.as_mut(), &painting.wet_tiles, share)?;
+            painting.history.dry(painting.engine.as_mut(), share)?;
             painting.state.dry.push(DryState { slots: painting.state.slots, opacity: 1.0 });
-            if share == ALL {
-                painting.wet_tiles.take();
+            painting.feel_floor()?;
+            for tile in painted.iter() {
+                painting.unbaked.insert_tile(tile);
             }
-            painting.floor_changed()
+            Ok(())
         })?;
         Ok(true)
     }
@@ -171,7 +167,7 @@ impl Painting {
 
     /// After the floor rose or sank.
     pub(super) fn floor_changed(&mut self) -> Result<(), PaintingError> {
-        self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
+        self.feel_floor()?;
         self.all_unseen();
         Ok(())
     }
@@ -182,6 +178,11 @@ impl Painting {
         let highest = HIGHEST as i32;
         let found = floor.values().iter().position(|&height| height > highest);
         Ok(found.map(|index| (index % floor.width(), index / floor.width())))
+    }
+
+    fn feel_floor(&mut self) -> Result<(), PaintingError> {
+        self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
+        Ok(())
     }
 
     /// After what is dry changed, or the light.

@@ -52,8 +52,6 @@ pub struct Painting {
     pub(super) relief: Relief,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<Before>,
-    /// Tiles that may hold wet paint; no other does.
-    pub(super) wet_tiles: TileSet,
     /// Tiles whose dry paint was not yet seen under this light.
     pub(super) unbaked: TileSet,
     /// Tiles whose wet paint was not yet seen.
@@ -119,7 +117,6 @@ impl Painting {
             relief,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
-            wet_tiles: painted(&wet),
             unbaked: all.clone(),
             unshown: all,
         })
@@ -233,19 +230,4 @@ fn check_heights(document: &Document) -> Result<(), PaintingError> {
         }
     }
     Ok(())
-}
-
-/// The tiles in which `layer` has paint.
-fn painted(layer: &Layer) -> TileSet {
-    let mut tiles = TileSet::default();
-    let bounds = layer.vehicle.bounds();
-    for tile in TileSet::all(bounds).iter() {
-        let rect = tile.rect(bounds);
-        let rows = rect.y..rect.y + rect.height;
-        let row = |y: usize| (0..rect.width).map(move |x| y * bounds.width + rect.x + x);
-        if rows.flat_map(row).any(|index| layer.cell(index).volume() > 0) {
-            tiles.insert_tile(tile);
-        }
-    }
-    tiles
 }

@@ -90,7 +90,6 @@ impl Painting {
             played?;
             for contact in playing {
                 self.unshown.insert(contact.rect.grown(2, bounds));
-                self.wet_tiles.insert(contact.rect.grown(2, bounds));
                 report.substeps += 1;
                 report.cells += (contact.rect.width * contact.rect.height) as u64;
             }

@@ -7,14 +7,12 @@ use super::state::{Painting, State};
 use crate::layer::Layer;
 use crate::light::Light;
 use crate::paint::history::{Kept, Restored};
-use crate::tile::TileSet;
 
 /// What an undo brings back besides paint.
 #[derive(Debug, Clone)]
 pub(super) struct Before {
     state: State,
     light: Arc<Light>,
-    wet_tiles: TileSet,
     /// How many brushes there were.
     brushes: usize,
 }
@@ -63,18 +61,17 @@ impl Painting {
         Before {
             state: self.state.clone(),
             light: Arc::clone(&self.light),
-            wet_tiles: self.wet_tiles.clone(),
             brushes: self.brushes.len(),
         }
     }
 
     fn back_to(&mut self, restored: Restored<Before>) -> Result<(), PaintingError> {
-        let Before { state, light, wet_tiles, brushes } = restored.caller;
+        let Before { state, light, brushes } = restored.caller;
         let other_palette = state.slots != self.state.slots;
         let rebake =
             other_palette || state.dry != self.state.dry || !Arc::ptr_eq(&light, &self.light);
         let other_lamp = state.lighting != self.state.lighting;
-        (self.state, self.light, self.wet_tiles) = (state, light, wet_tiles);
+        (self.state, self.light) = (state, light);
         if other_palette {
             for brush in &self.brushes[brushes.min(self.brushes.len())..] {
                 let clean = Layer::empty(brush.cells.0, brush.cells.1);
