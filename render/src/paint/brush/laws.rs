@@ -186,6 +186,19 @@ fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
 }
 
 #[test]
+fn hair_is_uneven_across_a_flat_and_a_blade_is_not() {
+    let unevenness = |shape| {
+        let cells = under(&set_down(shape, POSE), 0.0);
+        let beside = cells.windows(2).filter(|w| w[0].1 == w[1].1 && w[0].0 + 1 == w[1].0);
+        let steps: Vec<f64> =
+            beside.map(|w| f64::from((w[0].2.height - w[1].2.height).abs())).collect();
+        steps.iter().sum::<f64>() / steps.len() as f64 / f64::from(QUANTA_PER_CELL)
+    };
+    let (flat, knife) = (unevenness(HeadShape::Flat), unevenness(HeadShape::Knife));
+    assert!(flat > 0.02 && flat > 2.0 * knife, "{flat} cells, {knife}");
+}
+
+#[test]
 fn sharers_are_those_that_name_the_same_cell() {
     for shape in HeadShape::ALL {
         let contact = set_down(shape, Pose { pressure: 0.9, twist_deg: 33.0, ..POSE });
@@ -216,7 +229,7 @@ fn a_round_leaves_no_hole_in_its_footprint() {
 }
 
 #[test]
-fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_them() {
+fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
     let weave =
         |i: usize| if (i % 320 / 2 + i / 320 / 2) % 2 == 0 { 0 } else { QUANTA_PER_CELL as i32 };
     let floor = crate::field::Field::from_values(320, 240, (0..320 * 240).map(weave).collect());
@@ -236,7 +249,8 @@ fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_them() {
     let (valleys, crests) = touched(0.35);
     assert!(valleys == 0 && crests > 20, "{valleys} {crests}");
     let (valleys, crests) = touched(1.0);
-    assert!(valleys * 10 > crests * 8, "{valleys} {crests}");
+    // Not all: bristles that draw back pass over valleys so deep.
+    assert!(valleys * 10 > crests * 6, "{valleys} {crests}");
 }
 
 #[test]
