@@ -31,7 +31,7 @@ def opened(name):
 
 
 def keep(picture, name):
-    few = picture.quantize(160, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    few = picture.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     few.save(f"docs/{name}.png", optimize=True)
 
 
