@@ -105,7 +105,8 @@ impl UnknownShape {
 ///
 /// Lengths are as catalogues of artists' brushes show them: a bright about as
 /// long as wide, a flat and a filbert 1.5 times, a round 2.5, a rigger 6. How a
-/// head gives, stiffens and splays is ours, chosen by eye.
+/// head gives, stiffens and splays, and how uneven its bristles are, is ours, chosen by
+/// eye.
 #[derive(Debug)]
 pub(super) struct Proportions {
     /// From the ferrule to the tip.
@@ -157,7 +158,7 @@ const FLAT: Proportions = Proportions {
     width: [1.0, 1.0, 1.0, 1.0, 1.0, 0.98],
     depth: [1.0, 0.95, 0.85, 0.65, 0.45, 0.0],
     splay: 0.2,
-    bristles: 1.2,
+    bristles: 0.9,
     ..ROUND
 };
 
@@ -178,6 +179,7 @@ const FAN: Proportions = Proportions {
     width: [1.0; NODES],
     depth: [1.0, 0.9, 0.8, 0.7, 0.6, 0.0],
     gaps: true,
+    bristles: 0.3,
     ..FLAT
 };
 
