@@ -114,7 +114,8 @@ impl PhotographOptions {
         }
         let photograph = Photograph::open(&from)?;
         let canvas = self.canvas(photograph.size())?;
-        let inputs: Vec<PathBuf> = std::iter::once(from.clone()).chain(library_path.clone()).collect();
+        let inputs: Vec<PathBuf> =
+            std::iter::once(from.clone()).chain(library_path.clone()).collect();
         let exports = exports.open(&inputs)?;
         let strokes_out = self.strokes_out.as_ref().map(|path| Output::open(path, &inputs));
         let strokes_out = strokes_out.transpose()?;
@@ -242,7 +243,8 @@ impl PhotographOptions {
         } else {
             named(&self.palette, library)?
         };
-        let separation = Separation::new(film(Materials { slots: &slots, ..materials }), &settings)?;
+        let separation =
+            Separation::new(film(Materials { slots: &slots, ..materials }), &settings)?;
         let target = black_compensated(&seen, separation.black());
         let names = slots.iter().flatten().map(|&i| library.pigments[i].name.clone()).collect();
         drop(waiting);
