@@ -82,3 +82,24 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
         ));
     }
 }
+
+#[test]
+fn a_brush_filled_again_and_again_piles_no_cell_full() {
+    for mut painting in on_both(&bare(40, 40)) {
+        let brush = painting.add_brush(HeadShape::Knife, 4.0).unwrap();
+        let recipe = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
+        // Unbounded, 60 of these strokes piled 1057 cell widths.
+        for _ in 0..100 {
+            painting.wash(brush).unwrap();
+            painting.load(brush, &recipe, 0.0, 0.8).unwrap();
+            painting.stroke(brush, &along(&[(2.0, 4.0), (9.0, 4.0)], 1.0)).unwrap();
+        }
+        let wet = painting.wet().unwrap();
+        let highest = (0..1600).map(|index| wet.cell(index).volume()).max().unwrap();
+        tell(&format!("{}: {} cell widths at most", painting.backend(), highest >> 21));
+        assert!(highest < FULL / 2, "{highest} quanta on {}", painting.backend());
+        // So it can be dried and saved.
+        painting.dry(1.0).unwrap();
+        assert!(render::paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");
+    }
+}
