@@ -243,7 +243,7 @@ impl Canvas<'_> {
                     touch.height = at[HEIGHT];
                     touch.brush_cell = self.cell + along * self.row + around;
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
-                    touch.weights = (at[SPEED] >> 16).max(0).min(256) as u32;
+                    touch.weights = (at[SPEED] >> 16).clamp(0, 256) as u32;
                 }
                 for i in 0..8 {
                     at[i] = at[i].wrapping_add(step[i]);

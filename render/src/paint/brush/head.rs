@@ -226,7 +226,7 @@ fn tufts(surface: &Surface, spines: usize) -> Vec<bool> {
             return true;
         }
         if in_span < 3 {
-            return span % 2 == 0 || down < 0.6;
+            return span.is_multiple_of(2) || down < 0.6;
         }
         let off = ((column % in_span) as f32 + 0.5) / in_span as f32 - 0.5;
         off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
