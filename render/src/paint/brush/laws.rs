@@ -230,8 +230,9 @@ fn a_round_leaves_no_hole_in_its_footprint() {
 
 #[test]
 fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
-    let weave =
-        |i: usize| if (i % 320 / 2 + i / 320 / 2) % 2 == 0 { 0 } else { QUANTA_PER_CELL as i32 };
+    let weave = |i: usize| {
+        if (i % 320 / 2 + i / 320 / 2).is_multiple_of(2) { 0 } else { QUANTA_PER_CELL as i32 }
+    };
     let floor = crate::field::Field::from_values(320, 240, (0..320 * 240).map(weave).collect());
     let relief = Relief::from_floor(&floor, 0.1);
     let touched = |pressure: f64| {

@@ -44,7 +44,8 @@ mod tests {
         for cell_mm in [0.1, 0.25, 0.0317, 1.0] {
             let scale = Millimetres::new(cell_mm);
             let back = |q: f64| scale.quanta(scale.mm(q), 0.0);
-            let near = (0..1000).flat_map(|i| [i, ROUGH - 1 - i, (i * 8_388_593) % ROUGH]);
+            let near =
+                (0..1000).flat_map(|i| [i, ROUGH - 1 - i, i.wrapping_mul(8_388_593) % ROUGH]);
             for quanta in near.map(f64::from) {
                 assert_eq!(back(quanta), quanta, "{cell_mm}");
                 assert_eq!(back(-quanta), -quanta, "{cell_mm}");
@@ -60,8 +61,11 @@ mod tests {
     #[test]
     fn a_float_alone_would_lose_quanta_of_thick_paint() {
         let scale = Millimetres::new(0.1);
+        // At 0.1 mm a float is coarser than a quantum from 0.5 mm on; at other
+        // sizes of cells as early as at the rough.
+        let thick = 3 * ROUGH / 2;
         let lost =
-            (ROUGH..ROUGH + 1000).map(f64::from).filter(|&q| scale.quanta(scale.mm(q), 0.0) != q);
+            (thick..thick + 1000).map(f64::from).filter(|&q| scale.quanta(scale.mm(q), 0.0) != q);
         assert!(lost.count() > 0, "the rest channel would be idle");
     }
 }

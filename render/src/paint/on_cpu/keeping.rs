@@ -140,6 +140,17 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
 }
 
 #[test]
+fn bare_ground_shows_what_an_instrument_would_read_of_it() {
+    let mut engine = OnCpu::new(Field::filled(WIDTH, HEIGHT, 0));
+    let all = TileSet::all(engine.bounds());
+    engine.light(&scene(0), &all, &all).expect("lit");
+    let seen = engine.picture().expect("a picture")[(7, 5)][0];
+    // 0.8 below a surface of k1 = 0.03 and k2 = 0.5, at eight wavelengths of 1/8.
+    let measured = 0.97 * 0.5 * 0.8 / (1.0 - 0.5 * 0.8);
+    assert!((seen - measured).abs() < 1e-6, "{seen} {measured}");
+}
+
+#[test]
 fn a_picture_before_any_light_is_dark() {
     let picture = engine().picture().expect("a picture");
     assert!(picture.values().iter().all(|rgba| *rgba == [0.0, 0.0, 0.0, 1.0]), "not dark");

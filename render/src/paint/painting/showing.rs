@@ -112,3 +112,67 @@ impl Painting {
         Ok(self.engine.picture()?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use calibrate::library::PigmentLibrary;
+
+    use super::*;
+    use crate::layer::SLOTS;
+    use crate::paint::brush::HeadShape;
+    use crate::paint::document::{Document, Medium};
+    use crate::paint::ground::GroundSpec;
+    use crate::paint::on_cpu::OnCpu;
+    use crate::paint::pose::Sample;
+
+    fn opened(document: Document) -> Painting {
+        let engine = OnCpu::new(document.ground.height.clone());
+        Painting::open(document, Box::new(engine), 1 << 24).unwrap()
+    }
+
+    fn bare() -> Painting {
+        let text = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
+        let library = PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).unwrap();
+        let ground = GroundSpec::default().ground(300, 200, 0.1, &library).unwrap();
+        let (medium, lighting) = (Medium::default(), Lighting::default());
+        let slots = std::array::from_fn(Some);
+        opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
+    }
+
+    /// What is computed piece by piece is what a painting taken up anew shows.
+    fn assert_shown(painting: &mut Painting, after: &str) {
+        let shown = painting.picture().unwrap();
+        let whole = opened(painting.document().unwrap()).picture().unwrap();
+        assert!(shown == whole, "after {after}");
+    }
+
+    #[test]
+    fn what_changed_is_all_that_had_to_be_computed() {
+        let mut painting = bare();
+        assert_shown(&mut painting, "nothing");
+        let brush = painting.add_brush(HeadShape::Flat, 3.0).unwrap();
+        let sample = |seconds: f64, x_mm: f64| Sample {
+            seconds,
+            x_mm,
+            y_mm: 6.0,
+            pressure: 0.7,
+            tilt_x_deg: 10.0,
+            tilt_y_deg: 0.0,
+            twist_deg: 90.0,
+        };
+        for end_mm in [14.0, 25.0] {
+            painting.load(brush, &[1.0; SLOTS], 0.1, 0.3).unwrap();
+            painting.stroke(brush, &[sample(0.0, 3.0), sample(1.0, end_mm)]).unwrap();
+            assert_shown(&mut painting, "a stroke");
+            assert!(painting.dry(0.5).unwrap(), "there is paint to dry");
+            assert_shown(&mut painting, "drying");
+        }
+        let turned = Lighting { azimuth_deg: 90.0, ..Lighting::default() };
+        painting.relight(turned).unwrap();
+        assert_shown(&mut painting, "turning the lamp");
+        for undone in ["the lamp", "the drying", "the stroke", "the first drying"] {
+            assert!(painting.undo().unwrap(), "{undone}");
+            assert_shown(&mut painting, &format!("undoing {undone}"));
+        }
+    }
+}
