@@ -45,33 +45,33 @@ pub(crate) struct PhotographOptions {
     from: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
     /// to the photograph's colours]
-    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "from")]
+    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', conflicts_with = "script")]
     palette: Vec<String>,
     /// Width of the painting; its height follows the photograph's shape
-    #[arg(long, value_name = "MM", default_value_t = 200.0, requires = "from")]
+    #[arg(long, value_name = "MM", default_value_t = 200.0, conflicts_with = "script")]
     width_mm: f64,
     /// Width of a cell: smaller ones show finer relief, and take time by their square
-    #[arg(long, value_name = "MM", default_value_t = 0.25, requires = "from")]
+    #[arg(long, value_name = "MM", default_value_t = 0.25, conflicts_with = "script")]
     cell_mm: f64,
     /// What is painted on
-    #[arg(long, value_enum, default_value = "linen", requires = "from")]
+    #[arg(long, value_enum, default_value = "linen", conflicts_with = "script")]
     ground: GroundName,
     /// Widths of the brushes in mm, separated by commas; used from the broadest to the finest
     /// [default: 16,8,4,2 on 200 mm, and in proportion]
-    #[arg(long, value_name = "MM", value_delimiter = ',', requires = "from")]
+    #[arg(long, value_name = "MM", value_delimiter = ',', conflicts_with = "script")]
     brushes: Vec<f64>,
     /// The difference in CIELAB that is painted over: less takes more strokes
-    #[arg(long, value_name = "DELTA_E", default_value_t = 6.0, requires = "from")]
+    #[arg(long, value_name = "DELTA_E", default_value_t = 6.0, conflicts_with = "script")]
     tolerance: f64,
     /// Seed of all that is drawn by lot
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "from")]
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with = "script")]
     seed: u64,
     /// Write the strokes as a script (.json) that paints the same, bit for bit
-    #[arg(long, value_name = "FILE", requires = "from")]
+    #[arg(long, value_name = "FILE", conflicts_with = "script")]
     strokes_out: Option<PathBuf>,
     /// Write a map of each pigment, the picture they make and its colour error into this folder;
     /// paints nothing unless another file is asked for
-    #[arg(long, value_name = "FOLDER", requires = "from")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "script")]
     separate: Option<PathBuf>,
     /// Let the ground shine through in --separate, which reaches lighter and purer colours
     #[arg(long, requires = "separate")]

@@ -20,8 +20,9 @@ use crate::paint::strokes::{
 
 /// Brushes below this width in mm are rounds, those from it on filberts.
 const ROUND_BELOW_MM: f64 = 3.0;
-/// Parts of a pigment below this, of all parts 1, are left out of a recipe.
-const LEAST_PART: f64 = 1e-3;
+/// Parts of a pigment below this, of all parts 1, are left out of a recipe; strong
+/// blues tint a white well below a thousandth.
+const LEAST_PART: f64 = 1e-6;
 /// How often a level looks at what stands and paints what is off.
 const ROUNDS: u64 = 2;
 

@@ -117,7 +117,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     for actions in finished.script.actions.windows(3) {
         if let [first, Action::Load(load), stroke] = actions {
             assert_eq!((first.kind(), stroke.kind()), ("wash", "stroke"));
-            assert!(load.amount_mm > 0.0 && load.recipe.values().all(|part| *part >= 1e-3));
+            assert!(load.amount_mm > 0.0 && load.recipe.values().all(|part| *part >= 1e-6));
         }
     }
 }
