@@ -31,8 +31,7 @@ def opened(name):
 
 
 def keep(picture, name):
-    few = picture.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-    few.save(f"docs/{name}.png", optimize=True)
+    picture.save(f"docs/{name}.jpg", quality=88, optimize=True)
 
 
 landscape = opened("landscape")

@@ -60,7 +60,7 @@ fn unit(v: Vector) -> Vector {
 }
 
 /// Where a ray first meets a ball.
-fn met<'a>(balls: &'a [Ball], from: Vector, way: Vector) -> Option<(f64, &'a Ball)> {
+fn met(balls: &[Ball], from: Vector, way: Vector) -> Option<(f64, &Ball)> {
     let hits = balls.iter().filter_map(|ball| {
         let off: Vector = std::array::from_fn(|i| from[i] - ball.middle[i]);
         let half = dot(off, way);

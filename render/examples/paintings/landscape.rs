@@ -197,9 +197,12 @@ fn sun(easel: &mut Easel) {
     }
 }
 
+/// The height of a crest by place, and the mixtures below it.
+type Ridge = (fn(f64) -> f64, [&'static str; 3]);
+
 fn hills(easel: &mut Easel) {
     // Each behind the next: its crest, the mixtures, how steep its strokes are.
-    let ridges: [(fn(f64) -> f64, [&str; 3]); 3] = [
+    let ridges: [Ridge; 3] = [
         (
             |x| 51.0 - 5.0 * (x / 34.0 + 0.6).sin() - 2.0 * (x / 11.0).sin(),
             ["W9C1R0.3", "W6C1R0.4", "W14C1R0.5"],

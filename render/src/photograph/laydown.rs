@@ -206,7 +206,8 @@ mod tests {
     fn longer_strokes_take_more_paint() {
         let laydown = Laydown { curves: vec![vec![[0.1, 0.02], [0.2, 0.06]]], head_area: 4.0 };
         let touch = |height, length| laydown.touch(height, length);
-        assert_eq!(touch(0.04, LENGTH), Touch { passes: 1, load_mm: 0.15 });
+        assert!((touch(0.04, LENGTH).load_mm - 0.15).abs() < 1e-9, "{:?}", touch(0.04, LENGTH));
+        assert_eq!(touch(0.04, LENGTH).passes, 1);
         assert!(touch(0.04, 2.0 * LENGTH).load_mm > 0.18);
         assert!(touch(0.04, 1.0).load_mm < 0.15);
         assert!((touch(0.5, LENGTH).load_mm - 0.1925).abs() < 1e-9, "as near as it comes");

@@ -10,7 +10,7 @@ use crate::paint::contact::{Contact, Touch};
 use crate::paint::engine::{BrushId, Engine};
 use crate::paint::motion::Motion;
 use crate::paint::on_cpu::OnCpu;
-use crate::tile::{Rect, TileSet};
+use crate::tile::Rect;
 
 /// Six tiles, those at the right and lower edge smaller.
 const WIDTH: usize = 150;
