@@ -39,14 +39,15 @@ pub(crate) struct Paint {
     #[arg(long, value_name = "LIBRARY")]
     library: Option<PathBuf>,
     #[command(flatten)]
-    photograph: PhotographOptions,
-    #[command(flatten)]
     engine: EngineOptions,
     #[command(flatten)]
     exports: Exports,
     /// Print JSON: actions, strokes, substeps, cells, backend, canvas
     #[arg(long)]
     json: bool,
+    // Last: its heading holds for all that follow.
+    #[command(flatten)]
+    photograph: PhotographOptions,
 }
 
 impl Paint {

@@ -1,5 +1,7 @@
 //! Which graphics adapters there are, and which would be used.
 
+use std::path::Path;
+
 use super::device::Device;
 use super::error::GpuError;
 
@@ -156,13 +158,25 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
     adapters.iter().find(fits)
 }
 
+/// Whether the system shows a graphics device at all. Linux has a node for each;
+/// without one no driver is loaded, as some print to the terminal.
+fn hardware_is_possible() -> bool {
+    const NODES: [&str; 5] = ["/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kfd", "/dev/mali0"];
+    !cfg!(target_os = "linux") || NODES.iter().any(|node| Path::new(node).exists())
+}
+
 /// The device to paint on; none for the processor.
 ///
 /// # Errors
 /// For [`BackendChoice::Gpu`]: [`GpuError::NoAdapter`] where there is none, and
 /// the driver's error where it does not open. `Auto` then takes the processor.
 pub fn choose(choice: BackendChoice) -> Result<Option<Device>, GpuError> {
-    if choice == BackendChoice::Cpu {
+    let skipped = match choice {
+        BackendChoice::Auto => !hardware_is_possible(),
+        BackendChoice::Cpu => true,
+        BackendChoice::Gpu => false,
+    };
+    if skipped {
         return Ok(None);
     }
     let adapters = adapters();

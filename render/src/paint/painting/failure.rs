@@ -138,6 +138,9 @@ impl PaintingError {
                 Some("dry the painting, then go on with another palette".to_owned())
             }
             Self::MergeShows { .. } => Some("keep them apart; layers are unlimited".to_owned()),
+            Self::AlreadyThere { .. } => {
+                Some("a layer holds each pigment once: choose one that it lacks".to_owned())
+            }
             Self::WetOpacity => Some("dry it first".to_owned()),
             Self::OffPalette { .. } => {
                 Some("put it there with a palette action, or undo less".to_owned())
