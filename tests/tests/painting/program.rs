@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use render::amount::mm_from_quanta;
+use render::layer::SLOTS;
 use suite::program::{Run, impasto};
 
 /// A script with most actions, on a canvas of 120 x 80 cells.
@@ -161,7 +163,9 @@ fn pigment_maps_sum_all_layers() {
     let folder = folder.path();
     let script = script(folder, "", "");
     let maps = place(folder, "maps");
-    done_with_lines(&impasto(&["paint", &script, "--backend", "cpu", "--pigment-maps", &maps]));
+    let painting = place(folder, "painting.exr");
+    let to = ["--pigment-maps", &maps, "--output", &painting];
+    done_with_lines(&impasto(&[&["paint", &script, "--backend", "cpu"][..], &to].concat()));
     let mut names: Vec<String> = std::fs::read_dir(&maps)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -170,6 +174,28 @@ fn pigment_maps_sum_all_layers() {
     assert!(names.iter().any(|name| name.ends_with(".png")), "{names:?}");
     assert!(names.iter().any(|name| name.ends_with(".csv")), "{names:?}");
     assert!(names.iter().all(|name| !name.starts_with('.')), "{names:?}");
+
+    let document = render::paint::file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
+    let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
+    let layers: Vec<_> = dry.chain([(&document.slots, &document.wet)]).collect();
+    assert!(layers.len() > 1, "a dry layer, to be summed");
+    let recipe = std::fs::read_to_string(Path::new(&maps).join("painting.recipe.csv")).unwrap();
+    let quantum_mm3 = mm_from_quanta(1, document.cell_mm) * document.cell_mm.powi(2);
+    for line in recipe.lines().skip(1) {
+        let mut fields = line.split(',');
+        let (name, volume) = (fields.next().unwrap(), fields.next().unwrap());
+        let volume: f64 = volume.parse().unwrap();
+        let held = layers.iter().map(|(slots, paint)| {
+            let named = |slot: &Option<usize>| {
+                slot.is_some_and(|index| document.library.pigments[index].name == name)
+            };
+            let place = if name == "vehicle" { Some(SLOTS) } else { slots.iter().position(named) };
+            place.map_or(0, |place| paint.totals()[place])
+        });
+        let wanted = held.sum::<u64>() as f64 * quantum_mm3;
+        assert!((volume - wanted).abs() <= 1e-5 * wanted, "{name}: {volume} for {wanted}");
+    }
+    assert!(recipe.contains("Prussian Blue") && recipe.contains("Chrome Yellow"), "{recipe}");
 }
 
 #[test]
