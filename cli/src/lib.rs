@@ -43,7 +43,7 @@ use clap::Parser;
 use console::Console;
 pub use console::Screen;
 
-/// Measure real paint, calibrate it, and mix it.
+/// Measure real paint, calibrate it, and paint with it.
 #[derive(Debug, Parser)]
 #[command(name = "impasto", version, propagate_version = true, max_term_width = 100)]
 struct Arguments {

@@ -19,7 +19,6 @@ mod landscape;
 
 use std::convert::Infallible;
 
-use calibrate::library::PigmentLibrary;
 use render::field::Field;
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::{Painting, UNDO_BYTES};
@@ -31,8 +30,7 @@ fn shipped(name: &str) -> String {
 }
 
 fn painted(script: &Strokes) -> (ReplayReport, Painting) {
-    let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.pigments.json"));
-    let library = PigmentLibrary::from_json("oils", &oils.unwrap()).unwrap();
+    let library = suite::oils::library();
     let resolved = script.resolve(&library).unwrap();
     let (width, height) = script.canvas.cells();
     let ground = script.canvas.ground.ground(width, height, script.canvas.cell_mm, &library);
