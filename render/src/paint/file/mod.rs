@@ -1,7 +1,7 @@
 //! Paintings as OpenEXR files: format `impasto-painting`, version 1.
 //!
 //! One file with a part per layer, all scan lines, 32-bit float channels,
-//! compressed without loss (PIZ, which on wet paint takes half of ZIP's time and
+//! compressed without loss (PIZ, which on wet paint takes half of ZIP's time to write and
 //! two thirds of its bytes; ZIP and plain are read too), so that any program
 //! that reads OpenEXR shows and edits them:
 //!
