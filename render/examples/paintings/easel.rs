@@ -7,7 +7,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::paint::brush::HeadShape;
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Recipe, Stroke, Strokes};
+use render::paint::strokes::{
+    Action, BrushSpec, Canvas, Load, Palette, Recipe, Stroke, Strokes, Surface,
+};
 
 /// A place on the canvas in mm.
 pub(crate) type Place = (f64, f64);
@@ -115,7 +117,11 @@ impl Easel {
                 twist_deg: twist.round(),
             });
         }
-        self.script.actions.push(Action::Stroke(Stroke { brush: brush.to_owned(), samples }));
+        self.script.actions.push(Action::Stroke(Stroke {
+            brush: brush.to_owned(),
+            on: Surface::Canvas,
+            samples,
+        }));
     }
 
     /// A dab of a brush that leans to the lower right.
@@ -130,7 +136,11 @@ impl Easel {
             twist_deg: twist_deg.round(),
         };
         let brush = brush.to_owned();
-        self.script.actions.push(Action::Stroke(Stroke { brush, samples: vec![sample] }));
+        self.script.actions.push(Action::Stroke(Stroke {
+            brush,
+            on: Surface::Canvas,
+            samples: vec![sample],
+        }));
     }
 }
 

@@ -16,6 +16,7 @@ use crate::paint::brush::HeadShape;
 use crate::paint::painting::{Painting, PaintingError};
 use crate::paint::strokes::{
     Action, BrushSpec, Load, Recipe, ReplayError, ReplayReport, Stroke, Strokes, StrokesError,
+    Surface,
 };
 
 /// Brushes below this width in mm are rounds, those from it on filberts.
@@ -199,7 +200,7 @@ fn round_of(
                 vehicle: 0.0,
                 amount_mm: touch.load_mm,
             }),
-            Action::Stroke(Stroke { brush: brush.clone(), samples }),
+            Action::Stroke(Stroke { brush: brush.clone(), on: Surface::Canvas, samples }),
         ]);
     }
     round.actions.push(Action::Dry { fraction: 1.0 });

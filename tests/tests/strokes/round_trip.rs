@@ -8,7 +8,7 @@ use render::paint::document::{Lighting, Medium};
 use render::paint::ground::GroundSpec;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, LayerName, Load, Palette, Stroke, Strokes,
+    Action, BrushSpec, Canvas, LayerName, Load, Palette, Stroke, Strokes, Surface,
 };
 
 use crate::SOUND;
@@ -36,7 +36,7 @@ fn stroke() -> impl Strategy<Value = Action> {
             clock += sample.seconds;
             sample.seconds = clock;
         }
-        Action::Stroke(Stroke { brush: "big".to_owned(), samples })
+        Action::Stroke(Stroke { brush: "big".to_owned(), on: Surface::Canvas, samples })
     })
 }
 

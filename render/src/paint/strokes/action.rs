@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::names::distinct_keys;
 use super::palette::Palette;
 use super::rows;
+use crate::optics::Gloss;
 use crate::paint::document::Lighting;
 use crate::paint::pose::Sample;
 
@@ -70,6 +71,21 @@ pub enum Action {
         /// The upper of the two, counted from the lowest, 0; so 1 and up.
         layer: usize,
     },
+    /// Puts a heap of paint down, as from a tube.
+    Squeeze(Squeeze),
+    /// Takes all wet paint of a surface away.
+    Scrape {
+        /// The surface; the canvas if not given.
+        #[serde(default, skip_serializing_if = "Surface::is_canvas")]
+        on: Surface,
+    },
+    /// Another shine of the binder.
+    Gloss {
+        /// Of wet paint.
+        wet: Gloss,
+        /// Of dry paint.
+        dry: Gloss,
+    },
     /// Saves the painting (`.exr`) or its picture (`.png`).
     Save {
         /// Where: below the folder that the one who replays chooses.
@@ -94,6 +110,9 @@ impl Action {
             Self::Opacity { .. } => "opacity",
             Self::Swap { .. } => "swap",
             Self::Merge { .. } => "merge",
+            Self::Squeeze(_) => "squeeze",
+            Self::Scrape { .. } => "scrape",
+            Self::Gloss { .. } => "gloss",
             Self::Save { .. } => "save",
         }
     }
@@ -125,9 +144,52 @@ pub struct Load {
 pub struct Stroke {
     /// The brush.
     pub brush: String,
+    /// The surface; the canvas if not given.
+    #[serde(default, skip_serializing_if = "Surface::is_canvas")]
+    pub on: Surface,
     /// Where it was held, in order of time.
     #[serde(with = "rows")]
     pub samples: Vec<Sample>,
+}
+
+/// A heap of paint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Squeeze {
+    /// The surface; the canvas if not given.
+    #[serde(default, skip_serializing_if = "Surface::is_canvas")]
+    pub on: Surface,
+    /// The paint.
+    #[serde(deserialize_with = "distinct_keys")]
+    pub recipe: Recipe,
+    /// Share of the whole that is clear vehicle, 0..1; none if not given.
+    #[serde(default)]
+    pub vehicle: f64,
+    /// Its middle, from the left edge of the surface in mm.
+    pub x_mm: f64,
+    /// From the upper edge, in mm.
+    pub y_mm: f64,
+    /// How much, in cubic millimetres.
+    pub volume_mm3: f64,
+}
+
+/// Where wet paint lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Surface {
+    /// What is painted on.
+    #[default]
+    Canvas,
+    /// What is mixed on.
+    Palette,
+}
+
+impl Surface {
+    /// Whether this is the canvas.
+    #[must_use]
+    pub fn is_canvas(&self) -> bool {
+        *self == Self::Canvas
+    }
 }
 
 /// A layer: `"wet"`, or the number of a dry one.

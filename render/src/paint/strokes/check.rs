@@ -2,7 +2,7 @@
 
 use spectra::{Observer, light_from_text};
 
-use super::action::{Action, Load, Stroke};
+use super::action::{Action, Load, Recipe, Squeeze, Stroke};
 use super::error::{Fault, Place, StrokesError};
 use super::names::nearest;
 use super::palette::Palette;
@@ -107,6 +107,9 @@ impl Strokes {
                     Err(at.fault("path", wanted, path, hint))
                 }
             },
+            Action::Squeeze(squeeze) => check_squeeze(at, squeeze),
+            Action::Gloss { wet, dry } => check_gloss(at, "", *wet, *dry),
+            Action::Scrape { .. } => Ok(()),
             Action::Undo {} | Action::Redo {} | Action::Swap { .. } | Action::Merge { .. } => {
                 Ok(())
             }
@@ -181,9 +184,13 @@ fn check_canvas(canvas: &Canvas) -> Checked {
 fn check_medium(medium: &Medium) -> Checked {
     let at = At { action: None, sample: None };
     at.range("medium.scattering_per_mm", medium.scattering_per_mm, 1e-3, 1e6)?;
-    for (field, Gloss { strength, exponent }) in [("wet", medium.wet), ("dry", medium.dry)] {
-        at.range(&format!("medium.{field}.strength"), f64::from(strength), 0.0, 100.0)?;
-        at.range(&format!("medium.{field}.exponent"), f64::from(exponent), 0.0, 1e6)?;
+    check_gloss(&at, "medium.", medium.wet, medium.dry)
+}
+
+fn check_gloss(at: &At, prefix: &str, wet: Gloss, dry: Gloss) -> Checked {
+    for (field, Gloss { strength, exponent }) in [("wet", wet), ("dry", dry)] {
+        at.range(&format!("{prefix}{field}.strength"), f64::from(strength), 0.0, 100.0)?;
+        at.range(&format!("{prefix}{field}.exponent"), f64::from(exponent), 0.0, 1e6)?;
     }
     Ok(())
 }
@@ -216,17 +223,28 @@ fn check_palette(at: &At, palette: &Palette) -> Checked {
 }
 
 fn check_load(at: &At, load: &Load) -> Checked {
-    at.range("vehicle", load.vehicle, 0.0, 1.0)?;
     at.range("amount_mm", load.amount_mm, 0.0, 100.0)?;
-    if load.recipe.len() > SLOTS {
+    check_recipe(at, &load.recipe, load.vehicle)
+}
+
+fn check_squeeze(at: &At, squeeze: &Squeeze) -> Checked {
+    at.range("x_mm", squeeze.x_mm, -1e6, 1e6)?;
+    at.range("y_mm", squeeze.y_mm, -1e6, 1e6)?;
+    at.range("volume_mm3", squeeze.volume_mm3, 0.0, 1e6)?;
+    check_recipe(at, &squeeze.recipe, squeeze.vehicle)
+}
+
+fn check_recipe(at: &At, recipe: &Recipe, vehicle: f64) -> Checked {
+    at.range("vehicle", vehicle, 0.0, 1.0)?;
+    if recipe.len() > SLOTS {
         let wanted = format!("at most {SLOTS} pigments");
-        return Err(at.fault("recipe", &wanted, &load.recipe.len(), None));
+        return Err(at.fault("recipe", &wanted, &recipe.len(), None));
     }
-    for (pigment, parts) in &load.recipe {
+    for (pigment, parts) in recipe {
         at.range(&format!("recipe, {pigment}"), *parts, 0.0, 1e6)?;
     }
-    let paint = load.recipe.values().fold(0.0, |sum, parts| sum + parts);
-    if paint <= 0.0 && load.vehicle < 1.0 {
+    let paint = recipe.values().fold(0.0, |sum, parts| sum + parts);
+    if paint <= 0.0 && vehicle < 1.0 {
         let hint = "clear vehicle alone is \"vehicle\": 1".to_owned();
         return Err(at.fault("recipe", "parts that sum to more than 0", &paint, Some(hint)));
     }

@@ -50,7 +50,7 @@ mod resolve;
 
 mod replay;
 
-pub use action::{Action, LayerName, Load, Recipe, Stroke};
+pub use action::{Action, LayerName, Load, Recipe, Squeeze, Stroke, Surface};
 pub use check::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
 pub use error::{Fault, Place, StrokesError};
 pub use file::LONGEST_FILE;

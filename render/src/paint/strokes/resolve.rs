@@ -2,7 +2,7 @@
 
 use calibrate::library::{PigmentLibrary, RecipeError};
 
-use super::action::{Action, Recipe};
+use super::action::{Action, Load, Recipe, Squeeze};
 use super::check::{At, near};
 use super::error::{Fault, StrokesError};
 use super::palette::Palette;
@@ -24,7 +24,7 @@ pub struct Resolved {
 pub enum ActionPigments {
     /// It names none.
     None,
-    /// Of a load: pigment and parts, in order of the library; parts above 0.
+    /// Of a load or a heap: pigment and parts, in order of the library; parts above 0.
     Recipe(Vec<(usize, f64)>),
     /// Of a palette.
     Palette(Slots),
@@ -58,7 +58,9 @@ impl Strokes {
         for (index, action) in self.actions.iter().enumerate() {
             let at = At { action: Some((index, action.kind())), sample: None };
             actions.push(match action {
-                Action::Load(load) => ActionPigments::Recipe(scope.recipe(&at, &load.recipe)?),
+                Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
+                    ActionPigments::Recipe(scope.recipe(&at, recipe)?)
+                }
                 Action::Palette(palette) => ActionPigments::Palette(scope.palette(&at, palette)?),
                 Action::Swap { from, to, .. } => ActionPigments::Swap {
                     from: scope.pigment(&at, "from", from)?,

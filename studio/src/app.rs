@@ -1,0 +1,1 @@
+//! The window: what is where, and what keys do.

@@ -1,0 +1,1 @@
+//! Files: paintings, revisions, autosave, exports, preferences.

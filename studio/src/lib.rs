@@ -1,0 +1,24 @@
+//! The interactive program: paint by hand with calibrated pigments.
+//!
+//! The window thread draws and listens; all paint is moved on the thread of
+//! [`worker`], which takes [`worker::Command`]s and answers with
+//! [`worker::Event`]s. Panels are functions from what the worker last told to
+//! commands.
+//!
+//! Out of scope: measuring and fitting pigments (the program `impasto`).
+
+pub mod theme;
+
+pub mod chart;
+
+pub mod worker;
+
+pub mod pen;
+
+pub mod view;
+
+pub mod files;
+
+pub mod panels;
+
+pub mod app;

@@ -1,0 +1,3 @@
+//! The program `impasto-studio`.
+
+fn main() {}

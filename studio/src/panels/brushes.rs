@@ -1,0 +1,1 @@
+//! Brushes: shape, size, what is on them.

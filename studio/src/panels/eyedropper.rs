@@ -1,0 +1,1 @@
+//! The eyedropper: spectrum, Lab, recipe, thickness, and recipes for a colour.

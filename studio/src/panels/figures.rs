@@ -1,0 +1,1 @@
+//! Latency and speed, on demand.

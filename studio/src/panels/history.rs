@@ -1,0 +1,1 @@
+//! The history: what was done, and going back.

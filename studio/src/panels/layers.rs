@@ -1,0 +1,1 @@
+//! Wet and dry: drying, dry layers.

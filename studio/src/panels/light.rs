@@ -1,0 +1,1 @@
+//! The light: illuminant, direction, gloss, split view.

@@ -1,0 +1,26 @@
+//! The panels: each shows what the worker last told, and asks for changes.
+
+mod desk;
+
+mod tools;
+
+pub mod brushes;
+
+pub mod eyedropper;
+
+pub mod history;
+
+pub mod layers;
+
+pub mod light;
+
+pub mod reference;
+
+pub mod tubes;
+
+pub mod figures;
+
+pub mod revisions;
+
+pub use desk::{Desk, FileRequest, Request};
+pub use tools::{Mode, Tools};

@@ -1,0 +1,1 @@
+//! A picture pinned beside the canvas.

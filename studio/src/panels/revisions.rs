@@ -1,0 +1,1 @@
+//! Revisions of the painting, and recovery.

@@ -1,0 +1,1 @@
+//! Tubes and the palette's pigments.

@@ -1,0 +1,1 @@
+//! From pens, mice and fingers to samples.

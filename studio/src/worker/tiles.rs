@@ -1,0 +1,1 @@
+//! Changed tiles, ready for the screen.

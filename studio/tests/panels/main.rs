@@ -1,0 +1,23 @@
+//! Every panel without a window, on a real engine, with a synthetic pen.
+
+mod harness;
+
+mod brushes;
+
+mod canvas;
+
+mod eyedropper;
+
+mod files;
+
+mod history;
+
+mod layers;
+
+mod light;
+
+mod pen;
+
+mod reference;
+
+mod tubes;
