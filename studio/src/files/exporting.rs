@@ -1,6 +1,6 @@
 //! Exports of a painting: what can be made, and the making.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use render::export::{
     Bands, PictureFormat, painting_maps, picture_file, pigment_maps, spectral_file,
@@ -90,14 +90,4 @@ fn clipped(path: &Path, share: f64) -> FileFailure {
     let (path, share) = (path.display(), 100.0 * share);
     let what = format!("{path}: {share:.1} % of the cells are outside sRGB and were clipped");
     FileFailure::new(what, "linear OpenEXR keeps them")
-}
-
-/// `path` with the ending of `export`, if it has not got it.
-#[must_use]
-pub(super) fn with_ending(path: PathBuf, ending: &str) -> PathBuf {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    if name.to_lowercase().ends_with(&format!(".{}", ending.to_lowercase())) {
-        return path;
-    }
-    path.with_file_name(format!("{name}.{ending}"))
 }

@@ -15,20 +15,34 @@ mod home;
 
 mod preferences;
 
-mod begun;
-
 mod opened;
 
 mod session;
 
 mod revisions;
 
+mod revision_list;
+
 mod exporting;
 
 mod figures_log;
 
+mod browser;
+
+mod dialogs;
+
+mod notices;
+
+mod work;
+
+mod finished;
+
+mod asking;
+
+mod state;
+
 pub use age::{ago, size};
-pub use begun::{built_in_library, script, varied_slots};
+pub use browser::{Answer, Browser, Entry, Filter, Wanted};
 pub use exporting::{Export, export};
 pub use failure::FileFailure;
 pub use figures_log::{FigureLine, FiguresLog, FrameFigures};
@@ -37,5 +51,7 @@ pub use job::{Job, Progress, Stopped};
 pub use opened::{Opened, read};
 pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use request::FileRequest;
+pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
 pub use session::{LostSession, Session, SessionMeta};
+pub use state::{Files, Reference};

@@ -11,9 +11,9 @@ use render::paint::strokes::{Action, Strokes};
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
-use super::begun::built_in_library;
 use super::failure::FileFailure;
 use super::job::{Progress, Stopped};
+use crate::worker::oils;
 
 /// What a file was opened as.
 #[derive(Debug, Clone, PartialEq)]
@@ -193,7 +193,7 @@ fn named_library(
     folder: &Path,
     remarks: &mut Vec<FileFailure>,
 ) -> Result<PigmentLibrary, FileFailure> {
-    let built_in = built_in_library();
+    let built_in = oils();
     let Some(named) = script.library.as_ref().filter(|named| **named != built_in.title) else {
         return Ok(built_in);
     };
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn kinds_are_found_by_content_whatever_the_name() {
-        let library = built_in_library();
+        let library = oils();
         let script = script();
         let resolved = script.resolve(&library).unwrap();
         let (width, height) = script.canvas.cells();
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn a_recording_takes_the_library_beside_it_and_saves_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let mut library = built_in_library();
+        let mut library = oils();
         library.title = "mine".to_owned();
         std::fs::write(folder.path().join("mine.json"), library.to_json()).unwrap();
         let mut script = script();
@@ -303,6 +303,6 @@ mod tests {
         std::fs::write(&path, script.to_json().unwrap()).unwrap();
         let told = read(&path, &Progress::default()).unwrap();
         let Opened::Recording { library, remarks, .. } = told else { panic!("no recording") };
-        assert_eq!((*library, remarks.len()), (built_in_library(), 2));
+        assert_eq!((*library, remarks.len()), (oils(), 2));
     }
 }
