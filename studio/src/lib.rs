@@ -21,4 +21,6 @@ pub mod files;
 
 pub mod panels;
 
+pub mod arguments;
+
 pub mod app;

@@ -22,5 +22,6 @@ pub mod figures;
 
 pub mod revisions;
 
-pub use desk::{Desk, FileRequest, Request};
+pub use crate::files::FileRequest;
+pub use desk::{Desk, Request};
 pub use tools::{Mode, Tools};
