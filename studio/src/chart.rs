@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align2, Color32, FontId, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2,
+    Align2, Color32, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use spectra::Grid;
 
@@ -73,13 +74,8 @@ impl Chart<'_> {
     /// 120.0)`.
     pub fn show(&self, ui: &mut Ui, size: Vec2) -> Response {
         let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
-        response.widget_info(|| {
-            eframe::egui::WidgetInfo::labeled(
-                eframe::egui::WidgetType::Image,
-                true,
-                format!("{} over wavelength", self.quantity),
-            )
-        });
+        let label = format!("{} over wavelength", self.quantity);
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
         if !ui.is_rect_visible(whole) {
             return response;
         }
