@@ -13,6 +13,8 @@ pub mod chart;
 
 pub mod worker;
 
+pub mod matching;
+
 pub mod pen;
 
 pub mod view;

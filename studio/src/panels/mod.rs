@@ -4,6 +4,8 @@ mod desk;
 
 mod tools;
 
+mod draft;
+
 pub mod brushes;
 
 pub mod eyedropper;
