@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use render::paint::strokes::Action;
+
 use super::tools::Tools;
 use crate::worker::{Command, EaselState};
 
@@ -59,6 +61,11 @@ impl Desk<'_> {
     /// Asks the worker.
     pub fn command(&mut self, command: Command) {
         self.asked.push(Request::Worker(command));
+    }
+
+    /// Asks the worker for one action of the history.
+    pub fn act(&mut self, action: Action) {
+        self.command(Command::Act(action));
     }
 
     /// Asks for something about files.

@@ -4,6 +4,10 @@ mod desk;
 
 mod tools;
 
+mod controls;
+
+mod pigments;
+
 pub mod brushes;
 
 pub mod eyedropper;
