@@ -6,6 +6,10 @@ mod tools;
 
 mod draft;
 
+mod controls;
+
+mod pigments;
+
 pub mod brushes;
 
 pub mod eyedropper;
