@@ -26,3 +26,5 @@ pub mod panels;
 pub mod arguments;
 
 pub mod app;
+
+pub mod window;

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Context, Grid, ScrollArea, Window, vec2};
 
-use super::intent::{ENTRIES, Menu};
+use super::entries::ENTRIES;
+use super::intent::Menu;
 
 /// What is not in a menu.
 const POINTER: &[(&str, &str)] = &[

@@ -5,7 +5,8 @@
 
 use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
 
-use super::intent::{ENTRIES, Intent};
+use super::entries::ENTRIES;
+use super::intent::Intent;
 use crate::panels::Mode;
 
 /// Seconds after which a key of a tool counts as held.

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use eframe::egui::{
-    Color32, EventFilter, Key, Mesh, Pos2, Response, Sense, Shape, Stroke, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Color32, EventFilter, Key, Mesh, Pos2, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
 use spectra::color::Rgb;
 
