@@ -24,7 +24,7 @@ mod events;
 
 mod studio;
 
-pub use frames::{FrameRate, Frames};
+pub use frames::Frames;
 pub use intent::{ENTRIES, Entry, Intent, Menu};
 pub use keys::Keys;
 pub use status::Message;

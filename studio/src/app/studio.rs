@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{CentralPanel, Context, Frame, Margin, Panel, Ui, ViewportCommand};
 
-use super::frames::{FrameRate, Frames};
+use super::frames::Frames;
 use super::keys::Keys;
 use super::status::Message;
 use super::surfaces::Hover;
 use super::{help, menus, status, toolbar};
+use crate::panels::figures::FrameRate;
 use crate::panels::{Request, Tools};
 use crate::theme;
 use crate::view::{Outline, SurfaceView};

@@ -2,6 +2,8 @@
 
 mod harness;
 
+mod stage;
+
 mod brushes;
 
 mod canvas;
