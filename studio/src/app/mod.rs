@@ -33,7 +33,7 @@ mod events;
 mod studio;
 
 pub use entries::ENTRIES;
-pub use frames::{FrameRate, Frames};
+pub use frames::Frames;
 pub use intent::{Entry, Intent, Menu};
 pub use keys::Keys;
 pub use parts::{Begun, Parts};

@@ -10,7 +10,7 @@ use eframe::egui::{
 
 use render::paint::strokes::Surface;
 
-use super::frames::{FrameRate, Frames};
+use super::frames::Frames;
 use super::keys::Keys;
 use super::parts::{Begun, Parts};
 use super::side::Panels;
@@ -18,6 +18,7 @@ use super::status::Message;
 use super::surfaces::Hover;
 use super::{help, menus, status, toolbar};
 use crate::files::{FiguresLog, Files, FrameFigures};
+use crate::panels::figures::FrameRate;
 use crate::panels::{Desk, FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;

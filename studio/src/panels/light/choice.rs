@@ -13,7 +13,7 @@ const USUAL_KELVIN: f64 = 6500.0;
 #[derive(Debug)]
 pub(super) struct Choice {
     picker: Picker,
-    temperature_label: &'static str,
+    temperature_name: &'static str,
     temperature: Temperature,
     /// The temperature of the light last shown, by its name.
     known: (String, f64),
@@ -21,10 +21,10 @@ pub(super) struct Choice {
 
 impl Choice {
     /// A choice with the names of its two controls.
-    pub(super) fn new(name: &'static str, temperature_label: &'static str) -> Self {
+    pub(super) fn new(name: &'static str, temperature_name: &'static str) -> Self {
         Self {
             picker: Picker::new(name),
-            temperature_label,
+            temperature_name,
             temperature: Temperature::default(),
             known: (String::new(), USUAL_KELVIN),
         }
@@ -39,7 +39,7 @@ impl Choice {
             self.known = (chosen.to_owned(), kelvin);
         }
         let picked = self.picker.show(ui, chosen);
-        picked.or(self.temperature.show(ui, self.temperature_label, self.known.1))
+        picked.or(self.temperature.show(ui, self.temperature_name, self.known.1))
     }
 
     /// The light that the slider stands at, while it is being set.

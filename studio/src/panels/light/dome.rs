@@ -102,10 +102,10 @@ pub(super) fn dome(
     (response, touch)
 }
 
-/// `315 deg from the top, 50 deg high`.
+/// `315 deg, 50 deg high`.
 pub(super) fn told(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
-    format!("{azimuth_deg:.0}\u{b0} from the top, {elevation_deg:.0}\u{b0} high")
+    format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high")
 }
 
 /// Steps to the right and up that the keys asked for.

@@ -85,8 +85,9 @@ fn highlight(rect: Rect, gloss: Gloss) -> Shape {
     for row in 0..=CELLS {
         for column in 0..=CELLS {
             let (u, v) = (column as f32 / CELLS as f32, row as f32 / CELLS as f32);
-            // A quarter turn from edge to edge.
-            let away = vec2(2.0 * u - 1.0, 2.0 * v - 1.0).length().min(1.0);
+            // A quarter turn from the upper to the lower edge.
+            let across = (2.0 * u - 1.0) * rect.width() / rect.height();
+            let away = vec2(across, 2.0 * v - 1.0).length().min(2.0);
             let shine = gloss.strength * (away * 0.785).cos().powf(gloss.exponent);
             let light = f64::from(0.02 + 0.45 * shine.min(2.0));
             let [grey, ..] = Rgb([light; 3]).encoded().to_bytes();

@@ -4,6 +4,8 @@ mod lamps;
 
 mod picker;
 
+mod row;
+
 mod temperature;
 
 mod choice;

@@ -12,6 +12,7 @@ use super::choice::Choice;
 use super::curve::powers;
 use super::dome::{Direction, dome, told as told_direction};
 use super::gloss_pad::{gloss_pad, told as told_gloss};
+use super::row::row;
 use super::white::White;
 use crate::files::FileRequest;
 use crate::theme;
@@ -129,22 +130,25 @@ impl LightPanel {
                 elevation_deg: lighting.elevation_deg,
             };
             let (response, touched) = dome(ui, DOME, &mut direction, lighting.ambient);
-            response.on_hover_text("Drag the light over the canvas; arrow keys turn and raise it");
+            response.on_hover_text("Drag the light over the canvas: degrees clockwise from the top, and above the canvas. \
+                 Arrow keys turn and raise it",
+            );
             touch = touched;
             if touch != Touch::None {
                 lighting.azimuth_deg = direction.azimuth_deg;
                 lighting.elevation_deg = direction.elevation_deg;
             }
             ui.vertical(|ui| {
-                ui.spacing_mut().slider_width = 64.0;
                 ui.label("Direction");
-                ui.label(told_direction(direction));
-                let ambient = Slider::new(&mut lighting.ambient, 0.0..=1.0).text("Ambient");
-                let ambient = ui.add(ambient.fixed_decimals(2).update_while_editing(false));
+                ui.weak(told_direction(direction));
+                let ambient = Slider::new(&mut lighting.ambient, 0.0..=1.0);
+                let ambient = ambient.fixed_decimals(2).update_while_editing(false);
+                let ambient = row(ui, "Ambient", ambient).accessible_name("Ambient");
                 let ambient = ambient.on_hover_text("Share of the light that comes from all sides");
                 touch = touch.or(Touch::of(&ambient));
-                let relief = Slider::new(&mut lighting.relief, 0.0..=3.0).text("Relief");
-                let relief = ui.add(relief.fixed_decimals(2).update_while_editing(false));
+                let relief = Slider::new(&mut lighting.relief, 0.0..=3.0);
+                let relief = relief.fixed_decimals(2).update_while_editing(false);
+                let relief = row(ui, "Relief", relief).accessible_name("Relief");
                 let relief = relief.on_hover_text("How much brush marks show: 0 flat, 1 as it is");
                 touch = touch.or(Touch::of(&relief));
             });
@@ -167,7 +171,10 @@ impl LightPanel {
         ui.horizontal(|ui| {
             for (name, gloss) in [("Wet gloss", &mut wet), ("Dry gloss", &mut dry)] {
                 ui.vertical(|ui| {
-                    ui.label(name);
+                    ui.horizontal(|ui| {
+                        ui.label(name);
+                        ui.weak(format!("{:.2}, {:.0}", gloss.strength, gloss.exponent));
+                    });
                     let (response, touched) = gloss_pad(ui, name, vec2(side, 76.0), gloss);
                     let hover = format!(
                         "{name}: {}. Drag to the right for a sharper highlight, up for a stronger \
@@ -175,7 +182,6 @@ impl LightPanel {
                         told_gloss(*gloss)
                     );
                     response.on_hover_text(hover);
-                    ui.small(told_gloss(*gloss));
                     touch = touch.or(touched);
                 });
             }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use eframe::egui::{
-    Align, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, TextEdit, Ui,
+    Align, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape, Stroke,
+    TextEdit, Ui, vec2,
 };
 use spectra::{ColourTemperature, Illuminant, light_from_text};
 
@@ -29,8 +30,11 @@ impl Picker {
     pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         let text = short(chosen);
         let width = ui.available_width();
-        let button = Button::new(text.clone()).right_text("\u{23f7}").truncate();
+        let button = Button::new(text.clone()).right_text("   ").truncate();
         let response = ui.add_sized([width, ui.spacing().interact_size.y], button);
+        let tip = response.rect.right_center() - vec2(13.0, -2.5);
+        let corners = vec![tip, tip + vec2(-4.0, -5.0), tip + vec2(4.0, -5.0)];
+        ui.painter().add(Shape::convex_polygon(corners, theme::FAINT, Stroke::NONE));
         response.widget_info(|| {
             let label = format!("{}: {text}", self.name);
             eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
@@ -57,7 +61,8 @@ impl Picker {
     fn list(&mut self, ui: &mut Ui, chosen: &str, opened: bool) -> Option<String> {
         let field = TextEdit::singleline(&mut self.search)
             .hint_text("Search, or 3200K, D5600K")
-            .desired_width(f32::INFINITY);
+            .desired_width(f32::INFINITY)
+            .vertical_align(Align::Center);
         let field = ui.add(field).on_hover_text(
             "Words of a light's name or kind; a temperature, as 3200K of a black body or D5600K of \
              daylight; or the path of a lamp's file. Enter takes the first",

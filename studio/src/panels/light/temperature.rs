@@ -3,6 +3,7 @@
 use eframe::egui::{Slider, Ui};
 
 use super::super::draft::Touch;
+use super::row::row;
 
 /// Daylight begins here, in kelvin (CIE 15:2018).
 const DAYLIGHT_FROM: f64 = 4000.0;
@@ -22,12 +23,12 @@ pub(super) struct Temperature {
 impl Temperature {
     /// The temperature being set, as `spectra` names its light.
     pub(super) fn wished(&self) -> Option<String> {
-        self.waiting.map(|(kelvin, _)| name(kelvin))
+        self.waiting.map(|(kelvin, _)| light(kelvin))
     }
 
-    /// Shows the slider; `kelvin` is that of the present light. Gives the light
+    /// Shows the slider called `name`; `kelvin` is that of the present light. Gives the light
     /// that is asked for: once the slider is let go, or keys rest.
-    pub(super) fn show(&mut self, ui: &mut Ui, label: &str, kelvin: f64) -> Option<String> {
+    pub(super) fn show(&mut self, ui: &mut Ui, name: &str, kelvin: f64) -> Option<String> {
         let now = ui.input(|input| input.time);
         let mut value = self.waiting.map_or(kelvin, |(waiting, _)| waiting);
         let slider = Slider::new(&mut value, KELVIN.0..=KELVIN.1)
@@ -35,9 +36,8 @@ impl Temperature {
             .smart_aim(false)
             .custom_formatter(|kelvin, _| format!("{:.0}", rounded(kelvin)))
             .suffix(" K")
-            .update_while_editing(false)
-            .text(label);
-        let response = ui.add(slider).on_hover_text(
+            .update_while_editing(false);
+        let response = row(ui, "Temperature", slider).accessible_name(name).on_hover_text(
             "Temperature of the light: daylight from 4000 K, a black body below. Taken when let go",
         );
         let value = rounded(value);
@@ -45,7 +45,7 @@ impl Temperature {
             Touch::Dragged => self.waiting = Some((value, None)),
             Touch::LetGo => {
                 self.waiting = None;
-                return Some(name(value));
+                return Some(light(value));
             }
             Touch::Set => {
                 self.waiting = Some((value, Some(now)));
@@ -56,7 +56,7 @@ impl Temperature {
         let since = since?;
         if now >= since + PAUSE {
             self.waiting = None;
-            return Some(name(value));
+            return Some(light(value));
         }
         ui.ctx().request_repaint_after_secs((since + PAUSE - now) as f32);
         None
@@ -70,7 +70,7 @@ fn rounded(kelvin: f64) -> f64 {
 }
 
 /// `D5600K`, `3200K`.
-fn name(kelvin: f64) -> String {
+fn light(kelvin: f64) -> String {
     if kelvin < DAYLIGHT_FROM { format!("{kelvin}K") } else { format!("D{kelvin}K") }
 }
 
@@ -83,7 +83,7 @@ mod tests {
         for (kelvin, wanted) in
             [(1500.0, "1500K"), (3990.0, "3990K"), (4000.0, "D4000K"), (25000.0, "D25000K")]
         {
-            assert_eq!(name(kelvin), wanted);
+            assert_eq!(light(kelvin), wanted);
             spectra::light_from_text(wanted).unwrap();
         }
     }
