@@ -1,1 +1,231 @@
-//! Small curves over wavelength.
+//! Small curves over wavelength, 380 to 730 nm.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
+};
+use spectra::Grid;
+
+use crate::theme;
+
+/// The band that every chart shows, in nm.
+pub const BAND_NM: RangeInclusive<f64> = 380.0..=730.0;
+
+/// A curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What it is of; told when the pointer is over the chart.
+    pub name: String,
+    /// Wavelength in nm, rising, and the value there.
+    pub points: Vec<(f64, f64)>,
+    /// As it is drawn: of a pigment, its own colour.
+    pub colour: Color32,
+}
+
+impl Curve {
+    /// Values on a grid, in light grey.
+    #[must_use]
+    pub fn new(name: &str, grid: Grid, values: &[f64]) -> Self {
+        let points = grid.wavelengths_nm().zip(values.iter().copied()).collect();
+        Self { name: name.to_owned(), points, colour: theme::TEXT }
+    }
+
+    /// The same curve in a colour. Those too dark to be seen on the chart are
+    /// lifted.
+    #[must_use]
+    pub fn coloured(mut self, [red, green, blue]: [u8; 3]) -> Self {
+        let seen = red.max(green).max(blue) >= 96;
+        let lift = |value: u8| if seen { value } else { value.saturating_add(96) };
+        self.colour = Color32::from_rgb(lift(red), lift(green), lift(blue));
+        self
+    }
+
+    /// The value at a wavelength, on the straight line between its neighbours.
+    #[must_use]
+    pub fn at(&self, nm: f64) -> Option<f64> {
+        let after = self.points.partition_point(|point| point.0 < nm);
+        let right = *self.points.get(after)?;
+        if right.0 == nm {
+            return Some(right.1);
+        }
+        let left = *self.points.get(after.checked_sub(1)?)?;
+        Some(left.1 + (right.1 - left.1) * (nm - left.0) / (right.0 - left.0))
+    }
+}
+
+/// Curves on common axes.
+#[derive(Debug, Clone, Copy)]
+pub struct Chart<'a> {
+    /// What is drawn.
+    pub curves: &'a [Curve],
+    /// Wavelengths marked by upright lines, in nm.
+    pub marks: &'a [f64],
+    /// Quantity and unit of the values: `reflectance`, `relative power`.
+    pub quantity: &'a str,
+    /// The greatest value on the axis, which begins at 0; the greatest of the
+    /// curves if none is given.
+    pub most: Option<f64>,
+}
+
+impl Chart<'_> {
+    /// Draws it. A narrow panel gives all its width: `vec2(ui.available_width(),
+    /// 120.0)`.
+    pub fn show(&self, ui: &mut Ui, size: Vec2) -> Response {
+        let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
+        let label = format!("{} over wavelength", self.quantity);
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
+        if !ui.is_rect_visible(whole) {
+            return response;
+        }
+        let axes = Axes::new(whole, self.most());
+        let painter = ui.painter_at(whole);
+        painter.rect_filled(whole, theme::ROUND, theme::WELL);
+        axes.frame(&painter, self.quantity);
+        for &nm in self.marks {
+            let line = [axes.place(nm, 0.0), axes.place(nm, axes.most)];
+            painter.line_segment(line, Stroke::new(1.0, theme::FAINT.gamma_multiply(0.6)));
+        }
+        let inner = painter.with_clip_rect(axes.inner.expand(1.0));
+        for curve in self.curves {
+            let line = curve.points.iter().map(|&(nm, value)| axes.place(nm, value)).collect();
+            inner.line(line, Stroke::new(1.5, curve.colour));
+        }
+        let Some(pointer) = response.hover_pos() else { return response };
+        let nm = axes.wavelength(pointer.x);
+        painter.vline(pointer.x, axes.inner.y_range(), Stroke::new(1.0, theme::FAINT));
+        response.on_hover_text_at_pointer(self.told(nm))
+    }
+
+    fn most(&self) -> f64 {
+        let values = self.curves.iter().flat_map(|curve| &curve.points);
+        let shown = values.filter(|point| BAND_NM.contains(&point.0)).map(|point| point.1);
+        let most = self.most.unwrap_or_else(|| shown.fold(0.0, f64::max) * 1.05);
+        if most.is_finite() && most > 0.0 { most } else { 1.0 }
+    }
+
+    /// The values at a wavelength, a line each.
+    fn told(&self, nm: f64) -> String {
+        let mut lines = vec![format!("{nm:.0} nm")];
+        for curve in self.curves {
+            if let Some(value) = curve.at(nm) {
+                lines.push(format!("{} {value:.3}", curve.name));
+            }
+        }
+        lines.join("\n")
+    }
+}
+
+/// From values to places on the screen.
+struct Axes {
+    inner: Rect,
+    most: f64,
+}
+
+impl Axes {
+    fn new(whole: Rect, most: f64) -> Self {
+        let inner = Rect::from_min_max(whole.min + vec2(30.0, 16.0), whole.max - vec2(10.0, 18.0));
+        Self { inner, most }
+    }
+
+    fn place(&self, nm: f64, value: f64) -> Pos2 {
+        let along = (nm - BAND_NM.start()) / (BAND_NM.end() - BAND_NM.start());
+        pos2(
+            self.inner.left() + self.inner.width() * along as f32,
+            self.inner.bottom() - self.inner.height() * (value / self.most) as f32,
+        )
+    }
+
+    fn wavelength(&self, x: f32) -> f64 {
+        let along = f64::from((x - self.inner.left()) / self.inner.width()).clamp(0.0, 1.0);
+        BAND_NM.start() + along * (BAND_NM.end() - BAND_NM.start())
+    }
+
+    fn frame(&self, painter: &Painter, quantity: &str) {
+        let font = FontId::proportional(10.0);
+        let line = Stroke::new(1.0, theme::LINE);
+        for share in [0.0, 0.5, 1.0] {
+            let value = self.most * share;
+            let y = self.place(400.0, value).y;
+            painter.hline(self.inner.x_range(), y, line);
+            let beside = pos2(self.inner.left() - 4.0, y);
+            painter.text(beside, Align2::RIGHT_CENTER, short(value), font.clone(), theme::FAINT);
+        }
+        for nm in [400.0, 500.0, 600.0, 700.0] {
+            let foot = self.place(nm, 0.0);
+            painter.vline(foot.x, self.inner.y_range(), line);
+            let last = nm == 700.0;
+            let text = if last { "700 nm".to_owned() } else { format!("{nm:.0}") };
+            let below = pos2(foot.x, foot.y + 3.0);
+            painter.text(below, Align2::CENTER_TOP, text, font.clone(), theme::FAINT);
+        }
+        let above = pos2(self.inner.left(), self.inner.top() - 14.0);
+        painter.text(above, Align2::LEFT_TOP, quantity, font, theme::FAINT);
+    }
+}
+
+/// A number in at most five characters.
+fn short(value: f64) -> String {
+    let digits = match value.abs() {
+        0.0 => 0,
+        size if size < 0.1 => 3,
+        size if size < 1.0 => 2,
+        size if size < 10.0 => 1,
+        _ => 0,
+    };
+    format!("{value:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp() -> Curve {
+        let grid = Grid::from_nm(400.0, 100.0, 4).unwrap();
+        Curve::new("ramp", grid, &[0.0, 1.0, 2.0, 4.0])
+    }
+
+    #[test]
+    fn a_value_lies_on_the_line_between_its_neighbours_and_nowhere_else() {
+        let curve = ramp();
+        assert_eq!(curve.at(400.0), Some(0.0));
+        assert_eq!(curve.at(650.0), Some(3.0));
+        assert_eq!(curve.at(700.0), Some(4.0));
+        assert_eq!((curve.at(399.0), curve.at(701.0)), (None, None));
+    }
+
+    #[test]
+    fn places_follow_the_axes_and_come_back() {
+        let axes = Axes::new(Rect::from_min_size(pos2(10.0, 20.0), vec2(240.0, 120.0)), 2.0);
+        assert_eq!(axes.place(380.0, 0.0), axes.inner.left_bottom());
+        assert_eq!(axes.place(730.0, 2.0), axes.inner.right_top());
+        assert!((axes.wavelength(axes.place(555.0, 1.0).x) - 555.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn the_axis_reaches_the_greatest_value_in_the_band() {
+        let mut curve = ramp();
+        curve.points.push((800.0, 100.0));
+        let curves = [curve];
+        let chart = Chart { curves: &curves, marks: &[], quantity: "power", most: None };
+        assert!((chart.most() - 4.2).abs() < 1e-9, "{}", chart.most());
+        assert_eq!(Chart { most: Some(1.0), ..chart }.most(), 1.0);
+        assert_eq!(Chart { curves: &[], ..chart }.most(), 1.0);
+    }
+
+    #[test]
+    fn the_pointer_tells_each_curve_that_has_a_value_there() {
+        let curves = [ramp()];
+        let chart = Chart { curves: &curves, marks: &[], quantity: "power", most: None };
+        assert_eq!(chart.told(450.0), "450 nm\nramp 0.500");
+        assert_eq!(chart.told(390.0), "390 nm");
+    }
+
+    #[test]
+    fn dark_colours_are_lifted_off_the_ground() {
+        let drawn = |rgb| ramp().coloured(rgb).colour;
+        assert_eq!(drawn([10, 20, 30]), Color32::from_rgb(106, 116, 126));
+        assert_eq!(drawn([200, 0, 30]), Color32::from_rgb(200, 0, 30));
+    }
+}

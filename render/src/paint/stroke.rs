@@ -1,9 +1,14 @@
 //! From samples of a pen to sub-steps of at most one cell, and what a head
 //! touches in each.
 
+mod error;
+
+mod piece;
+
 mod path;
 
-use path::{Piece, Way};
+pub use error::StrokeError;
+pub use path::Path;
 
 use super::brush::{Head, Relief};
 use super::contact::Contact;
@@ -36,26 +41,13 @@ pub fn substeps(
     samples: &[Sample],
     cell_mm: f64,
 ) -> Result<impl Iterator<Item = Pose> + use<>, StrokeError> {
-    if !(cell_mm.is_finite() && cell_mm > 0.0) {
-        return Err(StrokeError::Cell { cell_mm });
-    }
     if samples.is_empty() {
         return Err(StrokeError::Empty);
     }
-    check(samples, cell_mm)?;
-    let poses: Vec<Pose> = samples.iter().map(|sample| sample.pose(cell_mm)).collect();
-    let pieces: Vec<Piece> = (1..poses.len()).map(|end| Piece::new(&poses, end)).collect();
-    let length: f64 = pieces.iter().map(Piece::size).sum();
-    if length > MOST_SUBSTEPS as f64 {
-        return Err(StrokeError::TooLong { substeps: length });
-    }
-    let last = poses[poses.len() - 1];
-    let dab = length == 0.0;
-    let pressed = DAB.map(|share| Pose { pressure: share * last.pressure, ..last });
-    let way = Way::new(pieces, poses[0], last);
-    let dab = pressed.into_iter().filter(move |_| dab);
-    let way = way.filter(move |_| length > 0.0);
-    Ok(dab.chain(way))
+    let mut path = Path::new(cell_mm)?;
+    path.push(samples)?;
+    path.finish();
+    Ok(path)
 }
 
 /// What `head` touches along `poses`: set down at the first without dragging,
@@ -87,111 +79,11 @@ pub fn contacts(
     })
 }
 
-/// Refuses what no hand does.
-fn check(samples: &[Sample], cell_mm: f64) -> Result<(), StrokeError> {
-    let farthest = FARTHEST * cell_mm;
-    for (index, sample) in samples.iter().enumerate() {
-        let fields = [
-            ("seconds", sample.seconds, f64::INFINITY),
-            ("x_mm", sample.x_mm, farthest),
-            ("y_mm", sample.y_mm, farthest),
-            ("pressure", sample.pressure, 1.0),
-            ("tilt_x_deg", sample.tilt_x_deg, 90.0),
-            ("tilt_y_deg", sample.tilt_y_deg, 90.0),
-            ("twist_deg", sample.twist_deg, f64::INFINITY),
-        ];
-        for (field, found, highest) in fields {
-            if !found.is_finite() {
-                return Err(StrokeError::NoNumber { sample: index, field, found });
-            }
-            let lowest = if field == "pressure" { 0.0 } else { -highest };
-            if !(lowest..=highest).contains(&found) {
-                return Err(StrokeError::Range { sample: index, field, found, lowest, highest });
-            }
-        }
-        if index > 0 && sample.seconds < samples[index - 1].seconds {
-            let before = samples[index - 1].seconds;
-            return Err(StrokeError::Backwards { sample: index, found: sample.seconds, before });
-        }
-    }
-    Ok(())
-}
-
-/// Why samples are no stroke. Samples are counted from 0.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum StrokeError {
-    /// No sample.
-    #[error("a stroke without samples")]
-    Empty,
-    /// Cells without width.
-    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
-    Cell {
-        /// As it was given.
-        cell_mm: f64,
-    },
-    /// Infinite, or not a number.
-    #[error("sample {sample}: {field} is no number: `{found}`")]
-    NoNumber {
-        /// Which sample.
-        sample: usize,
-        /// Which of its fields.
-        field: &'static str,
-        /// What it says.
-        found: f64,
-    },
-    /// Beyond what the field can be.
-    #[error("sample {sample}: {field} is from {lowest} to {highest}: `{found}`")]
-    Range {
-        /// Which sample.
-        sample: usize,
-        /// Which of its fields.
-        field: &'static str,
-        /// What it says.
-        found: f64,
-        /// The least it can be.
-        lowest: f64,
-        /// The most it can be.
-        highest: f64,
-    },
-    /// A sample earlier than the one before it.
-    #[error("sample {sample}: seconds fall, from {before} to `{found}`")]
-    Backwards {
-        /// Which sample.
-        sample: usize,
-        /// What it says.
-        found: f64,
-        /// What the sample before it says.
-        before: f64,
-    },
-    /// More sub-steps than a stroke may take.
-    #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
-    TooLong {
-        /// What it would take at most.
-        substeps: f64,
-    },
-}
-
-impl StrokeError {
-    /// The way out.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::Empty => "give at least one sample",
-            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
-            Self::NoNumber { .. } => "leave the sample out",
-            Self::Range { field: "pressure", .. } => "divide by the pen's highest pressure",
-            Self::Range { field: "x_mm" | "y_mm", .. } => {
-                "places are in mm from the canvas's corner"
-            }
-            Self::Range { .. } => "tilts are degrees from upright",
-            Self::Backwards { .. } => "sort the samples by time",
-            Self::TooLong { .. } => "places are in mm; cut the stroke in pieces",
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
     use super::super::brush::HeadShape;
     use super::*;
 
@@ -253,13 +145,87 @@ mod tests {
         }
     }
 
+    /// Samples with repeated places, rests and turns.
+    fn any_hand(random: &mut ChaCha8Rng) -> Vec<Sample> {
+        let count = random.random_range(1..12);
+        let still = random.random_range(0..4) == 0;
+        let (mut samples, mut sample): (Vec<Sample>, _) = (Vec::new(), SAMPLE);
+        for index in 0..count {
+            sample.seconds = 0.01 * f64::from(index);
+            if !still && random.random_range(0..3) > 0 {
+                sample.x_mm += random.random_range(-1.0..1.0);
+                sample.y_mm += random.random_range(-0.3..0.3);
+            }
+            if !still && random.random_range(0..3) == 0 {
+                sample.pressure = random.random_range(0.0..1.0);
+                sample.twist_deg += random.random_range(-200.0..200.0);
+            }
+            samples.push(sample);
+        }
+        samples
+    }
+
+    #[test]
+    fn poses_told_piece_by_piece_are_those_of_the_whole() {
+        let mut dabs = 0;
+        for seed in 0..300 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let samples = any_hand(random);
+            let whole = poses(&samples);
+            dabs += usize::from(whole.len() == DAB.len());
+            let mut path = Path::new(0.1).unwrap();
+            let (mut pieces, mut rest, mut lagged) = (Vec::new(), &samples[..], 0);
+            while !rest.is_empty() {
+                let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
+                path.push(now).unwrap();
+                rest = later;
+                let least = path.waiting();
+                let most = random.random_range(0..40);
+                let before = pieces.len();
+                pieces.extend(path.by_ref().take(most));
+                assert_eq!(least > 0 && most > 0, pieces.len() > before, "seed {seed}");
+                assert!(pieces.len() - before <= least, "seed {seed}: {least} at most");
+                let reached = path.reached();
+                assert!(reached <= path.samples(), "seed {seed}");
+                lagged = lagged.max(path.samples() - reached);
+            }
+            path.finish();
+            pieces.extend(path.by_ref());
+            assert_eq!(path.reached(), samples.len(), "seed {seed}");
+            assert!(pieces == whole, "seed {seed}: {} of {}", pieces.len(), whole.len());
+            assert!(lagged > 0, "seed {seed}: no path lagged behind");
+        }
+        assert!(dabs > 20, "{dabs} dabs");
+    }
+
+    #[test]
+    fn a_refused_sample_leaves_the_path_where_it_was() {
+        let good = [SAMPLE, at(0.1, 7.0, 5.0), at(0.2, 9.0, 6.0)];
+        let mut path = Path::new(0.1).unwrap();
+        path.push(&good[..2]).unwrap();
+        for bad in [
+            Sample { pressure: -0.1, ..good[2] },
+            Sample { y_mm: f64::NAN, ..good[2] },
+            Sample { seconds: 0.05, ..good[2] },
+            Sample { x_mm: 1.1e6, ..good[2] },
+        ] {
+            let error = path.push(&[bad]).unwrap_err();
+            let place = matches!(error, StrokeError::TooLong { .. })
+                || error.to_string().starts_with("sample 2: ");
+            assert!(place, "{error}");
+        }
+        path.push(&good[2..]).unwrap();
+        path.finish();
+        assert_eq!(path.collect::<Vec<_>>(), poses(&good));
+    }
+
     #[test]
     fn pressing_and_turning_on_the_spot_takes_steps_of_its_own() {
         let end = Sample { pressure: 1.0, twist_deg: 90.0, ..SAMPLE };
         let poses = poses(&[SAMPLE, end]);
         assert!(poses.len() > 30, "{}", poses.len());
         for pair in poses.windows(2) {
-            assert!(path::turned(&pair[0], &pair[1]) <= 1.0 + 1e-9, "{pair:?}");
+            assert!(piece::turned(&pair[0], &pair[1]) <= 1.0 + 1e-9, "{pair:?}");
         }
     }
 

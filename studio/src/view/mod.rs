@@ -1,1 +1,19 @@
 //! The surfaces on the screen.
+
+mod transform;
+
+mod levels;
+
+mod texture;
+
+mod outline;
+
+mod head;
+
+mod surface;
+
+pub use head::HeadLook;
+pub use outline::Outline;
+pub use surface::{Hand, Split, SurfaceView};
+pub use texture::{Half, Picture};
+pub use transform::{Placement, View};

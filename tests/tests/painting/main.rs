@@ -13,6 +13,8 @@ mod backends;
 
 mod undo;
 
+mod pieces;
+
 mod keeping;
 
 mod changes;

@@ -6,6 +6,7 @@
 mod hostile;
 mod pigments;
 mod round_trip;
+mod surfaces;
 
 use render::paint::strokes::{Strokes, StrokesError};
 

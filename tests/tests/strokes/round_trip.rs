@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
+use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
 use render::paint::ground::GroundSpec;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, LayerName, Load, Palette, Stroke, Strokes, Surface,
+    Action, BrushSpec, Canvas, LayerName, Load, Palette, Squeeze, Stroke, Strokes, Surface,
 };
 
 use crate::SOUND;
@@ -30,14 +31,22 @@ fn sample() -> impl Strategy<Value = Sample> {
 }
 
 fn stroke() -> impl Strategy<Value = Action> {
-    prop::collection::vec(sample(), 1..20).prop_map(|mut samples| {
+    (surface(), prop::collection::vec(sample(), 1..20)).prop_map(|(on, mut samples)| {
         let mut clock = 0.0;
         for sample in &mut samples {
             clock += sample.seconds;
             sample.seconds = clock;
         }
-        Action::Stroke(Stroke { brush: "big".to_owned(), on: Surface::Canvas, samples })
+        Action::Stroke(Stroke { brush: "big".to_owned(), on, samples })
     })
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    prop_oneof![Just(Surface::Canvas), Just(Surface::Palette)]
+}
+
+fn gloss() -> impl Strategy<Value = Gloss> {
+    (0.0_f32..=100.0, 0.0_f32..=1e6).prop_map(|(strength, exponent)| Gloss { strength, exponent })
 }
 
 fn layer() -> impl Strategy<Value = LayerName> {
@@ -47,6 +56,12 @@ fn layer() -> impl Strategy<Value = LayerName> {
 fn action() -> impl Strategy<Value = Action> {
     let name = "[A-Za-z \u{e9}\"\\\\]{1,9}";
     let recipe = prop::collection::btree_map(name, 0.001..1e6, 1..8);
+    let place = (-1e6..1e6, -1e6..1e6, 0.0..1e6);
+    let heap = (surface(), recipe.clone(), 0.0..=1.0, place).prop_map(
+        |(on, recipe, vehicle, (x_mm, y_mm, volume_mm3))| {
+            Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 })
+        },
+    );
     let load = (recipe, 0.0..=1.0, 0.0..100.0).prop_map(|(recipe, vehicle, amount_mm)| {
         Action::Load(Load { brush: "big".to_owned(), recipe, vehicle, amount_mm })
     });
@@ -54,6 +69,9 @@ fn action() -> impl Strategy<Value = Action> {
     prop_oneof![
         4 => stroke(),
         2 => load,
+        1 => heap,
+        1 => surface().prop_map(|on| Action::Scrape { on }),
+        1 => (gloss(), gloss()).prop_map(|(wet, dry)| Action::Gloss { wet, dry }),
         1 => (0.0..=1.0).prop_map(|keep| Action::Wipe { brush: "big".to_owned(), keep }),
         1 => Just(Action::Wash { brush: "big".to_owned() }),
         1 => (0.001..=1.0).prop_map(|fraction| Action::Dry { fraction }),
@@ -85,6 +103,7 @@ fn script() -> impl Strategy<Value = Strokes> {
             let canvas = Canvas { width_mm, height_mm, cell_mm, ground };
             let pigments = short.into_iter().map(|(short, name)| (Some(short), name)).collect();
             let mut script = Strokes::new("T\u{e9}st \"1\"", "CC0", canvas, Palette { pigments });
+            script.mixing = Some(script.canvas.clone());
             script.medium = medium;
             script.lighting = light.then(Lighting::default);
             let big = BrushSpec { shape: HeadShape::Mop, size_mm };
@@ -119,6 +138,8 @@ proptest! {
         let text = script.to_json().unwrap();
         let back = Strokes::from_json("a.json", text.as_bytes()).unwrap();
         prop_assert_eq!(&back.to_json().unwrap(), &text);
+        let written: Vec<Action> = script.actions.iter().map(Action::as_written).collect();
+        prop_assert_eq!(&back.actions, &written);
         // Once its numbers are short, it is the same script.
         let again = Strokes::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
         prop_assert_eq!(&again, &back);

@@ -192,6 +192,16 @@ impl<T> History<T> {
         }
     }
 
+    /// Closes the open action as if it had not been one: what it did stays done.
+    ///
+    /// # Panics
+    /// If none is open.
+    pub fn abandon(&mut self) {
+        if let Open::Kept(action) = self.open.take().expect("an action is open") {
+            self.forget(action);
+        }
+    }
+
     /// Brings back what was before the last action; `current` is what a redo
     /// gives back. Nothing if there is none.
     ///

@@ -6,6 +6,7 @@ use calibrate::library::PigmentLibrary;
 
 use super::brushes::Brush;
 use super::failure::PaintingError;
+use super::strokes::OpenStroke;
 use super::undoing::Before;
 use crate::amount::{FULL, mm_from_quanta};
 use crate::layer::{Layer, SLOTS};
@@ -52,6 +53,8 @@ pub struct Painting {
     pub(super) relief: Relief,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<Before>,
+    /// The stroke that is being drawn, if one is.
+    pub(super) stroke: Option<OpenStroke>,
     /// Tiles whose dry paint was not yet seen under this light.
     pub(super) unbaked: TileSet,
     /// Tiles whose wet paint was not yet seen.
@@ -117,6 +120,7 @@ impl Painting {
             relief,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
+            stroke: None,
             unbaked: all.clone(),
             unshown: all,
         })

@@ -25,7 +25,11 @@ impl Painting {
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn undo(&mut self) -> Result<bool, PaintingError> {
+        assert!(self.stroke.is_none(), "a stroke is open; it ends before an undo");
         let now = self.now();
         match self.history.undo(self.engine.as_mut(), now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
@@ -37,7 +41,11 @@ impl Painting {
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn redo(&mut self) -> Result<bool, PaintingError> {
+        assert!(self.stroke.is_none(), "a stroke is open; it ends before a redo");
         let now = self.now();
         match self.history.redo(self.engine.as_mut(), now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
@@ -47,17 +55,21 @@ impl Painting {
 
     /// Does `change` as one action of the history. What fails half way can be
     /// taken back as well.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub(super) fn acting<T>(
         &mut self,
         change: impl FnOnce(&mut Self) -> Result<T, PaintingError>,
     ) -> Result<(T, Kept), PaintingError> {
+        assert!(self.stroke.is_none(), "a stroke is open; it ends before another action");
         self.history.begin(self.now());
         let done = change(self);
         let kept = self.history.commit();
         Ok((done?, kept))
     }
 
-    fn now(&self) -> Before {
+    pub(super) fn now(&self) -> Before {
         Before {
             state: self.state.clone(),
             light: Arc::clone(&self.light),

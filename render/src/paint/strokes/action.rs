@@ -116,6 +116,18 @@ impl Action {
             Self::Save { .. } => "save",
         }
     }
+
+    /// The brush that it is done with, if with one.
+    #[must_use]
+    pub fn brush(&self) -> Option<&str> {
+        match self {
+            Self::Load(Load { brush, .. })
+            | Self::Stroke(Stroke { brush, .. })
+            | Self::Wipe { brush, .. }
+            | Self::Wash { brush } => Some(brush),
+            _ => None,
+        }
+    }
 }
 
 fn all() -> f64 {

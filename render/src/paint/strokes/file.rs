@@ -4,11 +4,8 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::error::StrokesError;
+use super::limits::LONGEST_FILE;
 use super::script::{FormatVersion, Strokes};
-
-/// The longest file that is read, in bytes: 128 MiB. Its samples take at most
-/// six times as much in memory.
-pub const LONGEST_FILE: usize = 128 << 20;
 
 impl Strokes {
     /// The script in `bytes`, the content of `file`.
@@ -50,8 +47,7 @@ impl Strokes {
             reason: error.to_string(),
         };
         // Without its actions, which are many: they are written one by one.
-        let head = self.headed();
-        let head = serde_json::to_value(&head).map_err(unwritable)?;
+        let head = serde_json::to_value(self.header()).map_err(unwritable)?;
         let mut text = "{\n".to_owned();
         for (key, value) in
             head.as_object().into_iter().flatten().filter(|(key, _)| *key != "actions")
@@ -67,17 +63,6 @@ impl Strokes {
         }
         text.push_str(if self.actions.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
         Ok(text)
-    }
-
-    /// All but the actions.
-    fn headed(&self) -> Self {
-        let mut head =
-            Self::new(&self.title, &self.licence, self.canvas.clone(), self.palette.clone());
-        head.medium.clone_from(&self.medium);
-        head.lighting.clone_from(&self.lighting);
-        head.library.clone_from(&self.library);
-        head.brushes.clone_from(&self.brushes);
-        head
     }
 }
 

@@ -28,13 +28,7 @@
 //! range and files that are too long are refused with their place; what it saves
 //! stays below the folder that the caller chooses.
 
-mod action;
-
-mod check;
-
-mod error;
-
-mod file;
+mod limits;
 
 mod names;
 
@@ -42,18 +36,34 @@ mod palette;
 
 mod rows;
 
-mod saved_path;
+mod action;
+
+mod digits;
 
 mod script;
 
+mod error;
+
+mod at;
+
+mod saved_path;
+
+mod bounds;
+
+mod check;
+
+mod file;
+
 mod resolve;
+
+mod beginning;
 
 mod replay;
 
 pub use action::{Action, LayerName, Load, Recipe, Squeeze, Stroke, Surface};
-pub use check::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
+pub use beginning::BeginningError;
 pub use error::{Fault, Place, StrokesError};
-pub use file::LONGEST_FILE;
+pub use limits::{LONGEST_FILE, MOST_ACTIONS, MOST_CELLS, MOST_NAMES, MOST_SAMPLES};
 pub use palette::Palette;
 pub use replay::{ReplayError, ReplayReport};
 pub use resolve::{ActionPigments, Resolved};

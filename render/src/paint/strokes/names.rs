@@ -6,8 +6,7 @@ use std::marker::PhantomData;
 
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
-/// The most entries an object of names may have.
-const MOST: usize = 256;
+use super::limits::MOST_NAMES;
 
 /// An object whose keys all differ; plain maps would keep the last silently.
 pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
@@ -28,8 +27,10 @@ pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
                 if entries.contains_key(&key) {
                     return Err(de::Error::custom(format!("duplicate key `{key}`")));
                 }
-                if entries.len() == MOST {
-                    return Err(de::Error::custom(format!("more than {MOST} keys, at `{key}`")));
+                if entries.len() == MOST_NAMES {
+                    return Err(de::Error::custom(format!(
+                        "more than {MOST_NAMES} keys, at `{key}`"
+                    )));
                 }
                 entries.insert(key, map.next_value()?);
             }

@@ -6,9 +6,7 @@ use super::action::{Action, LayerName};
 use super::resolve::{ActionPigments, Resolved};
 use super::script::Strokes;
 use crate::layer::SLOTS;
-use crate::paint::document::{Document, Ground};
 use crate::paint::painting::{Coating, Painting, PaintingError, StrokeReport};
-use calibrate::library::PigmentLibrary;
 
 /// What a replay did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -53,20 +51,6 @@ pub enum ReplayError<E: std::error::Error + 'static> {
 }
 
 impl Strokes {
-    /// The bare canvas of this script: its ground, no paint yet.
-    #[must_use]
-    pub fn bare(&self, library: &PigmentLibrary, resolved: &Resolved, ground: Ground) -> Document {
-        Document::bare(
-            &self.title,
-            self.canvas.cell_mm,
-            ground,
-            library.clone(),
-            self.medium.clone().unwrap_or_default(),
-            resolved.slots,
-            self.lighting.clone().unwrap_or_default(),
-        )
-    }
-
     /// Plays all actions on `painting`, which must be of the library of
     /// `resolved`. `save` is called for each action that saves, with its path;
     /// `step` after each action.

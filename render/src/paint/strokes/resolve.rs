@@ -3,7 +3,7 @@
 use calibrate::library::{PigmentLibrary, RecipeError};
 
 use super::action::{Action, Load, Recipe, Squeeze};
-use super::check::{At, near};
+use super::at::{At, near};
 use super::error::{Fault, StrokesError};
 use super::palette::Palette;
 use super::script::Strokes;
@@ -51,53 +51,83 @@ impl Strokes {
     /// in a palette or a recipe, and recipes beyond the palettes.
     pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, StrokesError> {
         self.check()?;
-        let mut scope = Scope { library, palettes: Vec::new() };
-        let top = At { action: None, sample: None };
-        let slots = scope.palette(&top, &self.palette)?;
+        let (mut scope, slots) = Scope::new(&self.palette, library)?;
         let mut actions = Vec::with_capacity(self.actions.len());
         for (index, action) in self.actions.iter().enumerate() {
-            let at = At { action: Some((index, action.kind())), sample: None };
-            actions.push(match action {
-                Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
-                    ActionPigments::Recipe(scope.recipe(&at, recipe)?)
-                }
-                Action::Palette(palette) => ActionPigments::Palette(scope.palette(&at, palette)?),
-                Action::Swap { from, to, .. } => ActionPigments::Swap {
-                    from: scope.pigment(&at, "from", from)?,
-                    to: scope.pigment(&at, "to", to)?,
-                },
-                _ => ActionPigments::None,
-            });
+            let at = At::action(index, action.kind());
+            actions.push(scope.action(&at, action, library)?);
         }
         Ok(Resolved { slots, actions })
     }
 }
 
 /// What names mean at some action.
-struct Scope<'a> {
-    library: &'a PigmentLibrary,
+#[derive(Debug)]
+pub(in crate::paint) struct Scope {
     /// Those set so far.
-    palettes: Vec<(&'a Palette, Slots)>,
+    palettes: Vec<(Palette, Slots)>,
 }
 
-impl<'a> Scope<'a> {
-    fn palette(&mut self, at: &At, palette: &'a Palette) -> Result<Slots, Box<Fault>> {
+impl Scope {
+    /// Before the first action, with the pigments that there are at first.
+    pub(in crate::paint) fn new(
+        palette: &Palette,
+        library: &PigmentLibrary,
+    ) -> Result<(Self, Slots), Box<Fault>> {
+        let mut scope = Self { palettes: Vec::new() };
+        let slots = scope.palette(&At::default(), palette, library)?;
+        Ok((scope, slots))
+    }
+
+    /// The pigments that an action names. A palette holds from then on.
+    pub(in crate::paint) fn action(
+        &mut self,
+        at: &At,
+        action: &Action,
+        library: &PigmentLibrary,
+    ) -> Result<ActionPigments, Box<Fault>> {
+        Ok(match action {
+            Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
+                ActionPigments::Recipe(self.recipe(at, recipe, library)?)
+            }
+            Action::Palette(palette) => {
+                ActionPigments::Palette(self.palette(at, palette, library)?)
+            }
+            Action::Swap { from, to, .. } => ActionPigments::Swap {
+                from: self.pigment(at, "from", from, library)?,
+                to: self.pigment(at, "to", to, library)?,
+            },
+            _ => ActionPigments::None,
+        })
+    }
+
+    fn palette(
+        &mut self,
+        at: &At,
+        palette: &Palette,
+        library: &PigmentLibrary,
+    ) -> Result<Slots, Box<Fault>> {
         let mut slots = [None; SLOTS];
         for (slot, (_, name)) in palette.pigments.iter().enumerate() {
-            let index = self.named(at, "palette", name)?;
+            let index = named(at, "palette", name, library)?;
             if slots.contains(&Some(index)) {
                 return Err(at.fault("palette", "each pigment once", name, None));
             }
             slots[slot] = Some(index);
         }
-        self.palettes.push((palette, slots));
+        self.palettes.push((palette.clone(), slots));
         Ok(slots)
     }
 
-    fn recipe(&self, at: &At, recipe: &Recipe) -> Result<Vec<(usize, f64)>, Box<Fault>> {
+    fn recipe(
+        &self,
+        at: &At,
+        recipe: &Recipe,
+        library: &PigmentLibrary,
+    ) -> Result<Vec<(usize, f64)>, Box<Fault>> {
         let mut parts: Vec<(usize, f64)> = Vec::new();
         for (name, &part) in recipe {
-            let index = self.pigment(at, "recipe", name)?;
+            let index = self.pigment(at, "recipe", name, library)?;
             if !self.palettes.iter().any(|(_, slots)| slots.contains(&Some(index))) {
                 let known = self.palettes.iter().flat_map(|(palette, _)| &palette.pigments);
                 let known: Vec<_> = known.map(|(_, name)| name.as_str()).collect();
@@ -116,19 +146,25 @@ impl<'a> Scope<'a> {
     }
 
     /// The pigment behind a short name, or a name of the library.
-    fn pigment(&self, at: &At, field: &str, name: &str) -> Result<usize, Box<Fault>> {
+    fn pigment(
+        &self,
+        at: &At,
+        field: &str,
+        name: &str,
+        library: &PigmentLibrary,
+    ) -> Result<usize, Box<Fault>> {
         let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.behind(name));
-        self.named(at, field, short.unwrap_or(name))
+        named(at, field, short.unwrap_or(name), library)
     }
+}
 
-    fn named(&self, at: &At, field: &str, name: &str) -> Result<usize, Box<Fault>> {
-        self.library.find(name).map_err(|error| {
-            let known = self.library.pigments.iter().map(|pigment| pigment.name.as_str());
-            let hint = match &error {
-                RecipeError::UnknownPigment { .. } => near(name, known).or_else(|| error.hint()),
-                _ => error.hint(),
-            };
-            at.fault(field, "a pigment of the library", &name, hint)
-        })
-    }
+fn named(at: &At, field: &str, name: &str, library: &PigmentLibrary) -> Result<usize, Box<Fault>> {
+    library.find(name).map_err(|error| {
+        let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
+        let hint = match &error {
+            RecipeError::UnknownPigment { .. } => near(name, known).or_else(|| error.hint()),
+            _ => error.hint(),
+        };
+        at.fault(field, "a pigment of the library", &name, hint)
+    })
 }

@@ -7,7 +7,7 @@ use serde::ser::{SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
 use super::action::Action;
-use super::check::MOST_ACTIONS;
+use super::limits::MOST_ACTIONS;
 use crate::paint::pose::Sample;
 
 /// How many numbers a row has at least: seconds, x, y, pressure.
@@ -30,9 +30,10 @@ impl Serialize for Row {
     }
 }
 
-/// Four decimals: a tenth of a micrometre, a tenth of a millisecond.
-fn short(number: f64) -> f64 {
-    (number * 1e4).round() / 1e4
+/// Four decimals: a tenth of a micrometre, a tenth of a millisecond. The file
+/// knows no zero below zero.
+pub(super) fn short(number: f64) -> f64 {
+    (number * 1e4).round() / 1e4 + 0.0
 }
 
 impl<'de> Deserialize<'de> for Row {

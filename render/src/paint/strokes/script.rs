@@ -27,6 +27,14 @@ pub struct Strokes {
     pub licence: String,
     /// What is painted on.
     pub canvas: Canvas,
+    /// What is mixed on, if on anything: the surface `palette` of actions. Its
+    /// cells are as wide as the canvas's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mixing: Option<Canvas>,
+    /// A painting (`.exr`) to go on with instead of a bare canvas, for whoever
+    /// replays it to find; its size, pigments, medium and light are its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<String>,
     /// The binder; oil if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub medium: Option<Medium>,
@@ -57,11 +65,35 @@ impl Strokes {
             title: title.to_owned(),
             licence: licence.to_owned(),
             canvas,
+            mixing: None,
+            start: None,
             medium: None,
             lighting: None,
             library: None,
             palette,
             brushes: BTreeMap::new(),
+            actions: Vec::new(),
+        }
+    }
+
+    /// All but the actions.
+    #[must_use]
+    pub fn header(&self) -> Self {
+        let Self { format, version, title, licence, canvas, mixing, start, .. } = self;
+        let Self { medium, lighting, library, palette, brushes, .. } = self;
+        Self {
+            format: *format,
+            version: *version,
+            title: title.clone(),
+            licence: licence.clone(),
+            canvas: canvas.clone(),
+            mixing: mixing.clone(),
+            start: start.clone(),
+            medium: medium.clone(),
+            lighting: lighting.clone(),
+            library: library.clone(),
+            palette: palette.clone(),
+            brushes: brushes.clone(),
             actions: Vec::new(),
         }
     }
@@ -87,10 +119,19 @@ impl Canvas {
     /// Cells in a row and rows: as many as cover it, at least one.
     #[must_use]
     pub fn cells(&self) -> (usize, usize) {
-        // What rounding left over is no cell of its own.
-        let count = |mm: f64| ((mm / self.cell_mm - 1e-6).ceil() as usize).max(1);
-        (count(self.width_mm), count(self.height_mm))
+        let Self { width_mm, height_mm, cell_mm, .. } = *self;
+        (cells_within(width_mm, cell_mm), cells_within(height_mm, cell_mm))
     }
+
+    pub(super) fn greatest_side_mm(&self) -> f64 {
+        self.width_mm.max(self.height_mm)
+    }
+}
+
+/// As many cells as cover a side.
+pub(super) fn cells_within(side_mm: f64, cell_mm: f64) -> usize {
+    // What rounding left over is no cell of its own.
+    ((side_mm / cell_mm - 1e-6).ceil() as usize).max(1)
 }
 
 fn tenth() -> f64 {

@@ -1,0 +1,87 @@
+//! Canvas and palette, and what the pen does on them.
+
+use eframe::egui::{Frame, Margin, Panel, PointerButton, Rect, Response, Ui};
+use render::paint::pose::Sample;
+use render::paint::strokes::Surface;
+
+use super::Studio;
+use crate::panels::Mode;
+use crate::theme;
+use crate::view::{Hand, Split};
+use crate::worker::Command;
+
+/// Mean over cells this near, for the eyedropper, in mm.
+const PICK_MM: f64 = 0.2;
+
+/// Where the brush hovers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hover {
+    /// Over which surface.
+    pub(super) surface: Surface,
+    /// How it is held.
+    pub(super) sample: Sample,
+}
+
+impl Studio {
+    /// Shows both surfaces in what is left of the window.
+    pub(super) fn surfaces(&mut self, ui: &mut Ui) {
+        let mode = self.keys.mode(self.tools.mode);
+        let hand = match mode {
+            Mode::Pan => Hand::Pan,
+            Mode::Rotate => Hand::Rotate,
+            Mode::Zoom => Hand::Zoom,
+            Mode::Paint | Mode::Pick | Mode::Squeeze => Hand::Free,
+        };
+        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::SURROUND);
+        if self.shown.palette && self.shown.panels {
+            let height = (0.3 * ui.available_height()).clamp(150.0, 300.0);
+            Panel::bottom("palette")
+                .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
+                .resizable(true)
+                .default_size(height)
+                .size_range(110.0..=520.0)
+                .show(ui, |ui| self.table(ui, hand, mode));
+        }
+        let room = ui.available_rect_before_wrap();
+        let easel = self.easel.clone();
+        let lights = easel.as_ref().and_then(|easel| {
+            let second = easel.second.as_ref()?;
+            Some([easel.lighting.illuminant.as_str(), second.illuminant.as_str()])
+        });
+        let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
+        let response = self.canvas.show(ui, room, hand, split);
+        self.used(ui, Surface::Canvas, &response, mode);
+    }
+
+    /// The palette with the tubes beside it.
+    fn table(&mut self, ui: &mut Ui, hand: Hand, mode: Mode) {
+        let whole = ui.available_rect_before_wrap();
+        let cells = self.palette.cells();
+        let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
+        let room = Rect::from_min_size(whole.min, eframe::egui::vec2(width, whole.height()));
+        let response = self.palette.show(ui, room, hand, None);
+        self.used(ui, Surface::Palette, &response, mode);
+    }
+
+    /// What tools other than the brush do on a surface.
+    fn used(&mut self, ui: &Ui, surface: Surface, response: &Response, mode: Mode) {
+        let Some(point) = response.interact_pointer_pos() else { return };
+        let view = self.view(surface);
+        let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
+        let Some(place) = view.place(point) else { return };
+        let down = response.is_pointer_button_down_on()
+            && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
+        if mode == Mode::Pick && down {
+            let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
+            self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+        }
+    }
+
+    /// Where a surface is in the window.
+    pub(super) fn view(&self, surface: Surface) -> &crate::view::SurfaceView {
+        match surface {
+            Surface::Canvas => &self.canvas,
+            Surface::Palette => &self.palette,
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What a surface is cut to: a sheet, or a palette with a hole for the thumb.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
+
+use super::transform::Placement;
+use crate::theme;
+
+/// Points along a quarter of a circle.
+const QUARTER: usize = 20;
+
+/// The radius of a palette's corners, as a share of its shorter side.
+const CORNER: f64 = 0.2;
+
+/// The radius of the hole, as a share of the shorter side, and how far its middle
+/// is from the right and lower edges.
+const HOLE: (f64, f64) = (0.085, 0.24);
+
+/// What a surface is cut to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outline {
+    /// All of it.
+    Sheet,
+    /// Round corners, and a hole for the thumb at the lower right.
+    Palette,
+}
+
+impl Outline {
+    /// Whether a place, in cells, is on the surface.
+    #[must_use]
+    pub fn contains(self, [x, y]: [f64; 2], cells: (usize, usize)) -> bool {
+        let (width, height) = (cells.0 as f64, cells.1 as f64);
+        if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
+            return false;
+        }
+        if self == Self::Sheet {
+            return true;
+        }
+        let radius = corner(cells);
+        let beyond = |at: f64, size: f64| (radius - at).max(at - (size - radius)).max(0.0);
+        let in_corner = beyond(x, width).hypot(beyond(y, height)) > radius;
+        let (middle, hole) = hole(cells);
+        !in_corner && (x - middle[0]).hypot(y - middle[1]) > hole
+    }
+
+    /// The shadow below the surface.
+    pub(super) fn under(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
+        let edge: Vec<Pos2> =
+            self.edge(cells).into_iter().map(|place| placement.point(place)).collect();
+        for (width, alpha) in [(14.0, 9), (9.0, 12), (5.0, 18), (2.0, 40)] {
+            let stroke = Stroke::new(width, Color32::from_black_alpha(alpha));
+            painter.add(Shape::closed_line(edge.clone(), stroke));
+        }
+    }
+
+    /// What is cut away, in the colour of the surround.
+    pub(super) fn over(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
+        if self == Self::Sheet {
+            return;
+        }
+        let edge = self.edge(cells);
+        let point = |place: [f64; 2]| placement.point(place);
+        for (quarter, arc) in edge.chunks(QUARTER + 1).enumerate() {
+            let (right, low) = [(0, 0), (1, 0), (1, 1), (0, 1)][quarter];
+            let tip = [(right * cells.0) as f64, (low * cells.1) as f64];
+            let mut mesh = Mesh::default();
+            mesh.colored_vertex(point(tip), theme::SURROUND);
+            for &place in arc {
+                mesh.colored_vertex(point(place), theme::SURROUND);
+            }
+            for at in 1..=QUARTER as u32 {
+                mesh.add_triangle(0, at, at + 1);
+            }
+            painter.add(Shape::mesh(mesh));
+        }
+        let line: Vec<Pos2> = edge.into_iter().map(point).collect();
+        painter.add(Shape::closed_line(line, Stroke::new(1.5, Color32::from_gray(60))));
+
+        let (middle, radius) = hole(cells);
+        let centre = point(middle);
+        let radius = (radius * placement.scale()) as f32;
+        painter.circle(centre, radius, theme::SURROUND, Stroke::new(1.5, Color32::from_gray(60)));
+        for (inset, alpha) in [(1.5, 40), (3.0, 22), (5.0, 12)] {
+            let stroke = Stroke::new(2.0, Color32::from_black_alpha(alpha));
+            painter.circle_stroke(centre, (radius - inset).max(0.0), stroke);
+        }
+    }
+
+    /// The edge in cells, clockwise from the upper left: of a palette, four
+    /// quarters of as many points.
+    fn edge(self, cells: (usize, usize)) -> Vec<[f64; 2]> {
+        let (width, height) = (cells.0 as f64, cells.1 as f64);
+        if self == Self::Sheet {
+            return vec![[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+        }
+        let radius = corner(cells);
+        let (far, low) = (width - radius, height - radius);
+        let middles = [[radius, radius], [far, radius], [far, low], [radius, low]];
+        let mut edge = Vec::with_capacity(4 * (QUARTER + 1));
+        for (quarter, [x, y]) in middles.into_iter().enumerate() {
+            for step in 0..=QUARTER {
+                let along = quarter as f64 + step as f64 / QUARTER as f64;
+                let (sin, cos) = (0.5 * TAU + along * FRAC_PI_2).sin_cos();
+                edge.push([x + radius * cos, y + radius * sin]);
+            }
+        }
+        edge
+    }
+}
+
+fn corner(cells: (usize, usize)) -> f64 {
+    CORNER * cells.0.min(cells.1) as f64
+}
+
+/// Middle and radius in cells.
+fn hole(cells: (usize, usize)) -> ([f64; 2], f64) {
+    let side = cells.0.min(cells.1) as f64;
+    ([cells.0 as f64 - HOLE.1 * side, cells.1 as f64 - HOLE.1 * side], HOLE.0 * side)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CELLS: (usize, usize) = (600, 400);
+
+    #[test]
+    fn a_sheet_ends_at_its_edges() {
+        for (place, inside) in [
+            ([0.0, 0.0], true),
+            ([599.9, 399.9], true),
+            ([600.0, 10.0], false),
+            ([-0.1, 5.0], false),
+        ] {
+            assert_eq!(Outline::Sheet.contains(place, CELLS), inside, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn no_brush_touches_the_corners_and_the_hole_of_a_palette() {
+        let on = |place| Outline::Palette.contains(place, CELLS);
+        assert!(on([300.0, 200.0]) && on([0.5, 200.0]) && on([300.0, 399.5]), "the middle");
+        assert!(!on([2.0, 2.0]) && !on([598.0, 2.0]) && !on([598.0, 398.0]), "the corners");
+        let (middle, radius) = hole(CELLS);
+        assert!(!on(middle) && !on([middle[0] + 0.9 * radius, middle[1]]), "the hole");
+        assert!(on([middle[0] - 1.1 * radius, middle[1]]), "beside the hole");
+    }
+
+    #[test]
+    fn what_is_drawn_as_the_edge_is_the_edge() {
+        let middle = [300.0, 200.0];
+        for place in Outline::Palette.edge(CELLS) {
+            let towards = |by: f64| {
+                [0, 1].map(|axis: usize| middle[axis] + (place[axis] - middle[axis]) * by)
+            };
+            let (within, beyond) = (towards(0.999), towards(1.001));
+            assert!(Outline::Palette.contains(within, CELLS), "{within:?}");
+            assert!(!Outline::Palette.contains(beyond, CELLS), "{beyond:?}");
+        }
+    }
+}

@@ -1,1 +1,0 @@
-//! Changed tiles, ready for the screen.

@@ -1,0 +1,173 @@
+//! Strokes told piece by piece, as a pen tells them.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::layer::{Cell, Layer};
+use render::paint::brush::HeadShape;
+use render::paint::painting::{Painting, PaintingError};
+use render::paint::pose::Sample;
+use render::paint::stroke::StrokeError;
+
+use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both};
+
+/// Wet and dry paint, and that on every brush.
+fn paint(painting: &mut Painting, brushes: usize) -> Vec<Layer> {
+    let mut layers = vec![painting.wet().unwrap()];
+    layers.extend((0..brushes).map(|brush| painting.brush_paint(brush).unwrap()));
+    layers
+}
+
+/// A hand that rests, turns, leaves the canvas and comes back.
+fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
+    let count = random.random_range(1..9);
+    let mut place = || (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0));
+    let mut places: Vec<_> = (0..count).map(|_| place()).collect();
+    places.insert(count / 2, places[count / 2]);
+    along(&places, 0.6)
+}
+
+/// Tells `samples` and paints them in pieces of any size.
+fn in_pieces(
+    painting: &mut Painting,
+    brush: usize,
+    samples: &[Sample],
+    random: &mut ChaCha8Rng,
+) -> (u64, u64, bool) {
+    painting.begin_stroke(brush).unwrap();
+    let mut rest = samples;
+    while !rest.is_empty() {
+        let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
+        painting.extend_stroke(now).unwrap();
+        rest = later;
+        for _ in 0..random.random_range(0..6) {
+            painting.advance_stroke(random.random_range(0..70)).unwrap();
+        }
+    }
+    if random.random_range(0..2) == 0 {
+        painting.lift_stroke();
+        while painting.advance_stroke(50).unwrap() > 0 {
+            let reached = painting.stroke_reached();
+            assert!(reached <= samples.len(), "{reached} of {}", samples.len());
+        }
+        assert_eq!(painting.stroke_reached(), samples.len());
+    }
+    assert!(painting.stroke_open(), "closed too early");
+    let report = painting.end_stroke().unwrap();
+    assert!(!painting.stroke_open(), "still open");
+    (report.substeps, report.cells, report.undoable)
+}
+
+#[test]
+fn however_a_stroke_is_cut_its_paint_brush_and_undo_are_those_of_the_whole() {
+    let wholes = on_both(&bare(130, 100));
+    for (mut whole, mut cut) in wholes.into_iter().zip(on_both(&bare(130, 100))) {
+        for painting in [&mut whole, &mut cut] {
+            crossing(painting);
+            let _ = loaded(painting, HeadShape::Flat, 5.0, WHITE, 0.6);
+        }
+        let before = paint(&mut whole, 4);
+        let mut painted = 0;
+        for seed in 0..16 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let samples = wandering(random);
+            let brush = random.random_range(2..4);
+            let report = whole.stroke(brush, &samples).unwrap();
+            let found = in_pieces(&mut cut, brush, &samples, random);
+            assert_eq!(found, (report.substeps, report.cells, report.undoable), "seed {seed}");
+            painted += report.substeps;
+            assert!(paint(&mut cut, 4) == paint(&mut whole, 4), "seed {seed}");
+        }
+        assert!(painted > 500, "{painted} sub-steps");
+        assert!(cut.picture().unwrap() == whole.picture().unwrap(), "the pictures");
+        let after = paint(&mut cut, 4);
+        (0..16).for_each(|_| assert!(cut.undo().unwrap(), "one undo a stroke"));
+        assert!(paint(&mut cut, 4) == before, "undone");
+        (0..16).for_each(|_| assert!(cut.redo().unwrap(), "one redo a stroke"));
+        assert!(paint(&mut cut, 4) == after, "done again");
+    }
+}
+
+#[test]
+fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
+    let samples = along(&[(3.0, 4.0), (9.0, 5.0), (15.0, 9.0), (20.0, 14.0)], 0.6);
+    let bad = [
+        Sample { pressure: 1.5, ..samples[3] },
+        Sample { x_mm: f64::NAN, ..samples[3] },
+        Sample { seconds: 0.15, ..samples[3] },
+    ];
+    for bad in bad {
+        let wholes = on_both(&bare(130, 100));
+        for (mut whole, mut cut) in wholes.into_iter().zip(on_both(&bare(130, 100))) {
+            let brush = loaded(&mut whole, HeadShape::Round, 4.0, BLUE, 0.4);
+            assert_eq!(loaded(&mut cut, HeadShape::Round, 4.0, BLUE, 0.4), brush);
+            let clean = paint(&mut cut, 1);
+            whole.stroke(brush, &samples[..3]).unwrap();
+            cut.begin_stroke(brush).unwrap();
+            cut.extend_stroke(&samples[..2]).unwrap();
+            cut.advance_stroke(20).unwrap();
+            // The good one before it counts, the one after it does not.
+            let error = cut.extend_stroke(&[samples[2], bad, samples[3]]).unwrap_err();
+            assert!(matches!(error, PaintingError::Stroke(_)), "{error}");
+            assert!(error.to_string().starts_with("sample 3: "), "{error}");
+            assert!(error.hint().is_some(), "{error}");
+            cut.advance_stroke(20).unwrap();
+            cut.end_stroke().unwrap();
+            assert!(paint(&mut cut, 1) == paint(&mut whole, 1), "{bad:?}");
+            assert!(cut.undo().unwrap(), "no undo");
+            assert!(paint(&mut cut, 1) == clean, "undone");
+        }
+    }
+}
+
+#[test]
+fn a_stroke_without_samples_is_no_action() {
+    for mut painting in on_both(&bare(130, 100)) {
+        let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
+        let error = painting.stroke(brush, &[]).unwrap_err();
+        assert!(matches!(error, PaintingError::Stroke(StrokeError::Empty)), "{error}");
+        painting.begin_stroke(brush).unwrap();
+        assert_eq!(painting.advance_stroke(10).unwrap(), 0);
+        assert_eq!(painting.end_stroke().unwrap().substeps, 0);
+        assert!(!painting.undo().unwrap(), "something to undo");
+        // One sample alone is a dab.
+        painting.begin_stroke(brush).unwrap();
+        painting.extend_stroke(&along(&[(9.0, 9.0)], 0.6)).unwrap();
+        assert_eq!(painting.advance_stroke(10).unwrap(), 0, "no dab before the end");
+        assert!(painting.end_stroke().unwrap().substeps > 3, "a dab");
+        assert!(painting.undo().unwrap(), "no undo of a dab");
+    }
+}
+
+#[test]
+fn a_brush_that_comes_with_paint_gets_back_what_it_held_here() {
+    for mut painting in on_both(&bare(130, 100)) {
+        let brush = loaded(&mut painting, HeadShape::Flat, 5.0, WHITE, 0.4);
+        let held = painting.brush_paint(brush).unwrap();
+        let mut other = Layer::empty(held.width(), held.height());
+        for index in 0..held.width() * held.height() {
+            let pigments = std::array::from_fn(|slot| if slot == BLUE { 700_000 } else { 0 });
+            other.set_cell(index, Cell { pigments, vehicle: 90_000 });
+        }
+        painting.begin_stroke_with(brush, &other).unwrap();
+        assert!(painting.brush_paint(brush).unwrap() == other, "handed over");
+        painting.extend_stroke(&along(&[(3.0, 4.0), (20.0, 9.0)], 0.6)).unwrap();
+        painting.end_stroke().unwrap();
+        let totals = painting.wet().unwrap().totals();
+        assert!(totals[BLUE] > 0 && totals[WHITE] == 0, "{totals:?}");
+        let after = painting.brush_paint(brush).unwrap();
+        assert!(after.totals()[BLUE] < other.totals()[BLUE], "none was given");
+        assert!(painting.undo().unwrap(), "no undo");
+        assert!(painting.brush_paint(brush).unwrap() == held, "undone");
+        assert!(painting.redo().unwrap(), "no redo");
+        assert!(painting.brush_paint(brush).unwrap() == after, "done again");
+    }
+}
+
+#[test]
+#[should_panic(expected = "a stroke is open")]
+fn other_actions_wait_for_the_stroke_to_end() {
+    let mut painting = on_both(&bare(40, 40)).remove(0);
+    let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
+    painting.begin_stroke(brush).unwrap();
+    let _ = painting.undo();
+}
