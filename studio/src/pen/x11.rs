@@ -10,9 +10,7 @@ use eframe::egui::{Pos2, pos2};
 use x11rb::connection::Connection;
 use x11rb::errors::ReplyError;
 use x11rb::protocol::Event;
-use x11rb::protocol::xinput::{
-    self, ButtonPressEvent, ConnectionExt as _, DeviceClassData, DeviceType, XIEventMask,
-};
+use x11rb::protocol::xinput::{self, ConnectionExt as _, DeviceClassData, DeviceType, XIEventMask};
 use x11rb::protocol::xproto::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
@@ -222,14 +220,14 @@ fn place(x: i32, y: i32) -> Pos2 {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use std::io::{BufRead, BufReader};
     use std::process::{Child, Command, Stdio};
     use std::time::Duration;
 
     use x11rb::protocol::xinput::{
-        Fp3232, HierarchyChange, HierarchyChangeData, HierarchyChangeDataAddMaster,
+        ButtonPressEvent, Fp3232, HierarchyChange, HierarchyChangeData,
+        HierarchyChangeDataAddMaster,
     };
     use x11rb::protocol::xproto::{CreateWindowAux, WindowClass};
     use x11rb::wrapper::ConnectionExt as _;
