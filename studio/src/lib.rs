@@ -13,6 +13,8 @@ pub mod chart;
 
 pub mod worker;
 
+pub mod matching;
+
 pub mod pen;
 
 pub mod view;
@@ -20,5 +22,7 @@ pub mod view;
 pub mod files;
 
 pub mod panels;
+
+pub mod arguments;
 
 pub mod app;

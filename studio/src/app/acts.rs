@@ -8,7 +8,7 @@ use super::intent::Intent;
 use crate::panels::{FileRequest, Mode, Request};
 use crate::worker::Command;
 
-/// Degrees of one turn of the view by a key.
+/// Degrees of one turn of view or brush by a key.
 const TURN_DEG: f64 = 15.0;
 
 /// One step of a brush's size by a key.
@@ -53,6 +53,8 @@ impl Studio {
             Intent::ScrapePalette => self.action(Action::Scrape { on: Surface::Palette }),
             Intent::Larger => self.resize(STEP),
             Intent::Smaller => self.resize(1.0 / STEP),
+            Intent::TwistLeft => self.pen.settings.grip.turn(-TURN_DEG),
+            Intent::TwistRight => self.pen.settings.grip.turn(TURN_DEG),
             Intent::Brush(number) => {
                 let brush = self
                     .easel

@@ -43,6 +43,10 @@ pub enum Intent {
     Larger,
     /// Makes it smaller.
     Smaller,
+    /// Turns a brush that nothing tells the hold of about its handle, to the left.
+    TwistLeft,
+    /// The same to the right.
+    TwistRight,
     /// Takes a brush of the stand in hand, counted from 1.
     Brush(u8),
     /// Takes up a tool.
@@ -237,6 +241,20 @@ pub const ENTRIES: &[Entry] = &[
         &[key(NONE, Key::OpenBracket)],
     ),
     entry(
+        Intent::TwistLeft,
+        Menu::Edit,
+        "Twist left",
+        "Turns a brush that the mouse leads about its handle, to the left",
+        &[key(NONE, Key::Comma)],
+    ),
+    entry(
+        Intent::TwistRight,
+        Menu::Edit,
+        "Twist right",
+        "Turns a brush that the mouse leads about its handle, to the right",
+        &[key(NONE, Key::Period)],
+    ),
+    entry(
         Intent::ZoomIn,
         Menu::View,
         "Zoom in",
@@ -395,6 +413,9 @@ impl Stroke {
             Key::CloseBracket => "]",
             Key::Plus => "+",
             Key::Minus => "-",
+            Key::Comma => ",",
+            Key::Period => ".",
+            Key::Equals => "=",
             key => key.name(),
         });
         words.join("+")

@@ -16,6 +16,8 @@ mod menus;
 
 mod surfaces;
 
+mod pen;
+
 mod help;
 
 mod acts;

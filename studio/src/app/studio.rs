@@ -11,6 +11,7 @@ use super::status::Message;
 use super::surfaces::Hover;
 use super::{help, menus, status, toolbar};
 use crate::panels::{Request, Tools};
+use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
 use crate::worker::{Command, EaselState, Figures, HeadOnCanvas, Worker, WorkerOptions};
@@ -26,6 +27,8 @@ pub struct Studio {
     pub palette: SurfaceView,
     /// What is shown.
     pub shown: Shown,
+    /// What leads the brush.
+    pub pen: Pen,
     pub(super) worker: Worker,
     pub(super) easel: Option<Arc<EaselState>>,
     pub(super) keys: Keys,
@@ -53,9 +56,10 @@ pub struct Shown {
 }
 
 impl Studio {
-    /// A window on a worker of its own, which is asked for `begin` first.
+    /// A window on a worker of its own, which is asked for `begin` first, and on a
+    /// pen.
     #[must_use]
-    pub fn new(context: &Context, options: WorkerOptions, begin: Vec<Command>) -> Self {
+    pub fn new(context: &Context, options: WorkerOptions, begin: Vec<Command>, pen: Pen) -> Self {
         theme::apply(context);
         context.options_mut(|options| {
             // Ctrl and plus zoom the canvas, not the controls.
@@ -69,6 +73,7 @@ impl Studio {
             canvas: SurfaceView::new("Canvas", Outline::Sheet, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
             shown: Shown { panels: true, palette: true, keys: false },
+            pen,
             worker,
             easel: None,
             keys: Keys::default(),

@@ -14,12 +14,14 @@ use crate::worker::Command;
 const PICK_MM: f64 = 0.2;
 
 /// Where the brush hovers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
     /// Over which surface.
     pub(super) surface: Surface,
     /// How it is held.
     pub(super) sample: Sample,
+    /// Which brush.
+    pub(super) brush: String,
 }
 
 impl Studio {
@@ -51,6 +53,7 @@ impl Studio {
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
         let response = self.canvas.show(ui, room, hand, split);
         self.used(ui, Surface::Canvas, &response, mode);
+        self.lead(ui, mode);
     }
 
     /// The palette with the tubes beside it.

@@ -11,6 +11,7 @@ use image::RgbaImage;
 use render::gpu::{BackendChoice, choose};
 use render::paint::strokes::Surface;
 use studio::app::Studio;
+use studio::pen::{Pen, PenSettings};
 use studio::theme;
 use studio::worker::{Command, WorkerOptions, bare, oils};
 
@@ -54,7 +55,8 @@ impl Window {
                     let options =
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
-                        Studio::new(ui.ctx(), options, begin.take().unwrap_or_default())
+                        let begin = begin.take().unwrap_or_default();
+                        Studio::new(ui.ctx(), options, begin, Pen::new(PenSettings::default()))
                     });
                     // The whole window, without the margin that the harness gives.
                     let whole = ui.ctx().content_rect();
