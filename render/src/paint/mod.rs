@@ -30,4 +30,4 @@ pub mod strokes;
 
 pub mod file;
 
-pub use engine::{BrushId, Engine, EngineError, Slot};
+pub use engine::{BrushId, Engine, EngineError, Slot, View};
