@@ -22,6 +22,8 @@ mod showing;
 
 mod merging;
 
+mod sharing;
+
 pub use brushes::Brush;
 pub use failure::PaintingError;
 pub use layers::Coating;
