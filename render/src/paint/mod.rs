@@ -32,4 +32,4 @@ pub mod easel;
 
 pub mod file;
 
-pub use engine::{BrushId, Engine, EngineError, Slot};
+pub use engine::{BrushId, Engine, EngineError, Slot, View};

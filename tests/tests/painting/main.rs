@@ -15,6 +15,10 @@ mod undo;
 
 mod pieces;
 
+mod views;
+
+mod places;
+
 mod keeping;
 
 mod changes;

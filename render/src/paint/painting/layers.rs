@@ -5,7 +5,6 @@ use super::failure::PaintingError;
 use super::state::{DryState, HIGHEST, Painting};
 use crate::paint::brush::Relief;
 use crate::paint::document::Slots;
-use crate::tile::TileSet;
 
 /// One layer of a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,9 +34,7 @@ impl Painting {
             painting.history.dry(painting.engine.as_mut(), share)?;
             painting.state.dry.push(DryState { slots: painting.state.slots, opacity: 1.0 });
             painting.feel_floor()?;
-            for tile in painted.iter() {
-                painting.unbaked.insert_tile(tile);
-            }
+            painted.iter().for_each(|tile| painting.views.touch_dry(tile));
             Ok(())
         })?;
         Ok(true)
@@ -122,7 +119,7 @@ impl Painting {
                 Coating::Wet => painting.state.slots[place] = Some(to),
                 Coating::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
             }
-            painting.all_unseen();
+            painting.views.unseen();
             Ok(())
         })?;
         Ok(())
@@ -142,7 +139,7 @@ impl Painting {
         }
         self.acting(|painting| {
             painting.state.dry[index].opacity = opacity;
-            painting.all_unseen();
+            painting.views.unseen();
             Ok(())
         })?;
         Ok(())
@@ -178,7 +175,7 @@ impl Painting {
     /// After the floor rose or sank.
     pub(super) fn floor_changed(&mut self) -> Result<(), PaintingError> {
         self.feel_floor()?;
-        self.all_unseen();
+        self.views.unseen();
         Ok(())
     }
 
@@ -193,16 +190,5 @@ impl Painting {
     fn feel_floor(&mut self) -> Result<(), PaintingError> {
         self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
-    }
-
-    /// After what is dry changed, or the light.
-    pub(super) fn all_unseen(&mut self) {
-        self.unbaked = TileSet::all(self.engine.bounds());
-        self.all_unshown();
-    }
-
-    /// After the lamp moved.
-    pub(super) fn all_unshown(&mut self) {
-        self.unshown = TileSet::all(self.engine.bounds());
     }
 }

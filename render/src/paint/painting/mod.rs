@@ -6,6 +6,8 @@
 //! reading paint and pictures is always allowed, and shows the stroke as far as
 //! it is.
 
+mod views;
+
 mod state;
 
 mod failure;
@@ -17,6 +19,8 @@ mod strokes;
 mod layers;
 
 mod undoing;
+
+mod lights;
 
 mod showing;
 
