@@ -43,9 +43,27 @@ impl Painting {
     /// Puts other pigments on the palette. Those that stay keep their slots.
     ///
     /// # Errors
+    /// As [`Painting::slots_with`]; nothing is changed then.
+    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+        let slots = self.slots_with(pigments)?;
+        self.acting(|painting| {
+            // What they take up from now on is paint of this palette.
+            for brush in &painting.brushes {
+                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
+            }
+            painting.state.slots = slots;
+            Ok(())
+        })?;
+        Ok(())
+    }
+
+    /// The slots that [`Painting::set_palette`] would give: pigments that stay
+    /// keep theirs.
+    ///
+    /// # Errors
     /// [`PaintingError`] for more than eight, or where a pigment that leaves is
     /// still wet on the canvas or on a brush.
-    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+    pub fn slots_with(&mut self, pigments: &[usize]) -> Result<Slots, PaintingError> {
         let mut wanted: Vec<usize> = Vec::new();
         for &pigment in pigments {
             if !wanted.contains(&pigment) {
@@ -74,15 +92,7 @@ impl Painting {
             let free = slots.iter().position(Option::is_none).expect("eight pigments have room");
             slots[free] = Some(pigment);
         }
-        self.acting(|painting| {
-            // What they take up from now on is paint of this palette.
-            for brush in &painting.brushes {
-                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
-            }
-            painting.state.slots = slots;
-            Ok(())
-        })?;
-        Ok(())
+        Ok(slots)
     }
 
     /// Exchanges a pigment of a layer for another of the library, as if it had

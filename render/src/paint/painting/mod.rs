@@ -26,6 +26,8 @@ mod showing;
 
 mod merging;
 
+mod sharing;
+
 pub use brushes::Brush;
 pub use failure::PaintingError;
 pub use layers::Coating;
