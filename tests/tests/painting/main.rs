@@ -30,3 +30,9 @@ mod program;
 mod hostile;
 
 mod killed;
+
+mod easels;
+
+mod easel;
+
+mod recording;

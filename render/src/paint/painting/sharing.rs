@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::failure::PaintingError;
 use super::state::Painting;
 use crate::layer::Layer;
+use crate::tile::TileSet;
 
 impl Painting {
     /// Gives the paint of a brush away, to the brush of another painting (see
@@ -39,8 +40,13 @@ impl Painting {
     pub fn relight_as(&mut self, other: &Self) -> Result<(), PaintingError> {
         self.acting(|painting| {
             painting.state.lighting = other.state.lighting.clone();
-            painting.light = Arc::clone(&other.light);
-            painting.all_unseen();
+            let bounds = painting.engine.bounds();
+            if Arc::ptr_eq(&painting.light, &other.light) {
+                painting.views.first.shown = TileSet::all(bounds);
+            } else {
+                painting.light = Arc::clone(&other.light);
+                painting.views.first.unbake(bounds);
+            }
             Ok(())
         })?;
         Ok(())
