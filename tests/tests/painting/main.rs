@@ -36,3 +36,5 @@ mod easels;
 mod easel;
 
 mod recording;
+
+mod sessions;

@@ -52,39 +52,3 @@ impl Painting {
         Ok(())
     }
 }
-
-// Until the painting itself has these.
-impl Painting {
-    pub fn squeeze(
-        &mut self,
-        _: &[f64; 8],
-        _: f64,
-        _: f64,
-        _: f64,
-        _: f64,
-    ) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn scrape(&mut self) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn set_gloss(
-        &mut self,
-        _: crate::optics::Gloss,
-        _: crate::optics::Gloss,
-    ) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn begin_adjusting(&mut self) {}
-    pub fn end_adjusting(&mut self) {}
-    pub fn undo_bytes(&self) -> (u64, u64) {
-        (self.history.bytes(), 0)
-    }
-    pub fn set_undo_bytes(&mut self, _: u64) {}
-    pub fn undo_count(&self) -> usize {
-        self.history.undo_count()
-    }
-    pub fn redo_count(&self) -> usize {
-        self.history.redo_count()
-    }
-}
