@@ -81,8 +81,7 @@ impl Painting {
             }
             painting.state.slots = slots;
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// Exchanges a pigment of a layer for another of the library, as if it had
@@ -111,8 +110,7 @@ impl Painting {
             }
             painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// Multiplies the optical thickness of a dry layer with `opacity` (1 as it
@@ -131,8 +129,7 @@ impl Painting {
             painting.state.dry[index].opacity = opacity;
             painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// The pigments of a layer.
