@@ -19,6 +19,10 @@ mod views;
 
 mod places;
 
+mod tubes;
+
+mod adjusting;
+
 mod keeping;
 
 mod changes;

@@ -171,7 +171,9 @@ impl Easel {
                 [on.is_canvas(), !on.is_canvas()]
             }
             (Action::Scrape { on }, _) => {
-                self.surface_mut(*on)?.scrape()?;
+                if !self.surface_mut(*on)?.scrape()? {
+                    return Ok(None);
+                }
                 [on.is_canvas(), !on.is_canvas()]
             }
             (action, _) => unreachable!("{} is done elsewhere", action.kind()),

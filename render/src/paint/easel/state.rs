@@ -34,7 +34,8 @@ pub struct Easel {
 pub enum Outcome {
     /// It was done.
     Done,
-    /// There was nothing to do: no wet paint to dry, nothing to take back.
+    /// There was nothing to do: no wet paint to dry or to scrape away, nothing
+    /// to take back.
     Nothing,
     /// A stroke was painted.
     Painted(StrokeReport),

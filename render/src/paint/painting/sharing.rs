@@ -19,14 +19,13 @@ impl Painting {
     /// # Panics
     /// If there is no such brush, or a stroke is open.
     pub fn hand_over(&mut self, brush: usize) -> Result<Layer, PaintingError> {
-        let (paint, _) = self.acting(|painting| {
+        self.acting(|painting| {
             let id = painting.brushes[brush].id;
             painting.history.touch_brush(painting.engine.as_mut(), id)?;
             let paint = painting.engine.brush(id)?;
             painting.wash(brush)?;
             Ok(paint)
-        })?;
-        Ok(paint)
+        })
     }
 
     /// Shows the painting under the light of another one, which must be of the
@@ -48,7 +47,6 @@ impl Painting {
                 painting.views.first.unbake(bounds);
             }
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 }
