@@ -210,6 +210,15 @@ fn the_stand_follows_the_painting() {
 }
 
 #[test]
+fn new_brushes_stand_in_the_order_of_their_shapes() {
+    let mut told = easel();
+    told.brushes.reverse();
+    let harness = shown(Brushes::default(), told, Brushes::show);
+    let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
+    assert!(tops.is_sorted(), "{tops:?}");
+}
+
+#[test]
 fn a_size_between_the_slider_s_steps_is_left_alone() {
     let mut odd = easel();
     odd.brushes[0].spec.size_mm = 6.123_456;
