@@ -13,6 +13,8 @@ pub mod chart;
 
 pub mod worker;
 
+pub mod matching;
+
 pub mod pen;
 
 pub mod view;
@@ -21,4 +23,8 @@ pub mod files;
 
 pub mod panels;
 
+pub mod arguments;
+
 pub mod app;
+
+pub mod window;

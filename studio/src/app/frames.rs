@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
+use crate::panels::figures::FrameRate;
+
 /// What is looked back on.
 const WINDOW: Duration = Duration::from_secs(1);
 
@@ -13,18 +15,6 @@ pub struct Frames {
     shown: VecDeque<(Instant, Duration)>,
     began: Option<Instant>,
     newest: Option<Instant>,
-}
-
-/// The last second.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FrameRate {
-    /// Frames drawn.
-    pub frames_a_second: f64,
-    /// From the arrival of a sample to the frame that shows it being handed over,
-    /// in ms: the mean.
-    pub latency_ms: f64,
-    /// The longest, in ms.
-    pub worst_ms: f64,
 }
 
 impl Frames {

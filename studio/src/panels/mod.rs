@@ -4,6 +4,8 @@ mod desk;
 
 mod tools;
 
+mod draft;
+
 mod controls;
 
 mod pigments;
@@ -26,5 +28,6 @@ pub mod figures;
 
 pub mod revisions;
 
-pub use desk::{Desk, FileRequest, Request};
+pub use crate::files::FileRequest;
+pub use desk::{Desk, Request};
 pub use tools::{Mode, Tools};

@@ -41,6 +41,8 @@ pub struct Tools {
     pub squeeze_mm3: f64,
     /// The share that `dry` dries, 0..1.
     pub dry_share: f64,
+    /// The eyedropper tells the mean over cells this near, in mm; 0 is one cell.
+    pub pick_radius_mm: f64,
     /// What was last picked.
     pub picked: Option<Arc<Picked>>,
     /// A colour from the reference picture or a dropped swatch, linear sRGB.
@@ -63,6 +65,7 @@ impl Default for Tools {
             wipe_keep: 0.3,
             squeeze_mm3: 60.0,
             dry_share: 1.0,
+            pick_radius_mm: 0.5,
             picked: None,
             wanted: None,
             split: 0.5,

@@ -6,6 +6,8 @@ mod harness;
 
 mod made;
 
+mod stage;
+
 mod brushes;
 
 mod canvas;
