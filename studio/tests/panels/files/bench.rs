@@ -20,7 +20,7 @@ use studio::theme;
 use studio::worker::{Command, EaselState, Event, Origin, Snapshot, bare, oils};
 
 /// A painting of some strokes, by the engine.
-pub fn painted(title: &str) -> Document {
+pub(super) fn painted(title: &str) -> Document {
     let Origin::Bare { mut script, library } = bare(oils(), 24.0, 16.0, 0.2) else {
         panic!("a bare canvas");
     };
@@ -54,7 +54,7 @@ pub fn painted(title: &str) -> Document {
 }
 
 /// The painting at work on the processor.
-pub fn opened(document: Document) -> Painting {
+pub(super) fn opened(document: Document) -> Painting {
     let engine = OnCpu::new(document.ground.height.clone());
     Painting::open(document, Box::new(engine), 1 << 24).unwrap()
 }
@@ -90,22 +90,22 @@ fn easel(document: &Document, revision: u64) -> Arc<EaselState> {
 }
 
 /// Window and worker in one.
-pub struct Bench {
+pub(super) struct Bench {
     files: Option<Files>,
     home: Home,
     preferences: Preferences,
     tools: Tools,
-    pub canvas: Arc<Document>,
-    pub palette: Arc<Document>,
-    pub easel: Arc<EaselState>,
+    pub(super) canvas: Arc<Document>,
+    pub(super) palette: Arc<Document>,
+    pub(super) easel: Arc<EaselState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
     /// What the worker was asked for, but for documents.
-    pub commands: Vec<Command>,
+    pub(super) commands: Vec<Command>,
 }
 
 impl Bench {
-    pub fn files(&mut self) -> &mut Files {
+    pub(super) fn files(&mut self) -> &mut Files {
         self.files.as_mut().unwrap()
     }
 
@@ -168,7 +168,7 @@ impl Bench {
     }
 
     /// The recording that the worker would tell.
-    pub fn script(&self) -> Strokes {
+    pub(super) fn script(&self) -> Strokes {
         let Origin::Bare { script, .. } = bare(oils(), 24.0, 16.0, 0.2) else {
             panic!("a bare canvas");
         };
@@ -177,10 +177,10 @@ impl Bench {
 }
 
 /// The bench in a window.
-pub type Window = Harness<'static, Bench>;
+pub(super) type Window = Harness<'static, Bench>;
 
 /// A window on `document` with its own folders in `home`.
-pub fn window(home: &Path, document: Document) -> Window {
+pub(super) fn window(home: &Path, document: Document) -> Window {
     let preferences = Preferences {
         autosave_seconds: 2,
         last_folder: Some(home.to_owned()),
@@ -209,7 +209,7 @@ pub fn window(home: &Path, document: Document) -> Window {
 }
 
 /// Draws frames until `done`, at most 30 s.
-pub fn until(window: &mut Window, what: &str, mut done: impl FnMut(&mut Window) -> bool) {
+pub(super) fn until(window: &mut Window, what: &str, mut done: impl FnMut(&mut Window) -> bool) {
     let start = Instant::now();
     while !done(window) {
         assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}");
@@ -220,7 +220,7 @@ pub fn until(window: &mut Window, what: &str, mut done: impl FnMut(&mut Window) 
     window.step();
 }
 
-pub fn ask(window: &mut Window, request: FileRequest) {
+pub(super) fn ask(window: &mut Window, request: FileRequest) {
     window.state_mut().requests.push(request);
     for _ in 0..4 {
         window.step();
@@ -228,7 +228,7 @@ pub fn ask(window: &mut Window, request: FileRequest) {
 }
 
 /// As if the painter had changed something.
-pub fn change(window: &mut Window) {
+pub(super) fn change(window: &mut Window) {
     let bench = window.state_mut();
     let mut canvas = (*bench.canvas).clone();
     canvas.wet.vehicle.values_mut()[7] += 1;
@@ -241,19 +241,19 @@ pub fn change(window: &mut Window) {
     window.step();
 }
 
-pub fn shows(window: &Window, label: &str) -> bool {
+pub(super) fn shows(window: &Window, label: &str) -> bool {
     window.query_all_by_label_contains(label).next().is_some()
 }
 
 /// Clicks what has this label.
-pub fn click(window: &mut Window, label: &str) {
+pub(super) fn click(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
     // What it opens takes its place in the frames after.
     window.run_steps(4);
 }
 
 /// Types into the field of the name, in place of what is there.
-pub fn type_name(window: &mut Window, name: &str) {
+pub(super) fn type_name(window: &mut Window, name: &str) {
     let field = window.get_all_by_role(eframe::egui::accesskit::Role::TextInput).last().unwrap();
     field.focus();
     window.step();
@@ -266,7 +266,7 @@ pub fn type_name(window: &mut Window, name: &str) {
 }
 
 /// Writes what is on the screen below `target/tmp`, where a device can draw it.
-pub fn picture(window: &mut Window, name: &str) {
+pub(super) fn picture(window: &mut Window, name: &str) {
     if std::env::var_os("IMPASTO_PICTURES").is_none() {
         return;
     }
