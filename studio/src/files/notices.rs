@@ -38,12 +38,13 @@ pub(super) struct Notice {
 impl Notice {
     /// Goes by itself.
     pub(super) fn said(what: String) -> Self {
+        let what = capital(&what);
         Self { what, hint: None, until: Some(Instant::now() + STAYS) }
     }
 
     /// Stays until it is closed.
     pub(super) fn failed(failure: FileFailure) -> Self {
-        Self { what: failure.what, hint: failure.hint, until: None }
+        Self { what: capital(&failure.what), hint: failure.hint, until: None }
     }
 }
 
@@ -81,6 +82,9 @@ impl Files {
                         }
                     };
                     card(ui, words, |ui| {
+                        if notice.until.is_some() {
+                            return;
+                        }
                         if ui.button("OK").on_hover_text("Close this message").clicked() {
                             reply = Some(Reply::Close(index));
                         }
@@ -155,6 +159,13 @@ impl Files {
             });
         }
     }
+}
+
+/// `text` with a capital.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 fn bar(ui: &mut Ui, label: &str, share: Option<f32>) {

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use eframe::egui::{
-    Align, Button, ComboBox, Context, Frame, Id, Key, Label, Layout, Modal, Modifiers, RichText,
-    ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, ComboBox, Context, Event, Frame, Id, Key, Label, Layout, Modal, Modifiers,
+    RichText, ScrollArea, TextEdit, Ui, vec2,
 };
 
 use super::listing::home_folder;
@@ -213,13 +213,14 @@ impl Browser {
         ui.horizontal(|ui| {
             ui.label(format!("{} is there already.", name.unwrap_or_default()));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let replace = ui.button("Replace");
-                if replace.on_hover_text("Writes over the file (Enter)").clicked() {
-                    answer = Some(Answer::File(path.to_owned()));
-                }
+                // Where `Save` was stands what does no harm.
                 let keep = ui.button("Keep");
                 if keep.on_hover_text("Leaves the file; choose another name").clicked() {
                     self.replaces = None;
+                }
+                let replace = ui.button("Replace");
+                if replace.on_hover_text("Writes over the file (Enter)").clicked() {
+                    answer = Some(Answer::File(path.to_owned()));
                 }
             });
         });
@@ -244,7 +245,12 @@ impl Browser {
         if pressed(Key::Backspace) {
             self.up();
         }
-        if pressed(Key::Enter) { self.enter() } else { None }
+        // A key held down answers no question.
+        let held = ctx.input(|input| {
+            let again = |event: &Event| matches!(event, Event::Key { repeat: true, .. });
+            input.events.iter().any(again)
+        });
+        if pressed(Key::Enter) && !held { self.enter() } else { None }
     }
 }
 
