@@ -39,11 +39,14 @@ pub mod color;
 
 mod integrate;
 
+mod colour_temperature;
+
 pub mod swatch_file;
 
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
+pub use colour_temperature::ColourTemperature;
 pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};

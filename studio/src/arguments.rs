@@ -116,7 +116,7 @@ impl Start {
         };
         let home = home.ok_or_else(|| {
             let what = "the system does not tell where your files are kept";
-            stop(&FileFailure::new(what, "try impasto-studio --home FOLDER"))
+            FileFailure::new(what, "try impasto-studio --home FOLDER")
         })?;
         let (preferences, failures) = Preferences::read(&home.preferences());
         let backend = match (parsed.backend, preferences.backend) {
@@ -126,7 +126,7 @@ impl Start {
         };
         let undo_bytes = parsed.undo_memory.unwrap_or(preferences.undo_mib) << 20;
         let figures = parsed.figures.as_deref().map(FiguresLog::append);
-        let figures = figures.transpose().map_err(|failure| stop(&failure))?;
+        let figures = figures.transpose().map_err(Stop::from)?;
         Ok(Self {
             file: parsed.file,
             home,
@@ -143,9 +143,11 @@ impl Start {
     }
 }
 
-fn stop(failure: &FileFailure) -> Stop {
-    let hint = failure.hint.as_ref().map(|hint| format!("hint: {hint}\n")).unwrap_or_default();
-    Stop { text: format!("error: {failure}\n{hint}"), status: 2 }
+impl From<FileFailure> for Stop {
+    fn from(failure: FileFailure) -> Self {
+        let hint = failure.hint.as_ref().map(|hint| format!("hint: {hint}\n"));
+        Self { text: format!("error: {failure}\n{}", hint.unwrap_or_default()), status: 2 }
+    }
 }
 
 #[cfg(test)]

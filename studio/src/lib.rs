@@ -13,6 +13,8 @@ pub mod chart;
 
 pub mod worker;
 
+pub mod matching;
+
 pub mod pen;
 
 pub mod view;
@@ -24,3 +26,5 @@ pub mod panels;
 pub mod arguments;
 
 pub mod app;
+
+pub mod window;

@@ -4,11 +4,12 @@ use std::io::{Write, stderr, stdout};
 use std::process::ExitCode;
 
 use studio::arguments::{Start, Stop};
+use studio::window;
 
 fn main() -> ExitCode {
     let started = Start::from_arguments(std::env::args_os());
-    match started.map(|start| start.home) {
-        Ok(_) => ExitCode::SUCCESS,
+    match started.and_then(|start| window::run(start).map_err(Stop::from)) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(stop) => tell(&stop),
     }
 }

@@ -22,6 +22,8 @@ mod request;
 
 mod candidate;
 
+mod watch;
+
 mod search;
 
 mod whole_parts;
@@ -31,6 +33,8 @@ mod ranking;
 pub use bounded_descent::{Cost, descend_inside};
 pub use bounded_step::{Bounds, UNKNOWNS};
 pub use film::{FilmKind, Thickness};
-pub use ranking::{Recipe, recipes};
+pub use ranking::{Recipe, recipes, recipes_watched};
 pub use request::{MatchError, MatchRequest};
 pub use sight::{Metric, Sight, Target};
+pub use watch::Watch;
+pub use whole_parts::few_parts;

@@ -8,6 +8,7 @@ use super::forward::{Forward, Scratch};
 use super::request::{MatchError, MatchRequest};
 use super::search::search;
 use super::sight::Target;
+use super::watch::Watch;
 use super::whole_parts::in_whole_parts;
 use crate::evaluate::lab;
 use crate::library::{AmountKind, PigmentLibrary};
@@ -53,23 +54,43 @@ pub fn recipes(
     target: &Target,
     request: &MatchRequest,
 ) -> Result<Vec<Recipe>, MatchError> {
+    Ok(recipes_watched(library, target, request, &Watch::default())?.unwrap_or_default())
+}
+
+/// As [`recipes`], while others look on; `None` if one of them stopped it.
+///
+/// # Errors
+/// As [`recipes`].
+///
+/// # Panics
+/// As [`recipes`].
+pub fn recipes_watched(
+    library: &PigmentLibrary,
+    target: &Target,
+    request: &MatchRequest,
+    watch: &Watch,
+) -> Result<Option<Vec<Recipe>>, MatchError> {
     request.check(library)?;
     let forward = Forward::new(library, request).expect("the method fits the grid");
-    let candidates = search(&forward, request, target);
+    let candidates = search(&forward, request, target, watch);
     let found: Vec<Found> = match request.whole_parts {
         None => candidates.into_iter().map(|candidate| (None, candidate)).collect(),
         Some(most) => {
             // Some of the nearest are left out later, for adding nothing.
             let wanted = 5 * request.count;
-            in_whole_parts(&forward, request, target, &candidates, most, wanted)
+            in_whole_parts(&forward, request, target, &candidates, (most, wanted), watch)
                 .into_iter()
                 .map(|(parts, candidate)| (Some(parts), candidate))
                 .collect()
         }
     };
+    if watch.stopped() {
+        return Ok(None);
+    }
     let cost = |candidate: &Candidate| cost(library, request, candidate);
     let ranked = ranked(found, request, &cost);
-    Ok(ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost)).collect())
+    let recipes = ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost));
+    Ok(Some(recipes.collect()))
 }
 
 type Found = (Option<Vec<u32>>, Candidate);

@@ -9,23 +9,31 @@ use super::descent::descend;
 use super::forward::{Forward, Scratch};
 use super::request::MatchRequest;
 use super::sight::Target;
+use super::watch::Watch;
 
 /// The most sets of one size that are tried: all sets of four out of 30. Of a
 /// greater library only the nearest smaller recipes are built upon.
 const MOST_SETS: usize = 30_000;
 
-/// The nearest recipe of each set of pigments that was tried, nearest first.
+/// The nearest recipe of each set of pigments that was tried, nearest first. A
+/// search that was stopped has not tried all.
 pub(super) fn search(
     forward: &Forward<'_>,
     request: &MatchRequest,
     target: &Target,
+    watch: &Watch,
 ) -> Vec<Candidate> {
+    watch.expect(expected(request));
     let strength = strengths(forward);
     let mut found: Vec<Candidate> = Vec::new();
     let mut sets = first_sets(request);
     let mut size = sets.keys().next().map_or(0, Vec::len);
     loop {
         let nearest = |(set, parent): (&Vec<usize>, &Option<Candidate>), scratch: &mut Scratch| {
+            if watch.stopped() {
+                return None;
+            }
+            watch.step();
             let starts = starts(request, set, parent.as_ref(), &strength);
             let ends = starts.iter().map(|s| descend(forward, request, target, s, scratch));
             ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
@@ -35,7 +43,8 @@ pub(super) fn search(
             .map_init(Scratch::default, |scratch, set| (set.0.clone(), nearest(set, scratch)))
             .collect();
         size += 1;
-        let grown = if size <= request.at_most { grown(request, &tried) } else { BTreeMap::new() };
+        let goes_on = size <= request.at_most && !watch.stopped();
+        let grown = if goes_on { grown(request, &tried) } else { BTreeMap::new() };
         found.extend(tried.into_iter().filter_map(|(_, candidate)| candidate));
         if grown.is_empty() {
             break;
@@ -46,6 +55,19 @@ pub(super) fn search(
         a.distance.total_cmp(&b.distance).then_with(|| a.pigments.cmp(&b.pigments))
     });
     found
+}
+
+/// How many sets will be tried; twice where each is laid in whole parts too.
+fn expected(request: &MatchRequest) -> usize {
+    let fixed = request.required.len();
+    let free = request.allowed.len() - fixed.min(request.allowed.len());
+    let of_size = |added: usize| {
+        let sets = (0..added)
+            .fold(1_usize, |sets, i| sets.saturating_mul(free.saturating_sub(i)) / (i + 1));
+        sets.min(MOST_SETS)
+    };
+    let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
+    sizes.map(of_size).sum::<usize>() * if request.whole_parts.is_some() { 2 } else { 1 }
 }
 
 type Sets = BTreeMap<Vec<usize>, Option<Candidate>>;

@@ -6,13 +6,15 @@ use super::candidate::Candidate;
 use super::forward::{Forward, Scratch};
 use super::request::MatchRequest;
 use super::sight::Target;
+use super::watch::Watch;
 
 /// Recipes of one set that are tried one by one, at most: four pigments in up to
 /// 19 parts.
 const MOST_RECIPES: u64 = 4_000;
 
 /// The nearest recipe in whole parts, `most` together, of each candidate's
-/// pigments; candidates of which the least share allows none are gone.
+/// pigments; candidates of which the least share allows none are gone, and all that
+/// come after the search was stopped.
 ///
 /// First the shares are rounded for every total and parts moved from pigment to
 /// pigment while that helps. Then every recipe is tried of those sets that could
@@ -23,10 +25,13 @@ pub(super) fn in_whole_parts(
     request: &MatchRequest,
     target: &Target,
     candidates: &[Candidate],
-    most: u32,
-    wanted: usize,
+    (most, wanted): (u32, usize),
+    watch: &Watch,
 ) -> Vec<(Vec<u32>, Candidate)> {
     let search = |scratch: &mut Scratch, candidate: &Candidate, every: bool| {
+        if watch.stopped() {
+            return None;
+        }
         let mut set = Set { forward, request, target, candidate, scratch };
         let parts = if every { set.nearest_of_all(most) } else { set.nearest_rounded(most) };
         parts.map(|(parts, distance)| {
@@ -36,7 +41,10 @@ pub(super) fn in_whole_parts(
     };
     let rounded: Vec<Option<(Vec<u32>, Candidate)>> = candidates
         .par_iter()
-        .map_init(Scratch::default, |scratch, candidate| search(scratch, candidate, false))
+        .map_init(Scratch::default, |scratch, candidate| {
+            watch.step();
+            search(scratch, candidate, false)
+        })
         .collect();
     let mut distances: Vec<f64> = rounded.iter().flatten().map(|found| found.1.distance).collect();
     distances.sort_by(f64::total_cmp);
@@ -136,6 +144,19 @@ fn shares(parts: &[u32]) -> Vec<f64> {
     parts.iter().map(|part| f64::from(*part) / total).collect()
 }
 
+/// The fewest whole parts, together at most `most`, in proportion to `shares`
+/// (above 0, of any sum), so that no share is off by more than `tolerance` of the
+/// whole; `None` if there are none.
+#[must_use]
+pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> {
+    let sum: f64 = shares.iter().sum();
+    let wished: Vec<f64> = shares.iter().map(|share| share / sum).collect();
+    (shares.len() as u32..=most).map(|total| rounded(&wished, total)).find(|parts| {
+        let near = |(found, wished): (f64, &f64)| (found - wished).abs() <= tolerance;
+        self::shares(parts).into_iter().zip(&wished).all(near)
+    })
+}
+
 /// `total` parts in proportion to `shares`, at least one each, by largest
 /// remainder (Hamilton).
 fn rounded(shares: &[f64], total: u32) -> Vec<u32> {
@@ -171,6 +192,15 @@ mod tests {
     #[test]
     fn recipes_are_counted() {
         assert_eq!((count(1, 9), count(2, 9), count(4, 12), count(4, 3)), (9, 36, 495, 0));
+    }
+
+    #[test]
+    fn the_fewest_parts_near_enough_stand_for_shares() {
+        assert_eq!(few_parts(&[0.6, 0.3, 0.1], 20, 1e-9), Some(vec![6, 3, 1]));
+        assert_eq!(few_parts(&[3.0, 1.0], 20, 1e-9), Some(vec![3, 1]), "of any sum");
+        assert_eq!(few_parts(&[0.334, 0.666], 20, 0.002), Some(vec![1, 2]));
+        assert_eq!(few_parts(&[0.334, 0.666], 20, 1e-4), None);
+        assert_eq!(few_parts(&[1.0], 20, 1e-9), Some(vec![1]));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What panels see, and what they can ask for.
 
+use render::paint::strokes::Action;
+
 use super::tools::Tools;
 use crate::files::FileRequest;
 use crate::worker::{Command, EaselState};
@@ -28,6 +30,11 @@ impl Desk<'_> {
     /// Asks the worker.
     pub fn command(&mut self, command: Command) {
         self.asked.push(Request::Worker(command));
+    }
+
+    /// Asks the worker for one action of the history.
+    pub fn act(&mut self, action: Action) {
+        self.command(Command::Act(action));
     }
 
     /// Asks for something about files.

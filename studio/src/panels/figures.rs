@@ -1,1 +1,77 @@
 //! Latency and speed, on demand.
+
+use eframe::egui::{Align2, Color32, FontId, Rect, Ui, vec2};
+
+use crate::theme;
+use crate::worker::Figures;
+
+/// How the window kept up in the last second.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrameRate {
+    /// Frames drawn.
+    pub frames_a_second: f64,
+    /// From the arrival of a sample to the frame that shows it being handed over,
+    /// in ms: the mean; 0 if none was shown.
+    pub latency_ms: f64,
+    /// The longest, in ms.
+    pub worst_ms: f64,
+}
+
+/// What is told of window and worker, as name and value.
+#[must_use]
+pub fn lines(rate: FrameRate, worker: Figures, backend: &str) -> Vec<(&'static str, String)> {
+    let ms = |mean: f64, worst: f64| match worst {
+        0.0 => "-".to_owned(),
+        _ => format!("{mean:.1} ms, worst {worst:.1}"),
+    };
+    vec![
+        ("frames a second", format!("{:.0}", rate.frames_a_second)),
+        ("pen to screen", ms(rate.latency_ms, rate.worst_ms)),
+        ("pen to paint", ms(worker.to_tiles_ms, worker.worst_ms)),
+        ("sub-steps a second", format!("{:.0}", worker.substeps_a_second)),
+        ("steps behind", worker.behind.to_string()),
+        ("paint computed by", backend.to_owned()),
+    ]
+}
+
+/// Draws them over the upper left corner of `over`.
+pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Figures, backend: &str) {
+    let (size, row, value_at) = (12.0, 16.0, 128.0);
+    let font = FontId::proportional(size);
+    let painter = ui.painter().with_clip_rect(over);
+    let lines = lines(rate, worker, backend);
+    let galley = |text: &str| painter.layout_no_wrap(text.to_owned(), font.clone(), theme::TEXT);
+    let widest = lines.iter().map(|(_, value)| galley(value).size().x).fold(60.0, f32::max);
+    let size = vec2(value_at + widest + 12.0, row * lines.len() as f32 + 10.0);
+    let board = Rect::from_min_size(over.min + vec2(10.0, 10.0), size);
+    painter.rect_filled(board, theme::ROUND, Color32::from_black_alpha(190));
+    for (index, (name, value)) in lines.iter().enumerate() {
+        let place = board.min + vec2(8.0, 5.0 + row * index as f32);
+        painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::FAINT);
+        let place = place + vec2(value_at - 8.0, 0.0);
+        painter.text(place, Align2::LEFT_TOP, value, font.clone(), theme::STRONG);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_figure_is_told_with_its_unit() {
+        let rate = FrameRate { frames_a_second: 59.6, latency_ms: 21.44, worst_ms: 33.0 };
+        let worker =
+            Figures { substeps_a_second: 1012.4, behind: 17, to_tiles_ms: 8.04, worst_ms: 12.26 };
+        let told = lines(rate, worker, "CPU, 2 threads");
+        let values: Vec<&str> = told.iter().map(|(_, value)| value.as_str()).collect();
+        let wanted =
+            ["60", "21.4 ms, worst 33.0", "8.0 ms, worst 12.3", "1012", "17", "CPU, 2 threads"];
+        assert_eq!(values, wanted);
+    }
+
+    #[test]
+    fn without_a_sample_there_is_no_latency() {
+        let told = lines(FrameRate::default(), Figures::default(), "CPU");
+        assert_eq!((told[1].1.as_str(), told[2].1.as_str()), ("-", "-"));
+    }
+}

@@ -4,6 +4,12 @@ mod desk;
 
 mod tools;
 
+mod draft;
+
+mod controls;
+
+mod pigments;
+
 pub mod brushes;
 
 pub mod eyedropper;

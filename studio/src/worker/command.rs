@@ -5,7 +5,7 @@ use std::time::Instant;
 use calibrate::library::PigmentLibrary;
 use render::paint::document::{Document, Lighting};
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, BrushSpec, Strokes, Surface};
+use render::paint::strokes::{Action, BrushSpec, Recipe, Strokes, Surface};
 
 use super::event::Picked;
 
@@ -120,6 +120,16 @@ pub enum Command {
         picked: Box<Picked>,
         /// How high it lies on the head, in mm.
         amount_mm: f64,
+    },
+    /// Puts a heap of paint on the palette, as [`Action::Squeeze`], where the worker
+    /// finds room for it.
+    LayOut {
+        /// The paint, by names of the library.
+        recipe: Recipe,
+        /// Share of the whole that is clear vehicle, 0..1.
+        vehicle: f64,
+        /// How much, in cubic millimetres.
+        volume_mm3: f64,
     },
     /// Bytes that undo may keep from now on.
     UndoMemory(u64),

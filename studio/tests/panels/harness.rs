@@ -1,1 +1,243 @@
-//! Of harness.
+//! The whole window on a real worker, without a window system.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, UiBuilder, Vec2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use image::RgbaImage;
+use render::gpu::{BackendChoice, choose};
+use render::paint::strokes::Surface;
+use studio::app::{Begun, Parts, Studio};
+use studio::files::{Files, Home, Preferences};
+use studio::pen::{Pen, PenSettings};
+use studio::theme;
+use studio::worker::{Command, WorkerOptions, bare, oils};
+
+/// Longer than anything a test waits for.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Quiet for so long is idle.
+const QUIET: Duration = Duration::from_millis(60);
+
+/// A window under test.
+pub(crate) struct Window {
+    harness: Harness<'static, Option<Studio>>,
+    name: &'static str,
+    fences: u64,
+    /// The program's own folders.
+    folder: tempfile::TempDir,
+}
+
+impl Window {
+    /// A window of 1280 x 800 points on 320 x 200 cells of linen, 32 x 20 mm, and
+    /// Van Gogh's oils; `name` is the test's, for pictures of failures.
+    pub(crate) fn open(name: &'static str) -> Self {
+        Self::sized(name, vec2(1280.0, 800.0), 1.0)
+    }
+
+    /// The same in another size and density.
+    pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
+        let begin = vec![Command::Open(bare(oils(), 32.0, 20.0, 0.1))];
+        Self::begun(name, size, density, begin)
+    }
+
+    /// A window whose worker is asked for `begin` first.
+    pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
+        let folder = tempfile::tempdir().expect("a folder for the session");
+        let home = folder.path().to_owned();
+        let mut begin = Some(begin);
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_pixels_per_point(density)
+            .with_step_dt(1.0 / 60.0)
+            .with_render_cursor(false)
+            .with_context_setup(theme::apply)
+            .build_ui_state(
+                move |ui, studio: &mut Option<Studio>| {
+                    let options =
+                        WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
+                    let studio = studio.get_or_insert_with(|| {
+                        let begun = Begun::new(options, begin.take().unwrap_or_default());
+                        let preferences = Preferences::default();
+                        let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
+                        let pen = Pen::new(PenSettings::default());
+                        let parts = Parts { begun, pen, files, open: None, log: None };
+                        Studio::new(ui.ctx(), parts)
+                    });
+                    studio.logic(ui.ctx());
+                    // The whole window, without the margin that the harness gives.
+                    let whole = ui.ctx().content_rect();
+                    let mut ui = ui.new_child(UiBuilder::new().max_rect(whole));
+                    ui.set_clip_rect(whole);
+                    studio.ui(&mut ui, None);
+                },
+                None,
+            );
+        let start = Instant::now();
+        while harness.state().as_ref().is_none_or(|studio| studio.easel().is_none()) {
+            assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
+            std::thread::sleep(Duration::from_millis(5));
+            harness.step();
+        }
+        let mut window = Self { harness, name, fences: 0, folder };
+        window.settle();
+        window
+    }
+
+    /// The window's own state.
+    pub(crate) fn studio(&self) -> &Studio {
+        self.harness.state().as_ref().expect("the window is there from the first frame on")
+    }
+
+    /// The same, to change it.
+    pub(crate) fn studio_mut(&mut self) -> &mut Studio {
+        self.harness.state_mut().as_mut().expect("the window is there from the first frame on")
+    }
+
+    /// What is under test, as kittest has it: `get_by_label` and more.
+    pub(crate) fn harness(&mut self) -> &mut Harness<'static, Option<Studio>> {
+        &mut self.harness
+    }
+
+    /// Draws frames until the worker has done all that it was asked for and the
+    /// window shows it.
+    pub(crate) fn settle(&mut self) {
+        self.fences += 1;
+        let fence = u64::MAX - self.fences;
+        self.harness.step();
+        self.studio_mut().ask(Command::Recording(fence));
+        let start = Instant::now();
+        let mut quiet = Instant::now();
+        let mut heard = self.studio().heard();
+        loop {
+            self.harness.step();
+            let answered = self.studio().answered() == Some(fence);
+            if self.studio().heard() != heard {
+                heard = self.studio().heard();
+                quiet = Instant::now();
+            } else if answered && quiet.elapsed() > QUIET {
+                break;
+            }
+            assert!(start.elapsed() < PATIENCE, "{}: the worker does not end", self.name);
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        self.harness.run_ok();
+    }
+
+    /// The folder of preferences and autosaves.
+    pub(crate) fn home(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Gives the window these events within one frame.
+    pub(crate) fn frame(&mut self, events: Vec<Event>) {
+        self.harness.input_mut().events.extend(events);
+        self.harness.step();
+    }
+
+    /// Leads the mouse with its first button down along points of the window, a few
+    /// in each frame, and lifts it.
+    pub(crate) fn pen_stroke(&mut self, along: &[Pos2]) {
+        let (Some(&first), Some(&last)) = (along.first(), along.last()) else { return };
+        self.frame(vec![Event::PointerMoved(first)]);
+        self.frame(vec![button(first, true)]);
+        for points in along.chunks(4) {
+            std::thread::sleep(Duration::from_millis(8));
+            self.frame(points.iter().copied().map(Event::PointerMoved).collect());
+        }
+        self.frame(vec![button(last, false)]);
+        self.frame(Vec::new());
+    }
+
+    /// Presses and releases a key.
+    pub(crate) fn key(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.step();
+        self.harness.run_ok();
+    }
+
+    /// Clicks what has this label.
+    pub(crate) fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.harness.step();
+        self.harness.run_ok();
+    }
+
+    /// Where a place of a surface, in mm, is in the window.
+    pub(crate) fn point(&self, surface: Surface, x_mm: f64, y_mm: f64) -> Pos2 {
+        let studio = self.studio();
+        let view = match surface {
+            Surface::Canvas => &studio.canvas,
+            Surface::Palette => &studio.palette,
+        };
+        let cell_mm = studio.easel().map_or(1.0, |easel| easel.cell_mm);
+        view.placement().point([x_mm / cell_mm, y_mm / cell_mm])
+    }
+
+    /// The window as it is drawn; none where there is no adapter, which is said.
+    pub(crate) fn picture(&mut self) -> Option<RgbaImage> {
+        has_adapter().then(|| self.harness.render().expect("the window is drawn"))
+    }
+
+    /// Draws the window into `target/tmp/NAME.png`.
+    pub(crate) fn save(&mut self, name: &str) {
+        if let Some(picture) = self.picture() {
+            let path = folder().join(format!("{name}.png"));
+            picture.save(&path).expect("a picture can be written below target");
+        }
+    }
+
+    /// The colour at a point of the window.
+    pub(crate) fn colour(&self, picture: &RgbaImage, at: Pos2) -> [u8; 3] {
+        let pixel = at * self.harness.ctx.pixels_per_point();
+        let [red, green, blue, _] = picture.get_pixel(pixel.x as u32, pixel.y as u32).0;
+        [red, green, blue]
+    }
+
+    /// The window, in points.
+    pub(crate) fn whole(&self) -> Rect {
+        self.harness.ctx.content_rect()
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        if std::thread::panicking() && has_adapter() {
+            let path = folder().join(format!("{}.png", self.name));
+            if let Ok(picture) = self.harness.render()
+                && picture.save(&path).is_ok()
+            {
+                let _ = writeln!(std::io::stderr(), "the window is in {}", path.display());
+            }
+        }
+    }
+}
+
+/// Whether there is a graphics adapter to draw on; what is found is noted as other
+/// such tests do.
+pub(crate) fn has_adapter() -> bool {
+    let device = choose(BackendChoice::Gpu).ok().flatten();
+    let name = device.as_ref().map_or("none", |device| &device.adapter().name);
+    if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
+        let file = std::fs::OpenOptions::new().append(true).create(true).open(path);
+        let noted = file.and_then(|mut file| file.write_all(format!("{name}\n").as_bytes()));
+        noted.expect("the list of tests on an adapter can be written");
+    }
+    if device.is_none() {
+        let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
+    }
+    device.is_some()
+}
+
+/// The first button of the mouse.
+pub(crate) fn button(pos: Pos2, pressed: bool) -> Event {
+    let modifiers = Modifiers::NONE;
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
+}
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+}

@@ -1,1 +1,263 @@
-//! Of light.
+//! Of the light: every control asks exactly what it says.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use render::optics::Gloss;
+use render::paint::document::Lighting;
+use render::paint::strokes::Action;
+use spectra::ColourTemperature;
+use studio::panels::FileRequest;
+use studio::panels::light::LightPanel;
+use studio::worker::{Command, EaselState};
+
+use super::stage::{Stage, made_easel};
+
+fn stage(easel: EaselState) -> Stage<LightPanel> {
+    Stage::new(LightPanel::default(), vec2(300.0, 660.0), easel, LightPanel::show)
+}
+
+/// The light of the only command, which is one action.
+fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
+    let commands = stage.commands();
+    let [Command::Act(Action::Light(lighting))] = &commands[..] else {
+        panic!("one change of light: {commands:?}");
+    };
+    lighting.clone()
+}
+
+#[test]
+fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
+    let mut stage = stage(made_easel());
+    stage.save("light");
+    stage.click("Illuminant: D65");
+    stage.save("light-list");
+    assert!(stage.harness.query_by_label("HP1").is_some(), "the whole list is there");
+    stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text("violet");
+    stage.run();
+    assert!(stage.harness.query_by_label("HP1").is_none(), "it is narrowed");
+    stage.harness.get_by_label("LED-V2").hover();
+    stage.wait(1.0);
+    assert!(stage.commands().is_empty(), "hovering asks for nothing");
+    stage.click("LED-V2");
+    let wanted =
+        Lighting { illuminant: "LED-V2".to_owned(), ..stage.scene().easel.lighting.clone() };
+    assert_eq!(acted(&mut stage), wanted);
+    assert!(stage.harness.query_by_label("LED-V2").is_none(), "the list is closed");
+    assert!(stage.harness.query_by_label("Illuminant: LED-V2").is_some(), "shown at once");
+}
+
+#[test]
+fn enter_takes_the_first_light_found_and_a_typed_temperature() {
+    for (typed, wanted) in [("north sky", "D75"), ("3200K", "3200K"), ("D7450K", "D7450K")] {
+        let mut stage = stage(made_easel());
+        stage.click("Illuminant: D65");
+        stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text(typed);
+        stage.run();
+        stage.harness.key_press(Key::Enter);
+        stage.run();
+        assert_eq!(acted(&mut stage).illuminant, wanted, "typed {typed}");
+    }
+}
+
+#[test]
+fn the_temperature_is_asked_for_once_when_the_slider_is_let_go() {
+    let mut stage = stage(made_easel());
+    let slider = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature");
+    let rect = slider.rect();
+    let at = |share: f32| rect.left_center() + vec2(share * rect.width(), 0.0);
+    stage.drag(&[at(0.6), at(0.3), at(0.2)]);
+    let low = acted(&mut stage).illuminant;
+    let kelvin: f64 = low.strip_suffix('K').unwrap().parse().unwrap();
+    assert!((1500.0..4000.0).contains(&kelvin), "a black body below daylight: {low}");
+    stage.drag(&[at(0.6), at(0.9)]);
+    let high = acted(&mut stage).illuminant;
+    let kelvin: f64 = high.strip_prefix('D').unwrap().strip_suffix('K').unwrap().parse().unwrap();
+    assert!((4000.0..=25000.0).contains(&kelvin), "daylight: {high}");
+}
+
+#[test]
+fn a_temperature_set_by_keys_is_asked_for_once_they_rest() {
+    let mut stage = stage(made_easel());
+    stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature").focus();
+    stage.harness.step();
+    for _ in 0..3 {
+        stage.harness.key_press(Key::ArrowRight);
+        stage.harness.step();
+    }
+    assert!(stage.commands().is_empty(), "keys are still being pressed");
+    stage.wait(0.7);
+    assert!(acted(&mut stage).illuminant.starts_with('D'), "daylight");
+}
+
+#[test]
+fn observers_are_chosen_and_a_lamp_is_asked_of_the_files() {
+    let mut stage = stage(made_easel());
+    stage.click("Observer");
+    stage.click("2015-10");
+    assert_eq!(acted(&mut stage).observer, "2015-10");
+    stage.click("Measured lamp\u{2026}");
+    assert_eq!(stage.requests(), [FileRequest::OpenLamp]);
+}
+
+#[test]
+fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
+    let mut stage = stage(made_easel());
+    let rect = stage.harness.get_by_label("Light direction").rect();
+    let centre = rect.center();
+    stage.drag(&[centre, centre + vec2(20.0, 0.0), centre + vec2(0.0, 30.0)]);
+    let commands = stage.commands();
+    let lights: Vec<&Lighting> = commands
+        .iter()
+        .filter_map(|command| match command {
+            Command::Adjust(Action::Light(lighting)) => Some(lighting),
+            _ => None,
+        })
+        .collect();
+    assert!(matches!(commands.last(), Some(Command::Settle)), "{commands:?}");
+    assert_eq!(lights.len(), commands.len() - 1, "{commands:?}");
+    assert_eq!(lights[0].elevation_deg, 90.0, "the middle is straight above");
+    assert!(lights.iter().any(|light| light.azimuth_deg == 90.0), "{lights:?}");
+    let last = lights[lights.len() - 1];
+    assert_eq!(last.azimuth_deg, 180.0);
+    // The radius of the drawn half sphere is 48 points.
+    assert!((last.elevation_deg - (30.0_f64 / 48.0).acos().to_degrees()).abs() < 0.1, "{last:?}");
+    let told = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
+    let before = &stage.scene().easel.lighting;
+    assert_eq!(told, Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..before.clone() });
+    assert!(
+        stage.harness.query_by_label_contains("180\u{b0}, ").is_some(),
+        "shown before the worker tells it"
+    );
+}
+
+#[test]
+fn arrow_keys_turn_the_light_one_action_each() {
+    let mut stage = stage(made_easel());
+    stage.harness.get_by_label("Light direction").focus();
+    stage.run();
+    stage.harness.key_press(Key::ArrowRight);
+    stage.harness.step();
+    let lighting = acted(&mut stage);
+    assert_eq!((lighting.azimuth_deg, lighting.elevation_deg), (320.0, 50.0));
+    stage.harness.key_press(Key::ArrowUp);
+    stage.harness.step();
+    let lighting = acted(&mut stage);
+    assert_eq!((lighting.azimuth_deg, lighting.elevation_deg), (320.0, 55.0));
+}
+
+#[test]
+fn sliders_of_ambient_and_relief_adjust_and_settle() {
+    for (name, most) in [("Ambient", 1.0), ("Relief", 3.0)] {
+        let mut stage = stage(made_easel());
+        let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
+        stage.drag(&[rect.center(), rect.right_center() + vec2(30.0, 0.0)]);
+        let commands = stage.commands();
+        let [.., Command::Adjust(Action::Light(last)), Command::Settle] = &commands[..] else {
+            panic!("{name} adjusts and settles: {commands:?}");
+        };
+        let (moved, other) = match name {
+            "Ambient" => (last.ambient, last.relief),
+            _ => (last.relief, last.ambient),
+        };
+        let untouched = if name == "Ambient" { 1.0 } else { 0.5 };
+        assert_eq!((moved, other), (most, untouched), "{name}");
+    }
+}
+
+#[test]
+fn gloss_is_dragged_for_wet_and_for_dry() {
+    let mut stage = stage(made_easel());
+    let medium = stage.scene().easel.medium.clone();
+    for (name, is_wet) in [("Wet gloss", true), ("Dry gloss", false)] {
+        let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
+        stage.drag(&[rect.center(), rect.right_top() + vec2(9.0, -9.0)]);
+        let commands = stage.commands();
+        let [.., Command::Adjust(Action::Gloss { wet, dry }), Command::Settle] = &commands[..]
+        else {
+            panic!("{name} adjusts and settles: {commands:?}");
+        };
+        let corner = Gloss { strength: 1.0, exponent: 500.0 };
+        let wanted = if is_wet { (corner, medium.dry) } else { (medium.wet, corner) };
+        assert_eq!((*wet, *dry), wanted, "{name}");
+        // The worker tells what it was before: the wish is not granted.
+        stage.wait(3.5);
+    }
+}
+
+#[test]
+fn the_second_light_goes_on_and_off_and_changes_places() {
+    let mut stage = stage(made_easel());
+    stage.click("Second light");
+    let first = stage.scene().easel.lighting.clone();
+    let second = Lighting { illuminant: "A".to_owned(), ..first.clone() };
+    let commands = stage.commands();
+    let [Command::SecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(*asked, second);
+    stage.scene().easel.second = Some(second.clone());
+    stage.run();
+    stage.save("light-split");
+    stage.click("Second illuminant: A");
+    stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text("FL11");
+    stage.run();
+    stage.click("FL11");
+    let commands = stage.commands();
+    let [Command::SecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(*asked, Lighting { illuminant: "FL11".to_owned(), ..first.clone() });
+    stage.click("Swap");
+    let commands = stage.commands();
+    let [Command::SecondLight(Some(to_second)), Command::Act(Action::Light(to_first))] =
+        &commands[..]
+    else {
+        panic!("both change places: {commands:?}");
+    };
+    assert_eq!((to_first, to_second), (&second, &first));
+    stage.click("Second light");
+    assert!(matches!(stage.commands()[..], [Command::SecondLight(None)]));
+}
+
+#[test]
+fn the_second_light_stands_where_the_first_is_moved_to() {
+    let mut easel = made_easel();
+    easel.second = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
+    let mut stage = stage(easel);
+    stage.harness.get_by_label("Light direction").focus();
+    stage.run();
+    stage.harness.key_press_modifiers(Modifiers::NONE, Key::ArrowLeft);
+    stage.harness.step();
+    let commands = stage.commands();
+    let [Command::Act(Action::Light(first)), Command::SecondLight(Some(second))] = &commands[..]
+    else {
+        panic!("both are moved: {commands:?}");
+    };
+    assert_eq!(*second, Lighting { illuminant: "A".to_owned(), ..first.clone() });
+    assert_eq!(first.azimuth_deg, 310.0);
+}
+
+#[test]
+fn without_a_second_light_there_is_nothing_to_swap() {
+    let stage = stage(made_easel());
+    assert!(stage.harness.get_by_label("Swap").accesskit_node().is_disabled());
+}
+
+#[test]
+fn numbers_of_the_white_are_those_of_spectra() {
+    let mut stage = stage(made_easel());
+    let light = stage.scene().easel.light.clone();
+    let xyz = light.quadrature.white;
+    let sum = xyz.x + xyz.y + xyz.z;
+    let temperature = ColourTemperature::of(&light.viewing.illuminant).unwrap();
+    let told = [
+        format!("x {:.4}  y {:.4}", xyz.x / sum, xyz.y / sum),
+        format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),
+    ];
+    for told in told {
+        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+    }
+    assert!(told_near_d65(xyz.x / sum, xyz.y / sum), "the light is D65");
+}
+
+fn told_near_d65(x: f64, y: f64) -> bool {
+    (x - 0.3127).abs() < 1e-4 && (y - 0.3290).abs() < 1e-4
+}

@@ -10,6 +10,8 @@ mod limits;
 
 mod order;
 
+mod watched;
+
 use calibrate::evaluate::{Viewing, lab};
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{Sight, Target};

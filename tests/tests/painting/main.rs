@@ -15,6 +15,10 @@ mod undo;
 
 mod pieces;
 
+mod views;
+
+mod places;
+
 mod keeping;
 
 mod changes;
@@ -26,3 +30,9 @@ mod program;
 mod hostile;
 
 mod killed;
+
+mod easels;
+
+mod easel;
+
+mod recording;

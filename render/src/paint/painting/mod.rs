@@ -6,6 +6,8 @@
 //! reading paint and pictures is always allowed, and shows the stroke as far as
 //! it is.
 
+mod views;
+
 mod state;
 
 mod failure;
@@ -18,9 +20,13 @@ mod layers;
 
 mod undoing;
 
+mod lights;
+
 mod showing;
 
 mod merging;
+
+mod sharing;
 
 pub use brushes::Brush;
 pub use failure::PaintingError;

@@ -7,6 +7,7 @@ use super::state::{Painting, State};
 use crate::layer::Layer;
 use crate::light::Light;
 use crate::paint::history::{Kept, Restored};
+use crate::tile::TileSet;
 
 /// What an undo brings back besides paint.
 #[derive(Debug, Clone)]
@@ -80,9 +81,10 @@ impl Painting {
     fn back_to(&mut self, restored: Restored<Before>) -> Result<(), PaintingError> {
         let Before { state, light, brushes } = restored.caller;
         let other_palette = state.slots != self.state.slots;
-        let rebake =
-            other_palette || state.dry != self.state.dry || !Arc::ptr_eq(&light, &self.light);
+        let other_paint = other_palette || state.dry != self.state.dry;
+        let other_light = !Arc::ptr_eq(&light, &self.light);
         let other_lamp = state.lighting != self.state.lighting;
+        let other_shine = state.medium != self.state.medium;
         (self.state, self.light) = (state, light);
         if other_palette {
             for brush in &self.brushes[brushes.min(self.brushes.len())..] {
@@ -93,16 +95,19 @@ impl Painting {
         if restored.dry_changed {
             self.floor_changed()?;
         }
-        if rebake {
-            self.all_unseen();
-        } else if other_lamp {
-            self.all_unshown();
-        } else {
-            let bounds = self.engine.bounds();
-            for tile in restored.tiles.iter() {
-                self.unshown.insert(tile.rect(bounds));
-            }
+        let bounds = self.engine.bounds();
+        if other_paint {
+            self.views.unseen();
         }
+        if other_shine {
+            self.views.unshown();
+        }
+        if other_light {
+            self.views.first.unbake(bounds);
+        } else if other_lamp {
+            self.views.first.shown = TileSet::all(bounds);
+        }
+        restored.tiles.iter().for_each(|tile| self.views.touch_tile(tile));
         Ok(())
     }
 }

@@ -58,13 +58,17 @@ mod resolve;
 
 mod beginning;
 
-mod replay;
-
 pub use action::{Action, LayerName, Load, Recipe, Squeeze, Stroke, Surface};
 pub use beginning::BeginningError;
 pub use error::{Fault, Place, StrokesError};
 pub use limits::{LONGEST_FILE, MOST_ACTIONS, MOST_CELLS, MOST_NAMES, MOST_SAMPLES};
 pub use palette::Palette;
-pub use replay::{ReplayError, ReplayReport};
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, Canvas, Strokes};
+
+pub(super) use at::At;
+pub(super) use beginning::names;
+pub(super) use bounds::{Surfaces, check_brush, check_sample, check_size};
+pub(super) use digits::{sample as sample_as_written, six};
+pub(super) use file::line;
+pub(super) use resolve::Scope;

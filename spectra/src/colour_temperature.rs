@@ -1,0 +1,146 @@
+//! The temperature that a light's colour looks like.
+
+use crate::black_body::black_body;
+use crate::color::Xyz;
+use crate::grid::Grid;
+use crate::illuminant::Illuminant;
+use crate::integrate::TristimulusWeights;
+use crate::interpolate::Interpolation;
+use crate::observer::Observer;
+
+/// The correlated colour temperature of a light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColourTemperature {
+    /// The temperature of the black body of the nearest colour, in kelvin, 1000 to
+    /// 50000.
+    pub kelvin: f64,
+    /// How far the light is from it in CIE 1960 u, v: above 0 greener, below 0
+    /// pinker.
+    pub duv: f64,
+}
+
+/// Beyond this distance a light has no colour temperature (CIE 15:2018, 9.5).
+const FARTHEST: f64 = 0.05;
+
+/// Reciprocal temperatures searched, in millionths of 1/K: 50000 to 1000 K.
+const MIREDS: (f64, f64) = (20.0, 1000.0);
+
+/// Steps of the first, coarse search.
+const STEPS: usize = 49;
+
+impl ColourTemperature {
+    /// The temperature of the black body nearest to `light` in CIE 1960 u, v
+    /// (CIE 15:2018, section 9.5), for the observer of 1931.
+    /// `None` for a light that is farther than 0.05 from all of them, or beyond
+    /// 1000 to 50000 K.
+    ///
+    /// ```
+    /// let light = spectra::Illuminant::named("A").unwrap();
+    /// let temperature = spectra::ColourTemperature::of(&light).unwrap();
+    /// assert_eq!(temperature.kelvin.round(), 2856.0);
+    /// ```
+    #[must_use]
+    pub fn of(light: &Illuminant) -> Option<Self> {
+        let [u, v] = uv(light);
+        let away = |mired: f64| {
+            let body = black_body(1e6 / mired).expect("the search stays above 500 K");
+            let [u_body, v_body] = uv(&body);
+            ((u - u_body).hypot(v - v_body), v - v_body)
+        };
+        let width = (MIREDS.1 - MIREDS.0) / STEPS as f64;
+        let at = |step: usize| MIREDS.0 + step as f64 * width;
+        let nearest = (0..=STEPS).min_by(|&a, &b| away(at(a)).0.total_cmp(&away(at(b)).0))?;
+        let (mut low, mut high) = (at(nearest.max(1) - 1), at((nearest + 1).min(STEPS)));
+        // The golden section: the distance has one least value between neighbours.
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        while high - low > 1e-3 {
+            let (left, right) = (high - golden * (high - low), low + golden * (high - low));
+            if away(left).0 < away(right).0 { high = right } else { low = left }
+        }
+        let mired = 0.5 * (low + high);
+        let inside = mired - MIREDS.0 > 2e-3 && MIREDS.1 - mired > 2e-3;
+        let (distance, above) = away(mired);
+        (inside && distance <= FARTHEST)
+            .then(|| Self { kelvin: 1e6 / mired, duv: distance.copysign(above) })
+    }
+}
+
+/// The white of a light for the observer of 1931, in CIE 1960 u, v.
+fn uv(light: &Illuminant) -> [f64; 2] {
+    let weights =
+        TristimulusWeights::new(Grid::cie(), light, Observer::Cie1931Deg2, Interpolation::Linear);
+    let Xyz { x, y, z } = weights.expect("lines join any grid").white();
+    let sum = x + 15.0 * y + 3.0 * z;
+    [4.0 * x / sum, 6.0 * y / sum]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As CIE 15:2018, tables T.6.1, T.8.1, T.9.1, T.10 and T.12 print them.
+    const PUBLISHED: &[(&str, f64)] = &[
+        ("A", 2856.0),
+        ("D65", 6504.0),
+        ("FL1", 6430.0),
+        ("FL2", 4230.0),
+        ("FL3", 3450.0),
+        ("FL4", 2940.0),
+        ("FL5", 6350.0),
+        ("FL6", 4150.0),
+        ("FL7", 6500.0),
+        ("FL8", 5000.0),
+        ("FL9", 4150.0),
+        ("FL10", 5000.0),
+        ("FL11", 4000.0),
+        ("FL12", 3000.0),
+        ("FL3.1", 2932.0),
+        ("FL3.15", 6509.0),
+        ("HP1", 1959.0),
+        ("HP5", 4039.0),
+        ("LED-B1", 2733.0),
+        ("LED-B5", 6598.0),
+        ("LED-BH1", 2851.0),
+        ("LED-RGB1", 2840.0),
+        ("LED-V1", 2724.0),
+        ("LED-V2", 4070.0),
+    ];
+
+    #[test]
+    fn temperatures_are_those_that_the_cie_prints() {
+        for &(name, wanted) in PUBLISHED {
+            let found = ColourTemperature::of(&Illuminant::named(name).unwrap()).unwrap();
+            let off = (found.kelvin / wanted - 1.0).abs();
+            // The CIE prints three digits of FL1 to FL12, and sums at 5 nm.
+            assert!(off < 2e-3, "{name}: {found:?} for {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_black_body_has_its_own_temperature_and_lies_on_the_locus() {
+        for kelvin in [1001.0, 1800.0, 3200.0, 6500.0, 24000.0, 49000.0] {
+            let found = ColourTemperature::of(&black_body(kelvin).unwrap()).unwrap();
+            assert!((found.kelvin / kelvin - 1.0).abs() < 1e-4, "{found:?} for {kelvin}");
+            assert!(found.duv.abs() < 1e-6, "{found:?}");
+        }
+        let daylight = ColourTemperature::of(&Illuminant::d65()).unwrap();
+        assert!((daylight.duv - 0.0032).abs() < 1e-4, "daylight is greener: {daylight:?}");
+        let pink = ColourTemperature::of(&Illuminant::named("LED-V1").unwrap()).unwrap();
+        assert!(pink.duv < -1e-3, "{pink:?}");
+    }
+
+    #[test]
+    fn a_light_far_from_every_black_body_has_no_temperature() {
+        let laser =
+            Illuminant::from_function(
+                "laser",
+                |nm| {
+                    if (nm - 532.0).abs() < 1.0 { 1.0 } else { 0.0 }
+                },
+            );
+        assert_eq!(ColourTemperature::of(&laser.unwrap()), None);
+        for kelvin in [900.0, 80000.0] {
+            assert_eq!(ColourTemperature::of(&black_body(kelvin).unwrap()), None, "{kelvin} K");
+        }
+    }
+}

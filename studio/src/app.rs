@@ -1,1 +1,0 @@
-//! The window: what is where, and what keys do.

@@ -1,0 +1,72 @@
+//! What the worker told since the last frame.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use render::paint::strokes::Surface;
+
+use super::Studio;
+use super::status::Message;
+use crate::worker::{EaselState, Event};
+
+impl Studio {
+    /// Takes in what the worker told.
+    pub(super) fn listen(&mut self) {
+        let events: Vec<Event> = self.worker.events().collect();
+        for event in events {
+            self.heard += 1;
+            self.files.event(&event);
+            self.hear(event);
+        }
+    }
+
+    fn hear(&mut self, event: Event) {
+        match event {
+            Event::Opened(state) => self.take_up(state),
+            Event::State(state) => self.know(state),
+            Event::Tiles { surface, second, tiles, newest } => {
+                let view = match surface {
+                    Surface::Canvas => &mut self.canvas,
+                    Surface::Palette => &mut self.palette,
+                };
+                for tile in &tiles {
+                    view.write(second, tile);
+                }
+                if let Some(arrived) = newest {
+                    self.frames.shows(arrived);
+                }
+            }
+            Event::Head(head) => self.head = head,
+            Event::Figures(figures) => self.figures = figures,
+            Event::Picked(picked) => self.tools.picked = Some(picked),
+            Event::Recording { number, .. } => self.answered = Some(number),
+            // Of the files.
+            Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
+            Event::Message { text, hint, failed } => self.say(text, hint, failed),
+        }
+    }
+
+    /// Another painting is there.
+    fn take_up(&mut self, state: Arc<EaselState>) {
+        self.canvas.take_up(state.canvas_cells);
+        self.palette.take_up(state.palette_cells);
+        self.head = None;
+        self.hover = None;
+        self.know(state);
+        let Some(easel) = &self.easel else { return };
+        let there = easel.brushes.iter().any(|brush| brush.name == self.tools.brush);
+        if let Some(first) = easel.brushes.first().filter(|_| !there) {
+            self.tools.brush = first.name.clone();
+        }
+    }
+
+    fn know(&mut self, state: Arc<EaselState>) {
+        self.canvas.set_second(state.second.is_some());
+        self.easel = Some(state);
+    }
+
+    /// Tells the painter something.
+    pub(super) fn say(&mut self, text: String, hint: Option<String>, failed: bool) {
+        self.message = Some(Message { text, hint, failed, said: Instant::now() });
+    }
+}

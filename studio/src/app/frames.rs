@@ -1,0 +1,90 @@
+//! Frames a second, and how long a sample takes to the screen.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use crate::panels::figures::FrameRate;
+
+/// What is looked back on.
+const WINDOW: Duration = Duration::from_secs(1);
+
+/// The clock of the window.
+#[derive(Debug, Clone, Default)]
+pub struct Frames {
+    drawn: VecDeque<Instant>,
+    shown: VecDeque<(Instant, Duration)>,
+    began: Option<Instant>,
+    newest: Option<Instant>,
+}
+
+impl Frames {
+    /// A frame begins. `busy` is how long the program worked on the one before,
+    /// drawing included, if that is known.
+    pub fn begin(&mut self, now: Instant, busy: Option<Duration>) {
+        if let (Some(began), Some(newest)) = (self.began, self.newest.take()) {
+            let handed = began + busy.unwrap_or_else(|| now - began);
+            self.shown.push_back((handed, handed.saturating_duration_since(newest)));
+        }
+        self.began = Some(now);
+        self.drawn.push_back(now);
+        self.forget(now);
+    }
+
+    /// This frame shows a sample that had arrived then.
+    pub fn shows(&mut self, arrived: Instant) {
+        self.newest = Some(self.newest.map_or(arrived, |newest| newest.max(arrived)));
+    }
+
+    /// The last second.
+    #[must_use]
+    pub fn rate(&self) -> FrameRate {
+        let ms = |time: &Duration| time.as_secs_f64() * 1000.0;
+        let late: Vec<f64> = self.shown.iter().map(|(_, time)| ms(time)).collect();
+        let latency_ms = late.iter().sum::<f64>() / late.len().max(1) as f64;
+        let worst_ms = late.iter().copied().fold(0.0, f64::max);
+        FrameRate { frames_a_second: self.drawn.len() as f64, latency_ms, worst_ms }
+    }
+
+    fn forget(&mut self, now: Instant) {
+        let old = |at: &Instant| now.saturating_duration_since(*at) >= WINDOW;
+        while self.drawn.front().is_some_and(old) {
+            self.drawn.pop_front();
+        }
+        while self.shown.front().is_some_and(|(at, _)| old(at)) {
+            self.shown.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn frames_of_the_last_second_are_counted() {
+        let (mut frames, start) = (Frames::default(), Instant::now());
+        for frame in 0..100 {
+            frames.begin(start + frame * 20 * MS, None);
+        }
+        assert_eq!(frames.rate().frames_a_second, 50.0);
+    }
+
+    #[test]
+    fn latency_runs_from_arrival_to_the_handing_over_of_the_frame() {
+        let (mut frames, start) = (Frames::default(), Instant::now());
+        frames.begin(start + 30 * MS, None);
+        frames.shows(start + 10 * MS);
+        frames.shows(start + 5 * MS);
+        // That frame took 12 ms; the next begins later, as it waited for the screen.
+        frames.begin(start + 60 * MS, Some(12 * MS));
+        frames.shows(start + 50 * MS);
+        frames.begin(start + 90 * MS, Some(18 * MS));
+        let rate = frames.rate();
+        assert!((rate.latency_ms - 30.0).abs() < 1e-9, "{rate:?}");
+        assert!((rate.worst_ms - 32.0).abs() < 1e-9, "{rate:?}");
+        frames.begin(start + 1500 * MS, Some(MS));
+        assert_eq!(frames.rate().latency_ms, 0.0);
+    }
+}

@@ -1,0 +1,114 @@
+//! Canvas and palette, and what the pen does on them.
+
+use eframe::egui::{
+    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, vec2,
+};
+use render::paint::pose::Sample;
+use render::paint::strokes::Surface;
+
+use super::Studio;
+use crate::panels::tubes::{DraggedTube, squeeze};
+use crate::panels::{Desk, Mode};
+use crate::theme;
+use crate::view::{Hand, Split};
+use crate::worker::Command;
+
+/// Mean over cells this near, for the eyedropper, in mm.
+const PICK_MM: f64 = 0.2;
+
+/// Where the brush hovers.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Hover {
+    /// Over which surface.
+    pub(super) surface: Surface,
+    /// How it is held.
+    pub(super) sample: Sample,
+    /// Which brush.
+    pub(super) brush: String,
+}
+
+impl Studio {
+    /// Shows both surfaces in what is left of the window.
+    pub(super) fn surfaces(&mut self, ui: &mut Ui) {
+        let mode = self.keys.mode(self.tools.mode);
+        let hand = match mode {
+            Mode::Pan => Hand::Pan,
+            Mode::Rotate => Hand::Rotate,
+            Mode::Zoom => Hand::Zoom,
+            Mode::Paint | Mode::Pick | Mode::Squeeze => Hand::Free,
+        };
+        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::SURROUND);
+        if self.shown.palette && self.shown.panels {
+            let height = (0.3 * ui.available_height()).clamp(150.0, 300.0);
+            Panel::bottom("palette")
+                .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
+                .resizable(true)
+                .default_size(height)
+                .size_range(110.0..=520.0)
+                .show(ui, |ui| self.table(ui, hand, mode));
+        }
+        let room = ui.available_rect_before_wrap();
+        let easel = self.easel.clone();
+        let lights = easel.as_ref().and_then(|easel| {
+            let second = easel.second.as_ref()?;
+            Some([easel.lighting.illuminant.as_str(), second.illuminant.as_str()])
+        });
+        let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
+        let response = self.canvas.show(ui, room, hand, split);
+        self.used(ui, Surface::Canvas, &response, mode);
+        self.lead(ui, mode);
+    }
+
+    /// The palette with the tubes beside it.
+    fn table(&mut self, ui: &mut Ui, hand: Hand, mode: Mode) {
+        let whole = ui.available_rect_before_wrap();
+        let cells = self.palette.cells();
+        let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
+        let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
+        let response = self.palette.show(ui, room, hand, None);
+        self.used(ui, Surface::Palette, &response, mode);
+        let beside = Rect::from_min_max(room.right_top(), whole.max).shrink2(vec2(6.0, 8.0));
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
+        let shelf = Frame::new().fill(theme::PANEL).corner_radius(6).inner_margin(Margin::same(8));
+        shelf.show(&mut ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            ScrollArea::vertical().show(ui, |ui| {
+                let Some(easel) = &self.easel.clone() else { return };
+                let asked = &mut self.asked;
+                let mut desk = Desk { easel, tools: &mut self.tools, asked };
+                self.panels.tubes.show(ui, &mut desk);
+            });
+        });
+    }
+
+    /// What tools other than the brush do on a surface.
+    fn used(&mut self, ui: &Ui, surface: Surface, response: &Response, mode: Mode) {
+        let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let Some(place) = pointer.and_then(|point| self.view(surface).place(point)) else { return };
+        let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
+        if let Some(tube) = response.dnd_release_payload::<DraggedTube>() {
+            self.with_desk(|_, desk| squeeze(desk, tube.slot, surface, x_mm, y_mm));
+        }
+        let primary = ui.input(|input| input.pointer.button_down(PointerButton::Primary));
+        if mode == Mode::Pick && primary && response.is_pointer_button_down_on() {
+            let place = (surface, x_mm.to_bits(), y_mm.to_bits());
+            if self.asked_at != Some(place) {
+                self.asked_at = Some(place);
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+            }
+        }
+        if mode == Mode::Squeeze && response.clicked() {
+            let slot = self.tools.tube;
+            self.with_desk(|_, desk| squeeze(desk, slot, surface, x_mm, y_mm));
+        }
+    }
+
+    /// Where a surface is in the window.
+    pub(super) fn view(&self, surface: Surface) -> &crate::view::SurfaceView {
+        match surface {
+            Surface::Canvas => &self.canvas,
+            Surface::Palette => &self.palette,
+        }
+    }
+}

@@ -1,1 +1,0 @@
-//! The light: illuminant, direction, gloss, split view.

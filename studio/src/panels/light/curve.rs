@@ -1,0 +1,55 @@
+//! The power of lights over wavelength.
+
+use eframe::egui::{Color32, Ui, vec2};
+use render::light::Light;
+use spectra::Illuminant;
+
+use crate::chart::{BAND_NM, Chart, Curve};
+use crate::theme;
+
+/// Points from curve to curve, in nm.
+const STEP_NM: usize = 2;
+
+/// Shows the present light with the wavelengths that stand for it, and others
+/// beside it, each with its colour. All have the same mean power.
+pub(super) fn powers(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
+    let mut curves: Vec<Curve> =
+        others.iter().map(|(other, colour)| curve(other, *colour)).collect();
+    curves.push(curve(&light.viewing.illuminant, theme::TEXT));
+    let marks = &light.quadrature.nodes_nm;
+    let chart = Chart { curves: &curves, marks, quantity: "relative power", most: None };
+    let told: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
+    let size = vec2(ui.available_width(), 120.0);
+    chart.show(ui, size).on_hover_text(format!(
+        "Power over wavelength, mean 1. Paint is computed at {} nm",
+        told.join(", ")
+    ));
+}
+
+fn curve(light: &Illuminant, colour: Color32) -> Curve {
+    let grid = light.power().grid();
+    let shown = |point: &(f64, f64)| BAND_NM.contains(&point.0);
+    let values = light.power().values().iter().copied();
+    let mut points: Vec<(f64, f64)> = grid.wavelengths_nm().zip(values).filter(shown).collect();
+    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len().max(1) as f64;
+    points = points.into_iter().step_by(STEP_NM).map(|(nm, power)| (nm, power / mean)).collect();
+    Curve { name: light.name().to_owned(), points, colour }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_is_the_power_at_each_wavelength_with_a_mean_of_one() {
+        let light = Illuminant::d65();
+        let shown = curve(&light, theme::TEXT);
+        let power = |nm: f64| light.power().values()[(nm - 360.0) as usize];
+        let (first, last) = (shown.points[0], *shown.points.last().unwrap());
+        assert_eq!((first.0, last.0), (380.0, 730.0));
+        let ratio = first.1 / last.1;
+        assert!((ratio - power(380.0) / power(730.0)).abs() < 1e-12, "{ratio}");
+        let mean = shown.points.iter().map(|point| point.1).sum::<f64>() / 176.0;
+        assert!((mean - 1.0).abs() < 0.01, "{mean}");
+    }
+}

@@ -1,0 +1,197 @@
+//! Where the light stands, set by dragging on a shaded half sphere seen from above.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use eframe::egui::{
+    Color32, EventFilter, Key, Mesh, Pos2, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
+};
+use spectra::color::Rgb;
+
+use super::super::draft::Touch;
+use crate::theme;
+
+/// The lowest light that can be set, in degrees.
+const LOWEST_DEG: f64 = 5.0;
+
+/// What an arrow key turns, in degrees.
+const STEP_DEG: f64 = 5.0;
+
+/// Rings and spokes of the shaded half sphere.
+const RINGS: usize = 14;
+const SPOKES: usize = 48;
+
+/// A direction: degrees clockwise from the top of the canvas, and above it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Direction {
+    pub(super) azimuth_deg: f64,
+    pub(super) elevation_deg: f64,
+}
+
+impl Direction {
+    /// Its place on the unit disc seen from above, x right and y down.
+    fn on_disc(self) -> [f64; 2] {
+        let (sin, cos) = self.azimuth_deg.to_radians().sin_cos();
+        let out = self.elevation_deg.to_radians().cos();
+        [out * sin, -out * cos]
+    }
+
+    /// The direction above a place of the disc; outside it the lowest. In the
+    /// middle, which has no azimuth, the azimuth stays.
+    fn at(self, [x, y]: [f64; 2]) -> Self {
+        let out = x.hypot(y);
+        let elevation_deg = out.min(1.0).acos().to_degrees().max(LOWEST_DEG);
+        let turned = x.atan2(-y).rem_euclid(TAU).to_degrees();
+        let azimuth_deg = if out < 1e-3 { self.azimuth_deg } else { turned };
+        Self { azimuth_deg: whole(azimuth_deg) % 360.0, elevation_deg: whole(elevation_deg) }
+    }
+
+    /// Turned and raised by steps of the arrow keys.
+    fn stepped(self, clockwise: f64, up: f64) -> Self {
+        let elevation_deg = (self.elevation_deg + STEP_DEG * up).clamp(LOWEST_DEG, 90.0);
+        let azimuth_deg = (self.azimuth_deg + STEP_DEG * clockwise).rem_euclid(360.0);
+        Self { azimuth_deg, elevation_deg }
+    }
+}
+
+/// To a tenth of a degree.
+fn whole(degrees: f64) -> f64 {
+    (degrees * 10.0).round() / 10.0
+}
+
+/// Shows the half sphere under a light of which the share `ambient` comes from
+/// all sides, and lets the painter move it. Arrow keys turn and raise the light.
+pub(super) fn dome(
+    ui: &mut Ui,
+    size: f32,
+    direction: &mut Direction,
+    ambient: f64,
+) -> (Response, Touch) {
+    let (rect, mut response) = ui.allocate_exact_size(Vec2::splat(size), Sense::drag());
+    let (centre, radius) = (rect.center(), size / 2.0 - 4.0);
+    let before = *direction;
+    if let Some(pointer) = response.interact_pointer_pos() {
+        let from_centre = (pointer - centre) / radius;
+        *direction = direction.at([f64::from(from_centre.x), f64::from(from_centre.y)]);
+    }
+    let (clockwise, up) = arrow_keys(ui, &response);
+    if (clockwise, up) != (0.0, 0.0) {
+        *direction = direction.stepped(clockwise, up);
+    }
+    if *direction != before {
+        response.mark_changed();
+    }
+    response.widget_info(|| {
+        let mut info =
+            WidgetInfo::slider(ui.is_enabled(), direction.azimuth_deg, "Light direction");
+        info.current_text_value = Some(told(*direction));
+        info
+    });
+    if ui.is_rect_visible(rect) {
+        ui.painter().add(shaded(centre, radius, *direction, ambient));
+        ui.painter().circle_stroke(centre, radius, Stroke::new(1.0, theme::LINE));
+        let [x, y] = direction.on_disc();
+        let handle = centre + radius * vec2(x as f32, y as f32);
+        ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::BAR));
+        ui.painter().circle(handle, 5.0, theme::STRONG, Stroke::new(1.5, theme::BAR));
+        if response.has_focus() {
+            ui.painter().circle_stroke(centre, radius + 2.0, Stroke::new(1.0, theme::STRONG));
+        }
+    }
+    let touch = Touch::of(&response);
+    (response, touch)
+}
+
+/// `315 deg, 50 deg high`.
+pub(super) fn told(direction: Direction) -> String {
+    let Direction { azimuth_deg, elevation_deg } = direction;
+    format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high")
+}
+
+/// Steps to the right and up that the keys asked for.
+fn arrow_keys(ui: &Ui, response: &Response) -> (f64, f64) {
+    if !response.has_focus() {
+        return (0.0, 0.0);
+    }
+    let arrows =
+        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    ui.input(|input| {
+        let presses = |key| input.num_presses(key) as f64;
+        let across = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
+        (across, presses(Key::ArrowUp) - presses(Key::ArrowDown))
+    })
+}
+
+/// A matt half sphere under the light, in screen greys.
+fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
+    let [x, y] = light.on_disc();
+    let z = light.elevation_deg.to_radians().sin();
+    let grey = |u: f64, v: f64| {
+        let up = (1.0 - u * u - v * v).max(0.0).sqrt();
+        let direct = (u * x + v * y + up * z).max(0.0);
+        let light = 0.75 * (ambient + (1.0 - ambient) * direct);
+        let [grey, ..] = Rgb([light; 3]).encoded().to_bytes();
+        Color32::from_gray(grey)
+    };
+    let mut mesh = Mesh::default();
+    mesh.colored_vertex(centre, grey(0.0, 0.0));
+    for ring in 1..=RINGS {
+        // Even steps of slope, so that the rim is as smooth as the top.
+        let out = (FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
+        for spoke in 0..SPOKES {
+            let (sin, cos) = (TAU * spoke as f64 / SPOKES as f64).sin_cos();
+            let (u, v) = (out * cos, out * sin);
+            let place = pos2(centre.x + radius * u as f32, centre.y + radius * v as f32);
+            mesh.colored_vertex(place, grey(u, v));
+        }
+    }
+    let vertex = |ring: usize, spoke: usize| match ring {
+        0 => 0,
+        _ => (1 + (ring - 1) * SPOKES + spoke % SPOKES) as u32,
+    };
+    for ring in 0..RINGS {
+        for spoke in 0..SPOKES {
+            let outer = [vertex(ring + 1, spoke), vertex(ring + 1, spoke + 1)];
+            mesh.add_triangle(vertex(ring, spoke), outer[0], outer[1]);
+            if ring > 0 {
+                mesh.add_triangle(vertex(ring, spoke), outer[1], vertex(ring, spoke + 1));
+            }
+        }
+    }
+    Shape::mesh(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_of_the_disc_and_its_direction_are_one() {
+        let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
+        for azimuth_deg in [0.0, 45.0, 90.0, 200.0, 315.0, 359.0] {
+            for elevation_deg in [5.0, 30.0, 50.0, 85.0] {
+                let direction = Direction { azimuth_deg, elevation_deg };
+                let back = any.at(direction.on_disc());
+                assert_eq!(back, direction);
+            }
+        }
+    }
+
+    #[test]
+    fn up_is_the_top_of_the_canvas_and_right_is_a_quarter_clockwise() {
+        let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
+        assert_eq!(any.at([0.0, -0.5]).azimuth_deg, 0.0);
+        assert_eq!(any.at([0.5, 0.0]).azimuth_deg, 90.0);
+        assert_eq!(any.at([0.0, 0.5]).azimuth_deg, 180.0);
+        assert_eq!(any.at([-0.5, 0.0]).azimuth_deg, 270.0);
+    }
+
+    #[test]
+    fn the_middle_keeps_the_azimuth_and_outside_is_the_lowest() {
+        let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
+        assert_eq!(any.at([0.0, 0.0]), Direction { azimuth_deg: 77.0, elevation_deg: 90.0 });
+        assert_eq!(any.at([3.0, 0.0]), Direction { azimuth_deg: 90.0, elevation_deg: LOWEST_DEG });
+        assert_eq!(any.stepped(-16.0, 99.0), Direction { azimuth_deg: 357.0, elevation_deg: 90.0 });
+    }
+}

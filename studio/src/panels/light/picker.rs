@@ -1,0 +1,138 @@
+//! Choosing an illuminant from all there are.
+
+use std::path::Path;
+
+use eframe::egui::{
+    Align, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape, Stroke,
+    TextEdit, Ui, vec2,
+};
+use spectra::{ColourTemperature, Illuminant, light_from_text};
+
+use super::lamps::{Kind, Lamp, lamps};
+use crate::theme;
+
+/// A button that opens a list with a search field.
+#[derive(Debug)]
+pub(super) struct Picker {
+    name: &'static str,
+    lamps: Vec<Lamp>,
+    search: String,
+}
+
+impl Picker {
+    /// A picker called `name`.
+    pub(super) fn new(name: &'static str) -> Self {
+        Self { name, lamps: lamps(), search: String::new() }
+    }
+
+    /// Shows the button with what is chosen, and the list while it is open. Gives
+    /// the light that was clicked.
+    pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
+        let text = short(chosen);
+        let width = ui.available_width();
+        let button = Button::new(text.clone()).right_text("   ").truncate();
+        let response = ui.add_sized([width, ui.spacing().interact_size.y], button);
+        let tip = response.rect.right_center() - vec2(13.0, -2.5);
+        let corners = vec![tip, tip + vec2(-4.0, -5.0), tip + vec2(4.0, -5.0)];
+        ui.painter().add(Shape::convex_polygon(corners, theme::FAINT, Stroke::NONE));
+        response.widget_info(|| {
+            let label = format!("{}: {text}", self.name);
+            eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
+        });
+        let response = response.on_hover_text(self.hover(chosen));
+        let mut picked = None;
+        let opened = response.clicked();
+        Popup::menu(&response)
+            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+            .width(width.max(260.0))
+            .show(|ui| picked = self.list(ui, chosen, opened));
+        if picked.is_some() {
+            self.search.clear();
+        }
+        picked
+    }
+
+    fn hover(&self, chosen: &str) -> String {
+        let lamp = self.lamps.iter().find(|lamp| lamp.name.eq_ignore_ascii_case(chosen));
+        let note = lamp.map_or_else(String::new, |lamp| format!(": {}", lamp.note));
+        format!("{}: {chosen}{note}. Click to choose another", self.name)
+    }
+
+    fn list(&mut self, ui: &mut Ui, chosen: &str, opened: bool) -> Option<String> {
+        let field = TextEdit::singleline(&mut self.search)
+            .hint_text("Search, or 3200K, D5600K")
+            .desired_width(f32::INFINITY)
+            .vertical_align(Align::Center);
+        let field = ui.add(field).on_hover_text(
+            "Words of a light's name or kind; a temperature, as 3200K of a black body or D5600K of \
+             daylight; or the path of a lamp's file. Enter takes the first",
+        );
+        if opened {
+            field.request_focus();
+        }
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let found: Vec<Lamp> =
+            self.lamps.iter().copied().filter(|lamp| lamp.answers(&self.search)).collect();
+        let typed = self.search.trim();
+        let typed = (found.is_empty() && light_from_text(typed).is_ok()).then(|| typed.to_owned());
+        let mut picked = None;
+        if entered {
+            picked = typed.clone().or(found.first().map(|lamp| lamp.name.to_owned()));
+        }
+        if let Some(typed) = &typed
+            && ui.button(format!("Take {}", short(typed))).on_hover_text("As typed").clicked()
+        {
+            picked = Some(typed.clone());
+        }
+        if found.is_empty() && typed.is_none() {
+            ui.weak("No such light");
+        }
+        ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
+            for kind in Kind::ALL {
+                let mut of_kind = found.iter().filter(|lamp| lamp.kind == kind).peekable();
+                if of_kind.peek().is_some() {
+                    ui.add_space(3.0);
+                    ui.label(RichText::new(kind.name()).small().color(theme::FAINT));
+                }
+                for lamp in of_kind {
+                    if entry(ui, lamp, lamp.name.eq_ignore_ascii_case(chosen)) {
+                        picked = Some(lamp.name.to_owned());
+                    }
+                }
+            }
+        });
+        if picked.is_some() {
+            ui.close();
+        }
+        picked
+    }
+}
+
+/// A line of the list; gives whether it was clicked.
+fn entry(ui: &mut Ui, lamp: &Lamp, chosen: bool) -> bool {
+    let note = RichText::new(lamp.note).small().color(theme::FAINT);
+    let line = Button::selectable(chosen, lamp.name).right_text(note);
+    let response = ui.with_layout(Layout::top_down_justified(Align::Min), |ui| ui.add(line)).inner;
+    let enabled = response.enabled();
+    response.widget_info(|| {
+        eframe::egui::WidgetInfo::selected(eframe::egui::Role::Button, enabled, chosen, lamp.name)
+    });
+    response
+        .on_hover_ui(|ui| {
+            ui.label(format!("{}: {}", lamp.name, lamp.note));
+            let temperature = Illuminant::named(lamp.name).ok().as_ref().map(ColourTemperature::of);
+            if let Some(Some(temperature)) = temperature {
+                ui.label(format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv));
+            }
+        })
+        .clicked()
+}
+
+/// What a light is called in little room: of a file its name.
+pub(super) fn short(illuminant: &str) -> String {
+    let path = Path::new(illuminant);
+    match path.file_name() {
+        Some(name) if path.components().count() > 1 => name.to_string_lossy().into_owned(),
+        _ => illuminant.to_owned(),
+    }
+}

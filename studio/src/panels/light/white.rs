@@ -1,0 +1,48 @@
+//! The white of a light in numbers.
+
+use std::sync::Arc;
+
+use render::light::Light;
+use spectra::ColourTemperature;
+
+/// Chromaticity and temperature of a light.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct White {
+    light: Arc<Light>,
+    /// Chromaticity x, y for the light's observer.
+    pub(super) chromaticity: [f64; 2],
+    /// The correlated colour temperature, if it has one.
+    pub(super) temperature: Option<ColourTemperature>,
+}
+
+impl White {
+    /// The white of `light`.
+    pub(super) fn of(light: &Arc<Light>) -> Self {
+        let white = light.quadrature.white;
+        let xyy = white.to_xyy(white);
+        Self {
+            light: Arc::clone(light),
+            chromaticity: [xyy.x, xyy.y],
+            temperature: ColourTemperature::of(&light.viewing.illuminant),
+        }
+    }
+
+    /// Whether this is the white of `light`.
+    pub(super) fn is_of(&self, light: &Arc<Light>) -> bool {
+        Arc::ptr_eq(&self.light, light)
+    }
+
+    /// `x 0.3127  y 0.3290`.
+    pub(super) fn told_chromaticity(&self) -> String {
+        let [x, y] = self.chromaticity;
+        format!("x {x:.4}  y {y:.4}")
+    }
+
+    /// `6504 K, Duv +0.0032`.
+    pub(super) fn told_temperature(&self) -> String {
+        self.temperature.map_or_else(
+            || "none: too far from any black body".to_owned(),
+            |temperature| format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),
+        )
+    }
+}

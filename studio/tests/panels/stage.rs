@@ -1,0 +1,192 @@
+//! One panel by itself, on a painting that is told to it.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use render::layer::SLOTS;
+use render::light::Light;
+use render::paint::brush::HeadShape;
+use render::paint::document::{Lighting, Medium};
+use render::paint::strokes::BrushSpec;
+use studio::panels::{Desk, FileRequest, Request, Tools};
+use studio::theme;
+use studio::worker::{BrushState, Command, EaselState, oils};
+
+use super::harness::has_adapter;
+
+/// A panel with what it sees and asks for.
+pub(crate) struct Scene<P> {
+    pub(crate) panel: P,
+    pub(crate) easel: EaselState,
+    pub(crate) tools: Tools,
+    pub(crate) asked: Vec<Request>,
+}
+
+/// A panel under test.
+pub(crate) struct Stage<P: 'static> {
+    pub(crate) harness: Harness<'static, Scene<P>>,
+}
+
+impl<P> Stage<P> {
+    /// `panel`, shown by `show`, in a window of `size` points.
+    pub(crate) fn new(
+        panel: P,
+        size: Vec2,
+        easel: EaselState,
+        mut show: impl FnMut(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
+    ) -> Self {
+        let scene = Scene { panel, easel, tools: Tools::default(), asked: Vec::new() };
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_pixels_per_point(2.0)
+            .with_step_dt(1.0 / 60.0)
+            .with_max_steps(60)
+            .with_render_cursor(false)
+            .with_context_setup(theme::apply)
+            .build_ui_state(
+                move |ui, scene: &mut Scene<P>| {
+                    let Scene { panel, easel, tools, asked } = scene;
+                    let mut desk = Desk { easel, tools, asked };
+                    let frame = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(10));
+                    frame.show(ui, |ui| {
+                        ui.take_available_space();
+                        show(panel, ui, &mut desk);
+                        let (used, given) = (ui.min_rect().width(), ui.max_rect().width());
+                        assert!(used <= given + 0.5, "{used} points wide, of {given}");
+                    });
+                },
+                scene,
+            );
+        harness.run_ok();
+        Self { harness }
+    }
+
+    pub(crate) fn scene(&mut self) -> &mut Scene<P> {
+        self.harness.state_mut()
+    }
+
+    /// Clicks what has this label.
+    pub(crate) fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.run();
+    }
+
+    /// Frames until nothing moves any more.
+    pub(crate) fn run(&mut self) {
+        self.harness.step();
+        self.harness.run_ok();
+    }
+
+    /// Frames until `seconds` of the harness's clock have passed.
+    pub(crate) fn wait(&mut self, seconds: f64) {
+        self.harness.run_steps((seconds * 60.0).ceil() as usize);
+    }
+
+    /// Frames in true time until `done`.
+    pub(crate) fn until(&mut self, mut done: impl FnMut(&mut Scene<P>) -> bool) {
+        for _ in 0..6000 {
+            self.harness.step();
+            if done(self.harness.state_mut()) {
+                return self.run();
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("waited for a minute");
+    }
+
+    /// Leads the mouse with its first button down, a frame for each place.
+    pub(crate) fn drag(&mut self, along: &[Pos2]) {
+        self.harness.hover_at(along[0]);
+        self.harness.drag_at(along[0]);
+        self.harness.step();
+        for &place in &along[1..] {
+            self.harness.hover_at(place);
+            self.harness.step();
+        }
+        self.harness.drop_at(along[along.len() - 1]);
+        self.run();
+    }
+
+    /// What was asked for since the last call, of the worker.
+    pub(crate) fn commands(&mut self) -> Vec<Command> {
+        let asked = std::mem::take(&mut self.scene().asked);
+        let commands = asked.into_iter().map(|request| match request {
+            Request::Worker(command) => command,
+            Request::File(request) => panic!("asked of the files: {request:?}"),
+        });
+        commands.collect()
+    }
+
+    /// What was asked for since the last call, of the files.
+    pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
+        let asked = std::mem::take(&mut self.scene().asked);
+        let requests = asked.into_iter().map(|request| match request {
+            Request::File(request) => request,
+            Request::Worker(command) => panic!("asked of the worker: {command:?}"),
+        });
+        requests.collect()
+    }
+
+    /// Draws the panel into `target/tmp/NAME.png`, where there is an adapter.
+    pub(crate) fn save(&mut self, name: &str) {
+        if !has_adapter() {
+            return;
+        }
+        let picture = self.harness.render().expect("the panel is drawn");
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
+        picture.save(&path).expect("a picture can be written below target");
+        let _ = writeln!(std::io::stderr(), "{}", path.display());
+    }
+}
+
+/// Van Gogh's oils on a bare canvas of 1920 x 1080 cells, a clean round brush.
+pub(crate) fn made_easel() -> EaselState {
+    let library = oils();
+    let lighting = Lighting::default();
+    let light = Light::named(&library, &lighting.illuminant, &lighting.observer)
+        .expect("the usual light is a light");
+    let count = library.grid.count();
+    let mut slots = [None; SLOTS];
+    for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
+        *slot = Some(library.find(pigment).expect("one of Van Gogh's"));
+    }
+    EaselState {
+        title: "untitled".to_owned(),
+        canvas_cells: (1920, 1080),
+        palette_cells: (640, 420),
+        cell_mm: 0.1,
+        library: Arc::new(library),
+        slots,
+        masstones: [None; SLOTS],
+        tints: [None; SLOTS],
+        layers: Vec::new(),
+        lighting,
+        light: Arc::new(light),
+        second: None,
+        medium: Medium::default(),
+        ground: Arc::new(vec![0.85; count]),
+        history: Vec::new(),
+        done: 0,
+        undo_bytes: (0, 1 << 30),
+        brushes: vec![BrushState {
+            name: "round".to_owned(),
+            spec: BrushSpec { shape: HeadShape::Round, size_mm: 6.0 },
+            amount_mm: 0.0,
+            vehicle: 0.0,
+            parts: [0.0; SLOTS],
+            colour: None,
+        }],
+        backend: "CPU".to_owned(),
+        revision: 0,
+        painting: false,
+    }
+}
+
+/// On the palette: six, with room for two.
+const TUBES: [&str; 6] =
+    ["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine", "Prussian Blue", "Bone Black"];
