@@ -13,7 +13,7 @@ use super::easels::{
     BACKENDS, easels, header, live, load, loaded, seeded, set_up, something, spec, squeeze, wander,
     whole,
 };
-use super::studio::{PALETTE, along, pigment};
+use super::studio::{PALETTE, RED, along, pigment};
 
 #[test]
 fn whatever_was_done_on_either_surface_is_undone_and_redone_to_the_bit() {
@@ -151,6 +151,27 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
             easel.act(&squeeze(Surface::Palette, red, (9.0, 7.0))),
             Err(EaselError::Painting(PaintingError::OffPalette { .. }))
         ));
+    }
+}
+
+#[test]
+fn paint_on_a_head_that_was_put_away_holds_no_pigment_back() {
+    for mut easel in easels() {
+        let red = "Vermilion";
+        easel.take_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
+        easel.act(&load("flat", red, 0.3)).unwrap();
+        easel.begin_stroke(Surface::Canvas, "flat").unwrap();
+        easel.extend(&along(&[(3.0, 3.0), (9.0, 9.0)], 0.5)).unwrap();
+        easel.end_stroke().unwrap();
+        easel.take_brush("flat", &spec(HeadShape::Flat, 3.0)).unwrap();
+        assert_eq!(easel.brush_paint("flat").unwrap(), None, "another head, and clean");
+        // The first head has its red again, though nobody holds it.
+        easel.undo().unwrap();
+        assert!(easel.canvas_mut().wet_totals_mm().unwrap()[RED] > 0.0);
+        easel.act(&Action::Palette(Palette::of(PALETTE[..3].iter().copied()))).unwrap();
+        easel.take_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
+        let paint = easel.brush_paint("flat").unwrap().unwrap();
+        assert_eq!(paint.totals(), [0; SLOTS + 1]);
     }
 }
 

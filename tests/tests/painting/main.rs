@@ -19,6 +19,10 @@ mod views;
 
 mod places;
 
+mod tubes;
+
+mod adjusting;
+
 mod keeping;
 
 mod changes;
@@ -36,3 +40,5 @@ mod easels;
 mod easel;
 
 mod recording;
+
+mod sessions;

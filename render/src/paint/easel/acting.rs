@@ -121,6 +121,7 @@ impl Easel {
                 CANVAS
             }
             (Action::Palette(_), ActionPigments::Palette(slots)) => {
+                self.wash_what_was_put_away()?;
                 let pigments: Vec<usize> = slots.iter().flatten().copied().collect();
                 if let Some(palette) = &mut self.palette {
                     palette.slots_with(&pigments)?;
@@ -170,7 +171,9 @@ impl Easel {
                 [on.is_canvas(), !on.is_canvas()]
             }
             (Action::Scrape { on }, _) => {
-                self.surface_mut(*on)?.scrape()?;
+                if !self.surface_mut(*on)?.scrape()? {
+                    return Ok(None);
+                }
                 [on.is_canvas(), !on.is_canvas()]
             }
             (action, _) => unreachable!("{} is done elsewhere", action.kind()),
@@ -196,6 +199,22 @@ impl Easel {
             self.note(Action::Wash { brush: name.to_owned() });
         }
         Ok(changed?)
+    }
+
+    /// Heads that gave their name to another were washed, but an undo may have
+    /// given them paint back, which nobody could wash off.
+    fn wash_what_was_put_away(&mut self) -> Result<(), EaselError> {
+        for tool in self.stand.put_away() {
+            let at = self.stand.tools[tool].at;
+            let Some(number) = self.stand.tools[tool].numbers[at as usize] else { continue };
+            let painting = self.surface_mut(at)?;
+            if painting.brush_paint(number)?.totals().iter().any(|total| *total > 0) {
+                painting.wash(number)?;
+                let brush = self.stand.tools[tool].name.clone();
+                self.note_with(Action::Wash { brush }, Some(tool));
+            }
+        }
+        Ok(())
     }
 
     /// The number of a head in the painting of a surface; made where it is new.

@@ -13,12 +13,13 @@ pub(super) struct Limits {
     pub(super) actions: usize,
     pub(super) samples: usize,
     pub(super) bytes: usize,
+    pub(super) brushes: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
         let bytes = LONGEST_FILE - HEADER_BYTES;
-        Self { actions: MOST_ACTIONS, samples: MOST_SAMPLES, bytes }
+        Self { actions: MOST_ACTIONS, samples: MOST_SAMPLES, bytes, brushes: MOST_NAMES }
     }
 }
 
@@ -51,18 +52,17 @@ impl Record {
             _ => 0,
         };
         let new_name = brush.filter(|(name, _)| !self.script.brushes.contains_key(*name));
-        let Limits { actions: most_actions, samples: most_samples, bytes: most_bytes } =
-            self.limits;
+        let most = self.limits;
         // With comma, line break and indent.
         let bytes = self.bytes + text.len() + 6;
-        if self.script.actions.len() >= most_actions {
-            self.stop(&format!("a recording holds {most_actions} actions"));
-        } else if self.samples + samples > most_samples {
-            self.stop(&format!("a recording holds {most_samples} samples"));
-        } else if bytes > most_bytes {
-            self.stop(&format!("a recording holds {} MiB", most_bytes >> 20));
-        } else if new_name.is_some() && self.script.brushes.len() >= MOST_NAMES {
-            self.stop(&format!("a recording holds {MOST_NAMES} brushes"));
+        if self.script.actions.len() >= most.actions {
+            self.stop(&format!("a recording holds {} actions", most.actions));
+        } else if self.samples + samples > most.samples {
+            self.stop(&format!("a recording holds {} samples", most.samples));
+        } else if bytes > most.bytes {
+            self.stop(&format!("a recording holds {} MiB", most.bytes >> 20));
+        } else if new_name.is_some() && self.script.brushes.len() >= most.brushes {
+            self.stop(&format!("a recording holds {} brushes", most.brushes));
         } else {
             if let Some((name, spec)) = new_name {
                 self.script.brushes.insert(name.to_owned(), spec.clone());

@@ -29,8 +29,8 @@ impl Tool {
 pub(super) enum Taken {
     /// It is there and clean, or was there already.
     Ready,
-    /// A head that was used before, with the paint that it had.
-    Used(usize),
+    /// A head that was used before, perhaps with paint on it.
+    Used,
 }
 
 /// All brushes.
@@ -51,7 +51,7 @@ impl Stand {
             let again = self.tools.iter().position(|t| t.name == name && t.spec == *spec);
             if let Some(again) = again {
                 self.names.insert(name.to_owned(), again);
-                return if self.tools[again].used() { Taken::Used(again) } else { Taken::Ready };
+                return if self.tools[again].used() { Taken::Used } else { Taken::Ready };
             }
             if !self.tools[now].used() {
                 self.tools[now].spec = spec.clone();
@@ -77,6 +77,12 @@ impl Stand {
     /// Names and what they stand for now.
     pub(super) fn names(&self) -> impl Iterator<Item = (&str, &Tool)> + Clone {
         self.names.iter().map(|(name, &tool)| (name.as_str(), &self.tools[tool]))
+    }
+
+    /// Heads that have no name any more.
+    pub(super) fn put_away(&self) -> Vec<usize> {
+        let named: BTreeSet<usize> = self.names.values().copied().collect();
+        (0..self.tools.len()).filter(|tool| !named.contains(tool)).collect()
     }
 
     /// `name`, or with a number after it, so that no head was recorded so.
@@ -114,10 +120,11 @@ mod tests {
         assert_eq!(now(&stand, "round"), (1, "round 2".to_owned()));
         stand.take("round 2", &spec(8.0));
         assert_eq!(now(&stand, "round 2"), (2, "round 2 2".to_owned()));
-        assert_eq!(stand.take("round", &spec(7.0)), Taken::Used(0), "the first again");
+        assert_eq!(stand.take("round", &spec(7.0)), Taken::Used, "the first again");
         assert_eq!(stand.take("round", &spec(7.0)), Taken::Ready, "it is in hand");
         assert_eq!(now(&stand, "round"), (0, "round".to_owned()));
         assert_eq!(stand.take("round", &spec(8.0)), Taken::Ready, "it was never used");
+        assert_eq!(stand.put_away(), [0], "`round` is the second again");
         let names: Vec<&str> = stand.names().map(|(name, _)| name).collect();
         assert_eq!(names, ["round", "round 2"]);
     }

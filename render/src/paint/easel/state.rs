@@ -34,7 +34,8 @@ pub struct Easel {
 pub enum Outcome {
     /// It was done.
     Done,
-    /// There was nothing to do: no wet paint to dry, nothing to take back.
+    /// There was nothing to do: no wet paint to dry or to scrape away, nothing
+    /// to take back.
     Nothing,
     /// A stroke was painted.
     Painted(StrokeReport),
@@ -144,7 +145,8 @@ impl Easel {
     }
 
     /// Takes a clean brush under a name, or another head in place of the one of
-    /// that name; the same head stays as it is. What is open ends first.
+    /// that name, which is washed; the same head stays as it is. What is open
+    /// ends first.
     ///
     /// # Errors
     /// [`EaselError`] for heads that there are not on cells of this width, or if
@@ -154,8 +156,14 @@ impl Easel {
         check_size(&At::default(), "size_mm", spec.size_mm)?;
         Head::new(spec.shape, spec.size_mm, self.canvas.cell_mm()).map_err(PaintingError::from)?;
         self.settle_all()?;
-        if let Taken::Used(_) = self.stand.take(name, &spec) {
-            self.act(&Action::Wash { brush: name.to_owned() })?;
+        let wash = Action::Wash { brush: name.to_owned() };
+        let now = self.stand.find(name).map(|tool| &self.stand.tools[tool]);
+        if now.is_some_and(|tool| tool.spec != spec && tool.used()) {
+            self.act(&wash)?;
+        }
+        // An undo may have given paint back to one that was there before.
+        if self.stand.take(name, &spec) == Taken::Used {
+            self.act(&wash)?;
         }
         Ok(())
     }

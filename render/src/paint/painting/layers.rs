@@ -53,8 +53,7 @@ impl Painting {
             }
             painting.state.slots = slots;
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// The slots that [`Painting::set_palette`] would give: pigments that stay
@@ -121,8 +120,7 @@ impl Painting {
             }
             painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// Multiplies the optical thickness of a dry layer with `opacity` (1 as it
@@ -141,8 +139,7 @@ impl Painting {
             painting.state.dry[index].opacity = opacity;
             painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// The pigments of a layer.

@@ -8,6 +8,7 @@ use super::failure::PaintingError;
 use super::state::Painting;
 use super::views::{SecondLight, Unseen};
 use crate::light::Light;
+use crate::optics::Gloss;
 use crate::paint::document::Lighting;
 use crate::paint::engine::View;
 use crate::tile::TileSet;
@@ -60,8 +61,26 @@ impl Painting {
                 None => painting.views.first.shown = TileSet::all(painting.engine.bounds()),
             }
             Ok(())
-        })?;
-        Ok(())
+        })
+    }
+
+    /// Other shine of wet and of dry paint.
+    ///
+    /// # Errors
+    /// [`PaintingError::Gloss`] for strengths outside 0..100 or exponents outside
+    /// 0..1e6.
+    pub fn set_gloss(&mut self, wet: Gloss, dry: Gloss) -> Result<(), PaintingError> {
+        for Gloss { strength, exponent } in [wet, dry] {
+            if !((0.0..=100.0).contains(&strength) && (0.0..=1e6).contains(&exponent)) {
+                return Err(PaintingError::Gloss { strength, exponent });
+            }
+        }
+        self.acting(|painting| {
+            let medium = &mut painting.state.medium;
+            (medium.wet, medium.dry) = (wet, dry);
+            painting.views.unshown();
+            Ok(())
+        })
     }
 
     /// Keeps the picture under a second light beside the first, for a view split

@@ -57,8 +57,7 @@ impl Painting {
             }
             painting.state.dry.splice(index..index + 2, [state]);
             painting.floor_changed()
-        })?;
-        Ok(())
+        })
     }
 
     /// Puts `layers` in place of the dry layers from `index` up; gives those.

@@ -1,7 +1,7 @@
 //! A painting at work: a backend, brushes, the light, and undo.
 //!
 //! Everything that changes paint, layers or light is an action, which undo takes
-//! back whole. One action is done at a time: while a stroke is open
+//! back whole. One is done at a time: while a stroke is open
 //! ([`Painting::begin_stroke`]) every other one, undo and redo too, panics;
 //! reading paint and pictures is always allowed, and shows the stroke as far as
 //! it is.
@@ -15,6 +15,8 @@ mod failure;
 mod brushes;
 
 mod strokes;
+
+mod tubes;
 
 mod layers;
 

@@ -19,14 +19,13 @@ impl Painting {
     /// # Panics
     /// If there is no such brush, or a stroke is open.
     pub fn hand_over(&mut self, brush: usize) -> Result<Layer, PaintingError> {
-        let (paint, _) = self.acting(|painting| {
+        self.acting(|painting| {
             let id = painting.brushes[brush].id;
             painting.history.touch_brush(painting.engine.as_mut(), id)?;
             let paint = painting.engine.brush(id)?;
             painting.wash(brush)?;
             Ok(paint)
-        })?;
-        Ok(paint)
+        })
     }
 
     /// Shows the painting under the light of another one, which must be of the
@@ -48,43 +47,6 @@ impl Painting {
                 painting.views.first.unbake(bounds);
             }
             Ok(())
-        })?;
-        Ok(())
-    }
-}
-
-// Until the painting itself has these.
-impl Painting {
-    pub fn squeeze(
-        &mut self,
-        _: &[f64; 8],
-        _: f64,
-        _: f64,
-        _: f64,
-        _: f64,
-    ) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn scrape(&mut self) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn set_gloss(
-        &mut self,
-        _: crate::optics::Gloss,
-        _: crate::optics::Gloss,
-    ) -> Result<(), PaintingError> {
-        Err(PaintingError::NoMixture)
-    }
-    pub fn begin_adjusting(&mut self) {}
-    pub fn end_adjusting(&mut self) {}
-    pub fn undo_bytes(&self) -> (u64, u64) {
-        (self.history.bytes(), 0)
-    }
-    pub fn set_undo_bytes(&mut self, _: u64) {}
-    pub fn undo_count(&self) -> usize {
-        self.history.undo_count()
-    }
-    pub fn redo_count(&self) -> usize {
-        self.history.redo_count()
+        })
     }
 }

@@ -7,7 +7,7 @@ use calibrate::library::PigmentLibrary;
 use super::brushes::Brush;
 use super::failure::PaintingError;
 use super::strokes::OpenStroke;
-use super::undoing::Before;
+use super::undoing::{Adjusting, Before};
 use super::views::Views;
 use crate::amount::{FULL, mm_from_quanta};
 use crate::layer::{Layer, SLOTS};
@@ -57,6 +57,8 @@ pub struct Painting {
     pub(super) history: History<Before>,
     /// The stroke that is being drawn, if one is.
     pub(super) stroke: Option<OpenStroke>,
+    /// The adjustment that is open, if one is.
+    pub(super) adjusting: Option<Adjusting>,
     /// What of its pictures is out of date.
     pub(super) views: Views,
 }
@@ -120,6 +122,7 @@ impl Painting {
             brushes: Vec::new(),
             history: History::new(undo_bytes),
             stroke: None,
+            adjusting: None,
             views,
         })
     }

@@ -162,7 +162,7 @@ impl Painting {
         stroke: OpenStroke,
         paint: Option<&Layer>,
     ) -> Result<(), PaintingError> {
-        assert!(self.stroke.is_none(), "a stroke is open; it ends before the next");
+        self.assert_idle("a stroke");
         let id = self.brushes[stroke.brush].id;
         self.history.begin(self.now());
         let opened =
