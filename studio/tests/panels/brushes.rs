@@ -96,7 +96,11 @@ fn a_head_that_was_told_of_is_no_more_asked_for() {
     round.spec.shape = HeadShape::Mop;
     let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
     harness.run();
-    harness.state_mut().easel.brushes[0].amount_mm = loaded;
+    click(&mut harness, "shape bright");
+    asks(&mut harness, &[take("round", HeadShape::Bright, 6.0), its_paint()]);
+    let round = &mut harness.state_mut().easel.brushes[0];
+    round.spec.shape = HeadShape::Bright;
+    round.amount_mm = loaded;
     harness.run();
     // Washed elsewhere: now the brush has no paint to take along.
     harness.state_mut().easel.brushes[0].amount_mm = 0.0;
@@ -203,6 +207,15 @@ fn the_stand_follows_the_painting() {
     harness.state_mut().easel.brushes.clear();
     harness.run();
     assert!(is_disabled(&harness, "Keep") && is_disabled(&harness, "Medium only"), "no brush");
+}
+
+#[test]
+fn new_brushes_stand_in_the_order_of_their_shapes() {
+    let mut told = easel();
+    told.brushes.reverse();
+    let harness = shown(Brushes::default(), told, Brushes::show);
+    let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
+    assert!(tops.is_sorted(), "{tops:?}");
 }
 
 #[test]

@@ -129,6 +129,24 @@ fn layers_of_like_opacity_merge_downwards() {
 }
 
 #[test]
+fn a_hidden_layer_above_a_merge_keeps_what_it_had() {
+    let mut harness = layers();
+    let lowest = harness.state().easel.layers[0].clone();
+    harness.state_mut().easel.layers.insert(0, lowest);
+    harness.run();
+    click(&mut harness, "visibility of dry layer 3");
+    asks(&mut harness, &[act(opacity(2, 0.0))]);
+    harness.state_mut().easel.layers[2].opacity = 0.0;
+    harness.run();
+    click(&mut harness, "merge dry layer 2 down");
+    harness.state_mut().easel.layers.remove(0);
+    harness.run();
+    harness.state_mut().asked.clear();
+    click(&mut harness, "visibility of dry layer 2");
+    asks(&mut harness, &[act(opacity(1, 0.5))]);
+}
+
+#[test]
 fn a_pigment_of_one_layer_is_exchanged() {
     let mut harness = layers();
     for (button, layer) in [

@@ -1,10 +1,11 @@
 //! The stand: which brushes are at hand, in which order, and what they are called.
 
+use render::paint::brush::HeadShape;
 use render::paint::strokes::{Action, BrushSpec, Load};
 
 use super::care::{in_hand, like};
 use crate::panels::{Desk, Mode};
-use crate::worker::{Command, EaselState};
+use crate::worker::{BrushState, Command, EaselState};
 
 /// Sizes of heads, in mm.
 pub(super) const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
@@ -51,11 +52,15 @@ impl Stand {
         }
         self.places.retain(|place| place.asked.is_some() || told(&place.name).is_some());
         self.away.retain(|name| told(name).is_some());
-        for brush in &desk.easel.brushes {
-            if !self.away.contains(&brush.name) && self.find(&brush.name).is_none() {
-                let (name, label) = (brush.name.clone(), brush.name.clone());
-                self.places.push(Place { name, label, asked: None });
-            }
+        let new = |brush: &&BrushState| {
+            !self.away.contains(&brush.name) && self.find(&brush.name).is_none()
+        };
+        let mut new: Vec<&BrushState> = desk.easel.brushes.iter().filter(new).collect();
+        // The round first, the knife last, as the shapes are told of.
+        let shape = |brush: &BrushState| HeadShape::ALL.iter().position(|s| *s == brush.spec.shape);
+        new.sort_by_key(|brush| shape(brush));
+        for BrushState { name, .. } in new {
+            self.places.push(Place { name: name.clone(), label: name.clone(), asked: None });
         }
         if self.find(&desk.tools.brush).is_none()
             && let Some(first) = self.places.first()
