@@ -31,29 +31,13 @@ pub(crate) fn targets(
         let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford);
         return Ok(vec![Target::from_lab(&rgb.to_hex(), Lab::from_xyz(xyz, white), sights)]);
     }
-    if let Some(lab) = lab_from_text(text) {
+    if let Some(lab) = Lab::from_text(text) {
         return Ok(vec![Target::from_lab(&format!("Lab {text}"), lab, sights)]);
     }
     Err(Refusal::usage(
         format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
         "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
     ))
-}
-
-/// Three numbers parted by commas or spaces, L* from 0 to 100; `lab(..)` may stand around them.
-pub(crate) fn lab_from_text(text: &str) -> Option<Lab> {
-    let lower = text.trim().to_ascii_lowercase();
-    let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
-    let parts = inside.unwrap_or(&lower).split([',', ' ']).filter(|part| !part.is_empty());
-    let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().ok()?;
-    match numbers[..] {
-        [lightness, a, b]
-            if (0.0..=100.0).contains(&lightness) && a.abs() <= 300.0 && b.abs() <= 300.0 =>
-        {
-            Some(Lab { lightness, a, b })
-        }
-        _ => None,
-    }
 }
 
 /// The paint among `chosen`. Bare cards are read to tell the paint's K/S and not to be matched,

@@ -73,6 +73,25 @@ impl Lab {
         }
     }
 
+    /// The colour of three numbers parted by commas or spaces, L* from 0 to 100, a*
+    /// and b* from -300 to 300; `lab(..)` may stand around them. `None` for any other
+    /// text.
+    #[must_use]
+    pub fn from_text(text: &str) -> Option<Self> {
+        let lower = text.trim().to_ascii_lowercase();
+        let inside = lower.strip_prefix("lab(").and_then(|rest| rest.strip_suffix(')'));
+        let parts = inside.unwrap_or(&lower).split([',', ' ']).filter(|part| !part.is_empty());
+        let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().ok()?;
+        match numbers[..] {
+            [lightness, a, b]
+                if (0.0..=100.0).contains(&lightness) && a.abs() <= 300.0 && b.abs() <= 300.0 =>
+            {
+                Some(Self { lightness, a, b })
+            }
+            _ => None,
+        }
+    }
+
     /// L*, a*, b* in order.
     #[must_use]
     pub fn to_array(self) -> [f64; 3] {
@@ -90,5 +109,21 @@ impl From<Lch> for Lab {
     fn from(lch: Lch) -> Self {
         let (sin, cos) = lch.hue_degrees.to_radians().sin_cos();
         Self { lightness: lch.lightness, a: lch.chroma * cos, b: lch.chroma * sin }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_numbers_are_a_colour_and_nothing_else_is() {
+        let wanted = Some(Lab { lightness: 52.0, a: -10.5, b: 8.0 });
+        for text in ["52,-10.5,8", "52 -10.5 8", "lab(52, -10.5, 8)", " LAB(52,-10.5,8) "] {
+            assert_eq!(Lab::from_text(text), wanted, "{text}");
+        }
+        for text in ["", "52,8", "52,8,1,2", "101,0,0", "-1,0,0", "50,400,0", "lab(1,2,3", "#fff"] {
+            assert_eq!(Lab::from_text(text), None, "{text}");
+        }
     }
 }

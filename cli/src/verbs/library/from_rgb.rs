@@ -6,7 +6,7 @@ use calibrate::curation::{Body, guessed_pigment};
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::Args;
-use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, TristimulusWeights};
 
 use crate::console::Console;
@@ -14,7 +14,6 @@ use crate::failure::Refusal;
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
-use crate::targets::lab_from_text;
 
 /// A plausible pigment of a colour, marked as guessed
 ///
@@ -139,7 +138,7 @@ fn wanted(text: &str, weights: &TristimulusWeights) -> anyhow::Result<Xyz> {
     if let Some(rgb) = Rgb::from_hex(text) {
         return Ok(RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford));
     }
-    let lab = lab_from_text(text).ok_or_else(|| {
+    let lab = Lab::from_text(text).ok_or_else(|| {
         Refusal::usage(
             format!("a colour is #rrggbb or L,a,b, found `{text}`"),
             "try \"#2a5caa\" or 40,5,-45",
