@@ -16,6 +16,13 @@ use crate::worker::Command;
 /// How long a message that needs no answer stays.
 const STAYS: Duration = Duration::from_secs(5);
 
+/// How long work goes on before it is shown.
+const SOON: Duration = Duration::from_millis(300);
+
+/// Width of a message, and of its buttons, in points.
+const WIDTH: f32 = 480.0;
+const BUTTONS: f32 = 140.0;
+
 /// The most messages shown at a time.
 const MOST: usize = 4;
 
@@ -31,12 +38,13 @@ pub(super) struct Notice {
 impl Notice {
     /// Goes by itself.
     pub(super) fn said(what: String) -> Self {
+        let what = capital(&what);
         Self { what, hint: None, until: Some(Instant::now() + STAYS) }
     }
 
     /// Stays until it is closed.
     pub(super) fn failed(failure: FileFailure) -> Self {
-        Self { what: failure.what, hint: failure.hint, until: None }
+        Self { what: capital(&failure.what), hint: failure.hint, until: None }
     }
 }
 
@@ -67,16 +75,19 @@ impl Files {
                 self.show_lost(ui, &mut reply);
                 self.show_work(ui, &mut reply);
                 for (index, notice) in self.notices.iter().enumerate() {
-                    card(ui, |ui| {
+                    let words = |ui: &mut Ui| {
+                        ui.label(&notice.what);
+                        if let Some(hint) = &notice.hint {
+                            ui.label(RichText::new(hint).weak());
+                        }
+                    };
+                    card(ui, words, |ui| {
+                        if notice.until.is_some() {
+                            return;
+                        }
                         if ui.button("OK").on_hover_text("Close this message").clicked() {
                             reply = Some(Reply::Close(index));
                         }
-                        ui.with_layout(Layout::top_down(Align::Min), |ui| {
-                            ui.label(&notice.what);
-                            if let Some(hint) = &notice.hint {
-                                ui.label(RichText::new(hint).weak());
-                            }
-                        });
                     });
                 }
             });
@@ -100,7 +111,12 @@ impl Files {
         for (index, lost) in self.lost.iter().enumerate() {
             let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
             let when = ago(then, SystemTime::now());
-            card(ui, |ui| {
+            let words = |ui: &mut Ui| {
+                ui.label("A painting was not saved");
+                let told = format!("{}, kept {when}", lost.meta.title);
+                ui.label(RichText::new(told).weak());
+            };
+            card(ui, words, |ui| {
                 let discard = ui.button("Discard");
                 if discard.on_hover_text("Throws the copy away for good").clicked() {
                     *reply = Some(Reply::Discard(index));
@@ -109,11 +125,6 @@ impl Files {
                 if recover.on_hover_text("Takes the painting up as it was kept").clicked() {
                     *reply = Some(Reply::Recover(index));
                 }
-                ui.with_layout(Layout::top_down(Align::Min), |ui| {
-                    ui.label("A painting was not saved");
-                    let told = format!("{}, kept {when}", lost.meta.title);
-                    ui.label(RichText::new(told).weak());
-                });
             });
         }
     }
@@ -124,48 +135,57 @@ impl Files {
             if !matches!(work.kind, WorkKind::Shown | WorkKind::Saving) {
                 continue;
             }
-            card(ui, |ui| {
+            ui.ctx().request_repaint_after(Duration::from_millis(100));
+            // What is done at once would only flicker.
+            if work.began.elapsed() < SOON {
+                continue;
+            }
+            let words = |ui: &mut Ui| bar(ui, work.job.label(), work.job.share());
+            card(ui, words, |ui| {
                 let cancel = ui.button("Cancel");
                 if cancel.on_hover_text("Gives it up; no file is left half written").clicked() {
                     *reply = Some(Reply::Cancel(index));
                 }
-                bar(ui, work.job.label(), work.job.share());
             });
-            ui.ctx().request_repaint_after(Duration::from_millis(100));
         }
         if let Some((done, of)) = self.replay {
-            card(ui, |ui| {
+            let share = done as f32 / of.max(1) as f32;
+            let words =
+                |ui: &mut Ui| bar(ui, &format!("playing, action {done} of {of}"), Some(share));
+            card(ui, words, |ui| {
                 if ui.button("Stop").on_hover_text("Ends the recording where it is").clicked() {
                     *reply = Some(Reply::CancelReplay);
                 }
-                let label = format!("playing, action {done} of {of}");
-                bar(ui, &label, Some(done as f32 / of.max(1) as f32));
             });
         }
     }
 }
 
-fn bar(ui: &mut Ui, label: &str, share: Option<f32>) {
-    ui.with_layout(Layout::top_down(Align::Min), |ui| {
-        match share {
-            Some(share) => {
-                ui.label(label);
-                ui.add(ProgressBar::new(share).desired_height(6.0));
-            }
-            None => {
-                ui.horizontal(|ui| {
-                    ui.add(Spinner::new());
-                    ui.label(label);
-                });
-            }
-        };
-    });
+/// `text` with a capital.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
-/// A small sheet of paper: buttons at the right, the rest before them.
-fn card(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+fn bar(ui: &mut Ui, label: &str, share: Option<f32>) {
+    ui.label(label);
+    match share {
+        Some(share) => ui.add(ProgressBar::new(share).desired_height(6.0)),
+        None => ui.add(Spinner::new()),
+    };
+}
+
+/// A small sheet of paper: words, and buttons at its right.
+fn card(ui: &mut Ui, words: impl FnOnce(&mut Ui), buttons: impl FnOnce(&mut Ui)) {
     Frame::popup(ui.style()).show(ui, |ui| {
-        ui.set_width(460.0);
-        ui.with_layout(Layout::right_to_left(Align::Center), content);
+        ui.set_width(WIDTH);
+        ui.horizontal(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(WIDTH - BUTTONS);
+                words(ui);
+            });
+            ui.with_layout(Layout::right_to_left(Align::Center), buttons);
+        });
     });
 }

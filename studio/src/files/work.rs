@@ -48,6 +48,7 @@ pub(super) enum Done {
 #[derive(Debug)]
 pub(super) struct Work {
     pub(super) job: Job<Done>,
+    pub(super) began: Instant,
     pub(super) kind: WorkKind,
 }
 
@@ -83,7 +84,7 @@ impl Files {
     ) {
         let ctx = self.ctx.clone();
         let job = Job::start(label, move || ctx.request_repaint(), work);
-        self.works.push(Work { job, kind });
+        self.works.push(Work { job, began: Instant::now(), kind });
     }
 
     /// Whether a painting is being saved.

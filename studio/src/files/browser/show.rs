@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use eframe::egui::{
-    Align, Button, ComboBox, Context, Id, Key, Label, Layout, Modal, Modifiers, RichText,
-    ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, ComboBox, Context, Event, Frame, Id, Key, Label, Layout, Modal, Modifiers,
+    RichText, ScrollArea, TextEdit, Ui, vec2,
 };
 
 use super::listing::home_folder;
@@ -27,14 +27,21 @@ impl Browser {
             answer = self.path_line(ui);
             ui.add_space(2.0);
             let height = HEIGHT.min(ctx.content_rect().height() - 220.0);
-            ui.horizontal_top(|ui| {
-                ui.allocate_ui_with_layout(
-                    vec2(PLACES, height),
-                    Layout::top_down(Align::Min),
-                    |ui| answer = answer.take().or_else(|| self.places(ui)),
-                );
-                ui.separator();
-                ui.vertical(|ui| answer = answer.take().or_else(|| self.list(ui, height)));
+            // Of one height whatever there is, so that no button moves.
+            let size = vec2(ui.available_width(), height);
+            let across = Layout::left_to_right(Align::Min);
+            ui.allocate_ui_with_layout(size, across, |ui| {
+                ui.set_min_size(size);
+                ui.allocate_ui_with_layout(vec2(PLACES, height), down(), |ui| {
+                    answer = answer.take().or_else(|| self.places(ui));
+                });
+                Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
+                    let size = ui.available_size();
+                    ui.allocate_ui_with_layout(size, down(), |ui| {
+                        ui.set_min_size(size);
+                        answer = answer.take().or_else(|| self.list(ui, size.y));
+                    });
+                });
             });
             ui.add_space(2.0);
             answer = answer.take().or_else(|| self.last_lines(ui));
@@ -206,13 +213,14 @@ impl Browser {
         ui.horizontal(|ui| {
             ui.label(format!("{} is there already.", name.unwrap_or_default()));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let replace = ui.button("Replace");
-                if replace.on_hover_text("Writes over the file (Enter)").clicked() {
-                    answer = Some(Answer::File(path.to_owned()));
-                }
+                // Where `Save` was stands what does no harm.
                 let keep = ui.button("Keep");
                 if keep.on_hover_text("Leaves the file; choose another name").clicked() {
                     self.replaces = None;
+                }
+                let replace = ui.button("Replace");
+                if replace.on_hover_text("Writes over the file (Enter)").clicked() {
+                    answer = Some(Answer::File(path.to_owned()));
                 }
             });
         });
@@ -237,8 +245,17 @@ impl Browser {
         if pressed(Key::Backspace) {
             self.up();
         }
-        if pressed(Key::Enter) { self.enter() } else { None }
+        // A key held down answers no question.
+        let held = ctx.input(|input| {
+            let again = |event: &Event| matches!(event, Event::Key { repeat: true, .. });
+            input.events.iter().any(again)
+        });
+        if pressed(Key::Enter) && !held { self.enter() } else { None }
     }
+}
+
+fn down() -> Layout {
+    Layout::top_down(Align::Min)
 }
 
 fn place(name: &str) -> Button<'_> {
