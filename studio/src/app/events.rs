@@ -14,13 +14,14 @@ impl Studio {
     pub(super) fn listen(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
-            self.heard += 1;
-            self.files.event(&event);
             self.hear(event);
         }
     }
 
-    fn hear(&mut self, event: Event) {
+    /// Takes in one thing, as if the worker had told it.
+    pub fn hear(&mut self, event: Event) {
+        self.heard += 1;
+        self.files.event(&event);
         match event {
             Event::Opened(state) => self.take_up(state),
             Event::State(state) => self.know(state),

@@ -51,10 +51,9 @@ impl Studio {
                     && self.palette.place(point).is_none()
         };
         let view = View { surfaces: &sights, covered: &covered };
-        let events = ui.input(|input| {
-            let modifiers = input.modifiers;
-            self.pen.frame(&input.events, modifiers, now, &view)
-        });
+        // Copied: the context is asked for what covers a place meanwhile.
+        let (heard, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
+        let events = self.pen.frame(&heard, modifiers, now, &view);
         events.into_iter().for_each(|event| self.led(event));
         if let Some(soon) = self.pen.next_frame(Instant::now()) {
             context.request_repaint_after(soon);

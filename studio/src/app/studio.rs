@@ -245,8 +245,8 @@ impl Studio {
             let side = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(8, 6));
             Panel::right("side")
                 .frame(side)
-                .default_size(theme::PANEL_WIDTH)
-                .size_range(240.0..=420.0)
+                .resizable(false)
+                .exact_size(theme::PANEL_WIDTH)
                 .show_separator_line(false)
                 .show(ui, |ui| {
                     let Some(easel) = &easel else { return };

@@ -1,5 +1,7 @@
 //! Canvas and palette, and what the pen does on them.
 
+use std::time::Duration;
+
 use eframe::egui::{
     Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, vec2,
 };
@@ -8,7 +10,7 @@ use render::paint::strokes::Surface;
 
 use super::Studio;
 use crate::panels::tubes::{DraggedTube, squeeze};
-use crate::panels::{Desk, Mode};
+use crate::panels::{Desk, Mode, figures};
 use crate::theme;
 use crate::view::{Hand, Split};
 use crate::worker::Command;
@@ -43,6 +45,7 @@ impl Studio {
             Panel::bottom("palette")
                 .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
                 .resizable(true)
+                .show_separator_line(false)
                 .default_size(height)
                 .size_range(110.0..=520.0)
                 .show(ui, |ui| self.table(ui, hand, mode));
@@ -57,11 +60,18 @@ impl Studio {
         let response = self.canvas.show(ui, room, hand, split);
         self.used(ui, Surface::Canvas, &response, mode);
         self.lead(ui, mode);
+        if self.tools.figures {
+            let backend = easel.as_ref().map_or("", |easel| easel.backend.as_str());
+            figures::overlay(ui, room, self.frames.rate(), self.figures, backend);
+            ui.ctx().request_repaint_after(Duration::from_millis(250));
+        }
     }
 
     /// The palette with the tubes beside it.
     fn table(&mut self, ui: &mut Ui, hand: Hand, mode: Mode) {
         let whole = ui.available_rect_before_wrap();
+        // The table keeps its height, whatever lies on it.
+        ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
         let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));

@@ -2,17 +2,24 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
-use eframe::egui::{Ui, Vec2, pos2, vec2};
+use eframe::egui::{
+    Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
+    TouchPhase, Ui, Vec2, pos2, vec2,
+};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
+use render::paint::strokes::Surface;
 use render::tile;
+use studio::panels::Mode;
 use studio::theme;
 use studio::view::{Hand, Outline, Split, SurfaceView, View};
-use studio::worker::TilePixels;
+use studio::worker::{Event, TilePixels};
 
-use crate::harness::has_adapter;
+use crate::harness::{Window, has_adapter};
 
 /// Cells of the surfaces shown here: more than one chunk, and no round number.
 const CELLS: (usize, usize) = (700, 530);
@@ -220,4 +227,141 @@ fn the_palette_lets_the_surround_through_its_hole() {
 fn near_edge(place: [usize; 2]) -> bool {
     let [x, y] = place;
     x < 3 || y < 3 || x + 4 > CELLS.0 || y + 4 > CELLS.1
+}
+
+/// A window on a painting that is only told of: a ramp of greys on the canvas, wood
+/// on the palette.
+fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
+    let mut window = Window::made(name, size, density, Vec::new());
+    let mut easel = crate::made::easel();
+    easel.canvas_cells = (1920, 1080);
+    easel.palette_cells = (640, 420);
+    let studio = window.studio_mut();
+    studio.hear(Event::Opened(Arc::new(easel)));
+    for (surface, width, height) in [(Surface::Canvas, 1920, 1080), (Surface::Palette, 640, 420)] {
+        let rect = tile::Rect { x: 0, y: 0, width, height };
+        let grey = |x: usize| match surface {
+            Surface::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
+            Surface::Palette => [120 + (x % 23) as u8, 84, 52, 255],
+        };
+        let pixels = (0..width * height).map(|at| grey(at % width)).collect();
+        let tiles = vec![TilePixels { rect, pixels }];
+        studio.hear(Event::Tiles { surface, second: false, tiles, newest: None });
+    }
+    window.harness().run_ok();
+    window
+}
+
+#[test]
+fn everything_is_within_the_window() {
+    for (size, density) in
+        [(vec2(1280.0, 800.0), 1.0), (vec2(1920.0, 1080.0), 1.0), (vec2(1280.0, 800.0), 2.0)]
+    {
+        let mut window = told_window("layout", size, density);
+        window.save(&format!("layout-{}-{density}", size.x));
+        let whole = window.whole();
+        for label in ["File", "Canvas", "Palette", "Paint", "Whole canvas", "tube of Vermilion"] {
+            let rect = window.harness().get_by_label(label).rect();
+            assert!(whole.contains_rect(rect), "{label} at {rect} of {whole}");
+        }
+    }
+}
+
+#[test]
+fn keys_change_the_view_and_not_while_text_is_typed() {
+    let mut window = told_window("keys", vec2(1280.0, 800.0), 1.0);
+    window.key(Modifiers::NONE, Key::M);
+    assert!(window.studio().canvas.view.mirror, "M mirrors");
+    window.key(Modifiers::COMMAND, Key::Num1);
+    assert_eq!(window.studio().canvas.view.zoom, 1.0);
+    window.key(Modifiers::COMMAND, Key::CloseBracket);
+    let turned = window.studio().canvas.view.turn;
+    assert!((turned - (-15_f64).to_radians().rem_euclid(TAU)).abs() < 1e-9, "{turned}");
+    window.key(Modifiers::NONE, Key::Home);
+    let view = window.studio().canvas.view;
+    assert!(view.fitted && view.turn == 0.0 && !view.mirror, "{view:?}");
+    window.key(Modifiers::NONE, Key::F12);
+    assert!(window.studio().tools.figures, "F12 shows the figures");
+    window.click("Rename");
+    window.harness().run_ok();
+    window.key(Modifiers::NONE, Key::M);
+    window.key(Modifiers::NONE, Key::F12);
+    assert!(!window.studio().canvas.view.mirror, "a name may have an m");
+    window.key(Modifiers::NONE, Key::Escape);
+    window.key(Modifiers::NONE, Key::M);
+    assert!(window.studio().canvas.view.mirror, "text is typed no longer");
+}
+
+#[test]
+fn tab_hides_all_panels_and_the_canvas_takes_their_room() {
+    let mut window = told_window("hidden", vec2(1280.0, 800.0), 1.0);
+    let before = window.studio().canvas.room();
+    window.key(Modifiers::NONE, Key::Tab);
+    window.save("hidden");
+    assert_eq!(window.studio().canvas.room(), window.whole());
+    assert!(window.harness().query_by_label("File").is_none(), "the menus are hidden");
+    assert!(window.harness().query_by_label("Palette").is_none(), "the palette is hidden");
+    window.key(Modifiers::NONE, Key::Tab);
+    assert_eq!(window.studio().canvas.room(), before);
+    window.key(Modifiers::NONE, Key::P);
+    assert!(window.studio().canvas.room().height() > before.height(), "the palette makes room");
+}
+
+#[test]
+fn the_view_follows_hand_wheel_and_held_keys() {
+    let mut window = told_window("hand", vec2(1280.0, 800.0), 1.0);
+    let middle = window.studio().canvas.room().center();
+    let cell = |window: &Window, at| window.studio().canvas.placement().cell(at);
+    let drag = |window: &mut Window, button: PointerButton, by: Vec2| {
+        let press = |pos: Pos2, pressed: bool| {
+            let modifiers = Modifiers::NONE;
+            UiEvent::PointerButton { pos, button, pressed, modifiers }
+        };
+        window.frame(vec![UiEvent::PointerMoved(middle)]);
+        window.frame(vec![press(middle, true)]);
+        window.frame(vec![UiEvent::PointerMoved(middle + 0.5 * by)]);
+        window.frame(vec![UiEvent::PointerMoved(middle + by)]);
+        window.frame(vec![press(middle + by, false)]);
+    };
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1.0;
+
+    let held = cell(&window, middle);
+    drag(&mut window, PointerButton::Middle, vec2(60.0, -25.0));
+    assert!(near(cell(&window, middle + vec2(60.0, -25.0)), held), "the middle button moves");
+
+    window.harness().key_down(Key::Space);
+    window.harness().step();
+    let held = cell(&window, middle);
+    drag(&mut window, PointerButton::Primary, vec2(-40.0, 30.0));
+    assert!(near(cell(&window, middle + vec2(-40.0, 30.0)), held), "space and drag move");
+    window.harness().key_up(Key::Space);
+    window.harness().step();
+
+    // A key of a tool that is held while it is used gives the one before back.
+    window.harness().key_down(Key::Z);
+    window.harness().step();
+    assert_eq!(window.studio().tools.mode, Mode::Zoom);
+    let zoom = window.studio().canvas.view.zoom;
+    drag(&mut window, PointerButton::Primary, vec2(0.0, -60.0));
+    assert!(window.studio().canvas.view.zoom > 1.2 * zoom, "up is in");
+    window.harness().key_up(Key::Z);
+    window.harness().step();
+    assert_eq!(window.studio().tools.mode, Mode::Paint);
+    // A tap chooses it.
+    window.key(Modifiers::NONE, Key::I);
+    assert_eq!(window.studio().tools.mode, Mode::Pick);
+
+    let pointer = middle + vec2(100.0, 50.0);
+    window.frame(vec![UiEvent::PointerMoved(pointer)]);
+    let (held, zoom) = (cell(&window, pointer), window.studio().canvas.view.zoom);
+    window.frame(vec![UiEvent::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 2.0),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    }]);
+    window.harness().run_steps(30);
+    assert!(window.studio().canvas.view.zoom > 1.1 * zoom, "the wheel zooms");
+    assert!(near(cell(&window, pointer), held), "about the pointer");
 }

@@ -46,10 +46,23 @@ impl Window {
 
     /// A window whose worker is asked for `begin` first.
     pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
+        let mut window = Self::made(name, size, density, begin);
+        let start = Instant::now();
+        while window.studio().easel().is_none() {
+            assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
+            std::thread::sleep(Duration::from_millis(5));
+            window.harness.step();
+        }
+        window.settle();
+        window
+    }
+
+    /// A window that does not wait for its worker.
+    pub(crate) fn made(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
         let folder = tempfile::tempdir().expect("a folder for the session");
         let home = folder.path().to_owned();
         let mut begin = Some(begin);
-        let mut harness = Harness::builder()
+        let harness = Harness::builder()
             .with_size(size)
             .with_pixels_per_point(density)
             .with_step_dt(1.0 / 60.0)
@@ -76,15 +89,7 @@ impl Window {
                 },
                 None,
             );
-        let start = Instant::now();
-        while harness.state().as_ref().is_none_or(|studio| studio.easel().is_none()) {
-            assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
-            std::thread::sleep(Duration::from_millis(5));
-            harness.step();
-        }
-        let mut window = Self { harness, name, fences: 0, folder };
-        window.settle();
-        window
+        Self { harness, name, fences: 0, folder }
     }
 
     /// The window's own state.
