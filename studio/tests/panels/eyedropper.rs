@@ -1,6 +1,8 @@
 //! Of the eyedropper: what is told equals spectra and calibrate, what is clicked
 //! asks exactly that.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use std::path::PathBuf;
 use std::sync::Arc;
 

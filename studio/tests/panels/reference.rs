@@ -1,5 +1,7 @@
 //! Of the reference picture: read beside the window, looked at, colours taken.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use std::path::PathBuf;
 
 use eframe::egui::{
