@@ -13,10 +13,11 @@ use calibrate::plan::PlanError;
 use render::gpu::GpuError;
 use render::light::LightFailure;
 use render::paint::EngineError;
+use render::paint::easel::EaselError;
 use render::paint::file::PaintingFileError;
 use render::paint::ground::GroundError;
 use render::paint::painting::PaintingError;
-use render::paint::strokes::StrokesError;
+use render::paint::strokes::{BeginningError, StrokesError};
 use render::photograph::{PhotographError, SeparationError};
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
@@ -127,6 +128,12 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<PaintingError>() {
         return error.hint();
     }
+    if let Some(error) = cause.downcast_ref::<EaselError>() {
+        return error.hint();
+    }
+    if let Some(error) = cause.downcast_ref::<BeginningError>() {
+        return error.hint();
+    }
     if let Some(error) = cause.downcast_ref::<LightFailure>() {
         return error.hint();
     }
@@ -158,7 +165,11 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     if let Some(refusal) = cause.downcast_ref::<Refusal>() {
         return Some(refusal.status);
     }
-    if let Some(PaintingError::Engine(_)) = cause.downcast_ref() {
+    let painting = match cause.downcast_ref() {
+        Some(EaselError::Painting(error)) => Some(error),
+        _ => cause.downcast_ref::<PaintingError>(),
+    };
+    if let Some(PaintingError::Engine(_)) = painting {
         return Some(2);
     }
     let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
@@ -177,6 +188,8 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SwatchFileError>()
         || cause.is::<LampError>()
         || cause.is::<PaintingError>()
+        || cause.is::<EaselError>()
+        || cause.is::<BeginningError>()
         || cause.is::<StrokesError>()
         || cause.is::<PaintingFileError>()
         || cause.is::<GroundError>()

@@ -4,14 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use render::amount::mm_from_quanta;
-use render::export::{FloatBits, PigmentMap, linear_exr, pigment_maps, png8, png16, spectral_exr};
+use render::export::{self, PictureFormat, painting_maps, pigment_maps, spectral_file};
 use render::field::Field;
-use render::layer::{Layer, SLOTS};
-use render::paint::document::{Document, Slots};
 use render::paint::file;
 use render::paint::painting::Painting;
-use render::paint::scene::Spectral;
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -134,21 +130,17 @@ impl OpenExports {
         let document = painting.document()?;
         if let Some(output) = self.spectral {
             let picture = painting.picture()?;
-            let quadrature = &painting.light().quadrature;
-            let (wavelengths_nm, spectral) = match self.options.bands {
-                SpectralBands::Nodes => {
-                    (quadrature.nodes_nm.clone(), Spectral::at_nodes(&document, quadrature))
-                }
-                SpectralBands::Full => {
-                    let grid = document.library.grid;
-                    (grid.wavelengths_nm().collect(), Spectral::full(&document))
-                }
+            let bands = match self.options.bands {
+                SpectralBands::Nodes => export::Bands::Nodes,
+                SpectralBands::Full => export::Bands::Full,
             };
-            let planes = planes(&spectral, picture.width(), picture.height());
-            output.write(spectral_exr(&picture, &wavelengths_nm, &planes, cell_mm)?)?;
+            let made = spectral_file(&document, painting.light(), &picture, bands, |_| true)?;
+            if let Some(bytes) = made {
+                output.write(bytes)?;
+            }
         }
         if let Some(folder) = self.options.pigment_maps {
-            for file in pigment_maps("painting", &maps(&document), cell_mm)? {
+            for file in pigment_maps("painting", &painting_maps(&document), cell_mm)? {
                 Output::open(&folder.join(file.name), &[])?.write(file.bytes)?;
             }
         }
@@ -167,66 +159,17 @@ pub(crate) fn picture_file(
     picture: &Field<[f32; 4]>,
     cell_mm: f64,
 ) -> anyhow::Result<(Vec<u8>, Option<String>)> {
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
-        return Ok((linear_exr(picture, cell_mm, FloatBits::Single)?, None));
-    }
-    let png = match bits {
-        Bits::Eight => png8(picture, cell_mm)?,
-        Bits::Sixteen => png16(picture, cell_mm)?,
+    let exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+    let format = match bits {
+        _ if exr => PictureFormat::LinearExr,
+        Bits::Eight => PictureFormat::Png8,
+        Bits::Sixteen => PictureFormat::Png16,
     };
-    let share = 100.0 * png.clipped as f64 / picture.values().len() as f64;
+    let file = export::picture_file(picture, cell_mm, format)?;
+    let share = 100.0 * file.clipped;
     let remark = format!(
         "{}: {share:.1} % of the cells are outside sRGB and were clipped; .exr keeps them",
         path.display()
     );
-    Ok((png.bytes, (share >= 0.05).then_some(remark)))
-}
-
-/// Reflectance by wavelength, for every cell.
-fn planes(spectral: &Spectral<'_>, width: usize, height: usize) -> Vec<Field<f32>> {
-    let mut planes = vec![Field::filled(width, height, 0.0); spectral.count()];
-    for y in 0..height {
-        for (x, spectrum) in spectral.measured_row(y).into_iter().enumerate() {
-            for (plane, value) in planes.iter_mut().zip(spectrum) {
-                plane[(x, y)] = value as f32;
-            }
-        }
-    }
-    planes
-}
-
-/// The height of each pigment's paint over all layers, and of vehicle last.
-fn maps(document: &Document) -> Vec<PigmentMap> {
-    let (width, height) = (document.wet.width(), document.wet.height());
-    let mut sums: Vec<Option<Vec<u64>>> = vec![None; document.library.pigments.len() + 1];
-    let vehicle = sums.len() - 1;
-    let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
-    for (slots, paint) in dry.chain([(&document.slots, &document.wet)]) {
-        add(&mut sums, vehicle, slots, paint);
-    }
-    let mut found = Vec::new();
-    for (index, sum) in sums.into_iter().enumerate() {
-        let Some(sum) = sum else { continue };
-        let mm = |&quanta: &u64| (quanta as f64 * mm_from_quanta(1, document.cell_mm)) as f32;
-        let height_mm = Field::from_values(width, height, sum.iter().map(mm).collect());
-        let name = document.library.pigments.get(index).map_or("vehicle", |p| &p.name).to_owned();
-        found.push(PigmentMap { name, height_mm });
-    }
-    found
-}
-
-fn add(sums: &mut [Option<Vec<u64>>], vehicle: usize, slots: &Slots, paint: &Layer) {
-    let cells = paint.vehicle.values().len();
-    for slot in 0..=SLOTS {
-        let target = match slots.get(slot) {
-            Some(Some(pigment)) => *pigment,
-            Some(None) => continue,
-            None => vehicle,
-        };
-        let sum = sums[target].get_or_insert_with(|| vec![0; cells]);
-        for (index, total) in sum.iter_mut().enumerate() {
-            let cell = paint.cell(index);
-            *total += u64::from(cell.pigments.get(slot).copied().unwrap_or(cell.vehicle));
-        }
-    }
+    Ok((file.bytes, (share >= 0.05).then_some(remark)))
 }

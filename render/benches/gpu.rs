@@ -14,7 +14,7 @@ use render::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
 use render::paint::contact::{Contact, Touch};
 use render::paint::motion::Motion;
 use render::paint::on_gpu::OnGpu;
-use render::paint::{BrushId, Engine};
+use render::paint::{BrushId, Engine, View};
 use render::tile::{Rect, TileSet};
 
 fn main() {
@@ -107,7 +107,7 @@ fn one_layer(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };
     let all = TileSet::all(engine.bounds());
     bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
-        engine.light(&scene(0), &TileSet::default(), &all).unwrap();
+        engine.light(View::First, &scene(0), &TileSet::default(), &all).unwrap();
         engine.finish().unwrap();
     });
 }
@@ -121,7 +121,7 @@ fn three_layers(bencher: Bencher<'_, '_>) {
     }
     let all = TileSet::all(engine.bounds());
     bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
-        engine.light(&scene(2), &all, &TileSet::default()).unwrap();
+        engine.light(View::First, &scene(2), &all, &TileSet::default()).unwrap();
         engine.finish().unwrap();
     });
 }

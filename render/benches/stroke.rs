@@ -16,6 +16,7 @@
 
 use std::cell::RefCell;
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
 use calibrate::library::PigmentLibrary;
 use divan::Bencher;
@@ -24,6 +25,7 @@ use render::amount::QUANTA_PER_CELL;
 use render::layer::{Cell, Layer, SLOTS};
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use render::paint::easel::Easel;
 use render::paint::ground::GroundSpec;
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
@@ -136,20 +138,18 @@ fn replay_the_colour_study(bencher: Bencher<'_, '_>) {
     let text = include_str!("../../paintings/colour-study.json");
     let script = Strokes::from_json("colour-study.json", text.as_bytes()).expect("it is sound");
     let library = oils();
-    let resolved = script.resolve(&library).expect("its pigments are there");
-    let ((width, height), cell_mm) = (script.canvas.cells(), script.canvas.cell_mm);
-    let ground = script.canvas.ground.ground(width, height, cell_mm, &library).expect("linen");
-    let bare = script.bare(&library, &resolved, ground);
+    let (bare, _) = script.surfaces(&library, None).expect("bare linen");
     let strokes = script.actions.iter().filter(|action| action.kind() == "stroke").count();
     bencher
         .counter(ItemsCount::new(strokes))
         .with_inputs(|| {
             let engine = Box::new(OnCpu::new(bare.ground.height.clone()));
-            Painting::open(bare.clone(), engine, UNDO_BYTES).expect("a painting")
+            let canvas = Painting::open(bare.clone(), engine, UNDO_BYTES).expect("a painting");
+            Easel::new(canvas, None).expect("a canvas alone")
         })
-        .bench_values(|mut painting| {
+        .bench_values(|mut easel| {
             let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-            script.replay(&resolved, &mut painting, save, || ()).expect("played");
-            painting
+            script.replay(&mut easel, save, || ControlFlow::Continue(())).expect("played");
+            easel
         });
 }

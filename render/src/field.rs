@@ -71,6 +71,33 @@ impl<T> Field<T> {
     }
 }
 
+impl<T: Copy> Field<T> {
+    /// The part in `rect`.
+    ///
+    /// # Panics
+    /// If it has cells that the field has not.
+    #[must_use]
+    pub fn part(&self, rect: Rect) -> Self {
+        assert_eq!(rect.intersection(self.bounds()), rect, "a part of {:?}", self.bounds());
+        let rows = rect.y..rect.y + rect.height;
+        let mut values = Vec::with_capacity(rect.width * rect.height);
+        rows.for_each(|y| values.extend_from_slice(self.row(y, rect.x, rect.width)));
+        Self::from_values(rect.width, rect.height, values)
+    }
+
+    /// Puts `part` in the place of what begins at column `x` of row `y`.
+    ///
+    /// # Panics
+    /// If it reaches beyond the field.
+    pub fn put(&mut self, (x, y): (usize, usize), part: &Self) {
+        let rect = Rect { x, y, width: part.width, height: part.height };
+        assert_eq!(rect.intersection(self.bounds()), rect, "a part of {:?}", self.bounds());
+        for row in 0..part.height {
+            self.row_mut(y + row, x, part.width).copy_from_slice(part.row(row, 0, part.width));
+        }
+    }
+}
+
 impl<T> std::ops::Index<(usize, usize)> for Field<T> {
     type Output = T;
 

@@ -3,6 +3,7 @@
 
 use crate::amount::{share_of_256, share_of_65536};
 use crate::field::Field;
+use crate::tile::Rect;
 
 /// How many pigments a layer can hold.
 pub const SLOTS: usize = 8;
@@ -155,6 +156,24 @@ impl Layer {
     pub fn set_cell(&mut self, index: usize, cell: Cell) {
         self.pigments.values_mut()[index] = cell.pigments;
         self.vehicle.values_mut()[index] = cell.vehicle;
+    }
+
+    /// The paint in `rect`.
+    ///
+    /// # Panics
+    /// If it has cells that the layer has not.
+    #[must_use]
+    pub fn part(&self, rect: Rect) -> Self {
+        Self { pigments: self.pigments.part(rect), vehicle: self.vehicle.part(rect) }
+    }
+
+    /// Puts `part` in the place of what begins at column `x` of row `y`.
+    ///
+    /// # Panics
+    /// If it reaches beyond the layer.
+    pub fn put(&mut self, (x, y): (usize, usize), part: &Self) {
+        self.pigments.put((x, y), &part.pigments);
+        self.vehicle.put((x, y), &part.vehicle);
     }
 
     /// The sum of each pigment over all cells, and of vehicle last.

@@ -111,6 +111,19 @@ impl TileSet {
         self.tiles.iter().copied()
     }
 
+    /// The smallest rectangle of a canvas of `bounds` that holds them.
+    #[must_use]
+    pub fn extent(&self, bounds: Rect) -> Rect {
+        let tiles = self.tiles.iter().map(|tile| tile.rect(bounds));
+        let whole = tiles.reduce(|a, b| {
+            let (x, y) = (a.x.min(b.x), a.y.min(b.y));
+            let right = (a.x + a.width).max(b.x + b.width);
+            let bottom = (a.y + a.height).max(b.y + b.height);
+            Rect { x, y, width: right - x, height: bottom - y }
+        });
+        whole.unwrap_or_default()
+    }
+
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -148,6 +161,8 @@ mod tests {
         let set = TileSet::with(BOUNDS, |index| index == 63 * 100 + 64 || index == 69 * 100);
         let tiles: Vec<_> = set.iter().map(|tile| (tile.row, tile.column)).collect();
         assert_eq!(tiles, [(0, 1), (1, 0)]);
+        assert_eq!(set.extent(BOUNDS), BOUNDS);
+        assert!(TileSet::default().extent(BOUNDS).is_empty());
     }
 
     #[test]

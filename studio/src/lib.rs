@@ -23,4 +23,8 @@ pub mod files;
 
 pub mod panels;
 
+pub mod arguments;
+
 pub mod app;
+
+pub mod window;

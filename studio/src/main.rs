@@ -1,3 +1,24 @@
 //! The program `impasto-studio`.
 
-fn main() {}
+use std::io::{Write, stderr, stdout};
+use std::process::ExitCode;
+
+use studio::arguments::{Start, Stop};
+use studio::window;
+
+fn main() -> ExitCode {
+    let started = Start::from_arguments(std::env::args_os());
+    match started.and_then(|start| window::run(start).map_err(Stop::from)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => tell(&stop),
+    }
+}
+
+/// Help that was asked for is a result; all else is told beside it.
+fn tell(stop: &Stop) -> ExitCode {
+    let _ = match stop.status {
+        0 => stdout().write_all(stop.text.as_bytes()),
+        _ => stderr().write_all(stop.text.as_bytes()),
+    };
+    ExitCode::from(stop.status)
+}

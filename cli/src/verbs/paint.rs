@@ -1,14 +1,17 @@
 //! `impasto paint`: a recorded script, or a photograph, to a painting.
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
+use render::paint::document::Document;
+use render::paint::easel::{Easel, ReplayReport};
 use render::paint::ground::GroundRelief;
 use render::paint::painting::Painting;
-use render::paint::strokes::{Action, ReplayReport, Strokes};
+use render::paint::strokes::{Action, Strokes};
 use serde_json::json;
 
 use super::paint_photograph::PhotographOptions;
@@ -74,8 +77,12 @@ impl Paint {
         let mut script = Strokes::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
-        let library = self.script_library(&script, &folder, console)?;
-        let resolved = script.resolve(&library)?;
+        let start = self.start(&script, &folder)?;
+        let library = match &start {
+            Some((_, start)) => start.library.clone(),
+            None => self.script_library(&script, &folder, console)?,
+        };
+        script.resolve(&library)?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
         if !self.exports.any() && !saves {
             return Err(Refusal::usage(
@@ -83,29 +90,29 @@ impl Paint {
                 "add --picture painting.png, or --output painting.exr",
             ));
         }
-        if let GroundRelief::Image(picture) = &mut script.canvas.ground.relief {
-            picture.path = folder.join(&picture.path).display().to_string();
-        }
-        let (width, height) = script.canvas.cells();
-        let cell_mm = script.canvas.cell_mm;
-        let ground = script.canvas.ground.ground(width, height, cell_mm, &library)?;
         let mut inputs = vec![path.to_owned()];
-        inputs.extend(self.library);
-        if let GroundRelief::Image(picture) = &script.canvas.ground.relief {
-            inputs.push(PathBuf::from(&picture.path));
+        inputs.extend(self.library.clone());
+        for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
+            if let GroundRelief::Image(picture) = &mut surface.ground.relief {
+                let path = folder.join(&picture.path);
+                picture.path = path.display().to_string();
+                inputs.push(path);
+            }
         }
+        inputs.extend(start.iter().map(|(path, _)| path.clone()));
+        let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
         let exports = self.exports.open(&inputs)?;
         check_saves(&script, &folder, &inputs).with_context(|| name.clone())?;
-        let engine = self.engine.engine(&ground.height, console)?;
-        let document = script.bare(&library, &resolved, ground);
-        let mut painting = Painting::open(document, engine, self.engine.undo_bytes())?;
+        let mut easel = set_up(&self.engine, canvas, palette, console)?;
         let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
         let mut remarks = Vec::new();
         let report = script.replay(
-            &resolved,
-            &mut painting,
+            &mut easel,
             |path, painting| save(&folder, path, &inputs, painting, &mut remarks).map_err(Saving),
-            || bar.step(),
+            || {
+                bar.step();
+                ControlFlow::Continue(())
+            },
         );
         bar.done();
         for remark in remarks {
@@ -115,8 +122,27 @@ impl Paint {
             Ok(report) => report,
             Err(error) => return Err(anyhow::Error::new(error).context(name)),
         };
-        exports.write(&mut painting, console)?;
-        tell(&report, &painting, self.json, console)
+        exports.write(easel.canvas_mut(), console)?;
+        tell(&report, easel.canvas(), self.json, console)
+    }
+
+    /// The painting that the script goes on with, if with one.
+    fn start(
+        &self,
+        script: &Strokes,
+        folder: &Path,
+    ) -> anyhow::Result<Option<(PathBuf, Document)>> {
+        let Some(start) = &script.start else { return Ok(None) };
+        if self.library.is_some() {
+            return Err(Refusal::usage(
+                format!("the script goes on with {start}, which has a library of its own"),
+                "leave --library out",
+            ));
+        }
+        let path = folder.join(start);
+        let bytes = std::fs::read(&path).with_context(|| unreadable(&path))?;
+        let document = render::paint::file::read(&path.display().to_string(), &bytes)?;
+        Ok(Some((path, document)))
     }
 
     fn script_library(
@@ -142,6 +168,24 @@ impl Paint {
         )])?;
         Ok(built_in)
     }
+}
+
+/// The surfaces at work.
+fn set_up(
+    engine: &EngineOptions,
+    canvas: Document,
+    palette: Option<Document>,
+    console: &mut Console<'_>,
+) -> anyhow::Result<Easel> {
+    let undo_bytes = engine.undo_bytes();
+    let backend = engine.engine(&canvas.ground.height, console)?;
+    let canvas = Painting::open(canvas, backend, undo_bytes)?;
+    let Some(palette) = palette else { return Ok(Easel::new(canvas, None)?) };
+    let backend = engine.engine(&palette.ground.height, console)?;
+    let palette = Painting::open_under(palette, canvas.light().clone(), backend, undo_bytes)?;
+    let mut easel = Easel::new(canvas, Some(palette))?;
+    easel.set_undo_bytes(undo_bytes);
+    Ok(easel)
 }
 
 /// An error of saving, with all its causes.

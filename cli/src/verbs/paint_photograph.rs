@@ -6,6 +6,7 @@ use calibrate::library::PigmentLibrary;
 use clap::{Args, ValueEnum};
 use render::light::Light;
 use render::paint::document::{Lighting, Medium, Slots};
+use render::paint::easel::Easel;
 use render::paint::ground::{GroundRelief, GroundSpec, Linen, Panel, Paper};
 use render::paint::painting::Painting;
 use render::paint::strokes::{Canvas, MOST_CELLS, Palette, Strokes};
@@ -138,11 +139,12 @@ impl PhotographOptions {
         let ground = script.canvas.ground.ground(width, height, self.cell_mm, &library)?;
         let backend = engine.engine(&ground.height, console)?;
         // Nothing is ever taken back here.
-        let mut painting = Painting::open(script.bare(&library, &resolved, ground), backend, 0)?;
+        let canvas = Painting::open(script.bare(&library, &resolved, ground), backend, 0)?;
+        let mut easel = Easel::new(canvas, None)?;
         let plan = self.plan();
         let painter = Painter { target: &start.target, separation: &start.separation, plan: &plan };
         let bar = Progress::new(0, "painting", console.screen.progress);
-        let levels = painter.paint(&mut painting, &mut script, |painted| match painted {
+        let levels = painter.paint(&mut easel, &mut script, |painted| match painted {
             Painted::Planned(strokes) => bar.expect(strokes),
             Painted::Stroke => bar.step(),
         });
@@ -151,8 +153,8 @@ impl PhotographOptions {
         if let Some(output) = strokes_out {
             output.write(script.to_json()?)?;
         }
-        exports.write(&mut painting, console)?;
-        tell(&painter, &levels, &mut painting, &start.names, as_json, console)
+        exports.write(easel.canvas_mut(), console)?;
+        tell(&painter, &levels, easel.canvas_mut(), &start.names, as_json, console)
     }
 
     /// Refuses numbers that no painting has.

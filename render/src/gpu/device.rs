@@ -3,15 +3,12 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::adapter::Adapter;
 use super::error::GpuError;
 use super::pipeline::Pipeline;
-
-/// The most that is moved between processor and device at a time.
-const CHUNK: u64 = 64 << 20;
+use super::transfer::Rows;
 
 /// Submissions that may wait on the device; a further one waits here.
 const IN_FLIGHT: usize = 3;
@@ -150,7 +147,7 @@ impl Device {
         self.allocate(what, bytes, usage)
     }
 
-    fn allocate(
+    pub(super) fn allocate(
         &self,
         what: &'static str,
         bytes: u64,
@@ -180,70 +177,12 @@ impl Device {
         values: &[T],
     ) -> Result<Buffer, GpuError> {
         let buffer = self.buffer(what, size_of_val(values) as u64)?;
-        self.write(&buffer, values)?;
+        self.write(&buffer, Rows::start(values.len()), values)?;
         Ok(buffer)
     }
 
-    /// Puts `values` at the start of `buffer`, after all that was submitted.
-    ///
-    /// # Errors
-    /// [`GpuError::Lost`], or what the driver refuses.
-    pub fn write<T: bytemuck::Pod>(
-        &mut self,
-        buffer: &Buffer,
-        values: &[T],
-    ) -> Result<(), GpuError> {
-        let bytes: &[u8] = bytemuck::cast_slice(values);
-        for (chunk, i) in bytes.chunks(CHUNK as usize).zip(0..) {
-            self.queue.write_buffer(&buffer.inner, i * CHUNK, chunk);
-            if chunk.len() as u64 == CHUNK {
-                let index = self.queue.submit([]);
-                self.wait(index)?;
-            }
-        }
-        self.check("a write")
-    }
-
-    /// Reads `count` values from the start of `buffer`, after all that was
-    /// submitted.
-    ///
-    /// # Errors
-    /// [`GpuError::Lost`], or [`GpuError::OutOfMemory`] for what carries them.
-    pub fn read<T: bytemuck::Pod>(
-        &mut self,
-        buffer: &Buffer,
-        count: usize,
-    ) -> Result<Vec<T>, GpuError> {
-        let mut values = vec![T::zeroed(); count];
-        let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);
-        let carrier = self.allocate("readback", CHUNK.min(bytes.len() as u64), usage)?.inner;
-        for (chunk, i) in bytes.chunks_mut(CHUNK as usize).zip(0..) {
-            let length = (chunk.len() as u64).next_multiple_of(4);
-            let mut encoder = self.inner.create_command_encoder(&Default::default());
-            encoder.copy_buffer_to_buffer(&buffer.inner, i * CHUNK, &carrier, 0, length);
-            let index = self.queue.submit([encoder.finish()]);
-            let (tell, told) = channel();
-            carrier.map_async(wgpu::MapMode::Read, 0..length, move |mapped| {
-                // The receiver is gone only if the wait failed, which is told.
-                let _ = tell.send(mapped.is_ok());
-            });
-            self.wait(index)?;
-            let lost = || GpuError::Lost { reason: "its memory cannot be read".to_owned() };
-            if !told.try_recv().unwrap_or(false) {
-                return Err(lost());
-            }
-            let view = carrier.get_mapped_range(0..length).map_err(|_| lost())?;
-            chunk.copy_from_slice(&view[..chunk.len()]);
-            drop(view);
-            carrier.unmap();
-        }
-        self.check("a readback")?;
-        Ok(values)
-    }
-
     /// Waits until a submission is done.
-    fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+    pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
         self.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None })
     }
 

@@ -16,6 +16,8 @@ mod recording;
 
 mod device;
 
+mod transfer;
+
 mod pipeline;
 
 pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best, choose};
@@ -25,3 +27,4 @@ pub use kernel::{GROUP, Kernel, Storage, groups};
 pub use layout::Layout;
 pub(crate) use layout::layout;
 pub use recording::Recording;
+pub use transfer::Rows;

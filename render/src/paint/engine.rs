@@ -19,6 +19,15 @@ pub struct BrushId(pub usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Slot(pub usize);
 
+/// One of the pictures that a backend keeps, each under a light of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum View {
+    /// The picture.
+    First,
+    /// The same paint under a second light.
+    Second,
+}
+
 /// A backend: the paint of one painting.
 ///
 /// Amounts are integers and every change is exact, so all backends hold the same
@@ -64,13 +73,29 @@ pub trait Engine: std::fmt::Debug + Send {
     ///
     /// # Errors
     /// [`EngineError`] if the device was lost.
-    fn wet(&mut self) -> Result<Layer, EngineError>;
+    fn wet(&mut self) -> Result<Layer, EngineError> {
+        self.wet_in(self.bounds())
+    }
+
+    /// The wet paint in `rect`; costs what `rect` holds.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device was lost.
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError>;
 
     /// Puts `paint` on the canvas in place of the wet paint there.
     ///
     /// # Errors
     /// [`EngineError`] if the device was lost.
-    fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError>;
+    fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError> {
+        self.set_wet_in(self.bounds(), paint)
+    }
+
+    /// Puts `paint` in place of the wet paint in `rect`; costs what `rect` holds.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device was lost.
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError>;
 
     /// The tiles that have wet paint.
     ///
@@ -92,7 +117,15 @@ pub trait Engine: std::fmt::Debug + Send {
     ///
     /// # Errors
     /// [`EngineError`] if the device was lost.
-    fn dry_layer(&mut self, index: usize) -> Result<Layer, EngineError>;
+    fn dry_layer(&mut self, index: usize) -> Result<Layer, EngineError> {
+        self.dry_in(index, self.bounds())
+    }
+
+    /// A dry layer in `rect`; costs what `rect` holds.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device was lost.
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError>;
 
     /// Puts a dry layer on top.
     ///
@@ -125,20 +158,37 @@ pub trait Engine: std::fmt::Debug + Send {
     /// [`EngineError`] if the device was lost.
     fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError>;
 
-    /// Computes the light anew: of `baked` tiles everything, of `shown` tiles
-    /// only the wet layer over what is baked. A change of `scene` other than of
-    /// its lamp wants all tiles baked.
+    /// Computes the light of a view anew: of `baked` tiles everything, of `shown`
+    /// tiles only the wet layer over what is baked; costs what they hold. A
+    /// change of `scene` other than of its lamp wants all tiles baked.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn light(&mut self, scene: &Scene, baked: &TileSet, shown: &TileSet)
-    -> Result<(), EngineError>;
+    /// [`EngineError`] if the device was lost, or has no memory for the view.
+    fn light(
+        &mut self,
+        view: View,
+        scene: &Scene,
+        baked: &TileSet,
+        shown: &TileSet,
+    ) -> Result<(), EngineError>;
 
     /// The picture as last computed: linear sRGB, white at 1, and 1.
     ///
     /// # Errors
     /// [`EngineError`] if the device was lost.
-    fn picture(&mut self) -> Result<Field<[f32; 4]>, EngineError>;
+    fn picture(&mut self) -> Result<Field<[f32; 4]>, EngineError> {
+        self.picture_in(View::First, self.bounds())
+    }
+
+    /// A view as last computed, in `rect`; costs what `rect` holds.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device was lost.
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError>;
+
+    /// Gives the memory of a view back; all of its tiles are baked before it is
+    /// shown again.
+    fn forget_view(&mut self, view: View);
 }
 
 /// Why a backend could not go on.

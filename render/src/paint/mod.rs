@@ -28,6 +28,8 @@ pub mod painting;
 
 pub mod strokes;
 
+pub mod easel;
+
 pub mod file;
 
-pub use engine::{BrushId, Engine, EngineError, Slot};
+pub use engine::{BrushId, Engine, EngineError, Slot, View};

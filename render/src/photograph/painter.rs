@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
 use super::blur::blurred;
 use super::errors::ColourErrors;
@@ -13,11 +14,9 @@ use super::separation::Separation;
 use super::source::Picture;
 use crate::field::Field;
 use crate::paint::brush::HeadShape;
+use crate::paint::easel::{Easel, ReplayError, ReplayReport};
 use crate::paint::painting::{Painting, PaintingError};
-use crate::paint::strokes::{
-    Action, BrushSpec, Load, Recipe, ReplayError, ReplayReport, Stroke, Strokes, StrokesError,
-    Surface,
-};
+use crate::paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, Strokes, Surface};
 
 /// Brushes below this width in mm are rounds, those from it on filberts.
 const ROUND_BELOW_MM: f64 = 3.0;
@@ -65,11 +64,9 @@ pub enum Painted {
 }
 
 impl Painter<'_> {
-    /// Paints on `painting`, which is bare and stands on the canvas and palette
-    /// of `script`; what is done is added to the script.
-    ///
-    /// Each round of a level is written as `strokes/1` and played from what was
-    /// written, so that the script's file gives the same painting, bit for bit.
+    /// Paints on the canvas of `easel`, which is bare and that of `script`; what
+    /// is done is added to the script, whose file gives the same painting, bit
+    /// for bit.
     ///
     /// # Errors
     /// [`PainterError`] for brushes that do not suit the canvas, or if the device
@@ -79,7 +76,7 @@ impl Painter<'_> {
     /// If the target has not the canvas's size, or the plan fails [`Plan::check`].
     pub fn paint(
         &self,
-        painting: &mut Painting,
+        easel: &mut Easel,
         script: &mut Strokes,
         mut told: impl FnMut(Painted),
     ) -> Result<Vec<LevelReport>, PainterError> {
@@ -95,22 +92,22 @@ impl Painter<'_> {
             };
             let mut laydown = None;
             for round in 0..ROUNDS {
-                let planned = self.planned(painting, level, round)?;
+                let planned = self.planned(easel.canvas_mut(), level, round)?;
                 if planned.is_empty() {
                     break;
                 }
                 told(Painted::Planned(planned.len()));
                 let laydown = match &laydown {
                     Some(laydown) => laydown,
-                    None => laydown.insert(self.tried(painting, &brush, &planned)?),
+                    None => laydown.insert(self.tried(easel.canvas(), &brush, &planned)?),
                 };
                 let done = round_of(script, level, &brush, &planned, laydown);
-                let played = play(done, painting, script, &mut told)?;
+                let played = play(done, easel, script, &mut told)?;
                 report.strokes += played.strokes;
                 report.substeps += played.substeps;
             }
-            let sight = SIGHT * size_mm / painting.cell_mm();
-            report.mean_error = self.errors(painting, sight)?.mean;
+            let sight = SIGHT * size_mm / easel.canvas().cell_mm();
+            report.mean_error = self.errors(easel.canvas_mut(), sight)?.mean;
             reports.push(report);
         }
         Ok(reports)
@@ -208,23 +205,21 @@ fn round_of(
     round
 }
 
-/// Plays a round as its file tells it, and adds it to the script.
+/// Plays a round and adds it to the script.
 fn play(
     round: Strokes,
-    painting: &mut Painting,
+    easel: &mut Easel,
     script: &mut Strokes,
     told: &mut impl FnMut(Painted),
 ) -> Result<ReplayReport, PainterError> {
-    let written = round.to_json()?;
-    let round = Strokes::from_json(&round.title, written.as_bytes())?;
-    let resolved = round.resolve(painting.library())?;
     let mut kinds = round.actions.iter().map(Action::kind);
     let step = || {
         if kinds.next() == Some("stroke") {
             told(Painted::Stroke);
         }
+        ControlFlow::Continue(())
     };
-    let report = round.replay(&resolved, painting, |_, _| Ok(()), step)?;
+    let report = round.replay(easel, |_, _| Ok(()), step)?;
     script.brushes.extend(round.brushes);
     script.actions.extend(round.actions);
     Ok(report)
@@ -236,9 +231,6 @@ pub enum PainterError {
     /// The painting refuses.
     #[error("the painting could not go on")]
     Painting(#[from] PaintingError),
-    /// The strokes cannot be told as a script.
-    #[error("the strokes are no script")]
-    Script(#[from] StrokesError),
     /// A stroke that the painting refuses.
     #[error("a stroke could not be painted")]
     Stroke(#[from] ReplayError<Infallible>),

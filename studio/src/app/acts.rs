@@ -1,21 +1,21 @@
 //! What is asked for is done.
 
 use eframe::egui::{Context, ViewportCommand};
-use render::paint::strokes::{Action, BrushSpec, Surface};
+use render::paint::strokes::{Action, Surface};
 
 use super::Studio;
 use super::intent::Intent;
-use crate::panels::{FileRequest, Mode, Request};
+use super::side::Panels;
+use crate::panels::brushes::{wash, wipe};
+use crate::panels::layers::dry;
+use crate::panels::{Desk, FileRequest, Mode, Request};
 use crate::worker::Command;
 
-/// Degrees of one turn of the view by a key.
+/// Degrees of one turn of view or brush by a key.
 const TURN_DEG: f64 = 15.0;
 
 /// One step of a brush's size by a key.
 const STEP: f64 = 1.15;
-
-/// What wiping leaves on the brush.
-const WIPED: f64 = 0.3;
 
 /// One step of the zoom by a key.
 const ZOOM: f64 = std::f64::consts::SQRT_2;
@@ -41,28 +41,21 @@ impl Studio {
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
             Intent::Undo => self.action(Action::Undo {}),
             Intent::Redo => self.action(Action::Redo {}),
-            Intent::Dry => self.action(Action::Dry { fraction: self.tools.dry_share }),
-            Intent::Wash => {
-                let brush = self.tools.brush.clone();
-                self.action(Action::Wash { brush });
-            }
-            Intent::Wipe => {
-                let brush = self.tools.brush.clone();
-                self.action(Action::Wipe { brush, keep: WIPED });
-            }
+            Intent::Dry => self.with_desk(|_, desk| dry(desk)),
+            Intent::Wash => self.with_desk(|_, desk| wash(desk)),
+            Intent::Wipe => self.with_desk(|_, desk| wipe(desk)),
             Intent::ScrapePalette => self.action(Action::Scrape { on: Surface::Palette }),
-            Intent::Larger => self.resize(STEP),
-            Intent::Smaller => self.resize(1.0 / STEP),
-            Intent::Brush(number) => {
-                let brush = self
-                    .easel
-                    .as_ref()
-                    .and_then(|easel| easel.brushes.get(usize::from(number) - 1));
-                if let Some(brush) = brush {
-                    self.tools.brush = brush.name.clone();
-                    self.tools.mode = Mode::Paint;
-                }
+            Intent::Larger => self.with_desk(|panels, desk| panels.brushes.resize(STEP, desk)),
+            Intent::Smaller => {
+                self.with_desk(|panels, desk| panels.brushes.resize(1.0 / STEP, desk));
             }
+            Intent::TwistLeft => self.pen.settings.grip.turn(-TURN_DEG),
+            Intent::TwistRight => self.pen.settings.grip.turn(TURN_DEG),
+            Intent::Brush(number) => self.with_desk(|panels, desk| {
+                if panels.brushes.choose(usize::from(number), desk) {
+                    desk.tools.mode = Mode::Paint;
+                }
+            }),
             Intent::Tool(mode) => self.tools.mode = mode,
             Intent::ZoomIn => zoom(self, ZOOM),
             Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
@@ -87,16 +80,11 @@ impl Studio {
         }
     }
 
-    /// Exchanges the brush in hand for one `factor` times as large.
-    fn resize(&mut self, factor: f64) {
-        let Some(easel) = &self.easel else { return };
-        let Some(brush) = easel.brushes.iter().find(|brush| brush.name == self.tools.brush) else {
-            return;
-        };
-        let size_mm = (brush.spec.size_mm * factor).clamp(0.2, 100.0);
-        let spec = BrushSpec { size_mm, ..brush.spec.clone() };
-        let command = Command::TakeBrush { name: brush.name.clone(), spec };
-        self.asked.push(Request::Worker(command));
+    /// Lets panels ask for something, if there is a painting.
+    pub(super) fn with_desk(&mut self, ask: impl FnOnce(&mut Panels, &mut Desk<'_>)) {
+        let Some(easel) = self.easel.clone() else { return };
+        let asked = &mut self.asked;
+        ask(&mut self.panels, &mut Desk { easel: &easel, tools: &mut self.tools, asked });
     }
 
     fn action(&mut self, action: Action) {

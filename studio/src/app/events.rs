@@ -14,12 +14,14 @@ impl Studio {
     pub(super) fn listen(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
-            self.heard += 1;
             self.hear(event);
         }
     }
 
-    fn hear(&mut self, event: Event) {
+    /// Takes in one thing, as if the worker had told it.
+    pub fn hear(&mut self, event: Event) {
+        self.heard += 1;
+        self.files.event(&event);
         match event {
             Event::Opened(state) => self.take_up(state),
             Event::State(state) => self.know(state),
@@ -38,10 +40,9 @@ impl Studio {
             Event::Head(head) => self.head = head,
             Event::Figures(figures) => self.figures = figures,
             Event::Picked(picked) => self.tools.picked = Some(picked),
-            Event::Snapshot(_) => {}
             Event::Recording { number, .. } => self.answered = Some(number),
-            Event::Progress { done, of } => self.progress = Some((done, of)),
-            Event::Replayed => self.progress = None,
+            // Of the files.
+            Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::Message { text, hint, failed } => self.say(text, hint, failed),
         }
     }
@@ -50,7 +51,6 @@ impl Studio {
     fn take_up(&mut self, state: Arc<EaselState>) {
         self.canvas.take_up(state.canvas_cells);
         self.palette.take_up(state.palette_cells);
-        self.progress = None;
         self.head = None;
         self.hover = None;
         self.know(state);

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Context, Grid, ScrollArea, Window, vec2};
 
-use super::intent::{ENTRIES, Menu};
+use super::entries::ENTRIES;
+use super::intent::Menu;
 
 /// What is not in a menu.
 const POINTER: &[(&str, &str)] = &[
@@ -14,7 +15,6 @@ const POINTER: &[(&str, &str)] = &[
     ("Two fingers", "Move, zoom and turn the view on a touch screen"),
     ("Alt + click", "Asks what paint lies there"),
     ("Shift + stroke", "Begins with a straight line from where the last stroke ended"),
-    (", and .", "Turn a brush that the mouse leads about its handle"),
     ("Held tool key", "Gives the tool before back when it is let go"),
 ];
 

@@ -5,7 +5,8 @@
 
 use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
 
-use super::intent::{ENTRIES, Intent};
+use super::entries::ENTRIES;
+use super::intent::Intent;
 use crate::panels::Mode;
 
 /// Seconds after which a key of a tool counts as held.
@@ -16,6 +17,7 @@ const HELD: f64 = 0.35;
 pub struct Keys {
     spring: Option<Spring>,
     held: Held,
+    barrel: Option<Mode>,
 }
 
 /// A tool that goes back when its key is let go.
@@ -39,7 +41,7 @@ impl Keys {
     pub fn read(&mut self, context: &Context, mode: Mode) -> Vec<Intent> {
         let mut asked = Vec::new();
         if context.text_edit_focused() {
-            *self = Self::default();
+            *self = Self { barrel: self.barrel, ..Self::default() };
             return asked;
         }
         let focused = context.memory(|memory| memory.focused().is_some());
@@ -82,6 +84,8 @@ impl Keys {
                         | Intent::ZoomOut
                         | Intent::TurnLeft
                         | Intent::TurnRight
+                        | Intent::TwistLeft
+                        | Intent::TwistRight
                 );
                 if *repeat && !again {
                     return false;
@@ -113,8 +117,13 @@ impl Keys {
             (true, Modifiers { command: true, .. }) => Mode::Zoom,
             (true, _) => Mode::Pan,
             (false, Modifiers { alt: true, .. }) => Mode::Pick,
-            _ => chosen,
+            _ => self.barrel.unwrap_or(chosen),
         }
+    }
+
+    /// A button on the barrel of a pen gives a tool while it is held.
+    pub fn barrel(&mut self, mode: Option<Mode>) {
+        self.barrel = mode;
     }
 }
 

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Button, MenuBar, Ui};
 
-use super::intent::{ENTRIES, Intent, Menu};
+use super::entries::ENTRIES;
+use super::intent::{Intent, Menu};
 use super::toolbar::tip;
 
 /// What of the entries can be asked for now, and what is shown.

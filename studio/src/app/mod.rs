@@ -2,6 +2,8 @@
 
 mod intent;
 
+mod entries;
+
 mod keys;
 
 mod frames;
@@ -16,6 +18,14 @@ mod menus;
 
 mod surfaces;
 
+mod pen;
+
+mod cursor;
+
+mod side;
+
+mod parts;
+
 mod help;
 
 mod acts;
@@ -24,8 +34,11 @@ mod events;
 
 mod studio;
 
+pub use entries::ENTRIES;
 pub use frames::Frames;
-pub use intent::{ENTRIES, Entry, Intent, Menu};
+pub use intent::{Entry, Intent, Menu};
 pub use keys::Keys;
+pub use parts::{Begun, Parts};
+pub use side::{Panels, Tab};
 pub use status::Message;
-pub use studio::Studio;
+pub use studio::{Shown, Studio};

@@ -1,8 +1,8 @@
-//! The line below: what was said, how far long work is, the view, the light.
+//! The line below: what was said, the view, the light.
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Align, Layout, ProgressBar, RichText, Ui};
+use eframe::egui::{Align, Layout, RichText, Ui};
 
 use crate::theme;
 
@@ -35,8 +35,6 @@ impl Message {
 pub(super) struct State<'a> {
     /// What was said last.
     pub(super) message: Option<&'a Message>,
-    /// Actions of a replay done, of how many.
-    pub(super) progress: Option<(usize, usize)>,
     /// Zoom and turn: `42 %`, `15 degrees`.
     pub(super) view: String,
     /// The canvas in cells and mm.
@@ -47,18 +45,9 @@ pub(super) struct State<'a> {
     pub(super) backend: &'a str,
 }
 
-/// What was clicked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Clicked {
-    /// The message is to be put away.
-    PutAway,
-    /// The replay is to end.
-    Cancel,
-}
-
-/// Shows it.
-pub(super) fn show(ui: &mut Ui, state: &State) -> Option<Clicked> {
-    let mut clicked = None;
+/// Shows it; whether the message is to be put away.
+pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
+    let mut put_away = false;
     let small = |text: &str| RichText::new(text).small().color(theme::FAINT);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
@@ -66,25 +55,12 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> Option<Clicked> {
         ui.label(small(&state.light)).on_hover_text("The light of the painting");
         ui.label(small(&state.size)).on_hover_text("The canvas: cells, and millimetres");
         ui.label(small(&state.view)).on_hover_text("Pixels of the screen a cell, and the turn");
-        if let Some((done, of)) = state.progress {
-            ui.spacing_mut().item_spacing.x = 6.0;
-            let cancel = ui.small_button("Cancel").on_hover_text("Ends playing where it is");
-            if cancel.clicked() {
-                clicked = Some(Clicked::Cancel);
-            }
-            let share = done as f32 / of.max(1) as f32;
-            let bar = ProgressBar::new(share).desired_width(150.0).desired_height(10.0);
-            ui.add(bar.fill(theme::FAINT)).on_hover_text("Actions of the recording played");
-            ui.label(small(&format!("{done} of {of}")));
-        }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let Some(message) = state.message else { return };
             ui.spacing_mut().item_spacing.x = 6.0;
             if message.failed {
                 let close = ui.small_button("x").on_hover_text("Puts this away");
-                if close.clicked() {
-                    clicked = Some(Clicked::PutAway);
-                }
+                put_away = close.clicked();
             }
             let words = message
                 .hint
@@ -98,5 +74,5 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> Option<Clicked> {
             ui.add(eframe::egui::Label::new(text).truncate()).on_hover_text(&words);
         });
     });
-    clicked
+    put_away
 }

@@ -3,18 +3,28 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{CentralPanel, Context, Frame, Margin, Panel, Ui, ViewportCommand};
+use eframe::egui::{
+    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, LayerId, Margin, Order, Panel, Rect,
+    Ui, ViewportCommand,
+};
 
+use render::paint::strokes::Surface;
+
+use super::cursor::Hovering;
 use super::frames::Frames;
 use super::keys::Keys;
+use super::parts::{Begun, Parts};
+use super::side::Panels;
 use super::status::Message;
 use super::surfaces::Hover;
 use super::{help, menus, status, toolbar};
+use crate::files::{FiguresLog, Files, FrameFigures};
 use crate::panels::figures::FrameRate;
-use crate::panels::{Request, Tools};
+use crate::panels::{Desk, FileRequest, Request, Tools};
+use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
-use crate::worker::{Command, EaselState, Figures, HeadOnCanvas, Worker, WorkerOptions};
+use crate::worker::{Command, EaselState, Figures, HeadOnCanvas, Worker};
 
 /// The program's window: everything but the window system.
 #[derive(Debug)]
@@ -27,6 +37,12 @@ pub struct Studio {
     pub palette: SurfaceView,
     /// What is shown.
     pub shown: Shown,
+    /// What leads the brush.
+    pub pen: Pen,
+    /// The panels at the right, and the tubes.
+    pub panels: Panels,
+    /// All about files.
+    pub files: Files,
     pub(super) worker: Worker,
     pub(super) easel: Option<Arc<EaselState>>,
     pub(super) keys: Keys,
@@ -34,11 +50,14 @@ pub struct Studio {
     pub(super) figures: Figures,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
     pub(super) hover: Option<Hover>,
+    pub(super) hovering: Option<Hovering>,
     pub(super) message: Option<Message>,
-    pub(super) progress: Option<(usize, usize)>,
     pub(super) asked: Vec<Request>,
     pub(super) heard: u64,
     pub(super) answered: Option<u64>,
+    /// Where the eyedropper last asked, so that it asks once.
+    pub(super) asked_at: Option<(Surface, u64, u64)>,
+    log: Option<FiguresLog>,
     title: String,
 }
 
@@ -54,22 +73,37 @@ pub struct Shown {
 }
 
 impl Studio {
-    /// A window on a worker of its own, which is asked for `begin` first.
+    /// A window of these parts.
     #[must_use]
-    pub fn new(context: &Context, options: WorkerOptions, begin: Vec<Command>) -> Self {
+    pub fn new(context: &Context, parts: Parts) -> Self {
+        let Parts { begun, pen, files, open, log } = parts;
         theme::apply(context);
         context.options_mut(|options| {
             // Ctrl and plus zoom the canvas, not the controls.
             options.zoom_with_keyboard = false;
         });
-        let wake = context.clone();
-        let worker = Worker::start(options, move || wake.request_repaint());
-        begin.into_iter().for_each(|command| worker.ask(command));
+        context.set_zoom_factor(files.preferences.interface_scale);
+        let Begun { worker, window } = begun;
+        // One worker, one window: it was empty.
+        let _ = window.set(context.clone());
+        let kept = &files.preferences.tools;
+        let tools = Tools {
+            brush: kept.brush.clone(),
+            vehicle: kept.vehicle,
+            load_mm: kept.load_mm,
+            squeeze_mm3: kept.squeeze_mm3,
+            dry_share: kept.dry_share,
+            ..Tools::default()
+        };
+        let open = open.map(|path| Request::File(FileRequest::Open(Some(path))));
         Self {
-            tools: Tools::default(),
+            tools,
             canvas: SurfaceView::new("Canvas", Outline::Sheet, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
             shown: Shown { panels: true, palette: true, keys: false },
+            pen,
+            panels: Panels::default(),
+            files,
             worker,
             easel: None,
             keys: Keys::default(),
@@ -77,11 +111,13 @@ impl Studio {
             figures: Figures::default(),
             head: None,
             hover: None,
+            hovering: None,
             message: None,
-            progress: None,
-            asked: Vec::new(),
+            asked: open.into_iter().collect(),
             heard: 0,
             answered: None,
+            asked_at: None,
+            log,
             title: String::new(),
         }
     }
@@ -127,26 +163,57 @@ impl Studio {
         self.asked.push(Request::Worker(command));
     }
 
+    /// What goes on also while the window is hidden: to be called before each frame.
+    pub fn logic(&mut self, context: &Context) {
+        self.listen();
+        for command in self.files.update(context) {
+            self.worker.ask(command);
+        }
+        let scale = self.files.preferences.interface_scale;
+        if context.zoom_factor() != scale {
+            context.set_zoom_factor(scale);
+        }
+    }
+
     /// One frame. `busy` is how long the one before took, drawing included, if that
     /// is known.
     pub fn ui(&mut self, ui: &mut Ui, busy: Option<Duration>) {
         let context = ui.ctx().clone();
-        self.frames.begin(Instant::now(), busy);
+        let now = Instant::now();
+        self.frames.begin(now, busy);
         self.listen();
-        for intent in self.keys.read(&context, self.tools.mode) {
-            self.act(intent, &context);
+        if !self.files.asks() {
+            for intent in self.keys.read(&context, self.tools.mode) {
+                self.act(intent, &context);
+            }
         }
-        self.panels(ui);
+        self.layout(ui);
         help::show(&context, &mut self.shown.keys);
+        self.dropped(&context);
+        self.files.show(ui);
         self.carry_out();
         self.name_window(&context);
+        self.measure(&context, now);
         if self.message.as_ref().is_some_and(|message| !message.failed) {
             context.request_repaint_after(Duration::from_secs(1));
         }
     }
 
+    /// The window closes: what is being written is waited for, and what the painter
+    /// had in hand is kept.
+    pub fn finish(&mut self) {
+        let kept = &mut self.files.preferences.tools;
+        kept.brush.clone_from(&self.tools.brush);
+        kept.vehicle = self.tools.vehicle;
+        kept.load_mm = self.tools.load_mm;
+        kept.squeeze_mm3 = self.tools.squeeze_mm3;
+        kept.dry_share = self.tools.dry_share;
+        self.files.finish();
+        self.worker.ask(Command::Quit);
+    }
+
     /// The window from its edges inwards.
-    fn panels(&mut self, ui: &mut Ui) {
+    fn layout(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         let bar = Frame::new().fill(theme::BAR).inner_margin(Margin::symmetric(6, 2));
         let easel = self.easel.clone();
@@ -178,6 +245,18 @@ impl Studio {
                     let state = toolbar::State { mode, mirror, history };
                     asked = asked.or(toolbar::show(ui, state));
                 });
+            let side = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(8, 6));
+            Panel::right("side")
+                .frame(side)
+                .resizable(false)
+                .exact_size(theme::PANEL_WIDTH)
+                .show_separator_line(false)
+                .show(ui, |ui| {
+                    let Some(easel) = &easel else { return };
+                    let asked = &mut self.asked;
+                    let mut desk = Desk { easel, tools: &mut self.tools, asked };
+                    self.panels.show(ui, &mut desk, &self.files);
+                });
         }
         if let Some(intent) = asked {
             self.act(intent, &context);
@@ -202,37 +281,72 @@ impl Studio {
         let light = &easel.lighting;
         let state = status::State {
             message: self.message.as_ref().filter(|message| message.stays(now)),
-            progress: self.progress,
             view: format!("{:.0} %{turn}{mirrored}", view.zoom * 100.0),
             size: format!("{width} x {height}, {:.0} x {:.0} mm", mm(width), mm(height)),
             light: format!("{}{}", light.illuminant, second.unwrap_or_default()),
             backend: &easel.backend,
         };
-        match status::show(ui, &state) {
-            Some(status::Clicked::PutAway) => self.message = None,
-            Some(status::Clicked::Cancel) => self.ask(Command::Cancel),
-            None => {}
+        if status::show(ui, &state) {
+            self.message = None;
         }
     }
 
     /// Hands on what was asked for, in order.
     fn carry_out(&mut self) {
         for request in std::mem::take(&mut self.asked) {
-            match request {
-                Request::Worker(command) => self.worker.ask(command),
-                Request::File(request) => {
-                    self.say(format!("asked for {request:?}"), None, true);
-                }
+            match (request, &self.easel) {
+                (Request::Worker(command), _) => self.worker.ask(command),
+                (Request::File(request), Some(easel)) => self.files.request(request, easel),
+                // Until there is a painting.
+                (request, None) => self.asked.push(request),
             }
         }
     }
 
-    fn name_window(&mut self, context: &Context) {
-        let title = self.easel.as_ref().map_or("", |easel| easel.title.as_str());
-        if self.title != title {
-            self.title = title.to_owned();
-            context.send_viewport_cmd(ViewportCommand::Title(format!("{title} - impasto")));
+    /// Files dropped on the window are opened.
+    fn dropped(&mut self, context: &Context) {
+        let (dropped, hovering) = context.input(|input| {
+            let paths = input.raw.dropped_files.iter().map(|file| file.path().to_owned());
+            (paths.collect::<Vec<_>>(), !input.raw.hovered_files.is_empty())
+        });
+        for path in dropped {
+            self.asked.push(Request::File(FileRequest::Open(Some(path))));
         }
+        if hovering {
+            let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
+            let (painter, whole) = (context.layer_painter(layer), context.content_rect());
+            painter.rect_filled(whole, 0.0, Color32::from_black_alpha(150));
+            let (font, text) = (FontId::proportional(18.0), "Drop to open");
+            painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::STRONG);
+        }
+    }
+
+    fn name_window(&mut self, context: &Context) {
+        let mark = if self.files.unsaved() { "*" } else { "" };
+        let title = format!("{}{mark}", self.files.title());
+        if self.title != title {
+            context.send_viewport_cmd(ViewportCommand::Title(format!("{title} - impasto")));
+            self.title = title;
+        }
+    }
+
+    /// Tells the log how window and worker keep up.
+    fn measure(&mut self, context: &Context, now: Instant) {
+        let Some(log) = &mut self.log else { return };
+        let rate = self.frames.rate();
+        let (width, height) = self.canvas.cells();
+        let placement = self.canvas.placement();
+        let corners = [[0, 0], [width, 0], [0, height], [width, height]];
+        let sheet = corners.map(|corner| placement.point(corner.map(|cells| cells as f64)));
+        let sheet = Rect::from_points(&sheet) * context.pixels_per_point();
+        let frames = FrameFigures {
+            frames_a_second: rate.frames_a_second,
+            latency_ms: rate.latency_ms,
+            worst_latency_ms: rate.worst_ms,
+            canvas_px: [sheet.left(), sheet.top(), sheet.right(), sheet.bottom()],
+        };
+        log.tell(now, &frames, &self.figures);
+        context.request_repaint_after(Duration::from_secs(1));
     }
 }
 

@@ -1,11 +1,16 @@
 //! Canvas and palette, and what the pen does on them.
 
-use eframe::egui::{Frame, Margin, Panel, PointerButton, Rect, Response, Ui};
+use std::time::Duration;
+
+use eframe::egui::{
+    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, vec2,
+};
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
 
 use super::Studio;
-use crate::panels::Mode;
+use crate::panels::tubes::{DraggedTube, squeeze};
+use crate::panels::{Desk, Mode, figures};
 use crate::theme;
 use crate::view::{Hand, Split};
 use crate::worker::Command;
@@ -14,12 +19,14 @@ use crate::worker::Command;
 const PICK_MM: f64 = 0.2;
 
 /// Where the brush hovers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
     /// Over which surface.
     pub(super) surface: Surface,
     /// How it is held.
     pub(super) sample: Sample,
+    /// Which brush.
+    pub(super) brush: String,
 }
 
 impl Studio {
@@ -38,6 +45,7 @@ impl Studio {
             Panel::bottom("palette")
                 .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
                 .resizable(true)
+                .show_separator_line(false)
                 .default_size(height)
                 .size_range(110.0..=520.0)
                 .show(ui, |ui| self.table(ui, hand, mode));
@@ -51,29 +59,59 @@ impl Studio {
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
         let response = self.canvas.show(ui, room, hand, split);
         self.used(ui, Surface::Canvas, &response, mode);
+        self.lead(ui, mode);
+        self.cursor(ui, mode);
+        if self.tools.figures {
+            let backend = easel.as_ref().map_or("", |easel| easel.backend.as_str());
+            figures::overlay(ui, room, self.frames.rate(), self.figures, backend);
+            ui.ctx().request_repaint_after(Duration::from_millis(250));
+        }
     }
 
     /// The palette with the tubes beside it.
     fn table(&mut self, ui: &mut Ui, hand: Hand, mode: Mode) {
         let whole = ui.available_rect_before_wrap();
+        // The table keeps its height, whatever lies on it.
+        ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
-        let room = Rect::from_min_size(whole.min, eframe::egui::vec2(width, whole.height()));
+        let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
         let response = self.palette.show(ui, room, hand, None);
         self.used(ui, Surface::Palette, &response, mode);
+        let beside = Rect::from_min_max(room.right_top(), whole.max).shrink2(vec2(6.0, 8.0));
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
+        let shelf = Frame::new().fill(theme::PANEL).corner_radius(6).inner_margin(Margin::same(8));
+        shelf.show(&mut ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            ScrollArea::vertical().show(ui, |ui| {
+                let Some(easel) = &self.easel.clone() else { return };
+                let asked = &mut self.asked;
+                let mut desk = Desk { easel, tools: &mut self.tools, asked };
+                self.panels.tubes.show(ui, &mut desk);
+            });
+        });
     }
 
     /// What tools other than the brush do on a surface.
     fn used(&mut self, ui: &Ui, surface: Surface, response: &Response, mode: Mode) {
-        let Some(point) = response.interact_pointer_pos() else { return };
-        let view = self.view(surface);
         let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
-        let Some(place) = view.place(point) else { return };
-        let down = response.is_pointer_button_down_on()
-            && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-        if mode == Mode::Pick && down {
-            let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
-            self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let Some(place) = pointer.and_then(|point| self.view(surface).place(point)) else { return };
+        let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
+        if let Some(tube) = response.dnd_release_payload::<DraggedTube>() {
+            self.with_desk(|_, desk| squeeze(desk, tube.slot, surface, x_mm, y_mm));
+        }
+        let primary = ui.input(|input| input.pointer.button_down(PointerButton::Primary));
+        if mode == Mode::Pick && primary && response.is_pointer_button_down_on() {
+            let place = (surface, x_mm.to_bits(), y_mm.to_bits());
+            if self.asked_at != Some(place) {
+                self.asked_at = Some(place);
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+            }
+        }
+        if mode == Mode::Squeeze && response.clicked() {
+            let slot = self.tools.tube;
+            self.with_desk(|_, desk| squeeze(desk, slot, surface, x_mm, y_mm));
         }
     }
 

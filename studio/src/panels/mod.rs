@@ -6,6 +6,10 @@ mod tools;
 
 mod draft;
 
+mod controls;
+
+mod pigments;
+
 pub mod brushes;
 
 pub mod eyedropper;
@@ -24,5 +28,6 @@ pub mod figures;
 
 pub mod revisions;
 
-pub use desk::{Desk, FileRequest, Request};
+pub use crate::files::FileRequest;
+pub use desk::{Desk, Request};
 pub use tools::{Mode, Tools};

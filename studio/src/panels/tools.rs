@@ -35,6 +35,8 @@ pub struct Tools {
     pub vehicle: f64,
     /// How high paint lies on the head after loading, in mm.
     pub load_mm: f64,
+    /// The share of its paint that wiping leaves on a brush, 0..1.
+    pub wipe_keep: f64,
     /// Cubic millimetres that one squeeze gives.
     pub squeeze_mm3: f64,
     /// The share that `dry` dries, 0..1.
@@ -60,6 +62,7 @@ impl Default for Tools {
             tube: 0,
             vehicle: 0.15,
             load_mm: 0.3,
+            wipe_keep: 0.3,
             squeeze_mm3: 60.0,
             dry_share: 1.0,
             pick_radius_mm: 0.5,

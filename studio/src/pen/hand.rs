@@ -244,7 +244,8 @@ impl Pen {
         let from = from.map(|(_, place)| place);
         told.push(PenEvent::Down { surface: sight.surface, device });
         self.stroke = Some(Stroke::new(device, hold, at, *sight, from, &self.settings));
-        self.hovered = None;
+        // Whatever comes after it is told.
+        self.hovered = Some(PenEvent::Up);
     }
 
     fn end(&mut self, at: Instant, told: &mut Vec<PenEvent>) {

@@ -162,6 +162,10 @@ mod tests {
             assert!((0.0..=SLOW).contains(&pressure), "{pressure}");
             last = pressure;
         }
+        // A pause tells nothing of the step after it.
+        let mut hand = SpeedPressure::new(Pos2::ZERO, 0.0).landed();
+        let after = hand.lead(pos2(25.0, 0.0), 1.0);
+        assert!((after - 0.475).abs() < 1e-9, "{after}");
     }
 
     #[test]

@@ -198,7 +198,7 @@ impl Stroke {
         let earliest = self.last.map_or(0.0, |last| last.seconds);
         let sample = Sample {
             seconds: digits(sample.seconds, 1e4).max(earliest),
-            pressure: digits(sample.pressure.clamp(0.0, 1.0), 1e4),
+            pressure: digits(sample.pressure, 1e4),
             ..rounded(&sample)
         };
         self.last = Some(sample);

@@ -252,8 +252,14 @@ fn a_view_that_moves_takes_the_pen_along() {
     let told = trial.frame(3, &[]);
     let [PenEvent::Hover { sample, .. }] = told[..] else { panic!("{told:?}") };
     assert_eq!((sample.x_mm, sample.tilt_x_deg, sample.tilt_y_deg), (90.0, -20.0, -10.0));
-    trial.feed(4, What::Gone);
-    assert_eq!(letters(&trial.frame(5, &[])), "L");
+    // Within a stroke too: each sample by the view of its frame.
+    trial.feed(4, What::Pressed(hold(40.0, 0.5)));
+    assert_eq!(samples(&trial.frame(5, &[]))[0].sample.x_mm, 90.0);
+    trial.sights = sights();
+    trial.feed(6, What::Moved(hold(40.0, 0.5)));
+    assert_eq!(samples(&trial.frame(7, &[]))[0].sample.x_mm, 10.0);
+    trial.feed(8, What::Gone);
+    assert_eq!(letters(&trial.frame(9, &[])), "UL");
 }
 
 #[test]
@@ -270,11 +276,16 @@ fn nothing_out_of_range_comes_through() {
     assert_eq!((told[0].sample.pressure, told[1].sample.pressure), (1.0, 0.0));
     assert!(told.iter().all(|told| told.sample.tilt_x_deg.abs() <= 90.0), "{told:?}");
     assert!(told.is_sorted_by_key(|told| told.sample.seconds), "{told:?}");
+    // A report that was late: the still sample had gone before it.
+    assert_eq!(samples(&trial.frame(48, &[])).len(), 1);
+    trial.feed(44, What::Moved(hold(14.0, 0.5)));
+    let told = samples(&trial.frame(50, &[]));
+    assert_eq!((told[0].sample.x_mm, told[0].sample.seconds), (3.5, 0.048));
     // A release that was lost.
-    trial.feed(20, What::Pressed(hold(50.0, 0.5)));
-    assert_eq!(letters(&trial.frame(21, &[])), "UDM");
-    assert_eq!(letters(&trial.pen.let_go(trial.at(30))), "U");
-    assert_eq!(letters(&trial.pen.let_go(trial.at(30))), "");
+    trial.feed(60, What::Pressed(hold(50.0, 0.5)));
+    assert_eq!(letters(&trial.frame(61, &[])), "UDM");
+    assert_eq!(letters(&trial.pen.let_go(trial.at(70))), "U");
+    assert_eq!(letters(&trial.pen.let_go(trial.at(70))), "");
 }
 
 #[test]

@@ -138,6 +138,8 @@ mod tests {
         pen.take(&[u32::MAX, u32::MAX], [0.0, 0.0, 32768.0]);
         pen.take(&[], [1.0]);
         assert_eq!(pen.hold(Pos2::ZERO).pressure, Some(0.5));
+        pen.take(&[0, 0b100], [0.0]);
+        assert_eq!(pen.hold(Pos2::ZERO).pressure, Some(0.5));
         pen.take(&[0b100], [1e9]);
         assert_eq!(pen.hold(Pos2::ZERO).pressure, Some(1.0));
         for range in [(0.0, 0.0), (5.0, -5.0), (0.0, f64::NAN), (0.0, f64::INFINITY)] {

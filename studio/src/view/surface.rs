@@ -51,6 +51,7 @@ pub struct SurfaceView {
     room: Rect,
     density: f32,
     grip: Hand,
+    knob: Option<Rect>,
 }
 
 impl SurfaceView {
@@ -67,6 +68,7 @@ impl SurfaceView {
             room: Rect::NOTHING,
             density: 1.0,
             grip: Hand::Free,
+            knob: None,
         }
     }
 
@@ -112,6 +114,12 @@ impl SurfaceView {
         self.room
     }
 
+    /// What moves the line between two lights, if there are two.
+    #[must_use]
+    pub fn knob(&self) -> Option<Rect> {
+        self.knob
+    }
+
     /// Where its cells are on the screen.
     #[must_use]
     pub fn placement(&self) -> Placement {
@@ -146,6 +154,7 @@ impl SurfaceView {
         }
         let placement = self.placement();
         let painter = ui.painter_at(room);
+        self.knob = None;
         self.outline.under(&painter, &placement, self.cells());
         match (&mut self.second, split) {
             (Some(second), Some(split)) => {
@@ -233,7 +242,7 @@ impl SurfaceView {
     }
 
     /// Draws the line between two lights, and moves it.
-    fn split_line(&self, ui: &mut Ui, placement: &Placement, split: Split) {
+    fn split_line(&mut self, ui: &mut Ui, placement: &Placement, split: Split) {
         let (width, height) = (self.cells().0 as f64, self.cells().1 as f64);
         let ends = |at: f32| {
             let column = f64::from(at) * width;
@@ -241,6 +250,7 @@ impl SurfaceView {
         };
         let middle = |at: f32| self.room.shrink(16.0).clamp(ends(at)[0].lerp(ends(at)[1], 0.5));
         let knob = Rect::from_center_size(middle(*split.at), vec2(22.0, 22.0));
+        self.knob = Some(knob);
         let response = ui.interact(knob, Id::unique(("split", self.name)), Sense::drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Split of two lights"));
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {

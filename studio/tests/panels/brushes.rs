@@ -1,1 +1,239 @@
 //! Of brushes.
+
+use eframe::egui::{Event, Key, accesskit::Role};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use render::paint::brush::HeadShape;
+use render::paint::strokes::{Action, BrushSpec, Load, Recipe};
+use studio::panels::brushes::Brushes;
+use studio::panels::{Mode, Request};
+use studio::worker::{BrushState, Command};
+
+use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
+
+fn brushes() -> Harness<'static, Table<Brushes>> {
+    shown(Brushes::default(), easel(), Brushes::show)
+}
+
+fn act(action: Action) -> Request {
+    Request::Worker(Command::Act(action))
+}
+
+fn take(name: &str, shape: HeadShape, size_mm: f64) -> Request {
+    let spec = BrushSpec { shape, size_mm };
+    Request::Worker(Command::TakeBrush { name: name.to_owned(), spec })
+}
+
+/// The paint that the round brush of the made painting holds.
+fn its_paint() -> Request {
+    let recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)];
+    let recipe: Recipe = recipe.map(|(name, part)| (name.to_owned(), part)).into();
+    act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle: 0.2, amount_mm: 0.4 }))
+}
+
+#[test]
+fn a_click_or_a_number_takes_a_brush_in_hand() {
+    let mut harness = brushes();
+    harness.state_mut().tools.mode = Mode::Squeeze;
+    click(&mut harness, "knife");
+    assert_eq!(harness.state().tools.brush, "knife");
+    assert_eq!(harness.state().tools.mode, Mode::Paint);
+    let there = harness.state_mut().with_desk(|panel, desk| panel.choose(2, desk));
+    assert_eq!((there, harness.state().tools.brush.as_str()), (true, "flat"));
+    for none in [0, 4, 9] {
+        let there = harness.state_mut().with_desk(|panel, desk| panel.choose(none, desk));
+        assert_eq!((there, harness.state().tools.brush.as_str()), (false, "flat"));
+    }
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn another_shape_or_size_is_another_head_with_the_same_paint() {
+    let mut harness = brushes();
+    click(&mut harness, "shape filbert");
+    asks(&mut harness, &[take("round", HeadShape::Filbert, 6.0), its_paint()]);
+    // The worker has not told yet: what was asked counts.
+    harness.state_mut().with_desk(|panel, desk| panel.resize(1.5, desk));
+    asks(&mut harness, &[take("round", HeadShape::Filbert, 9.0), its_paint()]);
+    click(&mut harness, "shape filbert");
+    asks(&mut harness, &[]);
+
+    click(&mut harness, "flat");
+    harness.get_by_role_and_label(Role::Slider, "Size").set_value_accesskit(0.5);
+    harness.run();
+    asks(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
+    harness.state_mut().with_desk(|panel, desk| panel.resize(0.1, desk));
+    asks(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
+}
+
+#[test]
+fn dragging_the_size_asks_once_at_the_end() {
+    let mut harness = brushes();
+    click(&mut harness, "knife");
+    let rail = harness.get_by_role_and_label(Role::Slider, "Size").rect();
+    harness.hover_at(rail.center());
+    harness.drag_at(rail.center());
+    harness.run();
+    for step in 1..5_u8 {
+        harness.hover_at(rail.center() + eframe::egui::vec2(4.0 * f32::from(step), 0.0));
+        harness.run();
+    }
+    asks(&mut harness, &[]);
+    harness.drop_at(rail.center() + eframe::egui::vec2(16.0, 0.0));
+    harness.run();
+    let asked = format!("{:?}", harness.state().asked);
+    assert_eq!(harness.state().asked.len(), 1, "{asked}");
+    assert!(asked.contains("TakeBrush { name: \"knife\""), "{asked}");
+}
+
+#[test]
+fn a_head_that_was_told_of_is_no_more_asked_for() {
+    let mut harness = brushes();
+    click(&mut harness, "shape mop");
+    harness.state_mut().asked.clear();
+    // First the head alone, as the load comes after it.
+    let round = &mut harness.state_mut().easel.brushes[0];
+    round.spec.shape = HeadShape::Mop;
+    let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
+    harness.run();
+    click(&mut harness, "shape bright");
+    asks(&mut harness, &[take("round", HeadShape::Bright, 6.0), its_paint()]);
+    let round = &mut harness.state_mut().easel.brushes[0];
+    round.spec.shape = HeadShape::Bright;
+    round.amount_mm = loaded;
+    harness.run();
+    // Washed elsewhere: now the brush has no paint to take along.
+    harness.state_mut().easel.brushes[0].amount_mm = 0.0;
+    harness.run();
+    click(&mut harness, "shape fan");
+    asks(&mut harness, &[take("round", HeadShape::Fan, 6.0)]);
+}
+
+#[test]
+fn keeping_takes_a_clean_twin_in_hand_and_the_loaded_one_stays() {
+    let mut harness = brushes();
+    click(&mut harness, "Keep");
+    asks(&mut harness, &[take("round 2", HeadShape::Round, 6.0)]);
+    assert_eq!(harness.state().tools.brush, "round 2", "before the worker told of it");
+    assert!(is_disabled(&harness, "Wash"), "the twin is clean");
+    let order: Vec<f32> =
+        ["round", "round 2", "flat"].map(|name| harness.get_by_label(name).rect().top()).to_vec();
+    assert!(order.is_sorted(), "it stands beside the one that was kept: {order:?}");
+    click(&mut harness, "Keep");
+    asks(&mut harness, &[take("round 3", HeadShape::Round, 6.0)]);
+}
+
+#[test]
+fn a_brush_is_added_renamed_and_put_away() {
+    let mut harness = brushes();
+    click(&mut harness, "Add");
+    click(&mut harness, "bright");
+    asks(&mut harness, &[take("bright", HeadShape::Bright, 6.0)]);
+    assert_eq!(harness.state().tools.brush, "bright");
+
+    click(&mut harness, "Rename");
+    harness.key_press_modifiers(eframe::egui::Modifiers::COMMAND, Key::A);
+    harness.event(Event::Text("for highlights".to_owned()));
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert!(harness.query_by_label("for highlights").is_some(), "its new name");
+    assert_eq!(harness.state().tools.brush, "bright", "the painting knows it as before");
+
+    click(&mut harness, "Rename");
+    harness.event(Event::Text(" never".to_owned()));
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("for highlights").is_some(), "left as it was");
+
+    click(&mut harness, "Remove");
+    assert!(harness.query_by_label("for highlights").is_none(), "put away");
+    assert_eq!(harness.state().tools.brush, "flat", "its neighbour is in hand");
+    click(&mut harness, "Remove");
+    harness.run();
+    assert!(harness.query_by_label("flat").is_none(), "put away, though the painting has it");
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn loading_asks_for_tube_or_medium_as_the_sliders_say() {
+    let mut harness = brushes();
+    harness.state_mut().tools.tube = 4;
+    harness.get_by_role_and_label(Role::Slider, "Load").set_value_accesskit(0.75);
+    harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(40.0);
+    harness.run();
+    click(&mut harness, "Load from tube");
+    let load = |recipe: &[(&str, f64)], vehicle| {
+        let recipe = recipe.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
+        act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
+    };
+    asks(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
+    click(&mut harness, "Medium only");
+    asks(&mut harness, &[load(&[], 1.0)]);
+    harness.state_mut().tools.tube = 7;
+    harness.run();
+    assert!(is_disabled(&harness, "Load from tube"), "slot 8 is empty");
+}
+
+#[test]
+fn wiping_and_washing_need_paint() {
+    let mut harness = brushes();
+    harness.get_by_role_and_label(Role::Slider, "Wipe to").set_value_accesskit(55.0);
+    harness.run();
+    click(&mut harness, "Wipe");
+    click(&mut harness, "Wash");
+    let brush = "round".to_owned();
+    let wipe = Action::Wipe { brush: brush.clone(), keep: 0.55 };
+    asks(&mut harness, &[act(wipe), act(Action::Wash { brush })]);
+    click(&mut harness, "flat");
+    assert!(is_disabled(&harness, "Wipe") && is_disabled(&harness, "Wash"), "it is clean");
+    let table = harness.state_mut();
+    table.with_desk(|_, desk| studio::panels::brushes::wash(desk));
+    table.with_desk(|_, desk| studio::panels::brushes::wipe(desk));
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn the_stand_follows_the_painting() {
+    let mut harness = brushes();
+    click(&mut harness, "knife");
+    let state = &mut harness.state_mut().easel.brushes;
+    let spec = BrushSpec { shape: HeadShape::Mop, size_mm: 20.0 };
+    let mop = BrushState { name: "sky".to_owned(), spec, ..state[1].clone() };
+    *state = vec![mop];
+    harness.run();
+    assert_eq!(harness.state().tools.brush, "sky", "the knife is gone");
+    assert!(harness.query_by_label("knife").is_none(), "the knife is gone");
+    assert!(is_disabled(&harness, "Remove"), "the last brush stays");
+    harness.state_mut().easel.brushes.clear();
+    harness.run();
+    assert!(is_disabled(&harness, "Keep") && is_disabled(&harness, "Medium only"), "no brush");
+}
+
+#[test]
+fn new_brushes_stand_in_the_order_of_their_shapes() {
+    let mut told = easel();
+    told.brushes.reverse();
+    let harness = shown(Brushes::default(), told, Brushes::show);
+    let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
+    assert!(tops.is_sorted(), "{tops:?}");
+}
+
+#[test]
+fn a_size_between_the_slider_s_steps_is_left_alone() {
+    let mut odd = easel();
+    odd.brushes[0].spec.size_mm = 6.123_456;
+    let mut harness = shown(Brushes::default(), odd, Brushes::show);
+    harness.run_steps(3);
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn brushes_are_drawn() {
+    let mut harness = brushes();
+    let Some(drawn) = picture(&mut harness, "brushes") else { return };
+    // The head of the round brush is in the colour of its paint.
+    let row = harness.get_by_label("round").rect();
+    let [red, green, blue] = harness.state().easel.brushes[0].colour.unwrap();
+    let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;
+    assert_eq!(at, [red, green, blue, 255]);
+}

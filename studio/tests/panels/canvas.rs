@@ -1,1 +1,367 @@
-//! Of canvas.
+//! The surfaces on the screen, and the window around them.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use eframe::egui::{
+    Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
+    TouchPhase, Ui, Vec2, pos2, vec2,
+};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use image::RgbaImage;
+use render::paint::strokes::Surface;
+use render::tile;
+use studio::panels::Mode;
+use studio::theme;
+use studio::view::{Hand, Outline, Split, SurfaceView, View};
+use studio::worker::{Event, TilePixels};
+
+use crate::harness::{Window, has_adapter};
+
+/// Cells of the surfaces shown here: more than one chunk, and no round number.
+const CELLS: (usize, usize) = (700, 530);
+
+/// The colour of a cell: no two near each other are alike.
+fn cell(x: usize, y: usize) -> [u8; 4] {
+    [(x % 251) as u8, (y % 241) as u8, ((x / 16 + y / 16) % 2 * 255) as u8, 255]
+}
+
+/// All of a picture in tiles, as the worker tells it.
+fn tiles(colour: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
+    let bounds = tile::Rect { x: 0, y: 0, width: CELLS.0, height: CELLS.1 };
+    let pixels = |rect: tile::Rect| {
+        let rows = rect.y..rect.y + rect.height;
+        rows.flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| (x, y)))
+            .map(|(x, y)| colour(x, y))
+            .collect()
+    };
+    let rects = tile::TileSet::all(bounds);
+    let rects = rects.iter().map(|tile| tile.rect(bounds));
+    rects.map(|rect| TilePixels { rect, pixels: pixels(rect) }).collect()
+}
+
+fn surface(outline: Outline) -> SurfaceView {
+    let mut surface = SurfaceView::new("Canvas", outline, 10.0);
+    surface.take_up(CELLS);
+    tiles(cell).iter().for_each(|tile| surface.write(false, tile));
+    surface
+}
+
+/// Shows a surface alone in a window.
+fn shown(
+    surface: SurfaceView,
+    size: Vec2,
+    density: f32,
+    mut split: Option<f32>,
+) -> Harness<'static, SurfaceView> {
+    let show = move |ui: &mut Ui, surface: &mut SurfaceView| {
+        let room = ui.ctx().content_rect();
+        ui.set_clip_rect(room);
+        ui.painter().rect_filled(room, 0.0, theme::SURROUND);
+        let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
+        surface.show(ui, room, Hand::Free, split);
+    };
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .with_pixels_per_point(density)
+        .with_render_cursor(false)
+        .with_context_setup(theme::apply)
+        .build_ui_state(show, surface);
+    harness.run();
+    harness
+}
+
+/// The same, drawn if there is an adapter.
+fn drawn(
+    surface: SurfaceView,
+    size: Vec2,
+    density: f32,
+    split: Option<f32>,
+) -> (SurfaceView, Option<RgbaImage>) {
+    let mut harness = shown(surface, size, density, split);
+    let picture = has_adapter().then(|| harness.render().unwrap());
+    (harness.into_state(), picture)
+}
+
+fn pixel(picture: &RgbaImage, x: u32, y: u32) -> [u8; 4] {
+    picture.get_pixel(x, y).0
+}
+
+#[test]
+fn at_actual_size_every_pixel_is_its_cell() {
+    for (density, turn, mirror) in
+        [(1.0, 0.0, false), (2.0, 0.0, true), (1.0, FRAC_PI_2, false), (1.5, 2.0 * FRAC_PI_2, true)]
+    {
+        let mut surface = surface(Outline::Sheet);
+        surface.view = View { centre: [402.0, 311.0], zoom: 1.0, turn, mirror, fitted: false };
+        let (surface, picture) = drawn(surface, vec2(400.0, 300.0), density, None);
+        let Some(picture) = picture else { return };
+        let placement = surface.placement();
+        for y in (0..picture.height()).step_by(3) {
+            for x in (0..picture.width()).step_by(3) {
+                let middle = pos2(x as f32 + 0.5, y as f32 + 0.5) / density;
+                let place = placement.cell(middle).map(|cells| cells.floor() as usize);
+                if surface.place(middle).is_some() && !near_edge(place) {
+                    let wanted = cell(place[0], place[1]);
+                    assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {density}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn turned_and_mirrored_cells_are_where_the_view_says() {
+    for (turn, mirror) in [(0.0, false), (0.7, false), (2.5, true)] {
+        let mut surface = surface(Outline::Sheet);
+        // Around the corner of four chunks.
+        surface.view = View { centre: [511.0, 509.0], zoom: 7.0, turn, mirror, fitted: false };
+        let (surface, picture) = drawn(surface, vec2(300.0, 200.0), 1.0, None);
+        let Some(picture) = picture else { return };
+        let placement = surface.placement();
+        let mut seen = 0;
+        for y in 0..picture.height() {
+            for x in 0..picture.width() {
+                let middle = pos2(x as f32 + 0.5, y as f32 + 0.5);
+                let place = placement.cell(middle);
+                let inside = place.iter().all(|cells| (0.2..0.8).contains(&cells.fract()));
+                let place = place.map(|cells| cells.floor() as usize);
+                if inside && surface.place(middle).is_some() && !near_edge(place) {
+                    seen += 1;
+                    let wanted = cell(place[0], place[1]);
+                    assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {turn}");
+                }
+            }
+        }
+        assert!(seen > 5_000, "{seen} pixels seen");
+    }
+}
+
+#[test]
+fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
+    let chequered = |x: usize, y: usize| [[0, 0, 0, 255], [255; 4]][(x + y) % 2];
+    for zoom in [0.5, 0.37, 0.21] {
+        let mut other = SurfaceView::new("Canvas", Outline::Sheet, 10.0);
+        other.take_up(CELLS);
+        tiles(chequered).iter().for_each(|tile| other.write(false, tile));
+        other.view = View { centre: [350.0, 265.0], zoom, turn: 0.3, ..other.view };
+        other.view.fitted = false;
+        let (_, picture) = drawn(other, vec2(100.0, 80.0), 1.0, None);
+        let Some(picture) = picture else { return };
+        for (x, y) in [(50, 40), (31, 44), (60, 30)] {
+            // Half of the light.
+            assert_eq!(pixel(&picture, x, y), [188, 188, 188, 255], "{x} {y} at {zoom}");
+        }
+    }
+}
+
+#[test]
+fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
+    let (white, black) = ([255; 4], [0, 0, 0, 255]);
+    for (turn, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
+        let mut surface = SurfaceView::new("Canvas", Outline::Sheet, 10.0);
+        surface.take_up(CELLS);
+        surface.set_second(true);
+        tiles(|_, _| white).iter().for_each(|tile| surface.write(false, tile));
+        tiles(|_, _| black).iter().for_each(|tile| surface.write(true, tile));
+        surface.view = View { centre: [350.0, 265.0], zoom: 0.3, turn, mirror, fitted: false };
+        let (surface, picture) = drawn(surface, vec2(400.0, 400.0), 1.0, Some(0.25));
+        let Some(picture) = picture else { return };
+        for (column, wanted) in [(20.0, white), (150.0, white), (200.0, black), (680.0, black)] {
+            let at = surface.placement().point([column, 40.0]);
+            assert_eq!(pixel(&picture, at.x as u32, at.y as u32), wanted, "{column} {turn}");
+        }
+    }
+}
+
+#[test]
+fn only_what_changed_and_is_seen_is_uploaded() {
+    let mut surface = surface(Outline::Sheet);
+    surface.view = View { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..View::default() };
+    let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
+    let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
+    let first = bytes(&harness);
+    // One chunk and its neighbours' edges, of the four that there are.
+    assert_eq!(first, 4 * 513 * 513);
+    let told = tiles(|_, _| [9, 9, 9, 255]);
+    let at =
+        |x: usize, y: usize| told.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
+    // A tile in the middle, its neighbour, and one that nobody sees.
+    for (x, y) in [(192, 192), (256, 192), (576, 64)] {
+        harness.state_mut().write(false, at(x, y));
+    }
+    harness.run();
+    assert_eq!(bytes(&harness) - first, 4 * 128 * 64);
+    harness.run();
+    assert_eq!(bytes(&harness) - first, 4 * 128 * 64, "nothing twice");
+    if !has_adapter() {
+        return;
+    }
+    let picture = harness.render().unwrap();
+    let placement = harness.state().placement();
+    for (place, wanted) in [([240, 230], [9, 9, 9, 255]), ([240, 270], cell(240, 270))] {
+        let at = placement.point(place.map(|cells| cells as f64 + 0.5));
+        assert_eq!(pixel(&picture, at.x as u32, at.y as u32), wanted, "{place:?}");
+    }
+}
+
+#[test]
+fn the_palette_lets_the_surround_through_its_hole() {
+    let (surface, picture) = drawn(surface(Outline::Palette), vec2(500.0, 400.0), 1.0, None);
+    let hole = surface.placement().point([700.0 - 0.24 * 530.0, 530.0 - 0.24 * 530.0]);
+    assert_eq!(surface.place(hole), None);
+    let Some(picture) = picture else { return };
+    picture.save(concat!(env!("CARGO_TARGET_TMPDIR"), "/palette.png")).unwrap();
+    let grey = theme::SURROUND.r();
+    for at in [hole, surface.placement().point([6.0, 6.0])] {
+        assert_eq!(pixel(&picture, at.x as u32, at.y as u32), [grey, grey, grey, 255], "{at}");
+    }
+    let on = surface.placement().point([350.0, 200.0]);
+    assert_ne!(pixel(&picture, on.x as u32, on.y as u32), [grey, grey, grey, 255]);
+}
+
+/// Where the line of the edge is drawn.
+fn near_edge(place: [usize; 2]) -> bool {
+    let [x, y] = place;
+    x < 3 || y < 3 || x + 4 > CELLS.0 || y + 4 > CELLS.1
+}
+
+/// A window on a painting that is only told of: a ramp of greys on the canvas, wood
+/// on the palette.
+fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
+    let mut window = Window::made(name, size, density, Vec::new());
+    let mut easel = crate::made::easel();
+    easel.canvas_cells = (1920, 1080);
+    easel.palette_cells = (640, 420);
+    let studio = window.studio_mut();
+    studio.hear(Event::Opened(Arc::new(easel)));
+    for (surface, width, height) in [(Surface::Canvas, 1920, 1080), (Surface::Palette, 640, 420)] {
+        let rect = tile::Rect { x: 0, y: 0, width, height };
+        let grey = |x: usize| match surface {
+            Surface::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
+            Surface::Palette => [120 + (x % 23) as u8, 84, 52, 255],
+        };
+        let pixels = (0..width * height).map(|at| grey(at % width)).collect();
+        let tiles = vec![TilePixels { rect, pixels }];
+        studio.hear(Event::Tiles { surface, second: false, tiles, newest: None });
+    }
+    window.harness().run_ok();
+    window
+}
+
+#[test]
+fn everything_is_within_the_window() {
+    for (size, density) in
+        [(vec2(1280.0, 800.0), 1.0), (vec2(1920.0, 1080.0), 1.0), (vec2(1280.0, 800.0), 2.0)]
+    {
+        let mut window = told_window("layout", size, density);
+        window.save(&format!("layout-{}-{density}", size.x));
+        let whole = window.whole();
+        for label in ["File", "Canvas", "Palette", "Paint", "Whole canvas", "tube of Vermilion"] {
+            let rect = window.harness().get_by_label(label).rect();
+            assert!(whole.contains_rect(rect), "{label} at {rect} of {whole}");
+        }
+    }
+}
+
+#[test]
+fn keys_change_the_view_and_not_while_text_is_typed() {
+    let mut window = told_window("keys", vec2(1280.0, 800.0), 1.0);
+    window.key(Modifiers::NONE, Key::M);
+    assert!(window.studio().canvas.view.mirror, "M mirrors");
+    window.key(Modifiers::COMMAND, Key::Num1);
+    assert_eq!(window.studio().canvas.view.zoom, 1.0);
+    window.key(Modifiers::COMMAND, Key::CloseBracket);
+    let turned = window.studio().canvas.view.turn;
+    assert!((turned - (-15_f64).to_radians().rem_euclid(TAU)).abs() < 1e-9, "{turned}");
+    window.key(Modifiers::NONE, Key::Home);
+    let view = window.studio().canvas.view;
+    assert!(view.fitted && view.turn == 0.0 && !view.mirror, "{view:?}");
+    window.key(Modifiers::NONE, Key::F12);
+    assert!(window.studio().tools.figures, "F12 shows the figures");
+    window.click("Rename");
+    window.harness().run_ok();
+    window.key(Modifiers::NONE, Key::M);
+    window.key(Modifiers::NONE, Key::F12);
+    assert!(!window.studio().canvas.view.mirror, "a name may have an m");
+    window.key(Modifiers::NONE, Key::Escape);
+    window.key(Modifiers::NONE, Key::M);
+    assert!(window.studio().canvas.view.mirror, "text is typed no longer");
+}
+
+#[test]
+fn tab_hides_all_panels_and_the_canvas_takes_their_room() {
+    let mut window = told_window("hidden", vec2(1280.0, 800.0), 1.0);
+    let before = window.studio().canvas.room();
+    window.key(Modifiers::NONE, Key::Tab);
+    window.save("hidden");
+    assert_eq!(window.studio().canvas.room(), window.whole());
+    assert!(window.harness().query_by_label("File").is_none(), "the menus are hidden");
+    assert!(window.harness().query_by_label("Palette").is_none(), "the palette is hidden");
+    window.key(Modifiers::NONE, Key::Tab);
+    assert_eq!(window.studio().canvas.room(), before);
+    window.key(Modifiers::NONE, Key::P);
+    assert!(window.studio().canvas.room().height() > before.height(), "the palette makes room");
+}
+
+#[test]
+fn the_view_follows_hand_wheel_and_held_keys() {
+    let mut window = told_window("hand", vec2(1280.0, 800.0), 1.0);
+    let middle = window.studio().canvas.room().center();
+    let cell = |window: &Window, at| window.studio().canvas.placement().cell(at);
+    let drag = |window: &mut Window, button: PointerButton, by: Vec2| {
+        let press = |pos: Pos2, pressed: bool| {
+            let modifiers = Modifiers::NONE;
+            UiEvent::PointerButton { pos, button, pressed, modifiers }
+        };
+        window.frame(vec![UiEvent::PointerMoved(middle)]);
+        window.frame(vec![press(middle, true)]);
+        window.frame(vec![UiEvent::PointerMoved(middle + 0.5 * by)]);
+        window.frame(vec![UiEvent::PointerMoved(middle + by)]);
+        window.frame(vec![press(middle + by, false)]);
+    };
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1.0;
+
+    let held = cell(&window, middle);
+    drag(&mut window, PointerButton::Middle, vec2(60.0, -25.0));
+    assert!(near(cell(&window, middle + vec2(60.0, -25.0)), held), "the middle button moves");
+
+    window.harness().key_down(Key::Space);
+    window.harness().step();
+    let held = cell(&window, middle);
+    drag(&mut window, PointerButton::Primary, vec2(-40.0, 30.0));
+    assert!(near(cell(&window, middle + vec2(-40.0, 30.0)), held), "space and drag move");
+    window.harness().key_up(Key::Space);
+    window.harness().step();
+
+    // A key of a tool that is held while it is used gives the one before back.
+    window.harness().key_down(Key::Z);
+    window.harness().step();
+    assert_eq!(window.studio().tools.mode, Mode::Zoom);
+    let zoom = window.studio().canvas.view.zoom;
+    drag(&mut window, PointerButton::Primary, vec2(0.0, -60.0));
+    assert!(window.studio().canvas.view.zoom > 1.2 * zoom, "up is in");
+    window.harness().key_up(Key::Z);
+    window.harness().step();
+    assert_eq!(window.studio().tools.mode, Mode::Paint);
+    // A tap chooses it.
+    window.key(Modifiers::NONE, Key::I);
+    assert_eq!(window.studio().tools.mode, Mode::Pick);
+
+    let pointer = middle + vec2(100.0, 50.0);
+    window.frame(vec![UiEvent::PointerMoved(pointer)]);
+    let (held, zoom) = (cell(&window, pointer), window.studio().canvas.view.zoom);
+    window.frame(vec![UiEvent::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 2.0),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    }]);
+    window.harness().run_steps(30);
+    assert!(window.studio().canvas.view.zoom > 1.1 * zoom, "the wheel zooms");
+    assert!(near(cell(&window, pointer), held), "about the pointer");
+}

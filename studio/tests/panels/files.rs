@@ -1,1 +1,378 @@
-//! Of files.
+//! Files: from the dialogs to the disk and back.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod bench;
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{Event as Input, Key, ViewportCommand, ViewportEvent, ViewportId};
+use render::export::spectral_file;
+use render::export::{Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
+use render::paint::document::Document;
+use render::paint::strokes::{Action, Strokes};
+use studio::files::{FileRequest, Preferences, Reference};
+use studio::worker::{Command, Origin};
+
+use bench::{
+    Window, ask, change, click, opened, painted, picture, shows, type_name, until, window,
+};
+
+fn document(path: &Path) -> Document {
+    render::paint::file::read("test", &std::fs::read(path).unwrap()).unwrap()
+}
+
+fn folder() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.exr");
+    (folder, path)
+}
+
+/// Saves the painting as `path` by the dialog.
+fn save_as(window: &mut Window, path: &Path) {
+    ask(window, FileRequest::SaveAs);
+    type_name(window, path.file_stem().unwrap().to_str().unwrap());
+    click(window, "Save");
+    until(window, "the file", |window| window.state_mut().files().path() == Some(path));
+}
+
+#[test]
+fn a_painting_comes_back_exactly_as_it_was_saved() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    change(&mut window);
+    assert!(window.state_mut().files().unsaved(), "it was changed");
+    ask(&mut window, FileRequest::Save);
+    picture(&mut window, "save");
+    assert!(shows(&window, "Save the painting"), "a painting without a file asks");
+    type_name(&mut window, "study");
+    window.key_press(Key::Enter);
+    until(&mut window, "the file", |_| path.is_file());
+    until(&mut window, "the end", |window| !window.state_mut().files().unsaved());
+    let saved = window.state().canvas.clone();
+    assert_eq!(document(&path), *saved);
+    assert_eq!(window.state_mut().files().title(), "study");
+
+    change(&mut window);
+    let changed = window.state().canvas.clone();
+    assert!(changed != saved, "the test changes nothing");
+    ask(&mut window, FileRequest::Save);
+    until(&mut window, "the second save", |window| !window.state_mut().files().unsaved());
+    assert_eq!(document(&path), *changed, "saved where it was, without a question");
+
+    ask(&mut window, FileRequest::Open(Some(path.clone())));
+    until(&mut window, "the painting", |window| !window.state().commands.is_empty());
+    let [Command::Open(Origin::Painting(read))] = &window.state().commands[..] else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(**read, *changed);
+}
+
+#[test]
+fn the_browser_is_led_by_keys_alone() {
+    let (folder, path) = folder();
+    std::fs::create_dir(folder.path().join("album")).unwrap();
+    std::fs::write(folder.path().join("notes.txt"), "nothing").unwrap();
+    std::fs::write(&path, render::paint::file::write(&painted("A")).unwrap()).unwrap();
+    let mut window = window(folder.path(), painted("B"));
+    ask(&mut window, FileRequest::Open(None));
+    until(&mut window, "the folder", |window| shows(window, "study.exr"));
+    assert!(!shows(&window, "notes.txt"), "nothing that could be opened");
+    picture(&mut window, "open");
+    for key in [Key::ArrowDown, Key::Enter] {
+        window.key_press(key);
+        window.step();
+    }
+    until(&mut window, "the album", |window| !shows(window, "study.exr"));
+    window.key_press(Key::Backspace);
+    until(&mut window, "the way back", |window| shows(window, "study.exr"));
+    for key in [Key::ArrowDown, Key::ArrowDown, Key::Enter] {
+        window.key_press(key);
+        window.step();
+    }
+    until(&mut window, "the painting", |window| !window.state().commands.is_empty());
+    assert_eq!(window.state().canvas.title, "A");
+    ask(&mut window, FileRequest::Open(None));
+    window.key_press(Key::Escape);
+    window.step();
+    window.step();
+    assert!(!window.state_mut().files().asks(), "escape leaves it");
+}
+
+#[test]
+fn a_file_is_written_over_after_a_question_only() {
+    let (folder, path) = folder();
+    std::fs::write(&path, "dear").unwrap();
+    let mut window = window(folder.path(), painted("A"));
+    for (answer, kept) in [("Keep", true), ("Replace", false)] {
+        ask(&mut window, FileRequest::SaveAs);
+        type_name(&mut window, "study");
+        click(&mut window, "Save");
+        assert!(shows(&window, "study.exr is there already"), "it asks");
+        picture(&mut window, "replace");
+        click(&mut window, answer);
+        if kept {
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), "dear");
+            click(&mut window, "Cancel");
+        }
+    }
+    until(&mut window, "the file", |window| window.state_mut().files().path() == Some(&path));
+    assert_eq!(document(&path), *window.state().canvas);
+}
+
+#[test]
+fn what_a_killed_program_left_is_offered_and_recovered() {
+    let (folder, _) = folder();
+    let mut first = window(folder.path(), painted("A study"));
+    change(&mut first);
+    let kept = first.state().canvas.clone();
+    let sessions = folder.path().join("own").join("sessions");
+    let session = |_: &mut Window| {
+        let mut sessions = std::fs::read_dir(&sessions).unwrap();
+        let session = sessions.next().unwrap().unwrap().path();
+        let mut inside = std::fs::read_dir(session).unwrap().map(|entry| entry.unwrap());
+        inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
+    };
+    until(&mut first, "an autosave", session);
+    // Gone without a word: the lock goes, the folder stays.
+    drop(first);
+
+    let mut second = window(folder.path(), painted("Another"));
+    assert!(shows(&second, "A painting was not saved"), "it is offered");
+    assert!(shows(&second, "A study"), "by its name");
+    picture(&mut second, "recover");
+    click(&mut second, "Recover");
+    until(&mut second, "the painting", |window| !window.state().commands.is_empty());
+    assert_eq!(*second.state().canvas, *kept);
+    assert!(second.state_mut().files().unsaved(), "it is in no file yet");
+    let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
+    until(&mut second, "its own autosave", sessions);
+    drop(second);
+    let mut third = window(folder.path(), painted("Another"));
+    assert!(shows(&third, "A study"), "a second crash loses nothing either");
+    click(&mut third, "Discard");
+    assert!(!shows(&third, "A study"), "thrown away");
+    third.state_mut().files().finish();
+    let sessions = folder.path().join("own").join("sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "an end in order leaves nothing");
+}
+
+/// Asks the window to close; whether it does.
+fn closes(window: &mut Window) -> bool {
+    let viewports = &mut window.input_mut().viewports;
+    viewports.entry(ViewportId::ROOT).or_default().events.push(ViewportEvent::Close);
+    window.step();
+    let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+    let held = commands.iter().any(|command| matches!(command, ViewportCommand::CancelClose));
+    window.input_mut().viewports.entry(ViewportId::ROOT).or_default().events.clear();
+    window.step();
+    !held
+}
+
+#[test]
+fn a_window_with_changes_asks_before_it_closes() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    assert!(closes(&mut window), "nothing was changed");
+    change(&mut window);
+    assert!(!closes(&mut window), "something was");
+    assert!(shows(&window, "Save the painting?"), "it asks");
+    picture(&mut window, "unsaved");
+    click(&mut window, "Cancel");
+    assert!(!closes(&mut window), "it asks again");
+    click(&mut window, "Save");
+    type_name(&mut window, "study");
+    click(&mut window, "Save");
+    until(&mut window, "the file", |_| path.is_file());
+    until(&mut window, "the end", |window| !window.state_mut().files().unsaved());
+    assert!(closes(&mut window), "it is saved");
+}
+
+#[test]
+fn changes_that_are_discarded_let_the_window_close() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    change(&mut window);
+    assert!(!closes(&mut window), "something was changed");
+    click(&mut window, "Discard");
+    assert!(closes(&mut window), "it was agreed to");
+    window.state_mut().files().finish();
+    let sessions = folder.path().join("own").join("sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "it was agreed to");
+}
+
+#[test]
+fn another_painting_asks_before_it_takes_the_place_of_changes() {
+    let (folder, path) = folder();
+    std::fs::write(&path, render::paint::file::write(&painted("B")).unwrap()).unwrap();
+    let mut window = window(folder.path(), painted("A"));
+    change(&mut window);
+    ask(&mut window, FileRequest::Open(Some(path.clone())));
+    until(&mut window, "the question", |window| shows(window, "Save the painting?"));
+    assert_eq!(window.state().canvas.title, "A");
+    click(&mut window, "Discard");
+    until(&mut window, "the other", |window| window.state().canvas.title == "B");
+    assert_eq!(window.state_mut().files().path(), Some(&*path));
+    assert!(!window.state_mut().files().unsaved(), "it is as in its file");
+}
+
+#[test]
+fn revisions_are_kept_listed_opened_and_deleted() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    save_as(&mut window, &path);
+    let first = window.state().canvas.clone();
+    click(&mut window, "Keep revision");
+    until(&mut window, "a revision", |window| shows(window, "Open 1"));
+    change(&mut window);
+    click(&mut window, "Keep revision");
+    until(&mut window, "the second", |window| shows(window, "Open 2"));
+    picture(&mut window, "revisions");
+    let revisions = folder.path().join("study.revisions");
+    assert_eq!(document(&revisions.join("0001.exr")), *first);
+    assert_eq!(document(&revisions.join("0002.exr")), *window.state().canvas);
+    let thumbnail = image::open(revisions.join("0001.png")).unwrap();
+    assert_eq!((thumbnail.width(), thumbnail.height()), (120, 80), "small ones are not enlarged");
+
+    click(&mut window, "Open 1");
+    until(&mut window, "the question", |window| shows(window, "Save the painting?"));
+    click(&mut window, "Discard");
+    until(&mut window, "the revision", |window| window.state().canvas == first);
+    assert_eq!(window.state_mut().files().path(), None, "a new painting");
+
+    ask(&mut window, FileRequest::DeleteRevision(revisions.join("0001.exr")));
+    picture(&mut window, "delete");
+    click(&mut window, "Delete");
+    assert!(!revisions.join("0001.exr").exists() && revisions.join("0002.exr").exists(), "one");
+    ask(&mut window, FileRequest::DeleteRevision(path.clone()));
+    click(&mut window, "Delete");
+    assert!(path.exists() && shows(&window, "is no revision"), "nothing but revisions");
+}
+
+#[test]
+fn exports_are_those_of_the_engine() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    let mut painting = opened((*window.state().canvas).clone());
+    let shown = painting.picture().unwrap();
+    let document = window.state().canvas.clone();
+    let light = painting.light().clone();
+    let spectral = |bands| spectral_file(&document, &light, &shown, bands, |_| true).unwrap();
+    let picture_of = |format| picture_file(&shown, document.cell_mm, format).unwrap().bytes;
+    for (kind, name, wanted) in [
+        ("Picture, PNG of 8 bits", "a.png", picture_of(PictureFormat::Png8)),
+        ("Picture, PNG of 16 bits", "b.png", picture_of(PictureFormat::Png16)),
+        ("Picture, linear OpenEXR", "c.exr", picture_of(PictureFormat::LinearExr)),
+        ("Spectra, OpenEXR of 8 wavelengths", "d.spectral.exr", spectral(Bands::Nodes).unwrap()),
+        ("Spectra, OpenEXR of all wavelengths", "e.spectral.exr", spectral(Bands::Full).unwrap()),
+    ] {
+        ask(&mut window, FileRequest::Export);
+        click(&mut window, kind);
+        picture(&mut window, "export");
+        click(&mut window, "Choose a name");
+        type_name(&mut window, name);
+        click(&mut window, "Save");
+        let path = folder.path().join(name);
+        until(&mut window, name, |window| shows(window, "exported") && path.is_file());
+        assert!(std::fs::read(&path).unwrap() == wanted, "{name} differs");
+    }
+    ask(&mut window, FileRequest::Export);
+    click(&mut window, "Pigment maps, a folder of PNG");
+    click(&mut window, "Choose a name");
+    type_name(&mut window, "f");
+    click(&mut window, "Save");
+    let maps = folder.path().join("f.maps");
+    until(&mut window, "the maps", |_| maps.join("painting.recipe.csv").is_file());
+    for file in pigment_maps("painting", &painting_maps(&document), document.cell_mm).unwrap() {
+        assert!(std::fs::read(maps.join(&file.name)).unwrap() == file.bytes, "{}", file.name);
+    }
+}
+
+#[test]
+fn recordings_are_saved_and_played() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    ask(&mut window, FileRequest::SaveRecording);
+    type_name(&mut window, "strokes");
+    click(&mut window, "Save");
+    let path = folder.path().join("strokes.json");
+    until(&mut window, "the recording", |_| path.is_file());
+    let read = Strokes::from_json("strokes.json", &std::fs::read(&path).unwrap()).unwrap();
+    assert_eq!(read, window.state().script());
+    ask(&mut window, FileRequest::Open(Some(path)));
+    until(&mut window, "the replay", |window| window.state().commands.len() == 2);
+    let [Command::Open(Origin::Bare { .. }), Command::Replay { script, .. }] =
+        &window.state().commands[..]
+    else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(**script, read);
+}
+
+#[test]
+fn pictures_and_lamps_find_their_place() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    let photo = folder.path().join("photo.png");
+    image::RgbImage::new(4, 4).save(&photo).unwrap();
+    ask(&mut window, FileRequest::Open(Some(photo.clone())));
+    let mut found = None;
+    until(&mut window, "the picture", |window| {
+        found = found.take().or_else(|| window.state_mut().files().take_reference());
+        found.is_some()
+    });
+    assert_eq!(found, Some(Reference::Open(photo)));
+    let lamp = folder.path().join("desk.csv");
+    std::fs::write(&lamp, "nm,power\n400,1\n500,2\n700,3\n").unwrap();
+    ask(&mut window, FileRequest::Open(Some(lamp.clone())));
+    until(&mut window, "the light", |window| !window.state().commands.is_empty());
+    let [Command::Act(Action::Light(lighting))] = &window.state().commands[..] else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(Path::new(&lighting.illuminant), lamp);
+    std::fs::write(&lamp, "no lamp at all").unwrap();
+    ask(&mut window, FileRequest::Open(Some(lamp)));
+    until(&mut window, "the complaint", |window| shows(window, "OK"));
+    assert!(shows(&window, "desk.csv"), "it names the file");
+    picture(&mut window, "failure");
+    click(&mut window, "OK");
+    assert!(!shows(&window, "desk.csv"), "closed");
+}
+
+#[test]
+fn a_new_painting_takes_the_canvas_that_was_described() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    ask(&mut window, FileRequest::New);
+    click(&mut window, "Paper");
+    picture(&mut window, "new");
+    click(&mut window, "Begin");
+    until(&mut window, "the canvas", |window| !window.state().commands.is_empty());
+    let [Command::Open(Origin::Bare { script, .. })] = &window.state().commands[..] else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(script.canvas.cells(), (1920, 1080));
+    let ground = serde_json::to_value(&script.canvas.ground).unwrap();
+    assert_eq!(ground["kind"], "paper");
+    assert_eq!(script.palette.pigments.len(), 8);
+}
+
+#[test]
+fn preferences_hold_and_are_written() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    ask(&mut window, FileRequest::Preferences);
+    click(&mut window, "Processor");
+    click(&mut window, "Play as painted");
+    picture(&mut window, "preferences");
+    click(&mut window, "Close");
+    assert!(!window.state_mut().files().asks(), "closed");
+    window.event(Input::PointerGone);
+    let path = folder.path().join("own").join("preferences.json");
+    until(&mut window, "the file", |_| path.is_file());
+    window.state_mut().files().finish();
+    let (read, failures) = Preferences::read(&path);
+    assert_eq!(failures, []);
+    assert_eq!(read, window.state_mut().files().preferences);
+    assert!(read.replay_as_painted, "it was ticked");
+}

@@ -1,7 +1,7 @@
 //! The whole window on a real worker, without a window system.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, UiBuilder, Vec2, vec2};
@@ -10,7 +10,9 @@ use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
 use render::gpu::{BackendChoice, choose};
 use render::paint::strokes::Surface;
-use studio::app::Studio;
+use studio::app::{Begun, Parts, Studio};
+use studio::files::{Files, Home, Preferences};
+use studio::pen::{Pen, PenSettings};
 use studio::theme;
 use studio::worker::{Command, WorkerOptions, bare, oils};
 
@@ -25,6 +27,8 @@ pub(crate) struct Window {
     harness: Harness<'static, Option<Studio>>,
     name: &'static str,
     fences: u64,
+    /// The program's own folders.
+    folder: tempfile::TempDir,
 }
 
 impl Window {
@@ -42,8 +46,23 @@ impl Window {
 
     /// A window whose worker is asked for `begin` first.
     pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
+        let mut window = Self::made(name, size, density, begin);
+        let start = Instant::now();
+        while window.studio().easel().is_none() {
+            assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
+            std::thread::sleep(Duration::from_millis(5));
+            window.harness.step();
+        }
+        window.settle();
+        window
+    }
+
+    /// A window that does not wait for its worker.
+    pub(crate) fn made(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
+        let folder = tempfile::tempdir().expect("a folder for the session");
+        let home = folder.path().to_owned();
         let mut begin = Some(begin);
-        let mut harness = Harness::builder()
+        let harness = Harness::builder()
             .with_size(size)
             .with_pixels_per_point(density)
             .with_step_dt(1.0 / 60.0)
@@ -54,8 +73,14 @@ impl Window {
                     let options =
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
-                        Studio::new(ui.ctx(), options, begin.take().unwrap_or_default())
+                        let begun = Begun::new(options, begin.take().unwrap_or_default());
+                        let preferences = Preferences::default();
+                        let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
+                        let pen = Pen::new(PenSettings::default());
+                        let parts = Parts { begun, pen, files, open: None, log: None };
+                        Studio::new(ui.ctx(), parts)
                     });
+                    studio.logic(ui.ctx());
                     // The whole window, without the margin that the harness gives.
                     let whole = ui.ctx().content_rect();
                     let mut ui = ui.new_child(UiBuilder::new().max_rect(whole));
@@ -64,15 +89,7 @@ impl Window {
                 },
                 None,
             );
-        let start = Instant::now();
-        while harness.state().as_ref().is_none_or(|studio| studio.easel().is_none()) {
-            assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
-            std::thread::sleep(Duration::from_millis(5));
-            harness.step();
-        }
-        let mut window = Self { harness, name, fences: 0 };
-        window.settle();
-        window
+        Self { harness, name, fences: 0, folder }
     }
 
     /// The window's own state.
@@ -113,6 +130,11 @@ impl Window {
             std::thread::sleep(Duration::from_millis(2));
         }
         self.harness.run_ok();
+    }
+
+    /// The folder of preferences and autosaves.
+    pub(crate) fn home(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Gives the window these events within one frame.

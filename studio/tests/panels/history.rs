@@ -1,1 +1,96 @@
 //! Of history.
+
+use eframe::egui::accesskit::Toggled;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use render::paint::strokes::Action;
+use studio::panels::Request;
+use studio::panels::history::History;
+use studio::worker::{Command, EaselState};
+
+use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
+
+fn history(easel: EaselState) -> Harness<'static, Table<History>> {
+    shown(History::default(), easel, History::show)
+}
+
+fn travel(place: usize) -> Request {
+    Request::Worker(Command::Travel(place))
+}
+
+#[test]
+fn a_click_travels_to_a_place_and_the_present_one_asks_nothing() {
+    let mut harness = history(easel());
+    click(&mut harness, "1 load round");
+    click(&mut harness, "0 beginning");
+    click(&mut harness, "4 stroke, flat");
+    click(&mut harness, "3 dry 50 %");
+    asks(&mut harness, &[travel(1), travel(0), travel(4)]);
+    let chosen = |label: &str| harness.get_by_label(label).accesskit_node().toggled();
+    assert_eq!(chosen("3 dry 50 %"), Some(Toggled::True));
+    assert_eq!(chosen("2 stroke, round"), Some(Toggled::False));
+}
+
+#[test]
+fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
+    let mut harness = history(easel());
+    click(&mut harness, "Undo");
+    click(&mut harness, "Redo");
+    let step = |action| Request::Worker(Command::Act(action));
+    asks(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
+
+    harness.state_mut().easel.done = 4;
+    harness.run();
+    assert!(is_disabled(&harness, "Redo") && !is_disabled(&harness, "Undo"), "all is done");
+    harness.state_mut().easel.done = 0;
+    harness.run();
+    assert!(is_disabled(&harness, "Undo") && !is_disabled(&harness, "Redo"), "nothing is done");
+    harness.state_mut().easel.history.clear();
+    harness.run();
+    assert!(is_disabled(&harness, "Undo") && is_disabled(&harness, "Redo"), "nothing is there");
+}
+
+#[test]
+fn a_long_list_shows_where_the_painting_is() {
+    let mut long = easel();
+    long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
+    long.done = 1500;
+    let mut harness = history(long);
+    let there = |harness: &Harness<'_, Table<History>>, place: usize| {
+        harness.query_by_label(&format!("{place} stroke {place}")).is_some()
+    };
+    assert!(there(&harness, 1500), "the present place is in sight");
+    assert!(!there(&harness, 1), "rows out of sight are not laid out");
+    harness.state_mut().easel.done = 40;
+    harness.run();
+    assert!(there(&harness, 40) && !there(&harness, 1500), "the list follows");
+}
+
+#[test]
+fn memory_is_told_in_mebibytes_and_can_be_changed() {
+    let mut harness = history(easel());
+    let bar = harness.get_by_label("Memory of undo");
+    assert_eq!(bar.accesskit_node().numeric_value(), Some(18.0), "96 of 512 MiB, in percent");
+    harness.get_by_label("Memory allowed").set_value_accesskit(1024.0);
+    harness.run();
+    asks(&mut harness, &[Request::Worker(Command::UndoMemory(1 << 30))]);
+}
+
+#[test]
+fn an_odd_amount_of_memory_is_left_alone() {
+    let mut odd = easel();
+    odd.undo_bytes = (3, 7_654_321);
+    let mut harness = history(odd);
+    harness.run_steps(3);
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn history_is_drawn() {
+    let mut harness = history(easel());
+    let Some(drawn) = picture(&mut harness, "history") else { return };
+    let row = harness.get_by_label("3 dry 50 %").rect();
+    let at = drawn.get_pixel(row.right() as u32 - 8, row.center().y as u32).0;
+    let chosen = studio::theme::CHOSEN.to_array();
+    assert_eq!(at, chosen, "the present place");
+}

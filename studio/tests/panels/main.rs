@@ -1,6 +1,10 @@
 //! Every panel without a window, on a real engine, with a synthetic pen.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 mod harness;
+
+mod made;
 
 mod stage;
 

@@ -1,1 +1,212 @@
 //! Of tubes.
+
+use calibrate::palette::{Cards, Palette as Mixable};
+use eframe::egui::{Event, PointerButton, Pos2, accesskit::Role};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use render::paint::strokes::{Action, LayerName, Load, Palette, Recipe, Squeeze, Surface};
+use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
+use studio::panels::{FileRequest, Mode, Request};
+use studio::worker::Command;
+
+use super::made::{PIGMENTS, Table, asks, click, easel, is_disabled, pick, picture, shown};
+
+fn tubes() -> Harness<'static, Table<Tubes>> {
+    shown(Tubes::default(), easel(), Tubes::show)
+}
+
+fn act(action: Action) -> Request {
+    Request::Worker(Command::Act(action))
+}
+
+fn pure(name: &str) -> Recipe {
+    Recipe::from([(name.to_owned(), 1.0)])
+}
+
+fn load(name: &str) -> Request {
+    let (brush, recipe) = ("round".to_owned(), pure(name));
+    act(Action::Load(Load { brush, recipe, vehicle: 0.15, amount_mm: 0.3 }))
+}
+
+#[test]
+fn a_click_chooses_a_tube_for_squeezing_and_asks_nothing() {
+    let mut harness = tubes();
+    click(&mut harness, "tube of Vermilion");
+    assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (2, Mode::Squeeze));
+    asks(&mut harness, &[]);
+    click(&mut harness, "Squeeze");
+    assert_eq!(harness.state().tools.mode, Mode::Paint, "the button is a switch");
+}
+
+#[test]
+fn a_double_click_and_the_button_load_the_brush_in_hand() {
+    let mut harness = tubes();
+    let tube = harness.get_by_label("tube of Ultramarine");
+    tube.click();
+    tube.click();
+    harness.run();
+    asks(&mut harness, &[load("Ultramarine")]);
+    assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (4, Mode::Paint));
+    click(&mut harness, "Load brush");
+    asks(&mut harness, &[load("Ultramarine")]);
+}
+
+#[test]
+fn squeezing_gives_the_amount_of_the_slider_where_it_was_asked() {
+    let mut harness = tubes();
+    let slider = harness.get_by_role_and_label(Role::Slider, "Amount");
+    slider.set_value_accesskit(125.0);
+    harness.run();
+    let table = harness.state_mut();
+    table.with_desk(|_, desk| squeeze(desk, 3, Surface::Palette, 4.5, 7.25));
+    table.with_desk(|_, desk| squeeze(desk, 7, Surface::Palette, 4.5, 7.25));
+    let heap = Squeeze {
+        on: Surface::Palette,
+        recipe: pure("Eosin Lake"),
+        vehicle: 0.0,
+        x_mm: 4.5,
+        y_mm: 7.25,
+        volume_mm3: 125.0,
+    };
+    asks(&mut harness, &[act(Action::Squeeze(heap))]);
+}
+
+#[test]
+fn a_tube_is_dragged_by_its_slot() {
+    let mut harness = tubes();
+    let from = harness.get_by_label("tube of Chrome Yellow").rect().center();
+    harness.hover_at(from);
+    harness.drag_at(from);
+    harness.step();
+    harness.hover_at(from + eframe::egui::vec2(300.0, 300.0));
+    harness.run_steps(3);
+    let dragged = eframe::egui::DragAndDrop::payload::<DraggedTube>(&harness.ctx);
+    assert_eq!(dragged.as_deref(), Some(&DraggedTube { slot: 1 }));
+    harness.drop_at(Pos2::new(400.0, 400.0));
+    harness.run();
+    assert_eq!(harness.state().tools.tube, 1);
+    asks(&mut harness, &[]);
+}
+
+#[test]
+fn another_pigment_takes_a_slot_and_all_others_stay() {
+    let mut harness = tubes();
+    click(&mut harness, "Tubes...");
+    click(&mut harness, "slot 5");
+    pick(&mut harness, "Prussian Blue");
+    let mut names = PIGMENTS;
+    names[4] = "Prussian Blue";
+    asks(&mut harness, &[act(Action::Palette(Palette::of(names)))]);
+
+    assert!(is_disabled(&harness, "Vermilion"), "it is on the palette already");
+    click(&mut harness, "slot 8");
+    assert!(is_disabled(&harness, "Take off"), "slot 8 is empty");
+    pick(&mut harness, "Cobalt Blue");
+    let names = PIGMENTS.into_iter().chain(["Cobalt Blue"]);
+    asks(&mut harness, &[act(Action::Palette(Palette::of(names)))]);
+
+    click(&mut harness, "slot 1");
+    click(&mut harness, "Take off");
+    asks(&mut harness, &[act(Action::Palette(Palette::of(PIGMENTS.into_iter().skip(1))))]);
+    click(&mut harness, "Open another library...");
+    asks(&mut harness, &[Request::File(FileRequest::Open(None))]);
+}
+
+#[test]
+fn searching_leaves_the_pigments_that_have_the_words() {
+    let mut harness = tubes();
+    click(&mut harness, "empty slot 8");
+    click(&mut harness, "Search");
+    harness.event(Event::Text("BLUE".to_owned()));
+    harness.run();
+    let rows = |name: &str| harness.query_all_by_label(name).count();
+    assert_eq!((rows("Cobalt Blue"), rows("Prussian Blue"), rows("Vermilion")), (1, 1, 0));
+}
+
+#[test]
+fn a_tube_is_exchanged_in_every_layer_that_has_it_and_can() {
+    let mut harness = tubes();
+    let blue = harness.state().easel.library.find("Cobalt Blue").unwrap();
+    // The upper dry layer has the new pigment already, and stays.
+    harness.state_mut().easel.layers[1].slots[7] = Some(blue);
+    harness.get_by_label("tube of Ultramarine").click_secondary();
+    harness.run();
+    click(&mut harness, "Exchange in the painting...");
+    pick(&mut harness, "Cobalt Blue");
+    let swap = |layer| {
+        let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
+        act(Action::Swap { layer, from, to })
+    };
+    asks(&mut harness, &[swap(LayerName::Dry(0)), swap(LayerName::Wet)]);
+    assert!(harness.query_by_label("Search").is_none(), "the window is closed");
+}
+
+#[test]
+fn the_menu_of_a_tube_loads_squeezes_and_puts_another_there() {
+    let mut harness = tubes();
+    let mut choose = |item: &str| {
+        harness.get_by_label("tube of Viridian").click_button(PointerButton::Secondary);
+        harness.run();
+        click(&mut harness, item);
+        std::mem::take(&mut harness.state_mut().asked)
+    };
+    let asked = choose("Load the brush");
+    assert_eq!(format!("{asked:?}"), format!("{:?}", [load("Viridian")]));
+    choose("Put another here...");
+    assert!(harness.query_by_label("slot 6").is_some(), "the chooser is open");
+    assert!(harness.query_by_label("Slot 6: Viridian").is_some(), "for this slot");
+}
+
+#[test]
+fn without_a_brush_or_a_pigment_nothing_can_be_loaded() {
+    let mut bare = easel();
+    bare.brushes.clear();
+    let mut harness = shown(Tubes::default(), bare, Tubes::show);
+    assert!(is_disabled(&harness, "Load brush"), "there is no brush");
+    harness.state_mut().easel = easel();
+    harness.state_mut().tools.tube = 7;
+    harness.run();
+    assert!(is_disabled(&harness, "Load brush"), "slot 8 is empty");
+    assert!(is_disabled(&harness, "Squeeze"), "slot 8 is empty");
+}
+
+#[test]
+fn the_card_of_a_tube_tells_its_figures() {
+    let mut harness = tubes();
+    harness.get_by_label("tube of Zinc White").hover();
+    // A card shows after half a second.
+    harness.run_steps(40);
+    let easel = easel();
+    let cards = Cards::standard(easel.library.grid);
+    let palette = Mixable::new(&easel.library, &easel.light.viewing, cards).unwrap();
+    let white = easel.slots[0].unwrap();
+    let powers = calibrate::palette::hiding_powers(&palette);
+    let power = powers.iter().find(|power| power.paint == white).unwrap();
+    let mm = power.hides.thickness().unwrap() / easel.medium.scattering_per_mm;
+    assert!((0.1..0.9).contains(&mm), "{mm} mm, told with two decimals");
+    let told = format!("hides from {mm:.2} mm");
+    assert!(harness.query_by_label(&told).is_some(), "{told}: {harness:?}");
+    let curve = harness.query_by_label("reflectance over wavelength");
+    assert!(curve.is_some_and(|curve| !curve.accesskit_node().is_hidden()), "a curve");
+    picture(&mut harness, "tubes-card");
+}
+
+#[test]
+fn tubes_show_the_colours_as_they_are() {
+    let mut harness = tubes();
+    let drawn = picture(&mut harness, "tubes");
+    for (slot, name) in PIGMENTS.into_iter().enumerate() {
+        let Some(drawn) = &drawn else { return };
+        let rect = harness.get_by_label(&format!("tube of {name}")).rect();
+        let at = |share: f32| {
+            let y = rect.top() + rect.height() * share;
+            drawn.get_pixel(rect.center().x as u32, y as u32).0
+        };
+        let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, 255];
+        let easel = &harness.state().easel;
+        assert_eq!(at(0.28), opaque(easel.masstones[slot].unwrap()), "{name}");
+        assert_eq!(at(0.49), opaque(easel.tints[slot].unwrap()), "{name} with white");
+    }
+    click(&mut harness, "Tubes...");
+    picture(&mut harness, "tubes-chooser");
+}

@@ -6,8 +6,8 @@ use render::amount::QUANTA_PER_CELL;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
 use render::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
-use render::paint::Engine;
 use render::paint::on_gpu::OnGpu;
+use render::paint::{Engine, View};
 use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
@@ -104,7 +104,7 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
             let mut engine = OnGpu::new(device, &Field::filled(count, count, 0)).unwrap();
             engine.set_wet(&wet).unwrap();
             let all = TileSet::all(engine.bounds());
-            engine.light(&scene, &all, &TileSet::default()).unwrap();
+            engine.light(View::First, &scene, &all, &TileSet::default()).unwrap();
             let picture = engine.picture().unwrap();
             let (off, cell) = largest(&picture, |i| {
                 let nodes =
@@ -151,9 +151,9 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     scene.lamp.relief = 0.7;
     let all = TileSet::all(engine.bounds());
     // Baked under nothing, then shown only: no tile needs both at once.
-    engine.light(&scene, &all, &TileSet::default()).unwrap();
+    engine.light(View::First, &scene, &all, &TileSet::default()).unwrap();
     scene.lamp.ambient = 0.2;
-    engine.light(&scene, &TileSet::default(), &all).unwrap();
+    engine.light(View::First, &scene, &TileSet::default(), &all).unwrap();
 
     let top = |x: isize, y: isize| {
         let end = SIZE as isize - 1;
@@ -214,11 +214,13 @@ fn only_the_tiles_that_are_named_change() {
     let Some(device) = crate::device() else { return };
     let mut engine = OnGpu::new(device, &Field::filled(200, 130, 0)).unwrap();
     let all = TileSet::all(engine.bounds());
-    engine.light(&flat_scene(0.5, NO_COAT, Vec::new()), &all, &all).unwrap();
+    engine.light(View::First, &flat_scene(0.5, NO_COAT, Vec::new()), &all, &all).unwrap();
     let before = engine.picture().unwrap();
     let mut one = TileSet::default();
     one.insert(render::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
-    engine.light(&flat_scene(0.9, NO_COAT, Vec::new()), &one, &TileSet::default()).unwrap();
+    engine
+        .light(View::First, &flat_scene(0.9, NO_COAT, Vec::new()), &one, &TileSet::default())
+        .unwrap();
     let after = engine.picture().unwrap();
     for y in 0..130 {
         for x in 0..200 {

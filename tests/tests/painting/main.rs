@@ -15,6 +15,14 @@ mod undo;
 
 mod pieces;
 
+mod views;
+
+mod places;
+
+mod tubes;
+
+mod adjusting;
+
 mod keeping;
 
 mod changes;
@@ -26,3 +34,11 @@ mod program;
 mod hostile;
 
 mod killed;
+
+mod easels;
+
+mod easel;
+
+mod recording;
+
+mod sessions;

@@ -4,6 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::Layer;
+use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
 use render::paint::history::TILE_BYTES;
@@ -26,7 +27,7 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
 /// One action, chosen by `random`; whether something was done that can be undone.
 fn act(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
-    match random.random_range(0..10) {
+    match random.random_range(0..13) {
         0 => painting.dry(random.random_range(0.1..=1.0)).unwrap(),
         1 if layers > 0 => {
             let opacity = random.random_range(0.0..2.0);
@@ -50,6 +51,20 @@ fn act(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             let illuminant = ["A", "D65"][random.random_range(0..2)].to_owned();
             let azimuth_deg = random.random_range(0.0..360.0);
             painting.relight(Lighting { illuminant, azimuth_deg, ..Lighting::default() }).unwrap();
+            true
+        }
+        10 => {
+            let (x_mm, y_mm) = (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
+            let recipe = std::array::from_fn(|slot| if slot < 5 { 1.0 } else { 0.0 });
+            painting.squeeze(&recipe, 0.1, x_mm, y_mm, random.random_range(0.1..60.0)).is_ok()
+        }
+        11 if random.random_range(0..2) == 0 => {
+            painting.scrape().unwrap();
+            true
+        }
+        12 => {
+            let shine = Gloss { strength: random.random_range(0.0..0.5), exponent: 30.0 };
+            painting.set_gloss(shine, Gloss { strength: 0.1, ..shine }).unwrap();
             true
         }
         5 if layers > 1 => painting.merge(random.random_range(0..layers - 1)).is_ok(),

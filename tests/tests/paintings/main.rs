@@ -18,29 +18,27 @@ mod growth;
 mod landscape;
 
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
 use render::field::Field;
+use render::paint::easel::{Easel, ReplayReport};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::{Painting, UNDO_BYTES};
-use render::paint::strokes::{ReplayReport, Strokes};
+use render::paint::strokes::Strokes;
 use suite::program::repository;
 
 fn shipped(name: &str) -> String {
     std::fs::read_to_string(repository(&format!("paintings/{name}.json"))).unwrap()
 }
 
-fn painted(script: &Strokes) -> (ReplayReport, Painting) {
-    let library = suite::oils::library();
-    let resolved = script.resolve(&library).unwrap();
-    let (width, height) = script.canvas.cells();
-    let ground = script.canvas.ground.ground(width, height, script.canvas.cell_mm, &library);
-    let ground = ground.unwrap();
-    let engine = Box::new(OnCpu::new(ground.height.clone()));
-    let document = script.bare(&library, &resolved, ground);
-    let mut painting = Painting::open(document, engine, UNDO_BYTES).unwrap();
+fn painted(script: &Strokes) -> (ReplayReport, Easel) {
+    let (document, _) = script.surfaces(&suite::oils::library(), None).unwrap();
+    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let canvas = Painting::open(document, engine, UNDO_BYTES).unwrap();
+    let mut easel = Easel::new(canvas, None).unwrap();
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    let report = script.replay(&resolved, &mut painting, save, || ()).unwrap();
-    (report, painting)
+    let report = script.replay(&mut easel, save, || ControlFlow::Continue(())).unwrap();
+    (report, easel)
 }
 
 /// Its first actions only.
@@ -69,10 +67,10 @@ fn every_script_is_what_its_program_makes() {
 fn the_long_ones_begin_well() {
     for name in ["glaze", "landscape"] {
         let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
-        let (report, mut painting) = painted(&begun(&script, 60));
+        let (report, mut easel) = painted(&begun(&script, 60));
         assert_eq!((report.actions, report.idle), (60, 0), "{name}");
-        let wet = painting.document().unwrap().wet;
-        let dry = painting.state().dry.len();
+        let wet = easel.canvas_mut().wet().unwrap();
+        let dry = easel.canvas().state().dry.len();
         assert!(
             dry > 0 || (0..wet.vehicle.values().len()).any(|i| wet.cell(i).volume() > 0),
             "{name}"
@@ -84,7 +82,7 @@ fn the_long_ones_begin_well() {
 fn the_study_is_the_same_twice_and_yellow_meets_blue_through_green() {
     let name = "colour-study";
     let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
-    let picture = || painted(&script).1.picture().unwrap();
+    let picture = || painted(&script).1.canvas_mut().picture().unwrap();
     let first: Field<[f32; 4]> = picture();
     assert!(first.values() == picture().values(), "another picture");
     let cell = |mm: f64| (mm / script.canvas.cell_mm) as usize;

@@ -1,12 +1,14 @@
 //! Photographs painted: nearer stroke by stroke, and the same when replayed.
 
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
 use render::field::Field;
 use render::paint::document::Document;
+use render::paint::easel::{Easel, ReplayReport};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
-use render::paint::strokes::{Action, Canvas, Palette, ReplayReport, Strokes};
+use render::paint::strokes::{Action, Canvas, Palette, Strokes};
 use render::photograph::{
     LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuilt,
 };
@@ -53,7 +55,7 @@ fn opened(script: &Strokes) -> Painting {
 /// What a painter made of the target.
 struct Finished {
     script: Strokes,
-    painting: Painting,
+    easel: Easel,
     levels: Vec<LevelReport>,
     /// Strokes that were announced, and strokes that were told as laid.
     told: (usize, usize),
@@ -61,26 +63,25 @@ struct Finished {
 
 fn painted(plan: &Plan) -> Finished {
     let mut script = bare_script();
-    let mut painting = opened(&script);
+    let mut easel = Easel::new(opened(&script), None).unwrap();
     let mut told = (0, 0);
     let target = target();
     let painter = Painter { target: &target, separation: &HIDING, plan };
     let levels = painter
-        .paint(&mut painting, &mut script, |painted| match painted {
+        .paint(&mut easel, &mut script, |painted| match painted {
             Painted::Planned(strokes) => told.0 += strokes,
             Painted::Stroke => told.1 += 1,
         })
         .unwrap();
-    Finished { script, painting, levels, told }
+    Finished { script, easel, levels, told }
 }
 
 fn replayed(text: &str) -> (Document, ReplayReport) {
     let script = Strokes::from_json("disc.json", text.as_bytes()).unwrap();
-    let resolved = script.resolve(&STUDIO.library).unwrap();
-    let mut painting = opened(&script);
-    let report =
-        script.replay(&resolved, &mut painting, |_, _| Ok::<_, Infallible>(()), || ()).unwrap();
-    (painting.document().unwrap(), report)
+    let mut easel = Easel::new(opened(&script), None).unwrap();
+    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
+    let report = script.replay(&mut easel, save, || ControlFlow::Continue(())).unwrap();
+    (easel.documents().unwrap().0, report)
 }
 
 #[test]
@@ -90,14 +91,17 @@ fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
     let plan = plan();
     let painter = Painter { target: &target, separation: &HIDING, plan: &plan };
     let before = painter.errors(&mut opened(&bare_script()), 0.0).unwrap();
-    let after = painter.errors(&mut finished.painting, 0.0).unwrap();
+    let after = painter.errors(finished.easel.canvas_mut(), 0.0).unwrap();
     assert!(after.mean < before.mean / 4.0, "{} of {}", after.mean, before.mean);
     let sizes: Vec<f64> = finished.levels.iter().map(|level| level.size_mm).collect();
     assert_eq!(sizes, plan.sizes_mm);
     for pair in finished.levels.windows(2) {
         assert!(pair[1].mean_error < 1.2 * pair[0].mean_error, "{:?}", finished.levels);
     }
-    assert!(finished.painting.wet().unwrap().totals().iter().all(|total| *total == 0), "wet");
+    assert!(
+        finished.easel.canvas_mut().wet().unwrap().totals().iter().all(|total| *total == 0),
+        "wet"
+    );
 }
 
 #[test]
@@ -109,7 +113,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     assert_eq!((strokes, strokes), finished.told);
     let text = finished.script.to_json().unwrap();
     let (document, report) = replayed(&text);
-    let wanted = finished.painting.document().unwrap();
+    let wanted = finished.easel.canvas_mut().document().unwrap();
     assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
     assert!(document.wet == wanted.wet && document.dry == wanted.dry, "another painting");
     assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));

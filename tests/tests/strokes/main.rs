@@ -48,11 +48,21 @@ fn refused(from: &str, to: &str) -> StrokesError {
 }
 
 #[test]
-fn the_guide_shows_a_script_that_can_be_painted() {
+fn the_guide_shows_scripts_that_can_be_painted() {
     let page = std::fs::read_to_string(suite::program::repository("docs/painting.md")).unwrap();
-    let script = page.split("```json\n").nth(1).unwrap().split("```").next().unwrap();
-    let script = Strokes::from_json("docs/painting.md", script.as_bytes()).unwrap();
-    script.resolve(&suite::oils::library()).unwrap();
+    let shown: Vec<&str> = page.split("```json\n").skip(1).collect();
+    let shown: Vec<&str> = shown.iter().map(|rest| rest.split("```").next().unwrap()).collect();
+    let [script, keys] = shown[..] else { panic!("{} scripts", shown.len()) };
+    // The second is part of the first, with other actions.
+    let mut mixed: serde_json::Value = serde_json::from_str(script).unwrap();
+    let keys: serde_json::Value = serde_json::from_str(&format!("{{{keys}}}")).unwrap();
+    for (key, value) in keys.as_object().unwrap() {
+        mixed[key] = value.clone();
+    }
+    for text in [script, &mixed.to_string()] {
+        let script = Strokes::from_json("docs/painting.md", text.as_bytes()).unwrap();
+        script.resolve(&suite::oils::library()).unwrap();
+    }
 }
 
 #[test]

@@ -56,7 +56,7 @@ fn layer() -> impl Strategy<Value = LayerName> {
 fn action() -> impl Strategy<Value = Action> {
     let name = "[A-Za-z \u{e9}\"\\\\]{1,9}";
     let recipe = prop::collection::btree_map(name, 0.001..1e6, 1..8);
-    let place = (-1e6..1e6, -1e6..1e6, 0.0..1e6);
+    let place = (-1e6..1e6, -1e6..1e6, 0.001..1e6);
     let heap = (surface(), recipe.clone(), 0.0..=1.0, place).prop_map(
         |(on, recipe, vehicle, (x_mm, y_mm, volume_mm3))| {
             Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 })

@@ -64,6 +64,7 @@ fn numbers_of_heaps_and_shine_are_told_with_their_place() {
     let first = "action 14 (squeeze), ";
     let cases = [
         ("\"volume_mm3\": 40", "\"volume_mm3\": -1", "volume_mm3: 0 to 1000000, found `-1`"),
+        ("\"volume_mm3\": 40", "\"volume_mm3\": 0", "volume_mm3: above 0, found `0`"),
         ("\"x_mm\": 20", "\"x_mm\": 1e7", "x_mm: -1000000 to 1000000, found `10000000`"),
         ("\"y_mm\": 15", "\"y_mm\": -1e7", "y_mm: -1000000 to 1000000, found `-10000000`"),
         ("{\"W\": 1}", "{}", "recipe: parts that sum to more than 0, found `0`"),

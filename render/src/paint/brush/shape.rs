@@ -56,6 +56,19 @@ impl HeadShape {
         }
     }
 
+    /// Its contour seen from the broad side, from the ferrule to the tip: distance
+    /// from the ferrule, and half the width there, in widths of the head.
+    #[must_use]
+    pub fn contour(self) -> Vec<(f32, f32)> {
+        let of = self.proportions();
+        let point = |node: usize| {
+            let share = node as f32 / (NODES - 1) as f32;
+            let spread = of.root + (1.0 - of.root) * share;
+            (of.length * share, 0.5 * of.width[node] * spread)
+        };
+        (0..NODES).map(point).collect()
+    }
+
     pub(super) fn proportions(self) -> &'static Proportions {
         match self {
             Self::Round => &ROUND,
@@ -220,6 +233,17 @@ const KNIFE: Proportions = Proportions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_contour_is_as_long_and_wide_as_the_head() {
+        for shape in HeadShape::ALL {
+            let contour = shape.contour();
+            let widest = contour.iter().map(|(_, half)| 2.0 * half).fold(0.0, f32::max);
+            assert_eq!(contour[0].0, 0.0, "{shape}");
+            assert_eq!(contour[NODES - 1].0, shape.proportions().length, "{shape}");
+            assert!((0.98..=1.0).contains(&widest), "{shape} is {widest} wide");
+        }
+    }
 
     #[test]
     fn names_come_back_and_others_are_refused_with_a_list() {

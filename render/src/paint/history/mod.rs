@@ -267,6 +267,18 @@ impl<T> History<T> {
         self.bytes
     }
 
+    /// The memory that kept paint may take, in bytes.
+    #[must_use]
+    pub fn limit(&self) -> u64 {
+        self.limit_bytes
+    }
+
+    /// Sets it; what is furthest from now is forgotten until the rest fits.
+    pub fn set_limit(&mut self, limit_bytes: u64) {
+        self.limit_bytes = limit_bytes;
+        self.shrink();
+    }
+
     /// The action that is open, unless it is too large.
     fn kept(&mut self) -> Option<&mut Action<T>> {
         match self.open.as_mut().expect("an action is open") {

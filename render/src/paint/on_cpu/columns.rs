@@ -42,6 +42,17 @@ impl Columns {
         self.volume[index] = cell.volume();
     }
 
+    /// Puts `part` in the place of what begins at column `x` of row `y`.
+    pub(super) fn put(&mut self, (x, y): (usize, usize), part: &Layer) {
+        self.layer.put((x, y), part);
+        for row in 0..part.height() {
+            let first = (y + row) * self.layer.width() + x;
+            for (column, volume) in self.volume[first..][..part.width()].iter_mut().enumerate() {
+                *volume = part.cell(row * part.width() + column).volume();
+            }
+        }
+    }
+
     /// The rows from `first` on, `count` of them, to be changed.
     pub(super) fn rows(&mut self, first: usize, count: usize) -> Rows<'_> {
         let width = self.layer.width();

@@ -4,7 +4,7 @@ use super::OnCpu;
 use crate::field::Field;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
-use crate::paint::engine::{Engine, Slot};
+use crate::paint::engine::{Engine, Slot, View};
 use crate::tile::{Rect, Tile, TileSet};
 
 const WIDTH: usize = 150;
@@ -114,16 +114,16 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
     engine.dry(30_000).expect("room");
     let all = TileSet::all(engine.bounds());
     let none = TileSet::default();
-    engine.light(&scene(1), &all, &none).expect("lit");
+    engine.light(View::First, &scene(1), &all, &none).expect("lit");
     let first = engine.picture().expect("a picture");
     // A wet stroke within one tile and its neighbours' shadow, then drying.
     let stroke = Rect { x: 70, y: 70, width: 20, height: 20 };
     engine.set_wet(&paint_in(stroke)).expect("room");
     let mut spot = TileSet::default();
     spot.insert(SPOT);
-    engine.light(&scene(1), &none, &spot).expect("lit");
+    engine.light(View::First, &scene(1), &none, &spot).expect("lit");
     let shown = engine.picture().expect("a picture");
-    engine.light(&scene(1), &all, &none).expect("lit");
+    engine.light(View::First, &scene(1), &all, &none).expect("lit");
     assert!(engine.picture().expect("a picture") == shown, "shown tiles alone");
     let untouched = |x: usize, y: usize| x >= 128 || !(40..80).contains(&y) && x < 50;
     for (index, (now, before)) in shown.values().iter().zip(first.values()).enumerate() {
@@ -132,9 +132,9 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
     }
     assert_ne!(shown[(80, 80)], first[(80, 80)]);
     engine.dry(65_536).expect("room");
-    engine.light(&scene(2), &spot, &none).expect("lit");
+    engine.light(View::First, &scene(2), &spot, &none).expect("lit");
     let baked = engine.picture().expect("a picture");
-    engine.light(&scene(2), &all, &all).expect("lit");
+    engine.light(View::First, &scene(2), &all, &all).expect("lit");
     assert!(engine.picture().expect("a picture") == baked, "baked tiles alone");
     assert!(baked.values().iter().all(|rgba| rgba.iter().all(|v| v.is_finite())), "finite");
 }
@@ -143,7 +143,7 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
 fn bare_ground_shows_what_an_instrument_would_read_of_it() {
     let mut engine = OnCpu::new(Field::filled(WIDTH, HEIGHT, 0));
     let all = TileSet::all(engine.bounds());
-    engine.light(&scene(0), &all, &all).expect("lit");
+    engine.light(View::First, &scene(0), &all, &all).expect("lit");
     let seen = engine.picture().expect("a picture")[(7, 5)][0];
     // 0.8 below a surface of k1 = 0.03 and k2 = 0.5, at eight wavelengths of 1/8.
     let measured = 0.97 * 0.5 * 0.8 / (1.0 - 0.5 * 0.8);

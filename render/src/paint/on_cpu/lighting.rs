@@ -70,11 +70,19 @@ impl Lit {
         for tile in baked.iter() {
             both.insert_tile(tile);
         }
+        let (Some(highest), Some(lowest)) = (both.iter().next(), both.iter().last()) else {
+            return;
+        };
+        // Rows beyond these are not even looked at.
+        let first = highest.row * TILE;
+        let cells =
+            first * bounds.width..((lowest.row + 1) * TILE).min(bounds.height) * bounds.width;
         let (baked_spans, shown_spans) = (spans(baked, bounds), spans(&both, bounds));
-        let baked = self.baked.values_mut().par_chunks_mut(bounds.width);
-        let picture = self.picture.values_mut().par_chunks_mut(bounds.width);
+        let baked = self.baked.values_mut()[cells.clone()].par_chunks_mut(bounds.width);
+        let picture = self.picture.values_mut()[cells].par_chunks_mut(bounds.width);
         let rows = baked.zip(picture).enumerate();
-        rows.for_each_init(Buffers::default, |buffers, (y, (baked, picture))| {
+        rows.for_each_init(Buffers::default, |buffers, (row, (baked, picture))| {
+            let y = first + row;
             for span in &baked_spans[y / TILE] {
                 bake(scene, painting, y, span, baked);
             }

@@ -3,7 +3,7 @@
 //! Follows the specification of [`super::motion`] on all cores; the result does
 //! not depend on how many there are. Memory: 44 bytes a cell of the canvas (wet
 //! paint 36, its volume 4, floor 4) and 4 for the ground, 48 more once it has
-//! been lit; a dry layer 36 bytes for each cell of its painted tiles.
+//! been lit, and again under a second light; a dry layer 36 bytes for each cell of its painted tiles.
 
 mod columns;
 
@@ -29,9 +29,9 @@ mod keeping;
 use self::columns::Columns;
 use self::lighting::Lit;
 use self::play::Player;
-use self::sparse::{SparseLayer, copied};
+use self::sparse::SparseLayer;
 use super::contact::Contact;
-use super::engine::{BrushId, Engine, EngineError, Slot};
+use super::engine::{BrushId, Engine, EngineError, Slot, View};
 use super::motion::Motion;
 use crate::field::Field;
 use crate::layer::Layer;
@@ -47,7 +47,7 @@ pub struct OnCpu {
     brushes: Vec<Columns>,
     dry: Vec<SparseLayer>,
     slots: Vec<Option<Layer>>,
-    lit: Lit,
+    lit: [Lit; 2],
     player: Player,
 }
 
@@ -62,7 +62,7 @@ impl OnCpu {
             brushes: Vec::new(),
             dry: Vec::new(),
             slots: Vec::new(),
-            lit: Lit::default(),
+            lit: Default::default(),
             player: Player::default(),
         }
     }
@@ -107,13 +107,13 @@ impl Engine for OnCpu {
         Ok(())
     }
 
-    fn wet(&mut self) -> Result<Layer, EngineError> {
-        Ok(self.wet.layer().clone())
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError> {
+        Ok(self.wet.layer().part(rect))
     }
 
-    fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError> {
-        assert_eq!(paint.vehicle.bounds(), self.bounds(), "cells of the canvas");
-        self.wet = Columns::new(paint.clone());
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError> {
+        assert_eq!((paint.width(), paint.height()), (rect.width, rect.height), "cells of {rect:?}");
+        self.wet.put((rect.x, rect.y), paint);
         Ok(())
     }
 
@@ -144,8 +144,10 @@ impl Engine for OnCpu {
         self.dry.len()
     }
 
-    fn dry_layer(&mut self, index: usize) -> Result<Layer, EngineError> {
-        Ok(self.dry[index].to_layer())
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError> {
+        let bounds = self.bounds();
+        assert_eq!(rect.intersection(bounds), rect, "cells of {bounds:?}");
+        Ok(self.dry[index].part(rect))
     }
 
     fn push_dry(&mut self, layer: &Layer) -> Result<(), EngineError> {
@@ -157,7 +159,7 @@ impl Engine for OnCpu {
     fn pop_dry(&mut self) -> Result<Layer, EngineError> {
         let layer = self.dry.pop().expect("a dry layer is there, as the caller must know");
         layer.on_floor(&mut self.floor, |floor, volume| floor - volume as i32);
-        Ok(layer.to_layer())
+        Ok(layer.part(self.bounds()))
     }
 
     fn floor(&mut self) -> Result<Field<i32>, EngineError> {
@@ -167,7 +169,7 @@ impl Engine for OnCpu {
     fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError> {
         let rect = self.rect_of(tile);
         self.slots.resize(self.slots.len().max(slot.0 + 1), None);
-        self.slots[slot.0] = Some(copied(self.wet.layer(), rect));
+        self.slots[slot.0] = Some(self.wet.layer().part(rect));
         Ok(())
     }
 
@@ -187,17 +189,28 @@ impl Engine for OnCpu {
 
     fn light(
         &mut self,
+        view: View,
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
     ) -> Result<(), EngineError> {
         let Self { ground, floor, wet, dry, lit, .. } = self;
-        lit.light(scene, &lighting::Painting { ground, floor, wet, dry }, baked, shown);
+        lit[view as usize].light(
+            scene,
+            &lighting::Painting { ground, floor, wet, dry },
+            baked,
+            shown,
+        );
         Ok(())
     }
 
-    fn picture(&mut self) -> Result<Field<[f32; 4]>, EngineError> {
-        Ok(self.lit.picture(self.bounds()).clone())
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError> {
+        let bounds = self.bounds();
+        Ok(self.lit[view as usize].picture(bounds).part(rect))
+    }
+
+    fn forget_view(&mut self, view: View) {
+        self.lit[view as usize] = Lit::default();
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Player {
 /// How many bands a contact of `reach` is cut into.
 fn bands_for(reach: Rect) -> usize {
     let worth = reach.width * reach.height / CELLS_A_BAND;
-    worth.min(rayon::current_num_threads()).clamp(1, reach.height)
+    worth.min(rayon::current_num_threads()).clamp(1, reach.height.max(1))
 }
 
 impl Player {

@@ -23,15 +23,21 @@ impl SparseLayer {
     pub(super) fn from_layer(layer: &Layer) -> Self {
         let mut sparse = Self::empty(layer.vehicle.bounds());
         for tile in TileSet::all(sparse.bounds).iter() {
-            sparse.set_tile(tile, copied(layer, tile.rect(sparse.bounds)));
+            sparse.set_tile(tile, layer.part(tile.rect(sparse.bounds)));
         }
         sparse
     }
 
-    pub(super) fn to_layer(&self) -> Layer {
-        let mut layer = Layer::empty(self.bounds.width, self.bounds.height);
-        for (tile, part) in self.tiles() {
-            paste(part, &mut layer, tile.rect(self.bounds));
+    /// Its paint in `rect`, which lies within its bounds.
+    pub(super) fn part(&self, rect: Rect) -> Layer {
+        let mut layer = Layer::empty(rect.width, rect.height);
+        let mut reached = TileSet::default();
+        reached.insert(rect);
+        for tile in reached.iter() {
+            let (whole, Some(part)) = (tile.rect(self.bounds), self.tile(tile)) else { continue };
+            let both = whole.intersection(rect);
+            let inside = Rect { x: both.x - whole.x, y: both.y - whole.y, ..both };
+            layer.put((both.x - rect.x, both.y - rect.y), &part.part(inside));
         }
         layer
     }
@@ -68,27 +74,5 @@ impl SparseLayer {
                 }
             }
         }
-    }
-}
-
-/// The part of `layer` in `rect`.
-pub(super) fn copied(layer: &Layer, rect: Rect) -> Layer {
-    let mut part = Layer::empty(rect.width, rect.height);
-    for y in 0..rect.height {
-        let from = layer.pigments.row(rect.y + y, rect.x, rect.width);
-        part.pigments.row_mut(y, 0, rect.width).copy_from_slice(from);
-        let from = layer.vehicle.row(rect.y + y, rect.x, rect.width);
-        part.vehicle.row_mut(y, 0, rect.width).copy_from_slice(from);
-    }
-    part
-}
-
-/// Puts `part` into `layer` at `rect`.
-fn paste(part: &Layer, layer: &mut Layer, rect: Rect) {
-    for y in 0..rect.height {
-        let to = layer.pigments.row_mut(rect.y + y, rect.x, rect.width);
-        to.copy_from_slice(part.pigments.row(y, 0, rect.width));
-        let to = layer.vehicle.row_mut(rect.y + y, rect.x, rect.width);
-        to.copy_from_slice(part.vehicle.row(y, 0, rect.width));
     }
 }

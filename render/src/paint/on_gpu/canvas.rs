@@ -1,9 +1,9 @@
 //! What lies on the device: paint, heads, stores, and how they come and go.
 
 use crate::field::Field;
-use crate::gpu::{Buffer, Device, GpuError};
+use crate::gpu::{Buffer, Device, GpuError, Rows};
 use crate::layer::{Layer, SLOTS};
-use crate::tile::TILE;
+use crate::tile::{Rect, TILE};
 
 /// Bytes of pigments in a cell.
 pub(super) const PIGMENTS: u64 = 4 * SLOTS as u64;
@@ -34,23 +34,30 @@ impl Paint {
         })
     }
 
-    /// Puts `layer` in its place.
-    pub(super) fn write(&self, device: &mut Device, layer: &Layer) -> Result<(), GpuError> {
-        device.write(&self.pigments, layer.pigments.values())?;
-        device.write(&self.vehicle, layer.vehicle.values())
+    /// Puts `layer` in the place of its cells in `rect`, in rows of `width`.
+    pub(super) fn write(
+        &self,
+        device: &mut Device,
+        (rect, width): (Rect, usize),
+        layer: &Layer,
+    ) -> Result<(), GpuError> {
+        let rows = Rows::of(rect, width);
+        device.write(&self.pigments, rows, layer.pigments.values())?;
+        device.write(&self.vehicle, rows, layer.vehicle.values())
     }
 
-    /// Its `width` x `height` cells.
+    /// Its cells in `rect`, in rows of `width`.
     pub(super) fn read(
         &self,
         device: &mut Device,
-        (width, height): (usize, usize),
+        (rect, width): (Rect, usize),
     ) -> Result<Layer, GpuError> {
-        let pigments = device.read(&self.pigments, width * height)?;
-        let vehicle = device.read(&self.vehicle, width * height)?;
+        let rows = Rows::of(rect, width);
+        let pigments = device.read(&self.pigments, rows)?;
+        let vehicle = device.read(&self.vehicle, rows)?;
         Ok(Layer {
-            pigments: Field::from_values(width, height, pigments),
-            vehicle: Field::from_values(width, height, vehicle),
+            pigments: Field::from_values(rect.width, rect.height, pigments),
+            vehicle: Field::from_values(rect.width, rect.height, vehicle),
         })
     }
 }
@@ -66,6 +73,12 @@ impl Head {
     pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, GpuError> {
         let cells = size.0 * size.1;
         Ok(Self { size, paint: Paint::empty(device, "the head of a brush", cells)? })
+    }
+
+    /// All its cells, and how many are in a row.
+    pub(super) fn whole(&self) -> (Rect, usize) {
+        let (width, height) = self.size;
+        (Rect { x: 0, y: 0, width, height }, width)
     }
 
     pub(super) fn cells(&self) -> u32 {

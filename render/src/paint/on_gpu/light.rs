@@ -7,11 +7,11 @@ use super::OnGpu;
 use super::canvas::Paint;
 use crate::amount::QUANTA_PER_CELL;
 use crate::field::Field;
-use crate::gpu::{Buffer, Device, GROUP, GpuError, Kernel, Layout, Storage, layout};
+use crate::gpu::{Buffer, Device, GROUP, GpuError, Kernel, Layout, Rows, Storage, layout};
 use crate::layer::SLOTS;
 use crate::optics::{Gloss, Lamp, NODES, Scene};
-use crate::paint::engine::EngineError;
-use crate::tile::{TILE, TileSet};
+use crate::paint::engine::{EngineError, View};
+use crate::tile::{Rect, TILE, TileSet};
 
 /// As many tiles as one dispatch may have in a direction.
 const TILES: usize = 65535;
@@ -128,8 +128,8 @@ pub(super) static SHOW: Kernel = Kernel {
     ],
 };
 
-/// What light needs on the device, made when it is first asked for.
-#[derive(Debug)]
+/// What the light of a view needs on the device, made when it is first asked for.
+#[derive(Debug, Clone)]
 pub(super) struct Lit {
     baked: Buffer,
     bare: Buffer,
@@ -173,37 +173,39 @@ impl Bumps {
 
 impl OnGpu {
     /// Makes the light's buffers unless they are there.
-    fn lit(&mut self) -> Result<(), EngineError> {
-        if self.lit.is_none() {
-            self.lit = Some(Lit::new(&self.device, self.bounds.width * self.bounds.height)?);
+    fn lit(&mut self, view: View) -> Result<Lit, EngineError> {
+        if let Some(lit) = &self.lit[view as usize] {
+            return Ok(lit.clone());
         }
-        Ok(())
+        let lit = Lit::new(&self.device, self.bounds.width * self.bounds.height)?;
+        self.lit[view as usize] = Some(lit.clone());
+        Ok(lit)
     }
 
     pub(super) fn light_tiles(
         &mut self,
+        view: View,
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
     ) -> Result<(), EngineError> {
         let found = scene.dry.len();
         assert_eq!(found, self.dry.len(), "a coat for each dry layer, found {found}");
-        self.lit()?;
+        let lit = self.lit(view)?;
         let mut shown = shown.clone();
         for tile in baked.iter() {
             shown.insert_tile(tile);
         }
         for tiles in columns_and_rows(baked).chunks(TILES) {
-            self.bake(scene, tiles);
+            self.bake(&lit, scene, tiles);
         }
         for tiles in columns_and_rows(&shown).chunks(TILES) {
-            self.show(scene, tiles);
+            self.show(&lit, scene, tiles);
         }
         self.send()
     }
 
-    fn bake(&mut self, scene: &Scene, tiles: &[[u32; 2]]) {
-        let Some(lit) = &self.lit else { return };
+    fn bake(&mut self, lit: &Lit, scene: &Scene, tiles: &[[u32; 2]]) {
         let empty = Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
         let baking = Baking {
             coat: empty,
@@ -224,8 +226,7 @@ impl OnGpu {
         }
     }
 
-    fn show(&mut self, scene: &Scene, tiles: &[[u32; 2]]) {
-        let Some(lit) = &self.lit else { return };
+    fn show(&mut self, lit: &Lit, scene: &Scene, tiles: &[[u32; 2]]) {
         let surface = scene.surface;
         let showing = Showing {
             coat: (&scene.wet).into(),
@@ -246,15 +247,16 @@ impl OnGpu {
         self.waiting.dispatch(&SHOW, &showing, &buffers, over(tiles));
     }
 
-    /// The picture; black where no light was computed.
-    pub(super) fn read_picture(&mut self) -> Result<Field<[f32; 4]>, EngineError> {
-        self.lit()?;
-        let (width, height) = (self.bounds.width, self.bounds.height);
-        let values = match &self.lit {
-            Some(lit) => self.device.read(&lit.picture, width * height)?,
-            None => Vec::new(),
-        };
-        Ok(Field::from_values(width, height, values))
+    /// A view in `rect`; black where no light was computed.
+    pub(super) fn read_picture(
+        &mut self,
+        view: View,
+        rect: Rect,
+    ) -> Result<Field<[f32; 4]>, EngineError> {
+        let lit = self.lit(view)?;
+        let (rect, width) = self.rows(rect);
+        let values = self.device.read(&lit.picture, Rows::of(rect, width))?;
+        Ok(Field::from_values(rect.width, rect.height, values))
     }
 }
 

@@ -21,10 +21,10 @@ use motion::Step;
 use rest::{Drying, Keeping};
 
 use super::contact::{Contact, Touch};
-use super::engine::{BrushId, Engine, EngineError, Slot};
+use super::engine::{BrushId, Engine, EngineError, Slot, View};
 use super::motion::Motion;
 use crate::field::Field;
-use crate::gpu::{Adapter, Buffer, Device, GpuError, Recording, groups};
+use crate::gpu::{Adapter, Buffer, Device, GpuError, Recording, Rows, groups};
 use crate::layer::Layer;
 use crate::optics::Scene;
 use crate::tile::{Rect, TILE, Tile, TileSet};
@@ -45,7 +45,7 @@ pub struct OnGpu {
     scratch: Scratch,
     dry: Vec<Paint>,
     kept: Stores,
-    lit: Option<Lit>,
+    lit: [Option<Lit>; 2],
 }
 
 impl From<GpuError> for EngineError {
@@ -88,7 +88,7 @@ impl OnGpu {
             scratch: Scratch::new(&device, 1)?,
             dry: Vec::new(),
             kept: Stores::default(),
-            lit: None,
+            lit: [None, None],
             device,
         })
     }
@@ -110,6 +110,12 @@ impl OnGpu {
 
     fn size(&self) -> (usize, usize) {
         (self.bounds.width, self.bounds.height)
+    }
+
+    /// `rect` in rows of the canvas.
+    fn rows(&self, rect: Rect) -> (Rect, usize) {
+        assert_eq!(rect.intersection(self.bounds), rect, "cells of {:?}", self.bounds);
+        (rect, self.bounds.width)
     }
 
     fn canvas(&self) -> [u32; 2] {
@@ -223,26 +229,27 @@ impl Engine for OnGpu {
     fn brush(&mut self, brush: BrushId) -> Result<Layer, EngineError> {
         self.send()?;
         let head = &self.brushes[brush.0];
-        Ok(head.paint.read(&mut self.device, head.size)?)
+        Ok(head.paint.read(&mut self.device, head.whole())?)
     }
 
     fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), EngineError> {
         self.send()?;
         let head = &self.brushes[brush.0];
         assert_eq!((paint.width(), paint.height()), head.size, "the cells of {brush:?}");
-        Ok(head.paint.write(&mut self.device, paint)?)
+        Ok(head.paint.write(&mut self.device, head.whole(), paint)?)
     }
 
-    fn wet(&mut self) -> Result<Layer, EngineError> {
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError> {
         self.send()?;
-        let size = self.size();
-        Ok(self.wet.read(&mut self.device, size)?)
+        let rows = self.rows(rect);
+        Ok(self.wet.read(&mut self.device, rows)?)
     }
 
-    fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError> {
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError> {
         self.send()?;
-        assert_eq!((paint.width(), paint.height()), self.size(), "the cells of the canvas");
-        Ok(self.wet.write(&mut self.device, paint)?)
+        assert_eq!((paint.width(), paint.height()), (rect.width, rect.height), "cells of {rect:?}");
+        let rows = self.rows(rect);
+        Ok(self.wet.write(&mut self.device, rows, paint)?)
     }
 
     fn painted(&mut self) -> Result<TileSet, EngineError> {
@@ -263,17 +270,17 @@ impl Engine for OnGpu {
         self.dry.len()
     }
 
-    fn dry_layer(&mut self, index: usize) -> Result<Layer, EngineError> {
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError> {
         self.send()?;
-        let size = self.size();
-        Ok(self.dry[index].read(&mut self.device, size)?)
+        let rows = self.rows(rect);
+        Ok(self.dry[index].read(&mut self.device, rows)?)
     }
 
     fn push_dry(&mut self, layer: &Layer) -> Result<(), EngineError> {
         assert_eq!((layer.width(), layer.height()), self.size(), "the cells of the canvas");
         self.send()?;
         let paint = self.empty_dry()?;
-        paint.write(&mut self.device, layer)?;
+        paint.write(&mut self.device, (self.bounds, self.bounds.width), layer)?;
         let drying = Drying { canvas: self.canvas(), parts: 0, rise: 1 };
         self.with_dry(&rest::RAISE, &paint, drying);
         self.dry.push(paint);
@@ -294,7 +301,7 @@ impl Engine for OnGpu {
     fn floor(&mut self) -> Result<Field<i32>, EngineError> {
         self.send()?;
         let (width, height) = self.size();
-        let values = self.device.read(&self.floor, width * height)?;
+        let values = self.device.read(&self.floor, Rows::start(width * height))?;
         Ok(Field::from_values(width, height, values))
     }
 
@@ -308,16 +315,21 @@ impl Engine for OnGpu {
 
     fn light(
         &mut self,
+        view: View,
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
     ) -> Result<(), EngineError> {
-        self.light_tiles(scene, baked, shown)
+        self.light_tiles(view, scene, baked, shown)
     }
 
-    fn picture(&mut self) -> Result<Field<[f32; 4]>, EngineError> {
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError> {
         self.send()?;
-        self.read_picture()
+        self.read_picture(view, rect)
+    }
+
+    fn forget_view(&mut self, view: View) {
+        self.lit[view as usize] = None;
     }
 }
 

@@ -6,6 +6,7 @@ use crate::amount::{FULL, mm_from_quanta, quanta_from_mm};
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::paint::brush::{Head, HeadShape};
 use crate::paint::engine::BrushId;
+use crate::paint::pose::Sample;
 
 /// A brush in hand.
 #[derive(Debug)]
@@ -67,13 +68,12 @@ impl Painting {
         self.change_brush(brush, &paint)
     }
 
-    /// One cell's worth of a mixture.
-    fn mixture(
+    /// The share of each slot and, last, of vehicle in a mixture.
+    pub(super) fn shares(
         &self,
         recipe: &[f64; SLOTS],
         vehicle: f64,
-        amount_mm: f64,
-    ) -> Result<Cell, PaintingError> {
+    ) -> Result<[f64; SLOTS + 1], PaintingError> {
         if !(0.0..=1.0).contains(&vehicle) {
             return Err(PaintingError::Share { what: "vehicle", value: vehicle });
         }
@@ -82,21 +82,34 @@ impl Painting {
         if !(parts && (total > 0.0 || vehicle == 1.0)) {
             return Err(PaintingError::NoMixture);
         }
-        if !(amount_mm >= 0.0 && amount_mm.is_finite()) {
-            return Err(PaintingError::Amount { value: amount_mm });
-        }
         if let Some(slot) = (0..SLOTS).find(|&i| recipe[i] > 0.0 && self.state.slots[i].is_none()) {
             return Err(PaintingError::EmptySlot { slot });
         }
-        let quanta = |share: f64| quanta_from_mm(amount_mm * share, self.cell_mm);
-        Ok(Cell {
-            // Clear vehicle alone needs no parts.
-            pigments: match total {
-                0.0 => [0; SLOTS],
-                _ => recipe.map(|part| quanta(part / total * (1.0 - vehicle))),
-            },
-            vehicle: quanta(vehicle),
-        })
+        let mut shares = [0.0; SLOTS + 1];
+        // Clear vehicle alone needs no parts.
+        if total > 0.0 {
+            for (share, part) in shares.iter_mut().zip(recipe) {
+                *share = part / total * (1.0 - vehicle);
+            }
+        }
+        shares[SLOTS] = vehicle;
+        Ok(shares)
+    }
+
+    /// One cell's worth of a mixture.
+    fn mixture(
+        &self,
+        recipe: &[f64; SLOTS],
+        vehicle: f64,
+        amount_mm: f64,
+    ) -> Result<Cell, PaintingError> {
+        let shares = self.shares(recipe, vehicle)?;
+        if !(amount_mm >= 0.0 && amount_mm.is_finite()) {
+            return Err(PaintingError::Amount { value: amount_mm });
+        }
+        let [pigments @ .., vehicle] =
+            shares.map(|share| quanta_from_mm(amount_mm * share, self.cell_mm));
+        Ok(Cell { pigments, vehicle })
     }
 
     /// Wipes a brush on a rag: of its paint the share `kept` (0..1) stays.
@@ -127,6 +140,33 @@ impl Painting {
     /// [`PaintingError`] if the device was lost.
     pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
         Ok(self.engine.brush(self.brushes[brush].id)?)
+    }
+
+    /// Puts `paint` on a brush in place of what it holds: paint that comes from
+    /// elsewhere, of this painting's palette. No action of its own, as loading and
+    /// washing; see [`Painting::begin_stroke_with`] for a part of a stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `paint` has not the cells of the head.
+    pub fn set_brush_paint(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
+        self.change_brush(brush, paint)
+    }
+
+    /// The head of a brush, as it is bent now.
+    #[must_use]
+    pub fn head(&self, brush: usize) -> &Head {
+        &self.brushes[brush].head
+    }
+
+    /// Holds a brush just above the canvas, as to draw its [`Painting::head`]
+    /// there. While a stroke with it is open nothing happens.
+    pub fn hover(&mut self, brush: usize, sample: &Sample) {
+        if !self.strokes_with(brush) {
+            self.brushes[brush].head.hover(&sample.pose(self.cell_mm), &self.relief);
+        }
     }
 
     fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {

@@ -37,6 +37,38 @@ pub enum PaintingError {
         /// What was given.
         value: f64,
     },
+    /// A volume that is none.
+    #[error("a volume of paint is above 0 mm3 and at most a litre, 1000000 mm3, found `{value}`")]
+    Volume {
+        /// What was given.
+        value: f64,
+    },
+    /// A place beside the canvas.
+    #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
+    OffCanvas {
+        /// From the left edge.
+        x_mm: f64,
+        /// From the upper edge.
+        y_mm: f64,
+    },
+    /// A heap where paint is piled up already.
+    #[error("the paint {x_mm} mm from the left and `{y_mm}` mm from the top is too high for more")]
+    NoRoom {
+        /// From the left edge.
+        x_mm: f64,
+        /// From the upper edge.
+        y_mm: f64,
+    },
+    /// A shine that is none.
+    #[error(
+        "a gloss has a strength of 0 to 100 and an exponent of 0 to 1e6, found `{strength}` and `{exponent}`"
+    )]
+    Gloss {
+        /// What was given.
+        strength: f32,
+        /// What was given.
+        exponent: f32,
+    },
     /// Paint of a slot that holds no pigment.
     #[error("no pigment is squeezed out in slot {slot}")]
     EmptySlot {
@@ -141,6 +173,8 @@ impl PaintingError {
             Self::AlreadyThere { .. } => {
                 Some("a layer holds each pigment once: choose one that it lacks".to_owned())
             }
+            Self::OffCanvas { .. } => Some("places are in mm from the canvas's corner".to_owned()),
+            Self::NoRoom { .. } => Some("squeeze beside it, or spread it first".to_owned()),
             Self::WetOpacity => Some("dry it first".to_owned()),
             Self::OffPalette { .. } => {
                 Some("put it there with a palette action, or undo less".to_owned())

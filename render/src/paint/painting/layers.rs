@@ -5,7 +5,6 @@ use super::failure::PaintingError;
 use super::state::{DryState, HIGHEST, Painting};
 use crate::paint::brush::Relief;
 use crate::paint::document::Slots;
-use crate::tile::TileSet;
 
 /// One layer of a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,9 +34,7 @@ impl Painting {
             painting.history.dry(painting.engine.as_mut(), share)?;
             painting.state.dry.push(DryState { slots: painting.state.slots, opacity: 1.0 });
             painting.feel_floor()?;
-            for tile in painted.iter() {
-                painting.unbaked.insert_tile(tile);
-            }
+            painted.iter().for_each(|tile| painting.views.touch_dry(tile));
             Ok(())
         })?;
         Ok(true)
@@ -46,9 +43,26 @@ impl Painting {
     /// Puts other pigments on the palette. Those that stay keep their slots.
     ///
     /// # Errors
+    /// As [`Painting::slots_with`]; nothing is changed then.
+    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+        let slots = self.slots_with(pigments)?;
+        self.acting(|painting| {
+            // What they take up from now on is paint of this palette.
+            for brush in &painting.brushes {
+                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
+            }
+            painting.state.slots = slots;
+            Ok(())
+        })
+    }
+
+    /// The slots that [`Painting::set_palette`] would give: pigments that stay
+    /// keep theirs.
+    ///
+    /// # Errors
     /// [`PaintingError`] for more than eight, or where a pigment that leaves is
     /// still wet on the canvas or on a brush.
-    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+    pub fn slots_with(&mut self, pigments: &[usize]) -> Result<Slots, PaintingError> {
         let mut wanted: Vec<usize> = Vec::new();
         for &pigment in pigments {
             if !wanted.contains(&pigment) {
@@ -77,15 +91,7 @@ impl Painting {
             let free = slots.iter().position(Option::is_none).expect("eight pigments have room");
             slots[free] = Some(pigment);
         }
-        self.acting(|painting| {
-            // What they take up from now on is paint of this palette.
-            for brush in &painting.brushes {
-                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
-            }
-            painting.state.slots = slots;
-            Ok(())
-        })?;
-        Ok(())
+        Ok(slots)
     }
 
     /// Exchanges a pigment of a layer for another of the library, as if it had
@@ -112,10 +118,9 @@ impl Painting {
                 Coating::Wet => painting.state.slots[place] = Some(to),
                 Coating::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
             }
-            painting.all_unseen();
+            painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// Multiplies the optical thickness of a dry layer with `opacity` (1 as it
@@ -132,10 +137,9 @@ impl Painting {
         }
         self.acting(|painting| {
             painting.state.dry[index].opacity = opacity;
-            painting.all_unseen();
+            painting.views.unseen();
             Ok(())
-        })?;
-        Ok(())
+        })
     }
 
     /// The pigments of a layer.
@@ -168,7 +172,7 @@ impl Painting {
     /// After the floor rose or sank.
     pub(super) fn floor_changed(&mut self) -> Result<(), PaintingError> {
         self.feel_floor()?;
-        self.all_unseen();
+        self.views.unseen();
         Ok(())
     }
 
@@ -183,16 +187,5 @@ impl Painting {
     fn feel_floor(&mut self) -> Result<(), PaintingError> {
         self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
-    }
-
-    /// After what is dry changed, or the light.
-    pub(super) fn all_unseen(&mut self) {
-        self.unbaked = TileSet::all(self.engine.bounds());
-        self.all_unshown();
-    }
-
-    /// After the lamp moved.
-    pub(super) fn all_unshown(&mut self) {
-        self.unshown = TileSet::all(self.engine.bounds());
     }
 }

@@ -39,11 +39,11 @@ impl Painting {
         let dry = self.state.dry.clone();
         let apart = self.replace_dry(index, &merged)?;
         self.state.dry.splice(index..index + 2, [state.clone()]);
-        self.all_unseen();
+        self.views.unseen();
         let (delta_e, x, y) = farthest(&before, &self.picture()?);
         self.replace_dry(index, &apart)?;
         self.state.dry = dry;
-        self.all_unseen();
+        self.views.unseen();
         if delta_e > MERGE_TOLERANCE {
             return Err(PaintingError::MergeShows { delta_e, x, y });
         }
@@ -57,8 +57,7 @@ impl Painting {
             }
             painting.state.dry.splice(index..index + 2, [state]);
             painting.floor_changed()
-        })?;
-        Ok(())
+        })
     }
 
     /// Puts `layers` in place of the dry layers from `index` up; gives those.

@@ -1,63 +1,45 @@
 //! The painting as it is seen.
 
-use std::sync::Arc;
-
-use calibrate::evaluate::Viewing;
-
 use super::failure::PaintingError;
 use super::state::Painting;
+use super::views::Unseen;
 use crate::field::Field;
-use crate::light::Light;
 use crate::optics::Scene;
-use crate::paint::document::Lighting;
-use crate::paint::scene::Appearance;
+use crate::paint::document::{Lighting, Slots};
+use crate::paint::engine::View;
+use crate::paint::scene::{Appearance, Films};
+use crate::tile::{Rect, TileSet};
 
 impl Painting {
-    /// Shows the painting under another light, one that has a name.
+    /// Computes what of the picture changed, or of that under the `second` light;
+    /// gives the tiles that may look other than when it was last asked.
     ///
     /// # Errors
-    /// [`PaintingError`] for a light that nobody knows.
-    pub fn relight(&mut self, lighting: Lighting) -> Result<(), PaintingError> {
-        let light = if self.same_lamp(&lighting) {
-            None
-        } else {
-            Some(Light::named(&self.library, &lighting.illuminant, &lighting.observer)?)
-        };
-        self.shine(lighting, light)
+    /// [`PaintingError`] if the device was lost, or has no room for a second view.
+    ///
+    /// # Panics
+    /// If there is no second light, as the next.
+    pub fn refresh(&mut self, second: bool) -> Result<TileSet, PaintingError> {
+        let view = view(second);
+        self.compute(view, &self.scene(view))?;
+        Ok(self.unseen_of(view).untold.take())
     }
 
-    /// Shows the painting under a measured light, which `lighting` calls by some
-    /// name of its own.
+    /// The picture in `rect` as last computed, or that under the `second` light;
+    /// costs no more than `rect` holds.
     ///
     /// # Errors
-    /// [`PaintingError`] for a light without wavelengths to choose from.
-    pub fn relight_with(
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` has cells that the canvas has not.
+    pub fn picture_in(
         &mut self,
-        viewing: &Viewing,
-        lighting: Lighting,
-    ) -> Result<(), PaintingError> {
-        let light = Light::new(&self.library, viewing)?;
-        self.shine(lighting, Some(light))
-    }
-
-    fn same_lamp(&self, lighting: &Lighting) -> bool {
-        let now = &self.state.lighting;
-        (&now.illuminant, &now.observer) == (&lighting.illuminant, &lighting.observer)
-    }
-
-    fn shine(&mut self, lighting: Lighting, light: Option<Light>) -> Result<(), PaintingError> {
-        self.acting(|painting| {
-            painting.state.lighting = lighting;
-            match light {
-                Some(light) => {
-                    painting.light = Arc::new(light);
-                    painting.all_unseen();
-                }
-                None => painting.all_unshown(),
-            }
-            Ok(())
-        })?;
-        Ok(())
+        second: bool,
+        rect: Rect,
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        assert!(!second || self.views.second.is_some(), "{SECOND}");
+        Ok(self.engine.picture_in(view(second), rect)?)
     }
 
     /// The picture in linear sRGB, white at 1. Only what changed since the last
@@ -66,8 +48,8 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub fn picture(&mut self) -> Result<Field<[f32; 4]>, PaintingError> {
-        let scene = self.scene();
-        self.shown(&scene)
+        self.compute(View::First, &self.scene(View::First))?;
+        Ok(self.engine.picture()?)
     }
 
     /// The same without relief and gloss: the colours alone.
@@ -75,42 +57,97 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub fn flat_picture(&mut self) -> Result<Field<[f32; 4]>, PaintingError> {
-        let mut scene = self.scene();
+        let mut scene = self.scene(View::First);
         let lamp = &mut scene.lamp;
         lamp.relief = 0.0;
         for gloss in [&mut lamp.wet, &mut lamp.dry, &mut lamp.ground] {
             gloss.strength = 0.0;
         }
-        self.all_unshown();
-        let picture = self.shown(&scene);
-        self.all_unshown();
-        picture
-    }
-
-    fn scene(&self) -> Scene {
-        let dry: Vec<_> = self.state.dry.iter().map(|dry| (dry.slots, dry.opacity)).collect();
-        let appearance = Appearance {
-            library: &self.library,
-            medium: &self.medium,
-            ground: &self.ground,
-            cell_mm: self.cell_mm,
-            dry: &dry,
-            slots: &self.state.slots,
-            lighting: &self.state.lighting,
-        };
-        appearance.scene(&self.light)
-    }
-
-    fn shown(&mut self, scene: &Scene) -> Result<Field<[f32; 4]>, PaintingError> {
-        let (baked, mut shown) = (self.unbaked.take(), self.unshown.take());
-        // The relief of a cell reaches to its neighbours.
-        let bounds = self.engine.bounds();
-        for tile in shown.clone().iter() {
-            shown.insert(tile.rect(bounds).grown(1, bounds));
-        }
-        self.engine.light(scene, &baked, &shown)?;
+        let all = TileSet::all(self.engine.bounds());
+        self.views.first.shown = all.clone();
+        let computed = self.compute(View::First, &scene);
+        self.views.first.shown = all;
+        computed?;
         Ok(self.engine.picture()?)
     }
+
+    /// The reflectance on the library's grid, the mean over the cells of `rect`,
+    /// as an instrument would read it: in f64, without relief and gloss.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` is empty, or has cells that the canvas has not.
+    pub fn reflectance_in(&mut self, rect: Rect) -> Result<Vec<f64>, PaintingError> {
+        assert!(!rect.is_empty(), "a reflectance of no cells");
+        let dry = (0..self.state.dry.len()).map(|index| self.engine.dry_in(index, rect));
+        let mut layers = dry.collect::<Result<Vec<_>, _>>()?;
+        layers.push(self.engine.wet_in(rect)?);
+        let dry = self.dry_states();
+        let films = Films::full(&self.appearance(&dry, &self.state.lighting));
+        let cells = rect.width * rect.height;
+        let mut mean = vec![0.0; films.count()];
+        for index in 0..cells {
+            let pigments = layers.iter().map(|layer| layer.pigments.values()[index]);
+            for (mean, one) in mean.iter_mut().zip(films.measured_reflectance(pigments)) {
+                *mean += one / cells as f64;
+            }
+        }
+        Ok(mean)
+    }
+
+    fn dry_states(&self) -> Vec<(Slots, f64)> {
+        self.state.dry.iter().map(|dry| (dry.slots, dry.opacity)).collect()
+    }
+
+    fn appearance<'a>(&'a self, dry: &'a [(Slots, f64)], lighting: &'a Lighting) -> Appearance<'a> {
+        Appearance {
+            library: &self.library,
+            medium: &self.state.medium,
+            ground: &self.ground,
+            cell_mm: self.cell_mm,
+            dry,
+            slots: &self.state.slots,
+            lighting,
+        }
+    }
+
+    fn scene(&self, view: View) -> Scene {
+        let (lighting, light) = match (view, &self.views.second) {
+            (View::First, _) => (&self.state.lighting, &self.light),
+            (View::Second, second) => {
+                let second = second.as_ref().expect(SECOND);
+                (&second.lighting, &second.light)
+            }
+        };
+        self.appearance(&self.dry_states(), lighting).scene(light)
+    }
+
+    fn unseen_of(&mut self, view: View) -> &mut Unseen {
+        match view {
+            View::First => &mut self.views.first,
+            View::Second => &mut self.views.second.as_mut().expect(SECOND).unseen,
+        }
+    }
+
+    fn compute(&mut self, view: View, scene: &Scene) -> Result<(), PaintingError> {
+        let unseen = self.unseen_of(view);
+        let (baked, shown) = (unseen.baked.clone(), unseen.shown.clone());
+        self.engine.light(view, scene, &baked, &shown)?;
+        let unseen = self.unseen_of(view);
+        (unseen.baked, unseen.shown) = Default::default();
+        for tile in baked.iter().chain(shown.iter()) {
+            unseen.untold.insert_tile(tile);
+        }
+        Ok(())
+    }
+}
+
+const SECOND: &str = "there is a second light, as the caller must know";
+
+fn view(second: bool) -> View {
+    if second { View::Second } else { View::First }
 }
 
 #[cfg(test)]

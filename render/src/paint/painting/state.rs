@@ -7,7 +7,8 @@ use calibrate::library::PigmentLibrary;
 use super::brushes::Brush;
 use super::failure::PaintingError;
 use super::strokes::OpenStroke;
-use super::undoing::Before;
+use super::undoing::{Adjusting, Before};
+use super::views::Views;
 use crate::amount::{FULL, mm_from_quanta};
 use crate::layer::{Layer, SLOTS};
 use crate::light::Light;
@@ -16,7 +17,7 @@ use crate::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots
 use crate::paint::engine::Engine;
 use crate::paint::history::History;
 use crate::paint::motion::Motion;
-use crate::tile::{Rect, TileSet};
+use crate::tile::Rect;
 
 /// How a dry layer is seen: what can be changed of it later.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +37,8 @@ pub struct State {
     pub dry: Vec<DryState>,
     /// The light.
     pub lighting: Lighting,
+    /// The binder.
+    pub medium: Medium,
 }
 
 /// A painting at work.
@@ -45,7 +48,6 @@ pub struct Painting {
     pub(super) cell_mm: f64,
     pub(super) ground: Ground,
     pub(super) library: PigmentLibrary,
-    pub(super) medium: Medium,
     pub(super) motion: Motion,
     pub(super) engine: Box<dyn Engine>,
     pub(super) state: State,
@@ -55,10 +57,10 @@ pub struct Painting {
     pub(super) history: History<Before>,
     /// The stroke that is being drawn, if one is.
     pub(super) stroke: Option<OpenStroke>,
-    /// Tiles whose dry paint was not yet seen under this light.
-    pub(super) unbaked: TileSet,
-    /// Tiles whose wet paint was not yet seen.
-    pub(super) unshown: TileSet,
+    /// The adjustment that is open, if one is.
+    pub(super) adjusting: Option<Adjusting>,
+    /// What of its pictures is out of date.
+    pub(super) views: Views,
 }
 
 /// The most that ground and dry paint rise together, and wet paint on them, in
@@ -106,23 +108,22 @@ impl Painting {
         }
         engine.set_wet(&wet)?;
         let relief = Relief::from_floor(&engine.floor()?, cell_mm);
-        let all = TileSet::all(engine.bounds());
+        let views = Views::new(engine.bounds());
         Ok(Self {
             title,
             cell_mm,
             ground,
             library,
-            medium,
             motion: Motion::default(),
             engine,
-            state: State { slots, dry: states, lighting },
+            state: State { slots, dry: states, lighting, medium },
             light: Arc::new(light),
             relief,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
             stroke: None,
-            unbaked: all.clone(),
-            unshown: all,
+            adjusting: None,
+            views,
         })
     }
 
@@ -141,7 +142,7 @@ impl Painting {
             cell_mm: self.cell_mm,
             ground: self.ground.clone(),
             library: self.library.clone(),
-            medium: self.medium.clone(),
+            medium: self.state.medium.clone(),
             dry,
             slots: self.state.slots,
             wet: self.engine.wet()?,
@@ -182,7 +183,7 @@ impl Painting {
     /// The binder.
     #[must_use]
     pub fn medium(&self) -> &Medium {
-        &self.medium
+        &self.state.medium
     }
 
     /// What is painted on.
@@ -218,6 +219,32 @@ impl Painting {
     /// [`PaintingError`] if the device was lost.
     pub fn wet(&mut self) -> Result<Layer, PaintingError> {
         Ok(self.engine.wet()?)
+    }
+
+    /// The wet paint in `rect`; costs no more than `rect` holds, as the next.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` has cells that the canvas has not.
+    pub fn wet_in(&mut self, rect: Rect) -> Result<Layer, PaintingError> {
+        Ok(self.engine.wet_in(rect)?)
+    }
+
+    /// The dry layer `index`, counted from the lowest, in `rect`.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a layer that is not there, or if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` has cells that the canvas has not.
+    pub fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, PaintingError> {
+        let count = self.state.dry.len();
+        if index >= count {
+            return Err(PaintingError::NoLayer { index, count });
+        }
+        Ok(self.engine.dry_in(index, rect)?)
     }
 }
 

@@ -32,28 +32,53 @@ pub(super) struct OpenStroke {
     path: Path,
     /// Whether the head was set down.
     down: bool,
-    /// The first `ready` of these come next; the head has bent through them.
-    bent: Vec<Contact>,
-    ready: usize,
-    /// Where the head bends through those after them.
-    spare: Vec<Contact>,
-    /// Samples that the head has reached, and the paint.
-    head_reached: usize,
+    /// What is played now, and how much of it was.
+    batch: Batch,
+    played: usize,
+    /// What the head bends through meanwhile.
+    next: Batch,
+    /// Samples that the paint has reached.
     reached: usize,
     report: StrokeReport,
 }
 
+/// Sub-steps that the head has bent through.
+#[derive(Debug, Clone)]
+struct Batch {
+    contacts: Vec<Contact>,
+    /// How many of them are.
+    count: usize,
+    /// Samples that the head had reached after them.
+    reached: usize,
+}
+
+impl Batch {
+    fn empty() -> Self {
+        let nothing = Contact { rect: Rect::default(), touches: Vec::new() };
+        Self { contacts: vec![nothing; BATCH], count: 0, reached: 0 }
+    }
+
+    /// Bends `head` through the next poses of `path`.
+    fn bend(&mut self, path: &mut Path, head: &mut Head, relief: &Relief, bounds: Rect) {
+        self.count = 0;
+        for contact in &mut self.contacts {
+            let Some(pose) = path.next() else { break };
+            head.advance(&pose, relief, bounds, contact);
+            self.count += 1;
+        }
+        self.reached = path.reached();
+    }
+}
+
 impl OpenStroke {
     fn new(brush: usize, path: Path) -> Self {
-        let bent = vec![Contact { rect: Rect::default(), touches: Vec::new() }; BATCH];
         Self {
             brush,
             path,
             down: false,
-            spare: bent.clone(),
-            bent,
-            ready: 0,
-            head_reached: 0,
+            batch: Batch::empty(),
+            played: 0,
+            next: Batch::empty(),
             reached: 0,
             report: StrokeReport::default(),
         }
@@ -73,7 +98,7 @@ impl OpenStroke {
     /// Sub-steps that wait, as far as known.
     fn waiting(&mut self) -> usize {
         let known = if self.down { self.path.waiting() } else { 0 };
-        self.ready + known
+        self.batch.count - self.played + known
     }
 }
 
@@ -137,7 +162,7 @@ impl Painting {
         stroke: OpenStroke,
         paint: Option<&Layer>,
     ) -> Result<(), PaintingError> {
-        assert!(self.stroke.is_none(), "a stroke is open; it ends before the next");
+        self.assert_idle("a stroke");
         let id = self.brushes[stroke.brush].id;
         self.history.begin(self.now());
         let opened =
@@ -156,6 +181,11 @@ impl Painting {
     #[must_use]
     pub fn stroke_open(&self) -> bool {
         self.stroke.is_some()
+    }
+
+    /// Whether a stroke with this brush is open.
+    pub(super) fn strokes_with(&self, brush: usize) -> bool {
+        self.stroke.as_ref().is_some_and(|stroke| stroke.brush == brush)
     }
 
     /// Leads the stroke on through `samples`, which [`Painting::advance_stroke`]
@@ -187,8 +217,8 @@ impl Painting {
     /// as the way to a sample bends with the one after it; a dab is painted when
     /// the stroke is lifted.
     ///
-    /// While the backend moves the paint of some sub-steps, the head bends
-    /// through the next ones on another thread.
+    /// While the backend moves the paint of 32 sub-steps, the head bends through
+    /// the next 32 on another thread; multiples of that cost least.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -204,43 +234,44 @@ impl Painting {
         stroke.set_down(head, relief);
         let mut left = if stroke.down { most_substeps } else { 0 };
         while left > 0 {
-            let (path, next) = (&mut stroke.path, &mut stroke.spare);
-            let playing = &stroke.bent[..stroke.ready];
-            let (played, made) = rayon::join(
+            let rest = &stroke.batch.contacts[stroke.played..stroke.batch.count];
+            let playing = &rest[..left.min(rest.len())];
+            let all = playing.len() == rest.len();
+            let touching = playing.iter().filter(|contact| !contact.rect.is_empty());
+            let (path, next) = (&mut stroke.path, &mut stroke.next);
+            let (played, ()) = rayon::join(
                 || {
-                    for contact in playing {
+                    for contact in touching.clone() {
                         history.touch(engine, contact.rect.grown(2, bounds))?;
                     }
                     engine.play(tool.id, &self.motion, playing)
                 },
                 || {
-                    let mut made = 0;
-                    while let Some(contact) = next.get_mut(made).filter(|_| left > 0) {
-                        let Some(pose) = path.next() else { break };
-                        left -= 1;
-                        head.advance(&pose, relief, bounds, contact);
-                        made += usize::from(!contact.rect.is_empty());
+                    if all {
+                        next.bend(path, head, relief, bounds);
                     }
-                    made
                 },
             );
-            for contact in playing {
-                self.unshown.insert(contact.rect.grown(2, bounds));
+            for contact in touching {
+                self.views.touch(contact.rect.grown(2, bounds));
                 stroke.report.substeps += 1;
                 stroke.report.cells += (contact.rect.width * contact.rect.height) as u64;
             }
-            let idle = stroke.ready == 0 && made == 0;
-            std::mem::swap(&mut stroke.bent, &mut stroke.spare);
-            stroke.ready = made;
-            stroke.reached = stroke.head_reached;
-            stroke.head_reached = stroke.path.reached();
+            let idle = rest.is_empty() && stroke.next.count == 0;
+            left -= playing.len();
+            stroke.played += playing.len();
+            if all {
+                stroke.reached = stroke.batch.reached;
+                std::mem::swap(&mut stroke.batch, &mut stroke.next);
+                stroke.played = 0;
+            }
             played?;
             if idle {
                 break;
             }
         }
-        if stroke.ready == 0 {
-            stroke.reached = stroke.head_reached;
+        if stroke.batch.count == stroke.played {
+            stroke.reached = stroke.batch.reached;
         }
         Ok(stroke.waiting())
     }

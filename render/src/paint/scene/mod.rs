@@ -6,7 +6,7 @@ mod picture;
 mod spectral;
 
 pub use picture::picture;
-pub use spectral::Spectral;
+pub use spectral::{Films, Spectral};
 
 use crate::light::Light;
 use crate::optics::{Lamp, Scene};
@@ -43,13 +43,18 @@ pub struct Appearance<'a> {
 /// surface's own reflection counts as black below it.
 #[must_use]
 pub fn scene(document: &Document, light: &Light) -> Scene {
-    let Document { library, medium, ground, cell_mm, slots, lighting, .. } = document;
     let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
-    let cell_mm = *cell_mm;
-    Appearance { library, medium, ground, cell_mm, dry: &dry, slots, lighting }.scene(light)
+    Appearance::of(document, &dry).scene(light)
 }
 
-impl Appearance<'_> {
+impl<'a> Appearance<'a> {
+    /// That of a painting at rest, whose dry layers have the pigments and
+    /// opacities `dry`.
+    pub(super) fn of(document: &'a Document, dry: &'a [(Slots, f64)]) -> Self {
+        let Document { library, medium, ground, cell_mm, slots, lighting, .. } = document;
+        Self { library, medium, ground, cell_mm: *cell_mm, dry, slots, lighting }
+    }
+
     /// The same of a painting at work.
     #[must_use]
     pub fn scene(&self, light: &Light) -> Scene {

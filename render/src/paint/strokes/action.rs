@@ -128,6 +128,16 @@ impl Action {
             _ => None,
         }
     }
+
+    pub(in crate::paint) fn brush_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::Load(Load { brush, .. })
+            | Self::Stroke(Stroke { brush, .. })
+            | Self::Wipe { brush, .. }
+            | Self::Wash { brush } => Some(brush),
+            _ => None,
+        }
+    }
 }
 
 fn all() -> f64 {

@@ -10,6 +10,7 @@ use super::resolve::Resolved;
 use super::script::{Canvas, Strokes, cells_within};
 use crate::paint::document::{Document, Ground, Slots};
 use crate::paint::ground::{GroundError, GroundSpec};
+use crate::tile::Rect;
 
 /// Why a script cannot begin.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,7 +50,7 @@ impl Strokes {
     }
 
     /// The canvas before the first action, and the palette beside it if the
-    /// script has one. `start` is the painting that the script names as such, if
+    /// script has one, as its file describes them: numbers count as written. `start` is the painting that the script names as such, if
     /// it names one; the pigments are then those of its own library.
     ///
     /// # Errors
@@ -61,14 +62,19 @@ impl Strokes {
         library: &PigmentLibrary,
         start: Option<Document>,
     ) -> Result<(Document, Option<Document>), BeginningError> {
-        let resolved = self.resolve(start.as_ref().map_or(library, |start| &start.library))?;
+        let header = self.header_as_written()?;
+        let resolved = header.resolve(start.as_ref().map_or(library, |start| &start.library))?;
         let canvas = match (&self.start, start) {
             (None, None) => {
-                let ground = ground(&self.canvas, library)?;
-                self.bare(library, &resolved, ground)
+                let ground = ground(&header.canvas, library)?;
+                header.bare(library, &resolved, ground)
             }
             (Some(_), Some(start)) => {
-                self.check_agreement(&start, &resolved.slots).map_err(StrokesError::from)?;
+                let bounds = start.ground.height.bounds();
+                let pigments = (&start.slots, &start.library);
+                header
+                    .check_agreement(bounds, start.cell_mm, pigments, &resolved.slots)
+                    .map_err(StrokesError::from)?;
                 start
             }
             (named, given) => {
@@ -80,7 +86,7 @@ impl Strokes {
                 return Err(StrokesError::from(fault).into());
             }
         };
-        let palette = self.mixing.as_ref().map(|mixing| {
+        let palette = header.mixing.as_ref().map(|mixing| {
             Ok::<_, GroundError>(Document::bare(
                 &canvas.title,
                 canvas.cell_mm,
@@ -94,16 +100,23 @@ impl Strokes {
         Ok((canvas, palette.transpose()?))
     }
 
-    /// Whether `start` is as large as the canvas and has its pigments.
-    pub(in crate::paint) fn check_agreement(&self, start: &Document, slots: &Slots) -> Checked {
+    /// Whether the canvas of cells `bounds`, each `cell_mm` wide, is that of the
+    /// script, and has the pigments `slots` that the script begins with.
+    pub(in crate::paint) fn check_agreement(
+        &self,
+        bounds: Rect,
+        cell_mm: f64,
+        (own, library): (&Slots, &PigmentLibrary),
+        slots: &Slots,
+    ) -> Checked {
         let at = At::default();
         let (width, height) = self.canvas.cells();
-        let found = (start.ground.height.width(), start.ground.height.height());
-        if found != (width, height) {
-            let wanted = format!("as many cells as the painting has, {} x {}", found.0, found.1);
+        let Rect { width: columns, height: rows, .. } = bounds;
+        if (columns, rows) != (width, height) {
+            let wanted = format!("as many cells as the painting has, {columns} x {rows}");
             return Err(at.fault("canvas", &wanted, &format!("{width} x {height}"), None));
         }
-        let cell_mm = rounded(start.cell_mm);
+        let cell_mm = rounded(cell_mm);
         if rounded(self.canvas.cell_mm) != cell_mm {
             let wanted = format!("that of the painting, {cell_mm}");
             let hint = Some(format!("\"cell_mm\": {cell_mm}"));
@@ -114,11 +127,10 @@ impl Strokes {
             pigments.sort_unstable();
             pigments
         };
-        if sorted(slots) != sorted(&start.slots) {
-            let names = names(&start.slots, &start.library).join(", ");
-            let wanted = format!("that of the painting, {names}");
-            let own: Vec<&str> = self.palette.pigments.iter().map(|(_, name)| &**name).collect();
-            return Err(at.fault("palette", &wanted, &own.join(", "), None));
+        if sorted(slots) != sorted(own) {
+            let wanted = format!("that of the painting, {}", names(own, library).join(", "));
+            let named: Vec<&str> = self.palette.pigments.iter().map(|(_, name)| &**name).collect();
+            return Err(at.fault("palette", &wanted, &named.join(", "), None));
         }
         Ok(())
     }
@@ -154,6 +166,7 @@ fn ground(canvas: &Canvas, library: &PigmentLibrary) -> Result<Ground, GroundErr
     canvas.ground.ground(width, height, canvas.cell_mm, library)
 }
 
-fn names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
+/// The names of the pigments of `slots`, in their order.
+pub(in crate::paint) fn names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
     slots.iter().flatten().map(|&pigment| library.pigments[pigment].name.as_str()).collect()
 }

@@ -183,6 +183,7 @@ fn check_squeeze(at: &At, squeeze: &Squeeze) -> Checked {
     at.range("x_mm", squeeze.x_mm, -1e6, 1e6)?;
     at.range("y_mm", squeeze.y_mm, -1e6, 1e6)?;
     at.range("volume_mm3", squeeze.volume_mm3, 0.0, 1e6)?;
+    at.above_zero("volume_mm3", squeeze.volume_mm3)?;
     check_recipe(at, &squeeze.recipe, squeeze.vehicle)
 }
 

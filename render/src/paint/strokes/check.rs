@@ -25,10 +25,7 @@ impl Strokes {
             let wanted = format!("at most {MOST_ACTIONS}");
             return Err(At::default().fault("actions", &wanted, &self.actions.len(), None));
         }
-        let surfaces = Surfaces {
-            canvas_mm: self.canvas.greatest_side_mm(),
-            palette_mm: self.mixing.as_ref().map(Canvas::greatest_side_mm),
-        };
+        let surfaces = self.sides();
         for (index, action) in self.actions.iter().enumerate() {
             let at = At::action(index, action.kind());
             if let Some(brush) = action.brush() {
@@ -83,6 +80,14 @@ impl Strokes {
             check_size(&top, &format!("brushes.{name}.size_mm"), brush.size_mm)?;
         }
         Ok(())
+    }
+
+    /// The surfaces that its actions may name.
+    pub(in crate::paint) fn sides(&self) -> Surfaces {
+        Surfaces {
+            canvas_mm: self.canvas.greatest_side_mm(),
+            palette_mm: self.mixing.as_ref().map(Canvas::greatest_side_mm),
+        }
     }
 }
 

@@ -80,7 +80,7 @@ fn gloss(gloss: Gloss) -> Gloss {
 }
 
 /// Six digits. The file knows no zero below zero.
-fn six(value: f64) -> f64 {
+pub(in crate::paint) fn six(value: f64) -> f64 {
     digits::rounded(value) + 0.0
 }
 

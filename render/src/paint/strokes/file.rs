@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::action::Action;
 use super::error::StrokesError;
 use super::limits::LONGEST_FILE;
 use super::script::{FormatVersion, Strokes};
@@ -32,6 +33,14 @@ impl Strokes {
         Ok(script)
     }
 
+    /// All but the actions, its numbers rounded as a file has them.
+    ///
+    /// # Errors
+    /// [`StrokesError`] for values out of range, see [`Strokes::check`].
+    pub fn header_as_written(&self) -> Result<Self, StrokesError> {
+        Self::from_json(&self.title, self.header().to_json()?.as_bytes())
+    }
+
     /// The script as JSON text, an action a line; the same script gives the same
     /// bytes. Samples have four decimals (a tenth of a micrometre), all other
     /// numbers six digits.
@@ -59,11 +68,18 @@ impl Strokes {
         text.push_str("  \"actions\": [");
         for (index, action) in self.actions.iter().enumerate() {
             text.push_str(if index == 0 { "\n    " } else { ",\n    " });
-            write(&serde_json::to_value(action).map_err(unwritable)?, &mut text);
+            text.push_str(&line(action).map_err(unwritable)?);
         }
         text.push_str(if self.actions.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
         Ok(text)
     }
+}
+
+/// An action as it stands in a file.
+pub(in crate::paint) fn line(action: &Action) -> Result<String, serde_json::Error> {
+    let mut text = String::new();
+    write(&serde_json::to_value(action)?, &mut text);
+    Ok(text)
 }
 
 /// A parser's error, told as another format or version where it is one.

@@ -12,7 +12,7 @@ pub const MOST_SAMPLES: usize = 10_000_000;
 pub const MOST_ACTIONS: usize = 1_000_000;
 
 /// The most entries of an object of names: brushes, or parts of a recipe.
-pub const MOST_NAMES: usize = 256;
+pub const MOST_NAMES: usize = 1024;
 
 /// The longest file that is read, in bytes: 128 MiB. Its samples take at most
 /// six times as much in memory.

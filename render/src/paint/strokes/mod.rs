@@ -24,6 +24,13 @@
 //! out at its end is 0. A palette is an object of short names, or a list of at
 //! most eight pigments; recipes name either. See [`Action`] for what can be done.
 //!
+//! A second surface to mix on is described as `mixing`, another canvas with cells
+//! of the same width; strokes, heaps and scraping are done there with
+//! `"on": "palette"`. With `start`, the path of a painting (`.exr`), the script
+//! goes on with that painting, which has a size, pigments, a medium and a light
+//! of its own: `canvas` and `palette` must agree with it, `medium` and `lighting`
+//! are left out.
+//!
 //! A script may come from anywhere. Unknown and repeated keys, numbers out of
 //! range and files that are too long are refused with their place; what it saves
 //! stays below the folder that the caller chooses.
@@ -58,13 +65,17 @@ mod resolve;
 
 mod beginning;
 
-mod replay;
-
 pub use action::{Action, LayerName, Load, Recipe, Squeeze, Stroke, Surface};
 pub use beginning::BeginningError;
 pub use error::{Fault, Place, StrokesError};
 pub use limits::{LONGEST_FILE, MOST_ACTIONS, MOST_CELLS, MOST_NAMES, MOST_SAMPLES};
 pub use palette::Palette;
-pub use replay::{ReplayError, ReplayReport};
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, Canvas, Strokes};
+
+pub(super) use at::At;
+pub(super) use beginning::names;
+pub(super) use bounds::{Surfaces, check_brush, check_sample, check_size};
+pub(super) use digits::{sample as sample_as_written, six};
+pub(super) use file::line;
+pub(super) use resolve::Scope;

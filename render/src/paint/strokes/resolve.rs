@@ -55,7 +55,9 @@ impl Strokes {
         let mut actions = Vec::with_capacity(self.actions.len());
         for (index, action) in self.actions.iter().enumerate() {
             let at = At::action(index, action.kind());
-            actions.push(scope.action(&at, action, library)?);
+            let pigments = scope.action(&at, action, library)?;
+            scope.learn(action, &pigments);
+            actions.push(pigments);
         }
         Ok(Resolved { slots, actions })
     }
@@ -74,14 +76,20 @@ impl Scope {
         palette: &Palette,
         library: &PigmentLibrary,
     ) -> Result<(Self, Slots), Box<Fault>> {
-        let mut scope = Self { palettes: Vec::new() };
-        let slots = scope.palette(&At::default(), palette, library)?;
-        Ok((scope, slots))
+        let slots = slots(&At::default(), palette, library)?;
+        Ok((Self { palettes: vec![(palette.clone(), slots)] }, slots))
     }
 
-    /// The pigments that an action names. A palette holds from then on.
+    /// After an action that may have set a palette.
+    pub(in crate::paint) fn learn(&mut self, action: &Action, pigments: &ActionPigments) {
+        if let (Action::Palette(palette), ActionPigments::Palette(slots)) = (action, pigments) {
+            self.palettes.push((palette.clone(), *slots));
+        }
+    }
+
+    /// The pigments that an action names.
     pub(in crate::paint) fn action(
-        &mut self,
+        &self,
         at: &At,
         action: &Action,
         library: &PigmentLibrary,
@@ -90,33 +98,13 @@ impl Scope {
             Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
                 ActionPigments::Recipe(self.recipe(at, recipe, library)?)
             }
-            Action::Palette(palette) => {
-                ActionPigments::Palette(self.palette(at, palette, library)?)
-            }
+            Action::Palette(palette) => ActionPigments::Palette(slots(at, palette, library)?),
             Action::Swap { from, to, .. } => ActionPigments::Swap {
                 from: self.pigment(at, "from", from, library)?,
                 to: self.pigment(at, "to", to, library)?,
             },
             _ => ActionPigments::None,
         })
-    }
-
-    fn palette(
-        &mut self,
-        at: &At,
-        palette: &Palette,
-        library: &PigmentLibrary,
-    ) -> Result<Slots, Box<Fault>> {
-        let mut slots = [None; SLOTS];
-        for (slot, (_, name)) in palette.pigments.iter().enumerate() {
-            let index = named(at, "palette", name, library)?;
-            if slots.contains(&Some(index)) {
-                return Err(at.fault("palette", "each pigment once", name, None));
-            }
-            slots[slot] = Some(index);
-        }
-        self.palettes.push((palette.clone(), slots));
-        Ok(slots)
     }
 
     fn recipe(
@@ -156,6 +144,18 @@ impl Scope {
         let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.behind(name));
         named(at, field, short.unwrap_or(name), library)
     }
+}
+
+fn slots(at: &At, palette: &Palette, library: &PigmentLibrary) -> Result<Slots, Box<Fault>> {
+    let mut slots = [None; SLOTS];
+    for (slot, (_, name)) in palette.pigments.iter().enumerate() {
+        let index = named(at, "palette", name, library)?;
+        if slots.contains(&Some(index)) {
+            return Err(at.fault("palette", "each pigment once", name, None));
+        }
+        slots[slot] = Some(index);
+    }
+    Ok(slots)
 }
 
 fn named(at: &At, field: &str, name: &str, library: &PigmentLibrary) -> Result<usize, Box<Fault>> {

@@ -6,7 +6,7 @@ use render::paint::document::Lighting;
 use render::paint::strokes::Action;
 use spectra::{Observer, light_from_text};
 
-use super::super::desk::{Desk, FileRequest};
+use super::super::desk::Desk;
 use super::super::draft::{Draft, Touch};
 use super::choice::Choice;
 use super::curve::powers;
@@ -14,6 +14,7 @@ use super::dome::{Direction, dome, told as told_direction};
 use super::gloss_pad::{gloss_pad, told as told_gloss};
 use super::row::row;
 use super::white::White;
+use crate::files::FileRequest;
 use crate::theme;
 use crate::worker::Command;
 

@@ -1,1 +1,0 @@
-//! Brushes: shape, size, what is on them.

@@ -1,0 +1,163 @@
+//! Controls as the panels show them: each with a name, and a word on what it does.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{
+    self, Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense,
+    Slider, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
+
+use crate::theme;
+
+/// Width of the names left of sliders, in points.
+pub(super) const NAME_WIDTH: f32 = 58.0;
+
+/// Width of the numbers right of them, in points.
+const NUMBER_WIDTH: f32 = 82.0;
+
+/// A slider between its name and its number, as wide as the panel.
+pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> Response {
+    let line = ui.horizontal(|ui| {
+        let size = vec2(NAME_WIDTH, ui.spacing().interact_size.y);
+        let named = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(NAME_WIDTH);
+            ui.label(name)
+        });
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH).max(40.0);
+        ui.spacing_mut().interact_size.x = NUMBER_WIDTH - 2.0 * ui.spacing().item_spacing.x;
+        ui.add(slider).labelled_by(named.inner.id)
+    });
+    line.inner.on_hover_text(tip)
+}
+
+/// A slider over a share of 0..1, shown in percent.
+pub(super) fn percent(
+    ui: &mut Ui,
+    name: &str,
+    tip: &str,
+    share: &mut f64,
+    percents: RangeInclusive<f64>,
+) -> Response {
+    let shown = Slider::from_get_set(percents, |set| {
+        if let Some(percent) = set {
+            *share = percent / 100.0;
+        }
+        *share * 100.0
+    });
+    slider(ui, name, tip, shown.fixed_decimals(0).suffix(" %"))
+}
+
+/// A button; if something hinders, it is grey and says what. Whether it was clicked.
+pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
+    named_button(ui, name, name, tip, hindered)
+}
+
+/// The same for one of several alike, with a name of its own beside what it shows.
+pub(super) fn named_button(
+    ui: &mut Ui,
+    shown: &str,
+    name: &str,
+    tip: &str,
+    hindered: Option<&str>,
+) -> bool {
+    let response = ui.add_enabled(hindered.is_none(), Button::new(shown)).accessible_name(name);
+    response.on_hover_text(tip).on_disabled_hover_text(hindered.unwrap_or_default()).clicked()
+}
+
+/// The same in a menu, which closes.
+pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
+    let clicked = button(ui, name, tip, hindered);
+    if clicked {
+        ui.close();
+    }
+    clicked
+}
+
+/// A row of a list: its ground, to be drawn upon within the rectangle of the
+/// response.
+pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
+    let size = vec2(ui.available_width(), height);
+    let (_, response) = ui.allocate_exact_size(size, Sense::click());
+    back(ui, &response, name, chosen);
+    response
+}
+
+/// What makes a place that senses clicks a button: its name, and its ground.
+pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
+    let enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, name));
+    let fill = match (chosen, response.hovered() || response.has_focus()) {
+        (true, _) => theme::CHOSEN,
+        (false, true) => ui.visuals().widgets.hovered.bg_fill,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    let edge = if response.has_focus() { theme::FAINT } else { Color32::TRANSPARENT };
+    let edge = Stroke::new(1.0, edge);
+    ui.painter().rect(response.rect, theme::ROUND, fill, edge, StrokeKind::Inside);
+}
+
+/// A patch of colour; crossed out if there is none.
+pub(super) fn patch(painter: &Painter, rect: Rect, colour: Option<[u8; 3]>) {
+    let line = Stroke::new(1.0, theme::WELL);
+    let corners = CornerRadius::same(2);
+    match colour {
+        Some([red, green, blue]) => {
+            let fill = Color32::from_rgb(red, green, blue);
+            painter.rect(rect, corners, fill, line, StrokeKind::Outside);
+        }
+        None => {
+            painter.rect(rect, corners, theme::PANEL, line, StrokeKind::Outside);
+            let diagonal = [rect.left_bottom(), rect.right_top()];
+            painter.line_segment(diagonal, Stroke::new(1.0, theme::LINE));
+        }
+    }
+}
+
+/// Text within a rectangle, on one line, cut off with an ellipsis.
+pub(super) fn text(
+    ui: &Ui,
+    rect: Rect,
+    align: Align,
+    style: egui::TextStyle,
+    colour: Color32,
+    words: &str,
+) {
+    let mut job = egui::text::LayoutJob::simple_singleline(
+        words.to_owned(),
+        style.resolve(ui.style()),
+        colour,
+    );
+    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width());
+    let laid = ui.painter().layout_job(job);
+    let x = match align {
+        Align::Min => rect.left(),
+        Align::Center => rect.center().x - laid.size().x / 2.0,
+        Align::Max => rect.right() - laid.size().x,
+    };
+    let at = egui::pos2(x, rect.center().y - laid.size().y / 2.0);
+    ui.painter_at(rect.expand(2.0)).galley(at, laid, colour);
+}
+
+/// A height in mm, to two digits.
+pub(super) fn millimetres(mm: f64) -> String {
+    match mm {
+        mm if mm >= 9.95 => format!("{mm:.0} mm"),
+        mm if mm >= 0.995 => format!("{mm:.1} mm"),
+        mm if mm >= 0.0995 || mm == 0.0 => format!("{mm:.2} mm"),
+        mm if mm >= 0.0005 => format!("{mm:.3} mm"),
+        _ => "below 0.001 mm".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn millimetres_have_two_digits() {
+        let told = [0.0, 0.0002, 0.0123, 0.123, 1.23, 12.3, 99.7].map(millimetres);
+        let wanted =
+            ["0.00 mm", "below 0.001 mm", "0.012 mm", "0.12 mm", "1.2 mm", "12 mm", "100 mm"];
+        assert_eq!(told, wanted);
+    }
+}

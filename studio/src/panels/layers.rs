@@ -1,1 +1,0 @@
-//! Wet and dry: drying, dry layers.

@@ -1,0 +1,34 @@
+//! The eye that shows and hides a layer.
+
+use eframe::egui::{Pos2, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
+
+use crate::panels::controls::back;
+use crate::theme;
+
+/// An eye, open if the layer is `visible`, to be clicked.
+pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
+    back(ui, &response, name, false);
+    let lens = Rect::from_center_size(rect.center(), vec2(16.0, 10.0));
+    let colour = if visible { theme::STRONG } else { theme::FAINT };
+    let line = Stroke::new(1.5, colour);
+    ui.painter().add(Shape::line(lid(lens, 1.0), line));
+    if visible {
+        ui.painter().add(Shape::line(lid(lens, -1.0), line));
+        ui.painter().circle_filled(rect.center(), 2.75, colour);
+    }
+    response
+}
+
+/// The lower lid for 1, the upper one for -1.
+fn lid(lens: Rect, side: f32) -> Vec<Pos2> {
+    let at = |step: i16| {
+        let along = f32::from(step) / 12.0;
+        let bulge = 4.0 * along * (1.0 - along);
+        pos2(
+            lens.left() + lens.width() * along,
+            lens.center().y + side * bulge * lens.height() / 2.0,
+        )
+    };
+    (0..=12).map(at).collect()
+}

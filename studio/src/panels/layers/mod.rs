@@ -1,0 +1,11 @@
+//! Wet and dry: drying, dry layers.
+
+mod thumbnails;
+
+mod eye;
+
+mod opacity;
+
+mod panel;
+
+pub use panel::{Layers, dry};

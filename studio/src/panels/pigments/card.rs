@@ -1,0 +1,99 @@
+//! What is told of a pigment while the pointer is over it.
+
+use eframe::egui::{RichText, Ui, vec2};
+
+use calibrate::palette::Hides;
+
+use super::catalogue::Catalogue;
+use crate::chart::{Chart, Curve};
+use crate::panels::controls::millimetres;
+
+/// Width of the card's chart, in points.
+const WIDTH: f32 = 280.0;
+
+/// Name, colour index, reflectance of masstone and tint, hiding power, tinting
+/// strength, and what a painter must know.
+pub(in crate::panels) fn card(
+    ui: &mut Ui,
+    catalogue: &Catalogue,
+    pigment: usize,
+    scattering_per_mm: f64,
+) {
+    let known = &catalogue.library.pigments[pigment];
+    ui.set_max_width(WIDTH);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(&known.name).strong());
+        if let Some(index) = &known.colour_index {
+            ui.weak(index);
+        }
+    });
+    let (grid, look) = (catalogue.library.grid, catalogue.look(pigment));
+    let mut curves = vec![Curve::new("full", grid, &look.masstone).coloured(look.masstone_srgb)];
+    if let (Some(tint), Some(srgb)) = (&look.tint, look.tint_srgb) {
+        curves.push(Curve::new("one in ten", grid, tint).coloured(srgb));
+    }
+    let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", most: Some(1.0) };
+    chart.show(ui, vec2(WIDTH, 120.0));
+    for line in lines(catalogue, pigment, scattering_per_mm) {
+        ui.label(line);
+    }
+    for note in &known.notes {
+        ui.weak(note);
+    }
+}
+
+fn lines(catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) -> Vec<String> {
+    let known = &catalogue.library.pigments[pigment];
+    let power = catalogue.power(pigment);
+    let mut lines = vec![match power.hides {
+        Some(Hides::From(thickness)) => {
+            format!("hides from {}", millimetres(thickness / scattering_per_mm))
+        }
+        Some(Hides::Never { contrast }) => {
+            format!("hides at no height (contrast {:.0} % at most)", 100.0 * contrast)
+        }
+        None => "hiding power not known".to_owned(),
+    }];
+    if let Some(percent) = power.tints_percent {
+        lines.push(format!("tinting strength {percent:.0} % of the library's strongest"));
+    }
+    if known.guessed {
+        lines.push("guessed from a colour, not measured".to_owned());
+    }
+    if !known.identified {
+        lines.push("scattering not identified: mixtures with it are a guess".to_owned());
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use calibrate::library::PigmentLibrary;
+    use calibrate::palette::{Cards, Palette, hiding_powers};
+    use render::light::Light;
+
+    use super::*;
+
+    #[test]
+    fn a_card_tells_what_calibrate_finds() {
+        let oils = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
+        let library = Arc::new(PigmentLibrary::from_json("oils", oils).unwrap());
+        let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
+        let catalogue = Catalogue::new(&library, &light);
+        let told = |name: &str| lines(&catalogue, library.find(name).unwrap(), 50.0);
+
+        let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
+        let white = library.find("Zinc White").unwrap();
+        let powers = hiding_powers(&palette.unwrap());
+        let own = powers.iter().find(|power| power.paint == white).unwrap();
+        let mm = own.hides.thickness().unwrap() / 50.0;
+        assert_eq!(told("Zinc White"), [format!("hides from {}", millimetres(mm))]);
+        let blue = told("Prussian Blue");
+        assert!(blue[1].starts_with("tinting strength "), "{blue:?}");
+        let unknown = told("Chrome Yellow (poppyseed)");
+        assert_eq!(unknown[0], "hiding power not known");
+        assert!(unknown[1].contains("not identified"), "{unknown:?}");
+    }
+}

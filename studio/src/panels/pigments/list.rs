@@ -1,0 +1,125 @@
+//! Choosing a pigment of the library.
+
+use eframe::egui::{Align, Rect, ScrollArea, TextEdit, TextStyle, Ui, pos2, vec2};
+
+use super::card::card;
+use super::catalogue::Catalogue;
+use crate::panels::controls::{patch, row, text};
+use crate::theme;
+
+/// Height of the list, in points.
+const LIST: f32 = 300.0;
+
+/// The pigments of a library, with a field to search them.
+#[derive(Debug, Clone, Default)]
+pub(in crate::panels) struct PigmentList {
+    search: String,
+}
+
+impl PigmentList {
+    /// Shows it; the pigment that was clicked. `hindered` says why one cannot be
+    /// chosen.
+    pub(in crate::panels) fn show(
+        &mut self,
+        ui: &mut Ui,
+        catalogue: &Catalogue,
+        scattering_per_mm: f64,
+        hindered: impl Fn(usize) -> Option<String>,
+    ) -> Option<usize> {
+        let field = TextEdit::singleline(&mut self.search)
+            .hint_text("name or colour index")
+            .desired_width(f32::INFINITY);
+        ui.add(field)
+            .accessible_name("Search")
+            .on_hover_text("Only pigments whose name or colour index has this are listed");
+        heads(ui, catalogue);
+        let found: Vec<usize> = (0..catalogue.library.pigments.len())
+            .filter(|&pigment| self.finds(catalogue, pigment))
+            .collect();
+        if found.is_empty() {
+            ui.weak(format!("no pigment of {} has this", catalogue.library.title));
+        }
+        let mut chosen = None;
+        let list = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST);
+        list.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            for pigment in found {
+                let why = hindered(pigment);
+                ui.add_enabled_ui(why.is_none(), |ui| {
+                    let response = row(ui, 24.0, catalogue.name(pigment), false);
+                    draw(ui, response.rect, catalogue, pigment, scattering_per_mm);
+                    if response.clicked() {
+                        chosen = Some(pigment);
+                    }
+                    response
+                        .on_hover_ui(|ui| card(ui, catalogue, pigment, scattering_per_mm))
+                        .on_disabled_hover_text(why.unwrap_or_default());
+                });
+            }
+        });
+        chosen
+    }
+
+    fn finds(&self, catalogue: &Catalogue, pigment: usize) -> bool {
+        let wanted = self.search.trim().to_lowercase();
+        let pigment = &catalogue.library.pigments[pigment];
+        let index = pigment.colour_index.as_deref().unwrap_or_default();
+        pigment.name.to_lowercase().contains(&wanted) || index.to_lowercase().contains(&wanted)
+    }
+}
+
+/// Where a row has its swatch, name, colour index and hiding power.
+fn places(rect: Rect) -> [Rect; 4] {
+    let inner = rect.shrink2(vec2(4.0, 3.0));
+    let between = |left: f32, right: f32| {
+        Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
+    };
+    let (left, right) = (inner.left(), inner.right());
+    [
+        between(left, left + 40.0),
+        between(left + 48.0, right - 128.0),
+        between(right - 124.0, right - 72.0),
+        between(right - 68.0, right),
+    ]
+}
+
+fn heads(ui: &mut Ui, catalogue: &Catalogue) {
+    let (rect, _) =
+        ui.allocate_exact_size(vec2(ui.available_width(), 16.0), eframe::egui::Sense::hover());
+    let [_, name, index, hides] = places(rect);
+    let any_marked = (0..catalogue.library.pigments.len()).any(|p| !mark(catalogue, p).is_empty());
+    for (place, align, words) in [
+        (name, Align::Min, "pigment"),
+        (index, Align::Min, if any_marked { "index" } else { "" }),
+        (hides, Align::Max, "hides from"),
+    ] {
+        text(ui, place.expand2(vec2(0.0, 3.0)), align, TextStyle::Small, theme::FAINT, words);
+    }
+}
+
+fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) {
+    let [swatch, name, index, hides] = places(rect);
+    let colour = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
+    let look = catalogue.look(pigment);
+    let (full, tint) = swatch.split_left_right_at_fraction(0.55);
+    // Paint that cannot be chosen keeps its colour.
+    let mut painter = ui.painter().clone();
+    painter.set_opacity(1.0);
+    patch(&painter, tint, look.tint_srgb);
+    patch(&painter, full, Some(look.masstone_srgb));
+    text(ui, name, Align::Min, TextStyle::Body, colour, catalogue.name(pigment));
+    let marked = mark(catalogue, pigment);
+    text(ui, index, Align::Min, TextStyle::Small, theme::FAINT, marked);
+    let words = catalogue.hiding(pigment, scattering_per_mm);
+    text(ui, hides, Align::Max, TextStyle::Small, theme::FAINT, &words);
+}
+
+/// The colour index, or what a painter must know in its place.
+fn mark(catalogue: &Catalogue, pigment: usize) -> &str {
+    let known = &catalogue.library.pigments[pigment];
+    match (&known.colour_index, known.guessed) {
+        (Some(index), _) => index,
+        (None, true) => "guessed",
+        (None, false) => "",
+    }
+}

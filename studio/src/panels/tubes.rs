@@ -1,1 +1,0 @@
-//! Tubes and the palette's pigments.

@@ -1,0 +1,12 @@
+//! Tubes and the palette's pigments.
+
+mod tube;
+
+mod squeeze;
+
+mod chooser;
+
+mod shelf;
+
+pub use shelf::Tubes;
+pub use squeeze::{DraggedTube, load, squeeze};

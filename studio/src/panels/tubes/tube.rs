@@ -1,0 +1,130 @@
+//! A tube of paint, drawn.
+
+use eframe::egui::{
+    Align, Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextStyle,
+    Ui, pos2, vec2,
+};
+
+use crate::panels::controls::{patch, text};
+use crate::theme;
+
+/// Room of a tube with its name, in points.
+pub(super) const ROOM: eframe::egui::Vec2 = vec2(61.0, 112.0);
+
+/// Height of the names below.
+const NAMES: f32 = 28.0;
+
+/// Metal from the left edge to the right: place and grey.
+const METAL: [(f32, u8); 6] =
+    [(0.0, 96), (0.12, 168), (0.32, 214), (0.55, 186), (0.85, 126), (1.0, 82)];
+
+/// Draws a tube, standing on its cap, with masstone and tint on its label.
+pub(super) fn draw(
+    ui: &Ui,
+    room: Rect,
+    masstone: Option<[u8; 3]>,
+    tint: Option<[u8; 3]>,
+    name: &str,
+) {
+    let painter = ui.painter_at(room);
+    let body = body(room);
+    crimp(&painter, body);
+    tapered(&painter, body);
+    let cap = Rect::from_center_size(
+        pos2(body.center().x, body.bottom() + 11.0),
+        vec2(body.width() * 0.42, 12.0),
+    );
+    shoulder(&painter, body, cap);
+    painter.rect_filled(cap, 2.0, Color32::from_gray(22));
+    for ridge in 1..6 {
+        let x = cap.left() + cap.width() * ridge as f32 / 6.0;
+        painter.vline(x, cap.y_range().shrink(2.0), Stroke::new(1.0, Color32::from_gray(52)));
+    }
+    let label = Rect::from_min_max(
+        pos2(body.left() + 3.0, body.top() + 9.0),
+        pos2(body.right() - 3.0, body.bottom() - 5.0),
+    );
+    let (full, light) = label.split_top_bottom_at_fraction(0.62);
+    patch(&painter, light, tint);
+    patch(&painter, full, masstone);
+    names(ui, room, name);
+}
+
+/// The outline of a tube that is not there.
+pub(super) fn draw_empty(ui: &Ui, room: Rect) {
+    let body = body(room).shrink(1.0);
+    let painter = ui.painter();
+    let line = Stroke::new(1.0, theme::LINE);
+    painter.rect(body, CornerRadius::same(3), Color32::TRANSPARENT, line, StrokeKind::Inside);
+    let plus = Stroke::new(1.5, theme::FAINT);
+    let middle = body.center();
+    painter.hline(middle.x - 6.0..=middle.x + 6.0, middle.y, plus);
+    painter.vline(middle.x, middle.y - 6.0..=middle.y + 6.0, plus);
+    names(ui, room, "empty");
+}
+
+/// What hangs on the pointer while a tube is dragged: a drop of its paint.
+pub(super) fn draw_drop(painter: &Painter, at: Pos2, [red, green, blue]: [u8; 3]) {
+    let drop = at + vec2(14.0, 14.0);
+    painter.circle(drop, 8.0, Color32::from_rgb(red, green, blue), Stroke::new(1.5, theme::STRONG));
+}
+
+fn body(room: Rect) -> Rect {
+    let width = room.width() * 0.68;
+    let left = room.center().x - width / 2.0;
+    Rect::from_min_max(
+        pos2(left, room.top() + 5.0),
+        pos2(left + width, room.bottom() - NAMES - 19.0),
+    )
+}
+
+/// The folded end.
+fn crimp(painter: &Painter, body: Rect) {
+    let fold = Rect::from_min_max(
+        pos2(body.left() - 1.0, body.top()),
+        pos2(body.right() + 1.0, body.top() + 5.0),
+    );
+    painter.rect_filled(fold, 1.0, Color32::from_gray(150));
+    painter.hline(fold.x_range(), fold.center().y, Stroke::new(1.0, Color32::from_gray(104)));
+}
+
+/// The body, a little narrower at the cap.
+fn tapered(painter: &Painter, body: Rect) {
+    let mut mesh = Mesh::default();
+    for (index, (place, grey)) in METAL.into_iter().enumerate() {
+        let colour = Color32::from_gray(grey);
+        let at = |inset: f32| body.left() + inset + (body.width() - 2.0 * inset) * place;
+        mesh.colored_vertex(pos2(at(0.0), body.top() + 5.0), colour);
+        mesh.colored_vertex(pos2(at(1.5), body.bottom()), colour);
+        let last = 2 * index as u32;
+        if index > 0 {
+            mesh.add_triangle(last - 2, last - 1, last);
+            mesh.add_triangle(last - 1, last + 1, last);
+        }
+    }
+    painter.add(Shape::mesh(mesh));
+}
+
+/// From the body to the cap.
+fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
+    let points = vec![
+        pos2(body.left() + 1.5, body.bottom()),
+        pos2(body.right() - 1.5, body.bottom()),
+        pos2(cap.right() - 2.0, cap.top()),
+        pos2(cap.left() + 2.0, cap.top()),
+    ];
+    painter.add(Shape::convex_polygon(points, Color32::from_gray(136), Stroke::NONE));
+}
+
+/// The name in two lines, at a blank where there is one.
+fn names(ui: &Ui, room: Rect, name: &str) {
+    let below = Rect::from_min_max(pos2(room.left() + 1.0, room.bottom() - NAMES), room.max);
+    let (upper, lower) = below.split_top_bottom_at_fraction(0.5);
+    let (first, second) = match name.split_once(' ') {
+        Some((first, second)) => (first, second),
+        None => (name, ""),
+    };
+    for (line, words) in [(upper, first), (lower, second)] {
+        text(ui, line, Align::Center, TextStyle::Small, theme::TEXT, words);
+    }
+}

@@ -1,0 +1,156 @@
+//! The program in a window of the system: the only file of it that knows of wgpu.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::{Context, IconData, RawInput, Ui, ViewportBuilder, vec2};
+use eframe::egui_wgpu::{SurfaceConfig, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
+use eframe::{App, NativeOptions};
+use wgpu::{Adapter, Backends, DeviceType, PresentMode, Surface};
+
+use crate::app::{Begun, Parts, Studio};
+use crate::arguments::Start;
+use crate::files::{FileFailure, Files};
+use crate::pen::{Pen, PenSettings};
+use crate::worker::fresh;
+
+/// The smallest window in which everything is within reach, in points.
+const SMALLEST: [f32; 2] = [900.0, 600.0];
+
+/// Opens the window, and comes back when it is closed.
+///
+/// # Errors
+/// [`FileFailure`] with the way out where there is no display or nothing to draw
+/// with.
+pub fn run(start: Start) -> Result<(), FileFailure> {
+    // Both at once: the canvas is made while the window opens.
+    let begun = Begun::new(start.worker, fresh());
+    let options = options(start.window);
+    let made = eframe::run_native(
+        "impasto-studio",
+        options,
+        Box::new(move |creation| {
+            let context = &creation.egui_ctx;
+            let mut files = Files::new(context, start.home, start.preferences);
+            files.pace = start.pace;
+            start.failures.into_iter().for_each(|failure| files.say(failure));
+            let pen = Pen::over(creation, PenSettings::default());
+            let parts = Parts { begun, pen, files, open: start.file, log: start.figures };
+            Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
+        }),
+    );
+    made.map_err(|error| failure(&error))
+}
+
+/// The window's contents in eframe's frame.
+struct Framed {
+    studio: Studio,
+}
+
+impl App for Framed {
+    fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
+        self.studio.logic(context);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        let busy = frame.info().cpu_usage.map(Duration::from_secs_f32);
+        self.studio.ui(ui, busy);
+    }
+
+    fn raw_input_hook(&mut self, context: &Context, input: &mut RawInput) {
+        self.studio.raw_input(context, input);
+    }
+
+    fn on_exit(&mut self) {
+        self.studio.finish();
+    }
+
+    fn clear_color(&self, _: &eframe::egui::Visuals) -> [f32; 4] {
+        crate::theme::SURROUND.to_normalized_gamma_f32()
+    }
+}
+
+fn options([width, height]: [f32; 2]) -> NativeOptions {
+    let viewport = ViewportBuilder::default()
+        .with_title("impasto")
+        .with_app_id("impasto-studio")
+        .with_icon(Arc::new(icon()))
+        .with_inner_size(vec2(width, height))
+        .with_min_inner_size(SMALLEST)
+        .with_drag_and_drop(true);
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = Backends::VULKAN;
+    setup.native_adapter_selector = Some(Arc::new(choose));
+    let wgpu_options = WgpuConfiguration {
+        // The newest picture, at once: what is painted is seen a frame earlier
+        // than if frames queued up. Mailbox does not tear where it is there.
+        surface: SurfaceConfig {
+            present_mode: PresentMode::AutoVsync,
+            desired_maximum_frame_latency: Some(1),
+        },
+        wgpu_setup: WgpuSetup::CreateNew(setup),
+        ..WgpuConfiguration::default()
+    };
+    NativeOptions {
+        viewport,
+        wgpu_options,
+        // A cell's colour is told as it is.
+        dithering: false,
+        persist_window: false,
+        ..NativeOptions::default()
+    }
+}
+
+/// Hardware before software, of those that can draw in the window.
+fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
+    let draws =
+        |adapter: &&Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
+    let rank = |adapter: &&Adapter| match adapter.get_info().device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
+    };
+    let best = adapters.iter().filter(draws).min_by_key(rank);
+    best.cloned().ok_or_else(|| "no Vulkan adapter can draw in this window".to_owned())
+}
+
+/// What went wrong, and the way out.
+fn failure(error: &eframe::Error) -> FileFailure {
+    let (what, hint) = match error {
+        eframe::Error::Wgpu(error) => (
+            error.to_string(),
+            "install a Vulkan driver: that of your graphics card, or the one in software, \
+             mesa-vulkan-drivers on Debian and Ubuntu; `impasto gpu` lists what is found",
+        ),
+        // Its own words name files of another machine.
+        eframe::Error::WinitEventLoop(_) => {
+            ("there is no display".to_owned(), "DISPLAY or WAYLAND_DISPLAY names one")
+        }
+        other => (other.to_string(), "is the display still there?"),
+    };
+    FileFailure::new(format!("the window cannot be opened: {what}"), hint)
+}
+
+/// A stroke of light paint on grey.
+fn icon() -> IconData {
+    const SIDE: u32 = 64;
+    let mut rgba = Vec::with_capacity((4 * SIDE * SIDE) as usize);
+    for y in 0..SIDE {
+        for x in 0..SIDE {
+            let (x, y) = (x as f32 / SIDE as f32 - 0.5, y as f32 / SIDE as f32 - 0.5);
+            // A disc, and across it a stroke that bends and thins out.
+            let inside = x.hypot(y) < 0.48;
+            let middle = 0.16 * (3.2 * x).sin() - 0.35 * x;
+            let half = 0.13 - 0.09 * (x + 0.5);
+            let across = (y - middle) / half;
+            let painted = across.abs() < 1.0 && x.abs() < 0.4;
+            let ridge = 0.75 + 0.25 * (across * 9.0).cos();
+            let grey = if painted { 150.0 + 95.0 * ridge } else { 62.0 };
+            let grey = grey as u8;
+            rgba.extend([grey, grey, grey, if inside { 255 } else { 0 }]);
+        }
+    }
+    IconData { rgba, width: SIDE, height: SIDE }
+}

@@ -1,0 +1,276 @@
+//! Files of the studio with a worker that only holds the painting.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui_kittest::{Harness, kittest::Queryable};
+use render::light::Light;
+use render::paint::document::Document;
+use render::paint::on_cpu::OnCpu;
+use render::paint::painting::Painting;
+use render::paint::pose::Sample;
+use render::paint::strokes::Strokes;
+use studio::files::{FileRequest, Files, Home, Preferences};
+use studio::panels::revisions;
+use studio::panels::{Desk, Request, Tools};
+use studio::theme;
+use studio::worker::{Command, EaselState, Event, Origin, Snapshot, bare, oils};
+
+/// A painting of some strokes, by the engine.
+pub(super) fn painted(title: &str) -> Document {
+    let Origin::Bare { mut script, library } = bare(oils(), 24.0, 16.0, 0.2) else {
+        panic!("a bare canvas");
+    };
+    script.title = title.to_owned();
+    let resolved = script.resolve(&library).unwrap();
+    let (width, height) = script.canvas.cells();
+    let ground = script.canvas.ground.ground(width, height, 0.2, &library).unwrap();
+    let document = script.bare(&library, &resolved, ground);
+    let mut painting = opened(document);
+    for (pigment, y_mm) in [(3, 4.0), (5, 8.0), (1, 11.0)] {
+        let shape = render::paint::brush::HeadShape::Round;
+        let brush = painting.add_brush(shape, 5.0).unwrap();
+        let mut parts = [0.0; 8];
+        parts[pigment] = 1.0;
+        painting.load(brush, &parts, 0.1, 0.3).unwrap();
+        let sample = |seconds: f64| Sample {
+            seconds,
+            x_mm: 3.0 + 18.0 * seconds,
+            y_mm: y_mm + 2.0 * seconds,
+            pressure: 0.6,
+            tilt_x_deg: 0.0,
+            tilt_y_deg: 10.0,
+            twist_deg: 0.0,
+        };
+        painting.stroke(brush, &[sample(0.0), sample(0.5), sample(1.0)]).unwrap();
+        if pigment == 3 {
+            assert!(painting.dry(1.0).unwrap(), "there is paint to dry");
+        }
+    }
+    painting.document().unwrap()
+}
+
+/// The painting at work on the processor.
+pub(super) fn opened(document: Document) -> Painting {
+    let engine = OnCpu::new(document.ground.height.clone());
+    Painting::open(document, Box::new(engine), 1 << 24).unwrap()
+}
+
+/// What the window would know of `document`.
+fn easel(document: &Document, revision: u64) -> Arc<EaselState> {
+    let lighting = document.lighting.clone();
+    let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer).unwrap();
+    let cells = (document.wet.width(), document.wet.height());
+    Arc::new(EaselState {
+        title: document.title.clone(),
+        canvas_cells: cells,
+        palette_cells: cells,
+        cell_mm: document.cell_mm,
+        library: Arc::new(document.library.clone()),
+        slots: document.slots,
+        masstones: [None; 8],
+        tints: [None; 8],
+        layers: Vec::new(),
+        lighting,
+        light: Arc::new(light),
+        second: None,
+        medium: document.medium.clone(),
+        ground: Arc::new(document.ground.reflectance.clone()),
+        history: Vec::new(),
+        done: 0,
+        undo_bytes: (0, 0),
+        brushes: Vec::new(),
+        backend: "none".to_owned(),
+        revision,
+        painting: false,
+    })
+}
+
+/// Window and worker in one.
+pub(super) struct Bench {
+    files: Option<Files>,
+    home: Home,
+    preferences: Preferences,
+    tools: Tools,
+    pub(super) canvas: Arc<Document>,
+    pub(super) palette: Arc<Document>,
+    pub(super) easel: Arc<EaselState>,
+    events: Vec<Event>,
+    requests: Vec<FileRequest>,
+    /// What the worker was asked for, but for documents.
+    pub(super) commands: Vec<Command>,
+}
+
+impl Bench {
+    pub(super) fn files(&mut self) -> &mut Files {
+        self.files.as_mut().unwrap()
+    }
+
+    fn frame(&mut self, ui: &mut eframe::egui::Ui) {
+        let files = self.files.get_or_insert_with(|| {
+            Files::new(ui.ctx(), self.home.clone(), self.preferences.clone())
+        });
+        for event in self.events.drain(..) {
+            files.event(&event);
+        }
+        for request in self.requests.drain(..) {
+            files.request(request, &self.easel);
+        }
+        let commands = files.update(ui.ctx());
+        let mut asked = Vec::new();
+        let easel = self.easel.clone();
+        let mut desk = Desk { easel: &easel, tools: &mut self.tools, asked: &mut asked };
+        ui.add_space(ui.available_height() - 340.0);
+        revisions::show(ui, &mut desk, &files.revisions);
+        files.show(ui);
+        for request in asked {
+            if let Request::File(request) = request {
+                self.requests.push(request);
+            }
+        }
+        for command in commands {
+            self.carry_out(command);
+        }
+    }
+
+    fn carry_out(&mut self, command: Command) {
+        match &command {
+            Command::Snapshot(number) => {
+                return self.events.push(Event::Snapshot(Snapshot {
+                    number: *number,
+                    canvas: self.canvas.clone(),
+                    palette: self.palette.clone(),
+                    revision: self.easel.revision,
+                }));
+            }
+            Command::Recording(number) => {
+                return self
+                    .events
+                    .push(Event::Recording { number: *number, script: Arc::new(self.script()) });
+            }
+            Command::Open(Origin::Painting(document)) => {
+                self.canvas = Arc::new((**document).clone());
+            }
+            Command::Open(Origin::Session { canvas, palette }) => {
+                self.canvas = Arc::new((**canvas).clone());
+                self.palette = Arc::new((**palette).clone());
+            }
+            _ => {}
+        }
+        if let Command::Open(_) = &command {
+            self.easel = easel(&self.canvas, self.easel.revision + 1);
+            self.events.push(Event::Opened(self.easel.clone()));
+        }
+        self.commands.push(command);
+    }
+
+    /// The recording that the worker would tell.
+    pub(super) fn script(&self) -> Strokes {
+        let Origin::Bare { script, .. } = bare(oils(), 24.0, 16.0, 0.2) else {
+            panic!("a bare canvas");
+        };
+        *script
+    }
+}
+
+/// The bench in a window.
+pub(super) type Window = Harness<'static, Bench>;
+
+/// A window on `document` with its own folders in `home`.
+pub(super) fn window(home: &Path, document: Document) -> Window {
+    let preferences = Preferences {
+        autosave_seconds: 2,
+        last_folder: Some(home.to_owned()),
+        ..Preferences::default()
+    };
+    let easel = easel(&document, 1);
+    let canvas = Arc::new(document);
+    let bench = Bench {
+        files: None,
+        home: Home::in_folder(&home.join("own")),
+        preferences,
+        tools: Tools::default(),
+        palette: canvas.clone(),
+        canvas,
+        events: vec![Event::Opened(easel.clone())],
+        easel,
+        requests: Vec::new(),
+        commands: Vec::new(),
+    };
+    let builder = Harness::builder().with_size([1000.0, 760.0]).wgpu();
+    let builder = builder.with_context_setup(theme::apply);
+    let mut window = builder.build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench);
+    window.step();
+    window.step();
+    window
+}
+
+/// Draws frames until `done`, at most 30 s.
+pub(super) fn until(window: &mut Window, what: &str, mut done: impl FnMut(&mut Window) -> bool) {
+    let start = Instant::now();
+    while !done(window) {
+        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}");
+        std::thread::sleep(Duration::from_millis(3));
+        window.step();
+    }
+    window.step();
+    window.step();
+}
+
+pub(super) fn ask(window: &mut Window, request: FileRequest) {
+    window.state_mut().requests.push(request);
+    for _ in 0..4 {
+        window.step();
+    }
+}
+
+/// As if the painter had changed something.
+pub(super) fn change(window: &mut Window) {
+    let bench = window.state_mut();
+    let mut canvas = (*bench.canvas).clone();
+    canvas.wet.vehicle.values_mut()[7] += 1;
+    bench.canvas = Arc::new(canvas);
+    let mut easel = (*bench.easel).clone();
+    easel.revision += 1;
+    bench.easel = Arc::new(easel);
+    let event = Event::State(bench.easel.clone());
+    bench.events.push(event);
+    window.step();
+}
+
+pub(super) fn shows(window: &Window, label: &str) -> bool {
+    window.query_all_by_label_contains(label).next().is_some()
+}
+
+/// Clicks what has this label.
+pub(super) fn click(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    // What it opens takes its place in the frames after.
+    window.run_steps(4);
+}
+
+/// Types into the field of the name, in place of what is there.
+pub(super) fn type_name(window: &mut Window, name: &str) {
+    let field = window.get_all_by_role(eframe::egui::accesskit::Role::TextInput).last().unwrap();
+    field.focus();
+    window.step();
+    let ctrl = eframe::egui::Modifiers::COMMAND;
+    window.key_press_modifiers(ctrl, eframe::egui::Key::A);
+    window.step();
+    let field = window.get_all_by_role(eframe::egui::accesskit::Role::TextInput).last().unwrap();
+    field.type_text(name);
+    window.step();
+}
+
+/// Writes what is on the screen below `target/tmp`, where a device can draw it.
+pub(super) fn picture(window: &mut Window, name: &str) {
+    if std::env::var_os("IMPASTO_PICTURES").is_none() {
+        return;
+    }
+    let picture = window.render().unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    picture.save(folder.join(format!("files-{name}.png"))).unwrap();
+}

@@ -1,0 +1,189 @@
+//! A painting as a worker would tell of it, and a panel alone on the screen.
+
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use calibrate::evaluate::Viewing;
+use calibrate::library::PigmentLibrary;
+use calibrate::palette::{Cards, Palette, TINT_PARTS};
+use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use render::layer::SLOTS;
+use render::light::Light;
+use render::paint::brush::HeadShape;
+use render::paint::document::{Lighting, Medium, Slots};
+use render::paint::strokes::BrushSpec;
+use studio::panels::{Desk, Request, Tools};
+use studio::theme;
+use studio::worker::{BrushState, EaselState, LayerState, Thumbnail};
+
+use super::harness::has_adapter;
+
+/// The pigments in the slots; the last slot is empty.
+pub(crate) const PIGMENTS: [&str; 7] = [
+    "Zinc White",
+    "Chrome Yellow",
+    "Vermilion",
+    "Eosin Lake",
+    "Ultramarine",
+    "Viridian",
+    "Bone Black",
+];
+
+/// A painting with seven tubes, three brushes, two dry layers and a history.
+pub(crate) fn easel() -> EaselState {
+    static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
+    let (library, light) = LIBRARY.get_or_init(|| {
+        let oils = include_str!("../../../measurements/van-gogh-oils.pigments.json");
+        let library = Arc::new(PigmentLibrary::from_json("oils", oils).unwrap());
+        let light = Arc::new(Light::new(&library, &Viewing::default()).unwrap());
+        (library, light)
+    });
+    let mut slots: Slots = [None; SLOTS];
+    for (slot, name) in slots.iter_mut().zip(PIGMENTS) {
+        *slot = Some(library.find(name).unwrap());
+    }
+    let cards = Cards::standard(library.grid);
+    let palette = Palette::new(library, &light.viewing, cards).unwrap();
+    let srgb = |recipe: &[(usize, f64)]| {
+        let encoded = palette.look(recipe).srgb;
+        encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+    };
+    EaselState {
+        title: "made".to_owned(),
+        canvas_cells: (320, 200),
+        palette_cells: (160, 120),
+        cell_mm: 0.1,
+        library: Arc::clone(library),
+        slots,
+        masstones: slots.map(|slot| Some(srgb(&[(slot?, 1.0)]))),
+        tints: slots.map(|slot| Some(srgb(&palette.tint(slot?, TINT_PARTS)))),
+        layers: vec![layer(slots, 1.0), layer(slots, 0.5)],
+        lighting: Lighting::default(),
+        light: Arc::clone(light),
+        second: None,
+        medium: Medium::default(),
+        ground: Arc::new(vec![0.8; library.grid.count()]),
+        history: ["load round", "stroke, round", "dry 50 %", "stroke, flat"]
+            .map(str::to_owned)
+            .to_vec(),
+        done: 3,
+        undo_bytes: (96 << 20, 512 << 20),
+        brushes: vec![
+            brush("round", HeadShape::Round, 6.0, Some(srgb(&[(slots[2].unwrap(), 1.0)]))),
+            brush("flat", HeadShape::Flat, 10.0, None),
+            brush("knife", HeadShape::Knife, 14.0, None),
+        ],
+        backend: "cpu".to_owned(),
+        revision: 1,
+        painting: false,
+    }
+}
+
+fn brush(name: &str, shape: HeadShape, size_mm: f64, colour: Option<[u8; 3]>) -> BrushState {
+    let mut parts = [0.0; SLOTS];
+    parts[0] = 0.25;
+    parts[2] = 0.75;
+    let loaded = colour.is_some();
+    BrushState {
+        name: name.to_owned(),
+        spec: BrushSpec { shape, size_mm },
+        amount_mm: if loaded { 0.4 } else { 0.0 },
+        vehicle: if loaded { 0.2 } else { 0.0 },
+        parts: if loaded { parts } else { [0.0; SLOTS] },
+        colour,
+    }
+}
+
+fn layer(slots: Slots, opacity: f64) -> LayerState {
+    let pixel = |index: usize| [(index * 7 % 256) as u8, 90, 60, 255];
+    let thumbnail = Thumbnail { width: 24, height: 15, pixels: (0..360).map(pixel).collect() };
+    let thumbnail = Arc::new(thumbnail);
+    LayerState { slots, opacity, mean_mm: 0.123, most_mm: 0.81, covers: 0.34, thumbnail }
+}
+
+/// A panel, what it sees, and what it has asked for.
+pub(crate) struct Table<P> {
+    pub(crate) panel: P,
+    pub(crate) easel: EaselState,
+    pub(crate) tools: Tools,
+    pub(crate) asked: Vec<Request>,
+}
+
+impl<P> Table<P> {
+    /// Does something that a key would do.
+    pub(crate) fn with_desk<T>(&mut self, act: impl FnOnce(&mut P, &mut Desk<'_>) -> T) -> T {
+        let Self { panel, easel, tools, asked } = self;
+        act(panel, &mut Desk { easel, tools, asked })
+    }
+}
+
+/// The panel alone in a window as wide as panels are.
+pub(crate) fn shown<P: 'static>(
+    panel: P,
+    easel: EaselState,
+    show: impl Fn(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
+) -> Harness<'static, Table<P>> {
+    let table = Table { panel, easel, tools: Tools::default(), asked: Vec::new() };
+    let builder = Harness::builder()
+        .with_size(Vec2::new(760.0, 700.0))
+        .with_step_dt(1.0 / 60.0)
+        .with_max_steps(60);
+    let mut harness = builder.with_context_setup(theme::apply).build_ui_state(
+        move |ui, table: &mut Table<P>| {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
+            let room = Rect::from_min_size(
+                Pos2::new(8.0, 8.0),
+                Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),
+            );
+            ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
+                let Table { panel, easel, tools, asked } = table;
+                show(panel, ui, &mut Desk { easel, tools, asked });
+            });
+        },
+        table,
+    );
+    harness.run();
+    harness
+}
+
+/// Clicks what has a label, and lets the window settle.
+pub(crate) fn click<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run();
+}
+
+/// The same for a row of a list, which may be out of sight.
+pub(crate) fn pick<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
+    harness.get_by_label(label).click_accesskit();
+    harness.run();
+}
+
+/// Whether what has a label is grey.
+pub(crate) fn is_disabled<P>(harness: &Harness<'_, Table<P>>, label: &str) -> bool {
+    harness.get_by_label(label).accesskit_node().is_disabled()
+}
+
+/// What was asked since the last call is `wanted`, and nothing else.
+#[track_caller]
+pub(crate) fn asks<P>(harness: &mut Harness<'_, Table<P>>, wanted: &[Request]) {
+    let asked = std::mem::take(&mut harness.state_mut().asked);
+    assert_eq!(format!("{asked:#?}"), format!("{wanted:#?}"), "what was asked, and wanted");
+}
+
+/// The window as it looks, also written to the folder for temporary files; none,
+/// said, without a graphics adapter.
+pub(crate) fn picture<P>(
+    harness: &mut Harness<'_, Table<P>>,
+    name: &str,
+) -> Option<image::RgbaImage> {
+    if !has_adapter() {
+        return None;
+    }
+    let image = harness.render().unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("panels");
+    std::fs::create_dir_all(&folder).unwrap();
+    image.save(folder.join(format!("{name}.png"))).unwrap();
+    Some(image)
+}
