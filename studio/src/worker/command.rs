@@ -136,3 +136,26 @@ pub enum Command {
     /// Ends the thread.
     Quit,
 }
+
+impl Command {
+    /// What it is, for people.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Open(_) => "opening",
+            Self::TakeBrush { .. } => "taking a brush",
+            Self::PenDown { .. } | Self::PenMove(_) | Self::PenUp => "a stroke",
+            Self::Act(action) | Self::Adjust(action) => action.kind(),
+            Self::Settle => "settling",
+            Self::Travel(_) => "going through the history",
+            Self::SecondLight(_) => "a second light",
+            Self::Pick { .. } => "picking a colour",
+            Self::Snapshot(_) => "saving",
+            Self::Recording(_) => "a recording",
+            Self::Replay { .. } => "a replay",
+            Self::Cancel => "cancelling",
+            Self::LoadPicked { .. } => "loading a brush",
+            Self::UndoMemory(_) => "the memory of undo",
+            Self::Quit => "quitting",
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use calibrate::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
-use render::paint::ground::GroundSpec;
+use render::paint::ground::{GroundRelief, GroundSpec, Panel};
 use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Strokes};
 
 use super::command::{Command, Origin};
@@ -49,6 +49,15 @@ pub fn brushes() -> BTreeMap<String, BrushSpec> {
     STAND.into_iter().map(spec).collect()
 }
 
+/// A wooden palette beside a canvas of cells of this width, 640 x 420 of them;
+/// 64 x 42 mm beside the usual canvas.
+#[must_use]
+pub fn mixing(cell_mm: f64) -> Canvas {
+    let ground = GroundRelief::Panel(Panel::default()).into();
+    let (width_mm, height_mm) = (640.0 * cell_mm, 420.0 * cell_mm);
+    Canvas { width_mm, height_mm, cell_mm, ground }
+}
+
 /// A bare canvas, `width_mm` x `height_mm` of primed linen in cells of
 /// `cell_mm`, with pigments of `library` and the usual brushes. The oils give
 /// the tubes a painter would choose, any other library its white and the first
@@ -66,6 +75,7 @@ pub fn bare(library: PigmentLibrary, width_mm: f64, height_mm: f64, cell_mm: f64
     let canvas = Canvas { width_mm, height_mm, cell_mm, ground: GroundSpec::default() };
     let mut script = Strokes::new("untitled", "", canvas, tubes);
     script.library = Some(library.title.clone());
+    script.mixing = Some(mixing(cell_mm));
     script.brushes = brushes();
     Origin::Bare { script: Box::new(script), library: Box::new(library) }
 }

@@ -7,8 +7,10 @@ use std::thread;
 use render::gpu::BackendChoice;
 use render::paint::painting::UNDO_BYTES;
 
+use super::backend::Backend;
 use super::command::Command;
 use super::event::Event;
+use super::inbox::{Inbox, Said};
 use super::workshop::Workshop;
 
 /// What a worker is told once.
@@ -24,15 +26,6 @@ impl Default for WorkerOptions {
     fn default() -> Self {
         Self { backend: BackendChoice::Auto, undo_bytes: UNDO_BYTES }
     }
-}
-
-/// What reaches the thread.
-#[derive(Debug)]
-pub(super) enum Said {
-    /// The window asks for something.
-    Command(Command),
-    /// The window took this many parts of the picture.
-    Taken(usize),
 }
 
 /// The thread that owns the paint.
@@ -60,7 +53,10 @@ impl Worker {
                 let _ = told.send(event);
                 wake();
             };
-            let work = || Workshop::new(options, heard, &tell).run();
+            let work = || {
+                let backend = Backend::new(options.backend);
+                Workshop::new(Inbox::new(heard), backend, options.undo_bytes, &tell).run();
+            };
             if let Err(panic) = catch_unwind(AssertUnwindSafe(work)) {
                 tell(Event::Message {
                     text: format!(
@@ -83,7 +79,8 @@ impl Worker {
     /// What was told since the last call.
     pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
         let events: Vec<Event> = self.events.try_iter().collect();
-        let taken = events.iter().filter(|event| matches!(event, Event::Tiles { .. })).count();
+        let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
+        let taken = events.iter().filter(paced).count();
         if taken > 0 {
             let _ = self.said.send(Said::Taken(taken));
         }

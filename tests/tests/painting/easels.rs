@@ -7,7 +7,7 @@ use render::optics::Gloss;
 use render::paint::Engine;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::easel::Easel;
+use render::paint::easel::{Easel, Outcome};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::UNDO_BYTES;
 use render::paint::pose::Sample;
@@ -121,8 +121,9 @@ pub(crate) fn live(easel: &mut Easel, on: Surface, brush: &str, random: &mut Cha
     assert!(report.is_some_and(|report| report.undoable), "{report:?}");
 }
 
-/// One action that counts in the history, or that is refused.
-pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) {
+/// One action; whether it counts in the history. A pigment may be wet, or a
+/// layer lack it.
+pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) -> bool {
     let layers = easel.canvas().state().dry.len();
     let on = surface(random);
     let action = match random.random_range(0..14) {
@@ -161,11 +162,11 @@ pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) {
         8 if layers > 1 => Action::Merge { layer: random.random_range(1..layers) },
         _ => {
             let brush = ["flat", "knife"][random.random_range(0..2)];
-            return live(easel, on, brush, random);
+            live(easel, on, brush, random);
+            return true;
         }
     };
-    // A pigment may be wet, or a layer lack it.
-    let _ = easel.act(&action);
+    matches!(easel.act(&action), Ok(Outcome::Done))
 }
 
 /// Two loaded brushes, one with a shape of its own.

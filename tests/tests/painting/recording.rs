@@ -49,8 +49,8 @@ fn session(easel: &mut Easel, seed: u64, actions: usize) {
     let knife = || "knife".to_owned();
     for _ in 0..actions {
         match random.random_range(0..12) {
-            0 => drop(easel.undo().unwrap()),
-            1 => drop(easel.redo().unwrap()),
+            0 => _ = easel.undo().unwrap(),
+            1 => _ = easel.redo().unwrap(),
             2 => {
                 let recipe = [("Lead White".to_owned(), 1.0 / 3.0), ("Viridian".to_owned(), 0.1)];
                 let (recipe, vehicle) = (recipe.into(), random.random_range(0.0..1.0));
@@ -63,7 +63,7 @@ fn session(easel: &mut Easel, seed: u64, actions: usize) {
                 let keep = random.random_range(0.0..1.0);
                 easel.act(&Action::Wipe { brush: "flat".to_owned(), keep }).unwrap();
             }
-            4 => drop(easel.act(&Action::Wash { brush: knife() }).unwrap()),
+            4 => _ = easel.act(&Action::Wash { brush: knife() }).unwrap(),
             5 => {
                 // Another head under the same name, or an earlier one again.
                 let size_mm = [4.0, 2.5, 10.0 / 3.0][random.random_range(0..3)];
@@ -86,7 +86,7 @@ fn session(easel: &mut Easel, seed: u64, actions: usize) {
                 let (_, done) = easel.history();
                 easel.travel(random.random_range(done.saturating_sub(4)..done + 3)).unwrap();
             }
-            _ => something(easel, &mut random),
+            _ => _ = something(easel, &mut random),
         }
     }
     easel.settle();

@@ -185,6 +185,7 @@ impl Painting {
     }
 
     fn feel_floor(&mut self) -> Result<(), PaintingError> {
+        self.dry_changes += 1;
         self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
     }

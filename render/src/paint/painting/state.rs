@@ -53,6 +53,8 @@ pub struct Painting {
     pub(super) state: State,
     pub(super) light: Arc<Light>,
     pub(super) relief: Relief,
+    /// How often the floor was felt anew.
+    pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<Before>,
     /// The stroke that is being drawn, if one is.
@@ -94,7 +96,7 @@ impl Painting {
     /// [`PaintingError`] for paint piled too high, or if the device has no room.
     pub fn open_under(
         document: Document,
-        light: Light,
+        light: impl Into<Arc<Light>>,
         mut engine: Box<dyn Engine>,
         undo_bytes: u64,
     ) -> Result<Self, PaintingError> {
@@ -117,8 +119,9 @@ impl Painting {
             motion: Motion::default(),
             engine,
             state: State { slots, dry: states, lighting, medium },
-            light: Arc::new(light),
+            light: light.into(),
             relief,
+            dry_changes: 0,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
             stroke: None,
@@ -174,10 +177,23 @@ impl Painting {
         &self.library
     }
 
+    /// What it is called.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
     /// The light that the picture is computed for.
     #[must_use]
-    pub fn light(&self) -> &Light {
+    pub fn light(&self) -> &Arc<Light> {
         &self.light
+    }
+
+    /// Counts how often dry paint came or went, by undo too: while it stays, the
+    /// paint of the dry layers is the same.
+    #[must_use]
+    pub fn dry_changes(&self) -> u64 {
+        self.dry_changes
     }
 
     /// The binder.

@@ -1,0 +1,296 @@
+//! Commands carried out, in their order.
+
+use std::sync::Arc;
+
+use render::layer::SLOTS;
+use render::paint::easel::{Easel, EaselError, Outcome};
+use render::paint::strokes::{Action, Load};
+
+use super::command::{Command, PenSample};
+use super::event::{Event, Picked, Snapshot};
+use super::live::Live;
+use super::pick::{Place, picked};
+use super::state::EaselState;
+use super::telling::Beside;
+use super::workshop::{Stage, Workshop};
+
+/// What the stage always has.
+const PALETTE: &str = "every painting has a palette beside it";
+
+impl Workshop<'_> {
+    /// Does the next thing: plays a slice of a stroke, or a command.
+    pub(super) fn work(&mut self) -> Result<(), EaselError> {
+        if self.playing.is_some() {
+            for question in self.inbox.take_questions() {
+                self.answer(question)?;
+            }
+            self.play()
+        } else if self.live.is_some() {
+            self.paint()
+        } else if let Some(command) = self.inbox.next() {
+            self.act_on(command)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// A stroke goes on: all samples there are, then a slice of its paint.
+    fn paint(&mut self) -> Result<(), EaselError> {
+        while let Some(Command::PenMove(samples)) =
+            self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
+        {
+            self.extend(&samples)?;
+        }
+        let is_question = |command: &Command| {
+            matches!(
+                command,
+                Command::Snapshot(_)
+                    | Command::Recording(_)
+                    | Command::Pick { .. }
+                    | Command::UndoMemory(_)
+                    | Command::Settle
+            )
+        };
+        if self.live.as_ref().is_some_and(|live| live.waiting == 0)
+            && let Some(question) = self.inbox.next_if(is_question)
+        {
+            return self.answer(question);
+        }
+        if self.inbox.next_if(|command| matches!(command, Command::PenUp)).is_some()
+            || self.inbox.next_is(|command| !is_question(command))
+        {
+            // Whatever else comes ends the stroke first.
+            self.lift()?;
+        }
+        self.slice()
+    }
+
+    fn extend(&mut self, samples: &[PenSample]) -> Result<(), EaselError> {
+        let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
+        if live.lifted {
+            return Ok(());
+        }
+        for PenSample { sample, arrived } in samples {
+            if let Err(error) = live.extend(&mut stage.opened.easel, sample, *arrived)
+                && !std::mem::replace(&mut live.refused, true)
+            {
+                let hint = Some("the stroke goes on without it".to_owned());
+                (self.tell)(Event::Message { text: error.to_string(), hint, failed: true });
+            }
+        }
+        live.know(&mut stage.opened.easel)
+    }
+
+    /// No more samples come to the stroke.
+    pub(super) fn lift(&mut self) -> Result<(), EaselError> {
+        match (&mut self.live, &mut self.stage) {
+            (Some(live), Some(stage)) => live.lift(&mut stage.opened.easel),
+            _ => Ok(()),
+        }
+    }
+
+    /// Paints on for a slice; closes the stroke once all is painted.
+    pub(super) fn slice(&mut self) -> Result<(), EaselError> {
+        let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
+        let easel = &mut stage.opened.easel;
+        let painted = live.slice(easel, &mut self.meter, &mut self.outbox)?;
+        self.unseen |= painted;
+        self.revision += u64::from(painted);
+        if live.is_over() {
+            let brush = live.brush().to_owned();
+            self.live = None;
+            easel.end_stroke()?;
+            stage.teller.brushes.remove(&brush);
+            (self.unseen, self.stale) = (true, true);
+        }
+        Ok(())
+    }
+
+    /// Carries out one command; no stroke is open, nothing is played.
+    fn act_on(&mut self, command: Command) -> Result<(), EaselError> {
+        match command {
+            Command::Open(origin) => self.open(origin),
+            Command::Replay { script, library, pace } => self.replay(*script, &library, pace),
+            Command::UndoMemory(bytes) => {
+                self.undo_bytes = bytes;
+                if let Some(stage) = &mut self.stage {
+                    stage.opened.easel.set_undo_bytes(bytes);
+                    self.stale = true;
+                }
+            }
+            // Of a stroke that ended before the pen was lifted.
+            Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
+            command if self.stage.is_some() => return self.change(command),
+            command => {
+                let text = format!("no painting is open for {}", command.name());
+                self.say(text, Some("open one, or begin a new one".to_owned()), true);
+            }
+        }
+        Ok(())
+    }
+
+    /// What needs a painting.
+    fn change(&mut self, command: Command) -> Result<(), EaselError> {
+        match command {
+            Command::PenDown { surface, brush } => {
+                let begun = Live::begin(self.easel(), surface, &brush)?;
+                self.live = Some(begun);
+                self.stale = true;
+                Ok(())
+            }
+            Command::TakeBrush { name, spec } => {
+                self.easel().take_brush(&name, &spec)?;
+                self.brush_changed(&name);
+                Ok(())
+            }
+            Command::Act(action) => self.act(&action),
+            Command::Adjust(action) => {
+                self.easel().adjust(&action)?;
+                self.changed();
+                Ok(())
+            }
+            Command::Travel(done) => {
+                let travelled = self.easel().travel(done);
+                self.all_changed();
+                travelled
+            }
+            Command::SecondLight(lighting) => {
+                self.easel().canvas_mut().set_second_light(lighting)?;
+                (self.unseen, self.stale) = (true, true);
+                Ok(())
+            }
+            Command::LoadPicked { brush, picked, amount_mm } => {
+                self.load_picked(brush, &picked, amount_mm)
+            }
+            question => self.answer(question),
+        }
+    }
+
+    fn act(&mut self, action: &Action) -> Result<(), EaselError> {
+        let outcome = self.easel().act(action)?;
+        match action {
+            Action::Load(Load { brush, .. })
+            | Action::Wipe { brush, .. }
+            | Action::Wash { brush } => self.brush_changed(brush),
+            action if outcome == Outcome::Nothing => {
+                let text = match action {
+                    Action::Dry { .. } => "there is no wet paint to dry",
+                    Action::Undo {} => "there is nothing to undo",
+                    Action::Redo {} => "there is nothing to redo",
+                    _ => "there is nothing to do",
+                };
+                self.say(text.to_owned(), None, false);
+            }
+            _ => self.all_changed(),
+        }
+        Ok(())
+    }
+
+    /// Puts what was picked on a brush, in place of what it holds.
+    fn load_picked(
+        &mut self,
+        brush: String,
+        picked: &Picked,
+        amount_mm: f64,
+    ) -> Result<(), EaselError> {
+        let library = Arc::clone(&self.stage_mut().opened.library);
+        let wet = picked.layers.last();
+        let amounts = wet.map_or([0.0; SLOTS + 1], |wet| wet.amounts_mm);
+        let total: f64 = amounts.iter().sum();
+        if total <= 0.0 {
+            let hint = "dry paint stays where it is; its recipe can be loaded from the tubes";
+            self.say("there was no wet paint".to_owned(), Some(hint.to_owned()), true);
+            return Ok(());
+        }
+        let slots = wet.map_or([None; SLOTS], |wet| wet.slots);
+        let named = slots.iter().zip(amounts).filter(|(_, amount)| *amount > 0.0);
+        let recipe = named.filter_map(|(slot, amount)| {
+            Some((library.pigments[(*slot)?].name.clone(), amount / total))
+        });
+        let load = Load {
+            brush: brush.clone(),
+            recipe: recipe.collect(),
+            vehicle: amounts[SLOTS] / total,
+            amount_mm,
+        };
+        self.easel().act(&Action::Wash { brush: brush.clone() })?;
+        self.brush_changed(&brush);
+        self.easel().act(&Action::Load(load))?;
+        Ok(())
+    }
+
+    /// Answers what changes nothing.
+    pub(super) fn answer(&mut self, question: Command) -> Result<(), EaselError> {
+        if self.stage.is_none() {
+            return Ok(());
+        }
+        match question {
+            Command::Snapshot(number) => {
+                let revision = self.revision;
+                let (canvas, palette) = self.easel().documents()?;
+                let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
+                let snapshot = Snapshot { number, canvas, palette, revision };
+                self.keep(&snapshot);
+                (self.tell)(Event::Snapshot(snapshot));
+            }
+            Command::Recording(number) => match self.easel().recording().cloned() {
+                Some(script) => {
+                    (self.tell)(Event::Recording { number, script: Arc::new(script) });
+                }
+                None => {
+                    let text = "a painting that was recovered has no recording";
+                    self.say(text.to_owned(), Some("save the painting itself".to_owned()), true);
+                }
+            },
+            Command::Pick { surface, x_mm, y_mm, radius_mm } => {
+                let place = Place { surface, x_mm, y_mm, radius_mm };
+                let painting = self.easel().painting_mut(surface).expect(PALETTE);
+                if let Some(picked) = picked(painting, place)? {
+                    (self.tell)(Event::Picked(Arc::new(picked)));
+                }
+            }
+            Command::UndoMemory(bytes) => {
+                self.undo_bytes = bytes;
+                self.easel().set_undo_bytes(bytes);
+                self.stale = true;
+            }
+            Command::Settle => {
+                self.easel().settle();
+                self.stale = true;
+            }
+            other => unreachable!("{} is no question", other.name()),
+        }
+        Ok(())
+    }
+
+    /// Everything about the painting but its pixels.
+    pub(super) fn state(&mut self) -> Result<Option<Arc<EaselState>>, EaselError> {
+        let Some(Stage { opened, teller }) = &mut self.stage else { return Ok(None) };
+        let beside = Beside { revision: self.revision, painting: self.live.is_some() };
+        Ok(Some(Arc::new(teller.state(opened, &beside, self.outbox.bytes())?)))
+    }
+
+    /// The easel of the painting that is known to be open.
+    pub(super) fn easel(&mut self) -> &mut Easel {
+        &mut self.stage_mut().opened.easel
+    }
+
+    pub(super) fn stage_mut(&mut self) -> &mut Stage {
+        self.stage.as_mut().expect("a painting is open, as the caller saw")
+    }
+
+    fn brush_changed(&mut self, brush: &str) {
+        self.stage_mut().teller.brushes.remove(brush);
+        self.stale = true;
+    }
+
+    fn changed(&mut self) {
+        self.revision += 1;
+        (self.unseen, self.stale) = (true, true);
+    }
+
+    pub(super) fn all_changed(&mut self) {
+        self.stage_mut().teller.brushes.clear();
+        self.changed();
+    }
+}

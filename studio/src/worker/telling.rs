@@ -1,0 +1,129 @@
+//! What the window is told of the painting besides its pixels.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use render::amount::mm_from_quanta;
+use render::layer::SLOTS;
+use render::light::Light;
+use render::paint::easel::{Easel, EaselError};
+use render::paint::strokes::{BrushSpec, Surface};
+
+use super::colours::Colours;
+use super::layers::Layers;
+use super::opening::Opened;
+use super::srgb::SrgbBytes;
+use super::state::{BrushState, EaselState};
+
+/// What is kept from one telling to the next.
+#[derive(Debug)]
+pub(super) struct Teller {
+    colours: Colours,
+    pub(super) layers: Layers,
+    /// Paint on brushes by name, as heights in mm; cleared when it may have
+    /// changed.
+    pub(super) brushes: BTreeMap<String, [f64; SLOTS + 1]>,
+}
+
+/// What of a telling the easel does not know.
+#[derive(Debug, Clone)]
+pub(super) struct Beside {
+    pub(super) revision: u64,
+    /// Whether a stroke is open.
+    pub(super) painting: bool,
+}
+
+impl Teller {
+    pub(super) fn new(opened: &Opened) -> Self {
+        let light = Arc::clone(opened.easel.canvas().light());
+        let colours = Colours::new(Arc::clone(&opened.library), light);
+        Self { colours, layers: Layers::default(), brushes: BTreeMap::new() }
+    }
+
+    /// All of it, as it is now.
+    ///
+    /// # Errors
+    /// [`EaselError`] if the device was lost.
+    pub(super) fn state(
+        &mut self,
+        opened: &mut Opened,
+        beside: &Beside,
+        bytes: &SrgbBytes,
+    ) -> Result<EaselState, EaselError> {
+        let Opened { easel, library, ground, .. } = opened;
+        let light: Arc<Light> = Arc::clone(easel.canvas().light());
+        if !self.colours.are_of(library, &light) {
+            self.colours = Colours::new(Arc::clone(library), Arc::clone(&light));
+        }
+        let brushes = self.stand(easel)?;
+        let palette = easel.painting(Surface::Palette).map(|palette| palette.bounds());
+        let (history, done) = easel.history();
+        let history = history.into_iter().map(str::to_owned).collect();
+        let undo_bytes = easel.undo_bytes();
+        let canvas = easel.canvas();
+        let slots = canvas.state().slots;
+        let bounds = canvas.bounds();
+        Ok(EaselState {
+            title: canvas.title().to_owned(),
+            canvas_cells: (bounds.width, bounds.height),
+            palette_cells: palette.map_or((0, 0), |bounds| (bounds.width, bounds.height)),
+            cell_mm: canvas.cell_mm(),
+            library: Arc::clone(library),
+            slots,
+            masstones: self.colours.masstones(&slots),
+            tints: self.colours.tints(&slots),
+            layers: self.layers.states(canvas, bytes),
+            lighting: canvas.state().lighting.clone(),
+            light,
+            second: canvas.second_light().cloned(),
+            medium: canvas.medium().clone(),
+            ground: Arc::clone(ground),
+            history,
+            done,
+            undo_bytes,
+            brushes,
+            backend: canvas.backend(),
+            revision: beside.revision,
+            painting: beside.painting,
+        })
+    }
+
+    /// The brushes, in the order of their names.
+    fn stand(&mut self, easel: &mut Easel) -> Result<Vec<BrushState>, EaselError> {
+        let slots = easel.canvas().state().slots;
+        let specs: Vec<(String, BrushSpec)> =
+            easel.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
+        let mut stand = Vec::with_capacity(specs.len());
+        for (name, spec) in specs {
+            let heights = match self.brushes.get(&name) {
+                Some(heights) => *heights,
+                None => {
+                    let heights = heights_mm(easel, &name)?;
+                    self.brushes.insert(name.clone(), heights);
+                    heights
+                }
+            };
+            let amount_mm: f64 = heights.iter().sum();
+            let pigments: f64 = heights[..SLOTS].iter().sum();
+            let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
+            let parts = std::array::from_fn(|slot| share(pigments, heights[slot]));
+            stand.push(BrushState {
+                colour: self.colours.of_slots(&slots, &parts),
+                vehicle: share(amount_mm, heights[SLOTS]),
+                name,
+                spec,
+                amount_mm,
+                parts,
+            });
+        }
+        Ok(stand)
+    }
+}
+
+/// Mean heights of the paint on a brush: of each slot, and of vehicle last.
+fn heights_mm(easel: &mut Easel, name: &str) -> Result<[f64; SLOTS + 1], EaselError> {
+    let cell_mm = easel.canvas().cell_mm();
+    let Some(paint) = easel.brush_paint(name)? else { return Ok([0.0; SLOTS + 1]) };
+    let cells = (paint.width() * paint.height()).max(1) as f64;
+    Ok(paint.totals().map(|total| total as f64 / cells * mm_from_quanta(1, cell_mm)))
+}

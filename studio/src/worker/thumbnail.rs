@@ -1,0 +1,155 @@
+//! A dry layer at a glance: a few of its cells, and figures of all.
+
+use std::sync::Arc;
+
+use render::field::Field;
+use render::layer::Layer;
+use render::paint::document::{Document, DryLayer, Ground, Slots};
+use render::paint::painting::Painting;
+use render::paint::scene;
+use render::tile::{Rect, TILE};
+
+use super::srgb::SrgbBytes;
+use super::state::{LayerState, Thumbnail};
+
+/// Pixels of a thumbnail's longer side.
+const LONGEST: usize = 96;
+
+/// Cells looked at for a pixel, in each direction.
+const PROBES: usize = 2;
+
+/// What is kept of a dry layer's paint.
+#[derive(Debug, Clone)]
+pub(super) struct Glance {
+    mean_mm: f64,
+    most_mm: f64,
+    covers: f64,
+    /// `PROBES` x `PROBES` cells of every pixel.
+    cells: Layer,
+}
+
+impl Glance {
+    /// Looks at a layer of `bounds`, whose paint `read` gives; it is asked for
+    /// rows of tiles.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub(super) fn at<E>(
+        bounds: Rect,
+        cell_mm: f64,
+        mut read: impl FnMut(Rect) -> Result<Layer, E>,
+    ) -> Result<Self, E> {
+        let (width, height) = size(bounds);
+        let mut cells = Layer::empty(PROBES * width, PROBES * height);
+        let place =
+            |index: usize, count: usize, along: usize| (2 * index + 1) * along / (2 * count);
+        let columns: Vec<usize> =
+            (0..cells.width()).map(|x| place(x, cells.width(), bounds.width)).collect();
+        let rows: Vec<usize> =
+            (0..cells.height()).map(|y| place(y, cells.height(), bounds.height)).collect();
+        let (mut sum, mut most, mut painted) = (0_u64, 0_u32, 0_u64);
+        for top in (0..bounds.height).step_by(TILE) {
+            let height = TILE.min(bounds.height - top);
+            let strip = read(Rect { x: 0, y: top, width: bounds.width, height })?;
+            for index in 0..bounds.width * height {
+                let volume = strip.cell(index).volume();
+                sum += u64::from(volume);
+                most = most.max(volume);
+                painted += u64::from(volume > 0);
+            }
+            for (y, row) in rows.iter().enumerate() {
+                let Some(row) = row.checked_sub(top).filter(|&row| row < height) else { continue };
+                for (x, column) in columns.iter().enumerate() {
+                    let cell = strip.cell(row * bounds.width + column);
+                    cells.set_cell(y * columns.len() + x, cell);
+                }
+            }
+        }
+        let mm = |quanta: f64| quanta * render::amount::mm_from_quanta(1, cell_mm);
+        Ok(Self {
+            mean_mm: mm(sum as f64 / painted.max(1) as f64),
+            most_mm: mm(f64::from(most)),
+            covers: painted as f64 / (bounds.width * bounds.height).max(1) as f64,
+            cells,
+        })
+    }
+
+    /// The layer of `painting` as the window is told of it, with its pigments at
+    /// `slots`.
+    pub(super) fn state(
+        &self,
+        slots: Slots,
+        opacity: f64,
+        painting: &Painting,
+        bytes: &SrgbBytes,
+    ) -> LayerState {
+        LayerState {
+            slots,
+            opacity,
+            mean_mm: self.mean_mm,
+            most_mm: self.most_mm,
+            covers: self.covers,
+            thumbnail: Arc::new(self.thumbnail(slots, opacity, painting, bytes)),
+        }
+    }
+
+    /// The layer alone, as thick as it is seen, over the ground.
+    fn thumbnail(
+        &self,
+        slots: Slots,
+        opacity: f64,
+        painting: &Painting,
+        bytes: &SrgbBytes,
+    ) -> Thumbnail {
+        let (columns, rows) = (self.cells.width(), self.cells.height());
+        let layer = DryLayer { slots, opacity, paint: self.cells.clone() };
+        let document = alone(painting, layer);
+        let mut scene = scene::scene(&document, painting.light());
+        // Neighbours here lie apart on the canvas: no relief, no gloss.
+        scene.lamp.relief = 0.0;
+        let picture = scene::picture(&document, &scene);
+        let (width, height) = (columns / PROBES, rows / PROBES);
+        let pixel = |index: usize| {
+            let (x, y) = (index % width * PROBES, index / width * PROBES);
+            let probes = (0..PROBES * PROBES).map(|i| (x + i % PROBES, y + i / PROBES));
+            let mut sum = [0.0; 4];
+            for (x, y) in probes {
+                if self.cells.cell(y * columns + x).volume() > 0 {
+                    for (sum, value) in sum.iter_mut().zip(picture[(x, y)]) {
+                        *sum += value;
+                    }
+                }
+            }
+            // The fourth counts the probes that met paint.
+            let count = sum[3];
+            let [r, g, b, _] = bytes.pixel(sum.map(|value| value / count.max(1.0)));
+            [r, g, b, (255.0 * count / (PROBES * PROBES) as f32).round() as u8]
+        };
+        Thumbnail { width, height, pixels: (0..width * height).map(pixel).collect() }
+    }
+}
+
+/// `layer` over the level ground of `painting`.
+fn alone(painting: &Painting, layer: DryLayer) -> Document {
+    let (width, height) = (layer.paint.width(), layer.paint.height());
+    let Ground { name, reflectance, gloss, .. } = painting.ground();
+    let level = Ground {
+        name: name.clone(),
+        height: Field::filled(width, height, 0),
+        reflectance: reflectance.clone(),
+        gloss: *gloss,
+    };
+    let (cell_mm, library) = (painting.cell_mm(), painting.library().clone());
+    let (medium, lighting) = (painting.medium().clone(), painting.state().lighting.clone());
+    let slots = layer.slots;
+    let mut document = Document::bare("", cell_mm, level, library, medium, slots, lighting);
+    document.dry.push(layer);
+    document
+}
+
+/// Pixels of the thumbnail of a canvas: never more than it has cells.
+fn size(bounds: Rect) -> (usize, usize) {
+    let longer = bounds.width.max(bounds.height);
+    let side = |cells: usize| (cells * LONGEST.min(longer) / longer.max(1)).max(1);
+    (side(bounds.width), side(bounds.height))
+}

@@ -1,0 +1,107 @@
+//! Parts of a picture, ready for the screen.
+
+use rayon::prelude::*;
+use render::field::Field;
+use render::tile::{Rect, TileSet};
+
+use super::event::TilePixels;
+use super::srgb::SrgbBytes;
+
+/// The pixels of `tiles` on a canvas of `bounds`. `read` gives cells of the
+/// picture in linear sRGB; it is asked for whole runs of tiles side by side, as
+/// each may cost a way to the device and back.
+///
+/// # Errors
+/// Those of `read`.
+pub(super) fn encoded<E: Send>(
+    tiles: &TileSet,
+    bounds: Rect,
+    bytes: &SrgbBytes,
+    mut read: impl FnMut(Rect) -> Result<Field<[f32; 4]>, E>,
+) -> Result<Vec<TilePixels>, E> {
+    let mut told = Vec::with_capacity(tiles.len());
+    for (run, parts) in runs(tiles, bounds) {
+        let picture = read(run)?;
+        let encoded = parts.into_par_iter().map(|rect| {
+            let mut pixels = Vec::with_capacity(rect.width * rect.height);
+            for y in 0..rect.height {
+                let row = picture.row(rect.y - run.y + y, rect.x - run.x, rect.width);
+                pixels.extend(row.iter().map(|&colour| bytes.pixel(colour)));
+            }
+            TilePixels { rect, pixels }
+        });
+        told.par_extend(encoded);
+    }
+    Ok(told)
+}
+
+/// Tiles that lie side by side in a row, as one rectangle with its parts.
+fn runs(tiles: &TileSet, bounds: Rect) -> Vec<(Rect, Vec<Rect>)> {
+    let mut runs: Vec<(Rect, Vec<Rect>)> = Vec::new();
+    for rect in tiles.iter().map(|tile| tile.rect(bounds)) {
+        match runs.last_mut() {
+            Some((run, parts)) if run.y == rect.y && run.x + run.width == rect.x => {
+                run.width += rect.width;
+                parts.push(rect);
+            }
+            _ => runs.push((rect, vec![rect])),
+        }
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use render::export::png8;
+
+    use super::*;
+
+    /// Colours of all kinds, in gamut and out of it.
+    fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
+        let colour = |index: usize| {
+            let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
+            [value(1), value(31), value(577), 1.0]
+        };
+        Field::from_values(width, height, (0..width * height).map(colour).collect())
+    }
+
+    fn part(picture: &Field<[f32; 4]>, rect: Rect) -> Field<[f32; 4]> {
+        let rows = rect.y..rect.y + rect.height;
+        let values = rows.flat_map(|y| picture.row(y, rect.x, rect.width).to_vec()).collect();
+        Field::from_values(rect.width, rect.height, values)
+    }
+
+    #[test]
+    fn the_screen_shows_what_the_export_writes() {
+        let picture = picture(150, 70);
+        let bounds = picture.bounds();
+        let bytes = SrgbBytes::new();
+        let read = |rect| Ok::<_, Infallible>(part(&picture, rect));
+        let told = encoded(&TileSet::all(bounds), bounds, &bytes, read).unwrap();
+        let file = png8(&picture, 0.1).unwrap().bytes;
+        let exported = image::load_from_memory(&file).unwrap().into_rgb8();
+        let mut cells = 0;
+        for TilePixels { rect, pixels } in told {
+            for (index, [r, g, b, a]) in pixels.into_iter().enumerate() {
+                let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
+                assert_eq!(exported[(x as u32, y as u32)].0, [r, g, b], "column {x}, row {y}");
+                assert_eq!(a, 255, "pictures are opaque");
+                cells += 1;
+            }
+        }
+        assert_eq!(cells, 150 * 70, "every cell is told once");
+    }
+
+    #[test]
+    fn tiles_side_by_side_are_read_at_once() {
+        let bounds = Rect { x: 0, y: 0, width: 300, height: 200 };
+        let mut tiles = TileSet::default();
+        tiles.insert(Rect { x: 10, y: 10, width: 130, height: 60 });
+        tiles.insert(Rect { x: 280, y: 10, width: 1, height: 1 });
+        let found: Vec<Rect> = runs(&tiles, bounds).into_iter().map(|(run, _)| run).collect();
+        let rect = |x, y, width| Rect { x, y, width, height: 64 };
+        assert_eq!(found, [rect(0, 0, 192), rect(256, 0, 44), rect(0, 64, 192)]);
+    }
+}

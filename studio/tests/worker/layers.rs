@@ -1,0 +1,85 @@
+//! What is told of layers, brushes and tubes.
+
+use render::amount::mm_from_quanta;
+use render::gpu::BackendChoice;
+use render::paint::strokes::{Action, LayerName, Surface};
+
+use super::pen::{load, wander};
+use super::window::Window;
+
+#[test]
+fn layers_are_told_with_what_they_hold_and_how_they_look() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("flat", "Vermilion"));
+    let samples = wander(41, 80, 32.0, 20.0);
+    window.stroke(Surface::Canvas, "flat", [&samples[..]]);
+    window.act(Action::Dry { fraction: 1.0 });
+    window.act(load("round", "Ultramarine"));
+    window.stroke(Surface::Canvas, "round", [&wander(42, 50, 32.0, 20.0)[..]]);
+    window.act(Action::Dry { fraction: 0.5 });
+    let snapshot = window.snapshot();
+    let looked = |window: &Window| {
+        let layers = &window.state().layers;
+        layers.len() == 2 && layers.iter().all(|layer| layer.most_mm > 0.0)
+    };
+    window.wait_until("both layers", looked);
+    for (told, layer) in window.state().layers.iter().zip(&snapshot.canvas.dry) {
+        let cells = layer.paint.vehicle.values().len();
+        let volumes = (0..cells).map(|index| layer.paint.cell(index).volume());
+        let painted: Vec<u32> = volumes.filter(|&volume| volume > 0).collect();
+        let mm = |quanta: f64| quanta * mm_from_quanta(1, 0.1);
+        let sum: f64 = painted.iter().map(|&volume| f64::from(volume)).sum();
+        assert!((told.mean_mm - mm(sum / painted.len() as f64)).abs() < 1e-9, "{}", told.mean_mm);
+        assert_eq!(told.most_mm, mm(f64::from(*painted.iter().max().unwrap())));
+        assert!((told.covers - painted.len() as f64 / cells as f64).abs() < 1e-12, "its share");
+        let thumbnail = &told.thumbnail;
+        assert_eq!((thumbnail.width, thumbnail.height), (96, 60));
+        assert_eq!(thumbnail.pixels.len(), 96 * 60);
+        let opaque = thumbnail.pixels.iter().filter(|pixel| pixel[3] > 0).count();
+        let share = opaque as f64 / thumbnail.pixels.len() as f64;
+        assert!((share - told.covers).abs() < 0.05, "{share} of {}", told.covers);
+    }
+    let reddest = |window: &Window| {
+        let pixels = &window.state().layers[0].thumbnail.pixels;
+        pixels.iter().filter(|p| p[3] == 255).map(|p| i32::from(p[0]) - i32::from(p[2])).max()
+    };
+    assert!(reddest(&window) > Some(40), "vermilion is red: {:?}", reddest(&window));
+    let layer = LayerName::Dry(0);
+    let (from, to) = ("Vermilion".to_owned(), "Emerald Green".to_owned());
+    window.act(Action::Swap { layer, from, to });
+    window.wait_until("another colour", |window| reddest(window) < Some(0));
+    // Undone, the paint of a layer is another: it is looked at again.
+    window.act(Action::Undo {});
+    window.act(Action::Undo {});
+    window.wait_until("one layer", |window| window.state().layers.len() == 1);
+    window.wait_until("its colour", |window| reddest(window) > Some(40));
+}
+
+#[test]
+fn brushes_and_tubes_are_told() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let state = window.state();
+    assert_eq!(state.brushes.len(), 6);
+    assert!(state.brushes.iter().all(|brush| brush.colour.is_none()), "the brushes are clean");
+    assert!(state.masstones.iter().all(Option::is_some), "eight tubes");
+    assert!(state.tints.iter().all(Option::is_some), "all can be mixed with white");
+    window.act(load("round", "Ultramarine"));
+    let round = |window: &Window| {
+        let found = window.state().brushes.iter().find(|brush| brush.name == "round");
+        found.cloned().expect("it is in the stand")
+    };
+    window.wait_until("paint on the brush", |window| round(window).amount_mm > 0.0);
+    let loaded = round(&window);
+    assert!((loaded.amount_mm - 0.3).abs() < 1e-4, "{}", loaded.amount_mm);
+    assert!((loaded.vehicle - 0.1).abs() < 1e-4, "{}", loaded.vehicle);
+    let slot = loaded.parts.iter().position(|&part| part == 1.0).expect("one pigment");
+    assert_eq!(loaded.colour, window.state().masstones[slot]);
+    window.stroke(Surface::Palette, "round", [&wander(43, 40, 10.0, 8.0)[..]]);
+    window.wait_until("less paint", |window| {
+        (1e-3..loaded.amount_mm).contains(&round(window).amount_mm)
+    });
+    window.act(Action::Undo {});
+    window.wait_until("the paint back", |window| round(window).amount_mm == loaded.amount_mm);
+    window.act(Action::Wash { brush: "round".to_owned() });
+    window.wait_until("a clean brush", |window| round(window).colour.is_none());
+}

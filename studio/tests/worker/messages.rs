@@ -1,0 +1,112 @@
+//! What cannot be done is said, and changes nothing.
+
+use std::sync::Arc;
+
+use render::gpu::BackendChoice;
+use render::paint::brush::HeadShape;
+use render::paint::document::Lighting;
+use render::paint::strokes::{Action, BrushSpec, LayerName, Surface};
+use studio::worker::{Command, Event, Origin};
+
+use super::pen::{load, wander};
+use super::window::{Window, small};
+
+#[test]
+fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("round", "Ultramarine"));
+    window.stroke(Surface::Canvas, "round", [&wander(31, 40, 32.0, 20.0)[..]]);
+    let before = window.snapshot();
+    let moon = Lighting { illuminant: "moonlight".to_owned(), ..Lighting::default() };
+    let other = Action::Palette(render::paint::strokes::Palette::of(["Zinc White"]));
+    let broom = BrushSpec { shape: HeadShape::Round, size_mm: 4000.0 };
+    let missing = |layer| Action::Opacity { layer: LayerName::Dry(layer), value: 0.5 };
+    let refused = [
+        (Command::Act(load("rond", "Ultramarine")), "rond", Some("round")),
+        (Command::Act(load("round", "Ultramarin Blau")), "Ultramarin Blau", Some("Ultramarine")),
+        (Command::Act(missing(2)), "dry layers", None),
+        (Command::Adjust(missing(2)), "dry layers", None),
+        (Command::Act(Action::Light(moon.clone())), "moonlight", None),
+        (Command::SecondLight(Some(moon)), "moonlight", None),
+        (Command::Act(other), "Ultramarine is still wet", Some("dry the painting")),
+        (Command::TakeBrush { name: "broom".to_owned(), spec: broom }, "4000", None),
+        (
+            Command::PenDown { surface: Surface::Canvas, brush: "fann".to_owned() },
+            "fann",
+            Some("fan"),
+        ),
+    ];
+    for (command, words, hinted) in refused {
+        let asked = format!("{command:?}");
+        window.ask(command);
+        let (text, hint, failed) = window.message();
+        assert!(failed && text.contains(words), "{asked}: {text}");
+        if let Some(hinted) = hinted {
+            assert!(hint.as_ref().is_some_and(|hint| hint.contains(hinted)), "{asked}: {hint:?}");
+        }
+    }
+    // The moves of the pen whose brush there was not.
+    window.ask(Command::PenUp);
+    let after = window.snapshot();
+    assert!(after.canvas == before.canvas && after.palette == before.palette, "nothing changed");
+    assert_eq!(after.revision, before.revision, "nor was anything counted");
+}
+
+#[test]
+fn what_finds_nothing_to_do_says_so() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    for (action, words) in [
+        (Action::Undo {}, "nothing to undo"),
+        (Action::Redo {}, "nothing to redo"),
+        (Action::Dry { fraction: 1.0 }, "no wet paint"),
+    ] {
+        window.act(action);
+        let (text, _, failed) = window.message();
+        assert!(text.contains(words) && !failed, "{text}");
+    }
+}
+
+#[test]
+fn without_a_painting_it_says_so_and_a_painting_that_fails_to_open_leaves_the_last() {
+    let mut window = Window::new(BackendChoice::Cpu);
+    window.act(Action::Undo {});
+    let (text, hint, failed) = window.message();
+    assert!(failed && text.contains("no painting is open for undo"), "{text}");
+    assert!(hint.is_some(), "and what to do");
+    window.ask(Command::Open(small()));
+    window.wait("a painting", |event| matches!(event, Event::Opened(_)).then_some(()));
+    let before = window.snapshot();
+    let Origin::Bare { mut script, library } = small() else { panic!("a bare canvas") };
+    script.canvas.width_mm = 1e5;
+    window.ask(Command::Open(Origin::Bare { script, library }));
+    let (text, _, failed) = window.message();
+    assert!(failed && text.contains("canvas"), "{text}");
+    assert!(Arc::clone(&window.snapshot().canvas) == before.canvas, "the last one is still there");
+}
+
+#[test]
+fn a_painting_whose_lamp_is_gone_opens_under_daylight() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut document = (*window.snapshot().canvas).clone();
+    document.lighting.illuminant = "lost-lamp.csv".to_owned();
+    document.title = "study".to_owned();
+    window.ask(Command::Open(Origin::Painting(Box::new(document.clone()))));
+    let (text, _, failed) = window.message();
+    assert!(!failed && text.contains("lost-lamp.csv") && text.contains("D65"), "{text}");
+    let lighting = window.wait("the painting", |event| match event {
+        Event::Opened(state) => Some(state.lighting.clone()),
+        _ => None,
+    });
+    assert_eq!(lighting.illuminant, "D65");
+    assert_eq!(window.state().title, "study");
+    assert_eq!(window.recording().start.as_deref(), Some("study.exr"));
+    // A session that was recovered goes on, but is not recorded.
+    let palette = Box::new((*window.snapshot().palette).clone());
+    document.lighting = Lighting::default();
+    let canvas = Box::new(document);
+    window.ask(Command::Open(Origin::Session { canvas, palette }));
+    window.wait("the session", |event| matches!(event, Event::Opened(_)).then_some(()));
+    window.ask(Command::Recording(7));
+    let (text, _, _) = window.message();
+    assert!(text.contains("no recording"), "{text}");
+}

@@ -1,0 +1,156 @@
+//! Recordings played again.
+
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use render::gpu::BackendChoice;
+use render::paint::strokes::{Action, Load, Strokes, Surface};
+use studio::worker::{Command, Event, Origin, Pace};
+
+use super::pen::{load, stroke, wander};
+use super::strokes::{assert_same, easel};
+use super::window::{Window, small};
+
+/// Strokes on both surfaces, and what else there is.
+fn script(actions: Vec<Action>) -> (Box<Strokes>, Box<calibrate::library::PigmentLibrary>) {
+    let Origin::Bare { mut script, library } = small() else { panic!("a bare canvas") };
+    script.actions = actions;
+    (script, library)
+}
+
+fn lively() -> Vec<Action> {
+    vec![
+        load("round", "Ultramarine"),
+        stroke(Surface::Canvas, "round", &wander(21, 90, 32.0, 20.0)),
+        Action::Save { path: "half.png".to_owned() },
+        Action::Dry { fraction: 1.0 },
+        load("knife", "Vermilion"),
+        stroke(Surface::Palette, "knife", &wander(22, 50, 10.0, 8.0)),
+        stroke(Surface::Canvas, "knife", &wander(23, 40, 32.0, 20.0)),
+        Action::Undo {},
+        stroke(Surface::Palette, "round", &wander(24, 30, 10.0, 8.0)),
+    ]
+}
+
+fn played(pace: Pace) {
+    let (script, library) = script(lively());
+    let mut easel = easel();
+    let saved = |_: &str, _: &mut _| Ok::<_, Infallible>(());
+    script.replay(&mut easel, saved, || ControlFlow::Continue(())).unwrap();
+    let mut window = Window::new(BackendChoice::Cpu);
+    let of = script.actions.len();
+    let began = Instant::now();
+    window.ask(Command::Replay { script, library, pace });
+    let last = window.wait("the last progress", |event| match event {
+        Event::Progress { done, of } if done == of => Some((*done, *of)),
+        _ => None,
+    });
+    assert_eq!(last, (of, of), "all actions are played");
+    let (text, _, failed) = window.message();
+    assert!(text.contains("1 files") && !failed, "what was not saved is said: {text}");
+    window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
+    if pace == Pace::AsPainted {
+        // 89 + 49 + 39 + 29 pauses of 1/120 s.
+        assert!(began.elapsed().as_secs_f64() >= 206.0 / 120.0, "it takes its time");
+    }
+    let snapshot = window.snapshot();
+    assert_same(&snapshot, &mut easel, "after a replay");
+    window.wait_until("the state", |window| window.state().revision == snapshot.revision);
+    super::pictures::assert_pictures(&mut window, &snapshot);
+    // And one can go on with it.
+    let samples = wander(25, 30, 32.0, 20.0);
+    easel.act(&stroke(Surface::Canvas, "knife", &samples)).unwrap();
+    window.stroke(Surface::Canvas, "knife", [&samples[..]]);
+    assert_same(&window.snapshot(), &mut easel, "painted on");
+}
+
+#[test]
+fn a_fast_replay_is_what_the_easel_makes_of_the_script() {
+    played(Pace::Fast);
+}
+
+#[test]
+fn a_replay_as_painted_is_the_same() {
+    played(Pace::AsPainted);
+}
+
+#[test]
+fn a_recording_of_the_worker_plays_to_the_same_painting() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    for action in lively() {
+        match action {
+            Action::Save { .. } => {}
+            Action::Stroke(stroke) => {
+                window.stroke(stroke.on, &stroke.brush, stroke.samples.chunks(11));
+            }
+            action => window.act(action),
+        }
+    }
+    let (snapshot, script) = (window.snapshot(), window.recording());
+    let script = Strokes::from_json("recording", script.to_json().unwrap().as_bytes()).unwrap();
+    let Origin::Bare { library, .. } = small() else { panic!("a bare canvas") };
+    let pace = Pace::Fast;
+    window.ask(Command::Replay { script: Box::new(script), library, pace });
+    window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
+    let again = window.snapshot();
+    assert!(again.canvas == snapshot.canvas && again.palette == snapshot.palette, "to the bit");
+}
+
+#[test]
+fn a_replay_can_be_cancelled_and_answers_on_its_way() {
+    let mut actions = vec![load("flat", "Vermilion")];
+    for seed in 0..200 {
+        actions.push(stroke(Surface::Canvas, "flat", &wander(seed, 600, 32.0, 20.0)));
+    }
+    let (script, library) = script(actions);
+    let mut window = Window::new(BackendChoice::Cpu);
+    window.ask(Command::Replay { script, library, pace: Pace::Fast });
+    window.wait("some progress", |event| match event {
+        Event::Progress { done, .. } if *done > 1 => Some(()),
+        _ => None,
+    });
+    let midway = window.snapshot();
+    assert!(midway.canvas.wet.totals() != [0; 9], "the paint so far");
+    window.ask(Command::Cancel);
+    let (done, of) = window.wait("the last progress", |event| match event {
+        Event::Progress { done, of } => Some((*done, *of)),
+        _ => None,
+    });
+    window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
+    assert!(done < of, "{done} of {of}");
+    assert!(window.snapshot().revision >= midway.revision, "the painting is still there");
+}
+
+#[test]
+fn an_action_that_is_refused_ends_the_replay_there() {
+    let lacking = Load {
+        brush: "round".to_owned(),
+        recipe: [("Viridian".to_owned(), 1.0)].into(),
+        vehicle: 0.0,
+        amount_mm: 0.1,
+    };
+    let (script, library) = script(vec![
+        load("round", "Vermilion"),
+        Action::Opacity { layer: render::paint::strokes::LayerName::Dry(3), value: 0.5 },
+        load("round", "Vermilion"),
+    ]);
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.ask(Command::Replay {
+        script: script.clone(),
+        library: library.clone(),
+        pace: Pace::Fast,
+    });
+    let (text, _, failed) = window.message();
+    assert!(failed && text.contains("action 1 (opacity)"), "{text}");
+    window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
+    // What cannot be played at all leaves the painting alone.
+    let before = window.snapshot();
+    let mut hopeless = script;
+    hopeless.actions = vec![Action::Load(lacking)];
+    window.ask(Command::Replay { script: hopeless, library, pace: Pace::Fast });
+    let (text, hint, failed) = window.message();
+    assert!(failed && text.contains("Viridian"), "{text}");
+    assert!(hint.is_some_and(|hint| hint.contains("Vermilion")), "the palette is told");
+    assert_eq!(window.snapshot().revision, before.revision, "nothing was changed");
+}

@@ -1,0 +1,155 @@
+//! Strokes in bursts, and commands between them.
+
+use std::time::{Duration, Instant};
+
+use render::gpu::BackendChoice;
+use render::paint::document::Document;
+use render::paint::easel::Easel;
+use render::paint::on_cpu::OnCpu;
+use render::paint::painting::Painting;
+use render::paint::strokes::{Action, Surface};
+use studio::worker::{Command, Event, Origin, Snapshot};
+
+use super::pen::{load, stroke, wander};
+use super::window::{Window, small};
+
+/// An easel as the worker sets it up, without a worker.
+pub(crate) fn easel() -> Easel {
+    let Origin::Bare { script, library } = small() else { panic!("a bare canvas") };
+    let (canvas, palette) = script.surfaces(&library, None).unwrap();
+    let painting = |document: Document| {
+        let engine = OnCpu::new(document.ground.height.clone());
+        Painting::open(document, Box::new(engine), 1 << 28).unwrap()
+    };
+    let mut easel = Easel::recorded(painting(canvas), palette.map(painting), &script).unwrap();
+    for (name, spec) in &script.brushes {
+        easel.take_brush(name, spec).unwrap();
+    }
+    easel
+}
+
+pub(crate) fn assert_same(found: &Snapshot, easel: &mut Easel, after: &str) {
+    let (canvas, palette) = easel.documents().unwrap();
+    assert!(canvas.wet.totals() != [0; 9] || !canvas.dry.is_empty(), "there is paint {after}");
+    assert!(*found.canvas == canvas, "the canvas {after}");
+    assert!(Some(&*found.palette) == palette.as_ref(), "the palette {after}");
+}
+
+#[test]
+fn samples_in_bursts_are_all_painted_and_commands_keep_their_order() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut easel = easel();
+    let far = wander(1, 400, 32.0, 20.0);
+    let near = wander(2, 150, 10.0, 8.0);
+    let again = wander(3, 300, 32.0, 20.0);
+    let actions = [
+        load("round", "Ultramarine"),
+        load("flat", "Vermilion"),
+        stroke(Surface::Canvas, "round", &far),
+        stroke(Surface::Palette, "flat", &near),
+        Action::Dry { fraction: 0.5 },
+        stroke(Surface::Canvas, "flat", &again),
+        Action::Undo {},
+        stroke(Surface::Palette, "round", &near),
+        Action::Redo {},
+        Action::Wash { brush: "round".to_owned() },
+    ];
+    for (index, action) in actions.iter().enumerate() {
+        easel.act(action).unwrap();
+        match action {
+            // Each told otherwise: all at once, one by one, in uneven pieces.
+            Action::Stroke(stroke) => {
+                let length = [1000, 1, 7, 33][index % 4];
+                window.stroke(stroke.on, &stroke.brush, stroke.samples.chunks(length));
+            }
+            action => window.act(action.clone()),
+        }
+    }
+    let snapshot = window.snapshot();
+    assert_same(&snapshot, &mut easel, "after all");
+    assert_eq!(window.recording(), *easel.recording().unwrap(), "all is recorded");
+    let (history, done) = easel.history();
+    window.wait_until("the history", |window| {
+        window.state().done == done && window.state().history == history
+    });
+}
+
+#[test]
+fn a_snapshot_does_not_wait_for_the_pen() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut easel = easel();
+    let samples = wander(4, 200, 32.0, 20.0);
+    easel.act(&load("filbert", "Prussian Blue")).unwrap();
+    window.act(load("filbert", "Prussian Blue"));
+    window.ask(Command::PenDown { surface: Surface::Canvas, brush: "filbert".to_owned() });
+    let moves = |samples: &[render::paint::pose::Sample]| {
+        let arrived = Instant::now();
+        let sample = |&sample| studio::worker::PenSample { sample, arrived };
+        Command::PenMove(samples.iter().map(sample).collect())
+    };
+    window.ask(moves(&samples[..90]));
+    let midway = window.snapshot();
+    assert!(midway.canvas.wet.totals() != [0; 9], "the paint so far is in it");
+    window.ask(moves(&samples[90..]));
+    window.ask(Command::PenUp);
+    let whole = window.snapshot();
+    easel.act(&stroke(Surface::Canvas, "filbert", &samples)).unwrap();
+    assert_same(&whole, &mut easel, "after a stroke that was saved midway");
+    assert!(whole.canvas.wet != midway.canvas.wet, "the stroke went on");
+    assert!(whole.revision > midway.revision, "changes are counted");
+    assert_eq!(window.snapshot().revision, whole.revision, "nothing happened since");
+}
+
+#[test]
+fn a_window_that_never_looks_gets_few_tiles_and_then_all_that_changed() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.wait_until("both pictures", |window| {
+        let opaque = |pixels: &[[u8; 4]]| pixels.iter().all(|pixel| pixel[3] == 255);
+        opaque(&window.pictures.canvas) && opaque(&window.pictures.palette)
+    });
+    window.act(load("round", "Vermilion"));
+    let samples = wander(5, 600, 32.0, 20.0);
+    window.stroke(Surface::Canvas, "round", samples.chunks(5));
+    // Long enough for sixty looks a second to pile up.
+    std::thread::sleep(Duration::from_millis(1500));
+    window.told.clear();
+    window.look();
+    let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
+    let waiting = window.told.iter().filter(paced).count();
+    assert!((1..=4).contains(&waiting), "{waiting} parts waited");
+    let snapshot = window.snapshot();
+    super::pictures::assert_pictures(&mut window, &snapshot);
+}
+
+#[test]
+fn figures_tell_of_steps_and_latency() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("round", "Vermilion"));
+    let samples = wander(6, 300, 32.0, 20.0);
+    let began = Instant::now();
+    window.stroke(Surface::Canvas, "round", samples.chunks(20));
+    let newest = window.wait("tiles of a stroke", |event| match event {
+        Event::Tiles { newest, .. } => *newest,
+        _ => None,
+    });
+    assert!(newest >= began, "it shows samples of now");
+    let figures = window.figures();
+    assert!(figures.substeps_a_second > 10.0, "{figures:?}");
+    assert!(figures.worst_ms >= figures.to_tiles_ms, "{figures:?}");
+}
+
+#[test]
+fn a_sample_that_cannot_be_is_told_and_the_stroke_goes_on() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut easel = easel();
+    easel.act(&load("round", "Vermilion")).unwrap();
+    window.act(load("round", "Vermilion"));
+    let good = wander(7, 60, 32.0, 20.0);
+    let mut told = good.clone();
+    told.insert(30, render::paint::pose::Sample { pressure: 7.0, ..good[30] });
+    told.insert(40, render::paint::pose::Sample { x_mm: f64::NAN, ..good[40] });
+    window.stroke(Surface::Canvas, "round", [&told[..]]);
+    let snapshot = window.snapshot();
+    easel.act(&stroke(Surface::Canvas, "round", &good)).unwrap();
+    assert_same(&snapshot, &mut easel, "without the samples that cannot be");
+}

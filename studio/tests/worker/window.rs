@@ -1,0 +1,211 @@
+//! A window without a screen.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use render::gpu::BackendChoice;
+use render::paint::strokes::{Action, Strokes, Surface};
+use studio::worker::{
+    Command, EaselState, Event, Figures, Origin, PenSample, Snapshot, Worker, WorkerOptions,
+    brushes, mixing, oils,
+};
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// What a window holds of a worker.
+pub(crate) struct Window {
+    worker: Worker,
+    woken: Receiver<()>,
+    pub(crate) state: Option<Arc<EaselState>>,
+    pub(crate) pictures: Pictures,
+    pub(crate) told: Vec<Event>,
+    numbers: u64,
+}
+
+/// The pictures, as told tile by tile: the canvas, under the second light, and
+/// the palette. Cells that were never told are 0.
+#[derive(Default)]
+pub(crate) struct Pictures {
+    pub(crate) canvas: Vec<[u8; 4]>,
+    pub(crate) second: Vec<[u8; 4]>,
+    pub(crate) palette: Vec<[u8; 4]>,
+}
+
+impl Window {
+    /// A worker without a painting.
+    pub(crate) fn new(backend: BackendChoice) -> Self {
+        let (wake, woken) = channel();
+        let options = WorkerOptions { backend, ..WorkerOptions::default() };
+        let worker = Worker::start(options, move || {
+            let _ = wake.send(());
+        });
+        Self {
+            worker,
+            woken,
+            state: None,
+            pictures: Pictures::default(),
+            told: Vec::new(),
+            numbers: 0,
+        }
+    }
+
+    /// On a small bare canvas.
+    pub(crate) fn open(backend: BackendChoice) -> Self {
+        let mut window = Self::new(backend);
+        window.ask(Command::Open(small()));
+        window.wait("a painting", |event| matches!(event, Event::Opened(_)).then_some(()));
+        window
+    }
+
+    pub(crate) fn ask(&mut self, command: Command) {
+        self.worker.ask(command);
+    }
+
+    pub(crate) fn act(&mut self, action: Action) {
+        self.ask(Command::Act(action));
+    }
+
+    /// Leads a brush through samples, told in pieces.
+    pub(crate) fn stroke<'a>(
+        &mut self,
+        surface: Surface,
+        brush: &str,
+        pieces: impl IntoIterator<Item = &'a [render::paint::pose::Sample]>,
+    ) {
+        self.ask(Command::PenDown { surface, brush: brush.to_owned() });
+        for piece in pieces {
+            let arrived = Instant::now();
+            let samples = piece.iter().map(|&sample| PenSample { sample, arrived });
+            self.ask(Command::PenMove(samples.collect()));
+        }
+        self.ask(Command::PenUp);
+    }
+
+    /// Takes in all that was told.
+    pub(crate) fn look(&mut self) {
+        let events: Vec<Event> = self.worker.events().collect();
+        for event in events {
+            match &event {
+                Event::Opened(state) => {
+                    let cells = |(width, height)| vec![[0; 4]; width * height];
+                    self.pictures = Pictures {
+                        canvas: cells(state.canvas_cells),
+                        second: cells(state.canvas_cells),
+                        palette: cells(state.palette_cells),
+                    };
+                    self.state = Some(Arc::clone(state));
+                }
+                Event::State(state) => self.state = Some(Arc::clone(state)),
+                Event::Tiles { surface, second, tiles, .. } => {
+                    let state = self.state.as_ref().expect("a painting was opened first");
+                    let (picture, width) = match (surface, second) {
+                        (Surface::Canvas, false) => {
+                            (&mut self.pictures.canvas, state.canvas_cells.0)
+                        }
+                        (Surface::Canvas, true) => {
+                            (&mut self.pictures.second, state.canvas_cells.0)
+                        }
+                        (Surface::Palette, _) => {
+                            (&mut self.pictures.palette, state.palette_cells.0)
+                        }
+                    };
+                    for tile in tiles {
+                        let rows = tile.pixels.chunks(tile.rect.width).enumerate();
+                        for (y, row) in rows {
+                            let first = (tile.rect.y + y) * width + tile.rect.x;
+                            picture[first..first + row.len()].copy_from_slice(row);
+                        }
+                    }
+                }
+                _ => {}
+            }
+            self.told.push(event);
+        }
+    }
+
+    /// Waits for the first event, told before or from now on, of which `wanted`
+    /// makes something; all before it are forgotten.
+    pub(crate) fn wait<T>(&mut self, what: &str, wanted: impl Fn(&Event) -> Option<T>) -> T {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            self.look();
+            let found = self.told.iter().enumerate();
+            if let Some((index, found)) =
+                found.filter_map(|(i, event)| Some((i, wanted(event)?))).next()
+            {
+                self.told.drain(..=index);
+                return found;
+            }
+            let left = end.saturating_duration_since(Instant::now());
+            assert!(self.woken.recv_timeout(left).is_ok(), "{what} within {PATIENCE:?}");
+        }
+    }
+
+    /// Looks until `wanted` holds.
+    pub(crate) fn wait_until(&mut self, what: &str, wanted: impl Fn(&Self) -> bool) {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            self.look();
+            if wanted(self) {
+                return;
+            }
+            let left = end.saturating_duration_since(Instant::now());
+            assert!(self.woken.recv_timeout(left).is_ok(), "{what} within {PATIENCE:?}");
+        }
+    }
+
+    /// The painting after all that was asked so far.
+    pub(crate) fn snapshot(&mut self) -> Snapshot {
+        self.numbers += 1;
+        let wanted = self.numbers;
+        self.ask(Command::Snapshot(wanted));
+        self.wait("a snapshot", |event| match event {
+            Event::Snapshot(snapshot) if snapshot.number == wanted => Some(snapshot.clone()),
+            _ => None,
+        })
+    }
+
+    /// The recording after all that was asked so far.
+    pub(crate) fn recording(&mut self) -> Strokes {
+        self.numbers += 1;
+        let wanted = self.numbers;
+        self.ask(Command::Recording(wanted));
+        self.wait("a recording", |event| match event {
+            Event::Recording { number, script } if *number == wanted => Some((**script).clone()),
+            _ => None,
+        })
+    }
+
+    /// The next message: its words, its hint, and whether something failed.
+    pub(crate) fn message(&mut self) -> (String, Option<String>, bool) {
+        self.wait("a message", |event| match event {
+            Event::Message { text, hint, failed } => Some((text.clone(), hint.clone(), *failed)),
+            _ => None,
+        })
+    }
+
+    /// Figures that have something in them.
+    pub(crate) fn figures(&mut self) -> Figures {
+        self.wait("figures", |event| match event {
+            Event::Figures(figures) if figures.to_tiles_ms > 0.0 => Some(*figures),
+            _ => None,
+        })
+    }
+
+    pub(crate) fn state(&self) -> &EaselState {
+        self.state.as_ref().expect("a painting was opened")
+    }
+}
+
+/// 320 x 200 cells of linen, and a palette of 100 x 80.
+pub(crate) fn small() -> Origin {
+    let Origin::Bare { mut script, library } = studio::worker::bare(oils(), 32.0, 20.0, 0.1) else {
+        panic!("a bare canvas");
+    };
+    let mixing = render::paint::strokes::Canvas { width_mm: 10.0, height_mm: 8.0, ..mixing(0.1) };
+    script.mixing = Some(mixing);
+    script.brushes = brushes();
+    Origin::Bare { script, library }
+}
