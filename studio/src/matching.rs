@@ -110,8 +110,6 @@ impl Drop for Matcher {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test may panic")]
-
     use std::time::{Duration, Instant};
 
     use calibrate::evaluate::Viewing;

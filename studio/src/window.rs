@@ -118,13 +118,17 @@ fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter
 
 /// What went wrong, and the way out.
 fn failure(error: &eframe::Error) -> FileFailure {
-    let what = error.to_string();
-    let hint = match error {
-        eframe::Error::Wgpu(_) => {
+    let (what, hint) = match error {
+        eframe::Error::Wgpu(error) => (
+            error.to_string(),
             "install a Vulkan driver: that of your graphics card, or the one in software, \
-             mesa-vulkan-drivers on Debian and Ubuntu; `impasto gpu` lists what is found"
+             mesa-vulkan-drivers on Debian and Ubuntu; `impasto gpu` lists what is found",
+        ),
+        // Its own words name files of another machine.
+        eframe::Error::WinitEventLoop(_) => {
+            ("there is no display".to_owned(), "DISPLAY or WAYLAND_DISPLAY names one")
         }
-        _ => "is there a display? DISPLAY or WAYLAND_DISPLAY names it",
+        other => (other.to_string(), "is the display still there?"),
     };
     FileFailure::new(format!("the window cannot be opened: {what}"), hint)
 }

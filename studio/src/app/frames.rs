@@ -40,7 +40,7 @@ impl Frames {
     pub fn rate(&self) -> FrameRate {
         let ms = |time: &Duration| time.as_secs_f64() * 1000.0;
         let late: Vec<f64> = self.shown.iter().map(|(_, time)| ms(time)).collect();
-        let latency_ms = late.iter().sum::<f64>() / late.len().max(1) as f64;
+        let latency_ms = late.iter().fold(0.0, |sum, ms| sum + ms) / late.len().max(1) as f64;
         let worst_ms = late.iter().copied().fold(0.0, f64::max);
         FrameRate { frames_a_second: self.drawn.len() as f64, latency_ms, worst_ms }
     }

@@ -20,6 +20,8 @@ mod surfaces;
 
 mod pen;
 
+mod cursor;
+
 mod side;
 
 mod parts;

@@ -10,6 +10,7 @@ use eframe::egui::{
 
 use render::paint::strokes::Surface;
 
+use super::cursor::Hovering;
 use super::frames::Frames;
 use super::keys::Keys;
 use super::parts::{Begun, Parts};
@@ -49,6 +50,7 @@ pub struct Studio {
     pub(super) figures: Figures,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
     pub(super) hover: Option<Hover>,
+    pub(super) hovering: Option<Hovering>,
     pub(super) message: Option<Message>,
     pub(super) asked: Vec<Request>,
     pub(super) heard: u64,
@@ -109,6 +111,7 @@ impl Studio {
             figures: Figures::default(),
             head: None,
             hover: None,
+            hovering: None,
             message: None,
             asked: open.into_iter().collect(),
             heard: 0,

@@ -60,6 +60,7 @@ impl Studio {
         let response = self.canvas.show(ui, room, hand, split);
         self.used(ui, Surface::Canvas, &response, mode);
         self.lead(ui, mode);
+        self.cursor(ui, mode);
         if self.tools.figures {
             let backend = easel.as_ref().map_or("", |easel| easel.backend.as_str());
             figures::overlay(ui, room, self.frames.rate(), self.figures, backend);

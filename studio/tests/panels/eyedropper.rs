@@ -1,1 +1,365 @@
-//! Of eyedropper.
+//! Of the eyedropper: what is told equals spectra and calibrate, what is clicked
+//! asks exactly that.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use calibrate::evaluate::Viewing;
+use calibrate::matching::{FilmKind, MatchRequest, Recipe, Sight, Target, recipes};
+use eframe::egui::{Key, OutputCommand, Role, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use render::layer::SLOTS;
+use render::paint::document::Lighting;
+use render::paint::strokes::{Action, Surface};
+use spectra::color::{Adaptation, Lab, RgbSpace};
+use spectra::{Illuminant, Observer};
+use studio::panels::Mode;
+use studio::panels::eyedropper::{Colour, Eyedropper};
+use studio::worker::{Command, EaselState, Picked, PickedLayer};
+
+use super::stage::{Stage, made_easel};
+
+fn stage(easel: EaselState) -> Stage<Eyedropper> {
+    Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), easel, Eyedropper::show)
+}
+
+/// Three parts of white and one of ultramarine, wet, over a dry yellow.
+fn picked(easel: &EaselState) -> Picked {
+    let library = &easel.library;
+    let find = |name: &str| library.find(name).unwrap();
+    let layer = |paint: &[(usize, f64)], vehicle: f64| {
+        let mut layer =
+            PickedLayer { slots: [None; SLOTS], amounts_mm: [0.0; SLOTS + 1], opacity: 1.0 };
+        for (slot, (pigment, amount)) in paint.iter().enumerate() {
+            (layer.slots[slot], layer.amounts_mm[slot]) = (Some(*pigment), *amount);
+        }
+        layer.amounts_mm[SLOTS] = vehicle;
+        layer
+    };
+    let (white, blue) = (find("Zinc White"), find("Ultramarine"));
+    let mixture = library.mix(&[(white, 3.0), (blue, 1.0)]).unwrap();
+    Picked {
+        surface: Surface::Canvas,
+        x_mm: 103.24,
+        y_mm: 54.11,
+        reflectance: mixture.hiding(library.saunderson),
+        layers: vec![
+            layer(&[(find("Chrome Yellow"), 0.05)], 0.0),
+            layer(&[(white, 0.06), (blue, 0.02)], 0.02),
+        ],
+    }
+}
+
+fn with_picked() -> Stage<Eyedropper> {
+    let easel = made_easel();
+    let found = picked(&easel);
+    let mut stage = stage(easel);
+    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.run();
+    stage
+}
+
+#[test]
+fn what_lies_there_is_told_in_the_numbers_of_spectra() {
+    let mut stage = with_picked();
+    stage.save("eyedropper");
+    let easel = &stage.scene().easel;
+    let (light, picked) = (Arc::clone(&easel.light), picked(easel));
+    let weights = light.viewing.weights(easel.library.grid).unwrap();
+    let xyz = weights.xyz(&picked.reflectance);
+    let lab = Lab::from_xyz(xyz, weights.white());
+    let srgb = RgbSpace::Srgb.encoded_from_xyz(xyz, weights.white(), Adaptation::Bradford).to_hex();
+    let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
+    for told in [three(lab.to_array()), three(xyz.to_array()), srgb, "103.2, 54.1 mm".to_owned()] {
+        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+    }
+    for told in ["Wet", "0.100 mm, 20 % medium", "Dry 1", "0.050 mm", "     3"] {
+        assert!(stage.harness.query_by_label(told).is_some(), "{told}");
+    }
+    assert_eq!(stage.harness.query_all_by_label("     1").count(), 2, "of blue and of yellow");
+}
+
+#[test]
+fn the_wet_paint_is_loaded_and_its_recipe_copied() {
+    let mut stage = with_picked();
+    stage.click("Load the brush");
+    let wanted = picked(&stage.scene().easel);
+    let commands = stage.commands();
+    let [Command::LoadPicked { brush, picked, amount_mm }] = &commands[..] else {
+        panic!("{commands:?}");
+    };
+    assert_eq!((brush.as_str(), &**picked, *amount_mm), ("round", &wanted, 0.3));
+    stage.harness.get_by_label("Copy Wet").click();
+    stage.harness.step();
+    // Pressed and released: the text is told in the frame of the release.
+    let copied = stage.harness.output().platform_output.commands.clone();
+    let wanted = "\"Zinc White=3\" \"Ultramarine=1\" --thickness 4".to_owned();
+    assert_eq!(copied, [OutputCommand::CopyText(wanted)]);
+    assert!(stage.commands().is_empty(), "copying asks for nothing");
+}
+
+#[test]
+fn dry_paint_cannot_be_loaded() {
+    let mut stage = with_picked();
+    let mut found = picked(&stage.scene().easel);
+    found.layers[1].amounts_mm = [0.0; SLOTS + 1];
+    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.run();
+    let button = stage.harness.get_by_label("Load the brush");
+    assert!(button.accesskit_node().is_disabled(), "there is no wet paint");
+}
+
+#[test]
+fn the_eyedropper_is_taken_up_and_put_back() {
+    let mut stage = stage(made_easel());
+    stage.click("Eyedropper");
+    assert_eq!(stage.scene().tools.mode, Mode::Pick);
+    stage.click("Eyedropper");
+    assert_eq!(stage.scene().tools.mode, Mode::Paint);
+}
+
+/// What calibrate itself finds with the palette of `easel` in up to 40 parts.
+fn by_calibrate(easel: &EaselState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
+    let mut request = MatchRequest::new(&easel.library, sights, FilmKind::Hiding);
+    request.allowed = easel.slots.iter().copied().flatten().collect();
+    request.allowed.sort_unstable();
+    request.whole_parts = Some(40);
+    request.count = 3;
+    recipes(&easel.library, target, &request).unwrap()
+}
+
+fn sights(easel: &EaselState) -> Vec<Sight> {
+    vec![Sight { viewing: easel.light.viewing.clone(), weight: 1.0 }]
+}
+
+fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
+    stage.harness.get_by_role(Role::TextInput).focus();
+    stage.run();
+    stage.harness.get_by_role(Role::TextInput).type_text(text);
+    stage.run();
+    stage.harness.key_press(Key::Enter);
+    stage.run();
+}
+
+/// Waits for the answer: the first recipe's button.
+fn answered(stage: &mut Stage<Eyedropper>) {
+    for _ in 0..3000 {
+        stage.harness.step();
+        if stage.harness.query_by_label("Load recipe 1").is_some() {
+            return stage.run();
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("no recipe was found");
+}
+
+#[test]
+fn a_typed_colour_is_matched_as_calibrate_matches_it() {
+    let mut stage = stage(made_easel());
+    ask(&mut stage, "48,-4,-22");
+    answered(&mut stage);
+    stage.save("eyedropper-match");
+    let easel = stage.scene().easel.clone();
+    let sights = sights(&easel);
+    let lab = Lab { lightness: 48.0, a: -4.0, b: -22.0 };
+    let wanted = by_calibrate(&easel, &Target::from_lab("", lab, &sights), sights);
+    assert_eq!(wanted.len(), 3);
+    for recipe in &wanted {
+        let told = format!("\u{2206}E {:.2}", recipe.delta_e[0]);
+        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+    }
+    for (index, recipe) in wanted.iter().enumerate() {
+        let name = |at: usize| easel.library.pigments[recipe.shares[at].0].name.clone();
+        let parts = recipe.parts.as_ref().unwrap();
+        let all = parts.iter().enumerate().map(|(at, part)| (name(at), f64::from(*part)));
+        let all = all.collect();
+        stage.click(&format!("Load recipe {}", index + 1));
+        let commands = stage.commands();
+        let [Command::Act(Action::Load(load))] = &commands[..] else { panic!("{commands:?}") };
+        assert_eq!((&load.recipe, load.brush.as_str()), (&all, "round"));
+        assert_eq!((load.vehicle, load.amount_mm), (0.15, 0.3));
+        stage.click(&format!("Lay recipe {}", index + 1));
+        let commands = stage.commands();
+        let [Command::LayOut { recipe, vehicle, volume_mm3 }] = &commands[..] else {
+            panic!("{commands:?}");
+        };
+        assert_eq!((recipe, *vehicle, *volume_mm3), (&all, 0.15, 60.0));
+    }
+}
+
+#[test]
+fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
+    let mut easel = made_easel();
+    easel.brushes[0].amount_mm = 0.2;
+    let mut stage = stage(easel);
+    ask(&mut stage, "#808080");
+    answered(&mut stage);
+    stage.click("Load recipe 1");
+    let commands = stage.commands();
+    let [Command::Act(Action::Wash { brush }), Command::Act(Action::Load(load))] = &commands[..]
+    else {
+        panic!("{commands:?}");
+    };
+    assert_eq!((brush.as_str(), load.brush.as_str()), ("round", "round"));
+}
+
+#[test]
+fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
+    let mut easel = made_easel();
+    // Greens need a pigment that is not there.
+    easel.slots = [None; SLOTS];
+    easel.slots[0] = Some(easel.library.find("Zinc White").unwrap());
+    let mut stage = stage(easel);
+    stage.click("Library");
+    assert!(stage.commands().is_empty(), "nothing is wanted yet");
+    ask(&mut stage, "50,-30,5");
+    answered(&mut stage);
+    stage.save("eyedropper-missing");
+    let load = stage.harness.get_by_label("Load recipe 1");
+    assert!(load.accesskit_node().is_disabled(), "pigments are missing");
+    let add = stage.harness.get_all_by_label_contains("Add ").next().unwrap();
+    let name = add.accesskit_node().label().unwrap().replace("Add ", "");
+    add.click();
+    stage.run();
+    let commands = stage.commands();
+    let [Command::Act(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
+    let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
+    assert_eq!(names, ["Zinc White", &name]);
+    let slots = [0, 1].map(|at| stage.scene().easel.library.find(names[at]).ok());
+    stage.scene().easel.slots[..2].copy_from_slice(&slots);
+    stage.run();
+    let gone = stage.harness.query_by_label(&format!("Add {name}")).is_none();
+    assert!(gone, "{name} is on the palette now");
+}
+
+#[test]
+fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_use() {
+    let mut easel = made_easel();
+    let library = Arc::clone(&easel.library);
+    let green = library.find("Viridian").unwrap();
+    let others: Vec<usize> =
+        (0..library.pigments.len()).filter(|&pigment| pigment != green).collect();
+    for (slot, pigment) in easel.slots.iter_mut().zip(&others) {
+        *slot = Some(*pigment);
+    }
+    let full = easel.slots;
+    let mut stage = stage(easel);
+    stage.click("Library");
+    // Viridian itself: nothing is nearer.
+    let mixture = library.mix(&[(green, 1.0)]).unwrap().hiding(library.saunderson);
+    let light = Arc::clone(&stage.scene().easel.light);
+    let weights = light.viewing.weights(library.grid).unwrap();
+    let [l, a, b] = Lab::from_xyz(weights.xyz(&mixture), weights.white()).to_array();
+    ask(&mut stage, &format!("{l},{a},{b}"));
+    answered(&mut stage);
+    stage.harness.get_all_by_label("Viridian in place of").next().unwrap().click();
+    stage.run();
+    let first = library.pigments[full[7].unwrap()].name.clone();
+    let entry = stage.harness.get_all_by_role_and_label(Role::Button, &first).last().unwrap();
+    entry.click();
+    stage.run();
+    let commands = stage.commands();
+    let [Command::Act(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
+    let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
+    let mut wanted: Vec<&str> =
+        full.iter().map(|slot| library.pigments[slot.unwrap()].name.as_str()).collect();
+    wanted[7] = "Viridian";
+    assert_eq!(names, wanted);
+}
+
+#[test]
+fn a_colour_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
+    let mut stage = stage(made_easel());
+    stage.scene().tools.wanted = Some([0.9, 0.05, 0.02]);
+    stage.harness.step();
+    stage.scene().tools.wanted = Some([0.18, 0.18, 0.18]);
+    answered(&mut stage);
+    let wanted = stage.scene().panel.wanted().unwrap().clone();
+    assert_eq!(wanted.colour, Colour::Screen([0.18; 3]));
+    let easel = stage.scene().easel.clone();
+    let sights = sights(&easel);
+    let target = wanted.target(easel.library.grid, &sights);
+    let best = by_calibrate(&easel, &target, sights);
+    let told = format!("\u{2206}E {:.2}", best[0].delta_e[0]);
+    assert!(stage.harness.query_by_label(&told).is_some(), "{told}, of the newer colour");
+}
+
+#[test]
+fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
+    let mut easel = made_easel();
+    easel.second = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
+    let found = picked(&easel);
+    let mut stage = stage(easel);
+    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.run();
+    stage.click("Find recipes");
+    answered(&mut stage);
+    let easel = stage.scene().easel.clone();
+    let mut sights = sights(&easel);
+    let illuminant = Illuminant::named("A").unwrap();
+    let viewing = Viewing { illuminant, observer: Observer::default() };
+    sights.push(Sight { viewing, weight: 1.0 });
+    let wanted = stage.scene().panel.wanted().unwrap().clone();
+    let best = by_calibrate(&easel, &wanted.target(easel.library.grid, &sights), sights);
+    // The mixture itself is found: three parts of white and one of blue.
+    assert_eq!(best[0].parts, Some(vec![3, 1]));
+    assert!(best[0].delta_e.iter().all(|difference| *difference < 0.01), "{best:?}");
+    assert!(stage.harness.query_by_label("\u{2206}E 0.00, 0.00").is_some(), "under both lights");
+}
+
+#[test]
+fn a_search_can_be_cancelled() {
+    let mut easel = made_easel();
+    // A library so large that the search takes its time.
+    let mut library = (*easel.library).clone();
+    for copy in 0..3 {
+        let others = easel.library.pigments.iter().cloned();
+        library.pigments.extend(others.map(|mut pigment| {
+            pigment.name = format!("{} {copy}", pigment.name);
+            pigment
+        }));
+    }
+    easel.library = Arc::new(library);
+    let mut stage = stage(easel);
+    stage.click("Library");
+    stage.harness.get_by_role(Role::TextInput).focus();
+    stage.run();
+    stage.harness.get_by_role(Role::TextInput).type_text("#345678");
+    stage.run();
+    stage.harness.key_press(Key::Enter);
+    stage.harness.step();
+    assert!(stage.harness.query_by_label("Find recipes for it").is_none(), "it is being searched");
+    stage.click("Cancel");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    stage.run();
+    assert!(stage.harness.query_by_label("Load recipe 1").is_none(), "no answer is shown");
+    assert!(stage.harness.query_by_label("Find recipes for it").is_some(), "one can ask again");
+}
+
+#[test]
+fn a_text_that_is_no_colour_is_told_with_what_to_try() {
+    let mut stage = stage(made_easel());
+    ask(&mut stage, "blue");
+    let told = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
+    assert!(stage.harness.query_by_label(told).is_some(), "the fault is told");
+    assert_eq!(stage.scene().panel.wanted(), None);
+}
+
+#[test]
+fn colours_of_other_programs_are_wanted_by_a_click() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("colours.gpl");
+    std::fs::write(&path, "GIMP Palette\nName: two\n#\n 20 60 120 Sea\n200 180 90\tSand\n")
+        .unwrap();
+    assert!(Eyedropper::takes(&path), "GIMP's are taken");
+    let mut stage = stage(made_easel());
+    stage.scene().panel.open_swatches(&path);
+    stage.run();
+    stage.click("Sand");
+    let wanted = stage.scene().panel.wanted().unwrap();
+    assert_eq!(wanted.name, "Sand");
+    stage.scene().panel.open_swatches(&path.with_file_name("gone.gpl"));
+    stage.run();
+    assert!(stage.harness.query_by_label_contains("gone.gpl").is_some(), "the fault is told");
+}

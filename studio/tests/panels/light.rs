@@ -1,7 +1,5 @@
 //! Of the light: every control asks exactly what it says.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::optics::Gloss;

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
@@ -85,18 +84,6 @@ impl<P> Stage<P> {
     /// Frames until `seconds` of the harness's clock have passed.
     pub(crate) fn wait(&mut self, seconds: f64) {
         self.harness.run_steps((seconds * 60.0).ceil() as usize);
-    }
-
-    /// Frames in true time until `done`.
-    pub(crate) fn until(&mut self, mut done: impl FnMut(&mut Scene<P>) -> bool) {
-        for _ in 0..6000 {
-            self.harness.step();
-            if done(self.harness.state_mut()) {
-                return self.run();
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        panic!("waited for a minute");
     }
 
     /// Leads the mouse with its first button down, a frame for each place.

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use eframe::egui::{
-    Align, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape, Stroke,
-    TextEdit, Ui, vec2,
+    Align, Align2, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape,
+    Stroke, TextEdit, Ui, vec2,
 };
 use spectra::{ColourTemperature, Illuminant, light_from_text};
 
@@ -62,7 +62,7 @@ impl Picker {
         let field = TextEdit::singleline(&mut self.search)
             .hint_text("Search, or 3200K, D5600K")
             .desired_width(f32::INFINITY)
-            .vertical_align(Align::Center);
+            .align(Align2::LEFT_CENTER);
         let field = ui.add(field).on_hover_text(
             "Words of a light's name or kind; a temperature, as 3200K of a black body or D5600K of \
              daylight; or the path of a lamp's file. Enter takes the first",

@@ -1,1 +1,0 @@
-//! The eyedropper: spectrum, Lab, recipe, thickness, and recipes for a colour.

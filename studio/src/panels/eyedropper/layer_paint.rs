@@ -1,0 +1,200 @@
+//! The paint of a layer at a place, told as a recipe.
+
+use std::collections::BTreeMap;
+
+use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::matching::few_parts;
+use render::layer::SLOTS;
+use render::paint::document::Medium;
+
+use crate::worker::PickedLayer;
+
+/// Less than this share of the pigments is a trace.
+const TRACE: f64 = 0.005;
+
+/// Parts are whole numbers, together at most so many ..
+const MOST_PARTS: u32 = 20;
+
+/// .. if none is off by more than this share of the whole.
+const NEAR: f64 = 0.005;
+
+/// Paint of one layer.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct LayerPaint {
+    /// Pigments of the library with their shares, sum 1, the greatest first.
+    pub(super) shares: Vec<(usize, f64)>,
+    /// The same in small whole numbers, where those come near.
+    pub(super) parts: Option<Vec<u32>>,
+    /// Pigments of which there is a trace.
+    pub(super) traces: Vec<usize>,
+    /// Height of all of it, in mm.
+    pub(super) thickness_mm: f64,
+    /// The share of it that is clear vehicle, 0..1.
+    pub(super) vehicle: f64,
+    /// What its optical thickness is multiplied with.
+    pub(super) opacity: f64,
+}
+
+impl LayerPaint {
+    /// The paint of a layer; `None` where there is none.
+    pub(super) fn of(layer: &PickedLayer) -> Option<Self> {
+        let mut amounts: BTreeMap<usize, f64> = BTreeMap::new();
+        for (slot, amount) in layer.slots.iter().zip(layer.amounts_mm) {
+            if let Some(pigment) = slot.filter(|_| amount > 0.0) {
+                *amounts.entry(pigment).or_default() += amount;
+            }
+        }
+        let pigments: f64 = amounts.values().sum();
+        let thickness_mm = pigments + layer.amounts_mm[SLOTS];
+        if thickness_mm <= 0.0 {
+            return None;
+        }
+        let (plain, traces): (Vec<_>, Vec<_>) =
+            amounts.into_iter().partition(|(_, amount)| *amount >= TRACE * pigments);
+        let told: f64 = plain.iter().map(|(_, amount)| amount).sum();
+        let mut shares: Vec<(usize, f64)> =
+            plain.into_iter().map(|(pigment, amount)| (pigment, amount / told)).collect();
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let values: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
+        let parts = few_parts(&values, MOST_PARTS, NEAR).filter(|parts| !parts.is_empty());
+        Some(Self {
+            shares,
+            parts,
+            traces: traces.into_iter().map(|(pigment, _)| pigment).collect(),
+            thickness_mm,
+            vehicle: layer.amounts_mm[SLOTS] / thickness_mm,
+            opacity: layer.opacity,
+        })
+    }
+
+    /// Amount and name of each pigment, a line each: `6 parts` or `61.3 %`.
+    pub(super) fn lines(&self, library: &PigmentLibrary) -> Vec<(String, String)> {
+        let line = |(at, (pigment, share)): (usize, &(usize, f64))| {
+            let amount = match &self.parts {
+                Some(parts) => parts[at].to_string(),
+                None => format!("{:.1} %", 100.0 * share),
+            };
+            (amount, library.pigments[*pigment].name.clone())
+        };
+        self.shares.iter().enumerate().map(line).collect()
+    }
+
+    /// The recipe as `impasto mix LIBRARY` takes it, with the film's thickness;
+    /// `None` for clear vehicle.
+    pub(super) fn mix_text(&self, library: &PigmentLibrary, medium: &Medium) -> Option<String> {
+        if self.shares.is_empty() {
+            return None;
+        }
+        let pigments_mm = self.thickness_mm * (1.0 - self.vehicle);
+        let thickness = pigments_mm * medium.scattering_per_mm * self.opacity;
+        let absolute = library.amounts == AmountKind::Absolute;
+        let words = self.shares.iter().enumerate().map(|(at, (pigment, share))| {
+            let amount = match &self.parts {
+                _ if absolute => significant(share * thickness),
+                Some(parts) => parts[at].to_string(),
+                None => significant(*share),
+            };
+            quoted(&format!("{}={amount}", library.pigments[*pigment].name))
+        });
+        let recipe = words.collect::<Vec<_>>().join(" ");
+        Some(match absolute {
+            true => recipe,
+            false => format!("{recipe} --thickness {}", significant(thickness)),
+        })
+    }
+}
+
+/// A number to four significant digits, without an exponent.
+fn significant(value: f64) -> String {
+    let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
+    let text = format!("{value:.*}", digits.clamp(0, 12) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let mut quoted = String::from('"');
+    for letter in word.chars() {
+        if matches!(letter, '"' | '\\' | '$' | '`') {
+            quoted.push('\\');
+        }
+        quoted.push(letter);
+    }
+    quoted.push('"');
+    quoted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worker::oils;
+
+    fn layer(amounts: &[(usize, f64)], vehicle: f64) -> PickedLayer {
+        let mut slots = [None; SLOTS];
+        let mut amounts_mm = [0.0; SLOTS + 1];
+        for (slot, (pigment, amount)) in amounts.iter().enumerate() {
+            (slots[slot], amounts_mm[slot]) = (Some(*pigment), *amount);
+        }
+        amounts_mm[SLOTS] = vehicle;
+        PickedLayer { slots, amounts_mm, opacity: 1.0 }
+    }
+
+    #[test]
+    fn amounts_become_small_whole_parts_the_greatest_first() {
+        let paint = LayerPaint::of(&layer(&[(3, 0.02), (0, 0.06), (7, 0.0)], 0.02)).unwrap();
+        assert_eq!(paint.parts, Some(vec![3, 1]));
+        let pigments: Vec<usize> = paint.shares.iter().map(|(pigment, _)| *pigment).collect();
+        assert_eq!(pigments, [0, 3]);
+        assert!((paint.thickness_mm - 0.1).abs() < 1e-12 && (paint.vehicle - 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_comes_near_no_parts_is_told_in_percent_and_traces_apart() {
+        let paint = LayerPaint::of(&layer(&[(3, 0.0487), (0, 0.0513), (5, 0.0002)], 0.0)).unwrap();
+        assert_eq!((&paint.parts, &paint.traces[..]), (&None, &[5][..]));
+        let library = oils();
+        let lines = paint.lines(&library);
+        assert_eq!(lines[0], ("51.3 %".to_owned(), library.pigments[0].name.clone()));
+        assert_eq!(lines[1], ("48.7 %".to_owned(), library.pigments[3].name.clone()));
+    }
+
+    #[test]
+    fn the_same_pigment_of_two_slots_is_one() {
+        let paint = LayerPaint::of(&layer(&[(3, 0.01), (3, 0.03)], 0.0)).unwrap();
+        assert_eq!((paint.shares, paint.parts), (vec![(3, 1.0)], Some(vec![1])));
+    }
+
+    #[test]
+    fn nothing_and_clear_vehicle_are_no_recipe() {
+        assert_eq!(LayerPaint::of(&layer(&[(0, 0.0)], 0.0)), None);
+        let clear = LayerPaint::of(&layer(&[], 0.05)).unwrap();
+        assert_eq!((clear.vehicle, clear.shares.len()), (1.0, 0));
+        assert_eq!(clear.mix_text(&oils(), &Medium::default()), None);
+    }
+
+    #[test]
+    fn the_text_is_the_recipe_of_mix_with_the_film_in_units_of_the_library() {
+        let mut library = oils();
+        let paint = LayerPaint::of(&layer(&[(0, 0.06), (3, 0.02)], 0.02)).unwrap();
+        let names = [0, 3].map(|pigment| library.pigments[pigment].name.clone());
+        let text = paint.mix_text(&library, &Medium::default()).unwrap();
+        // 0.08 mm of pigment, 50 per mm.
+        assert_eq!(text, format!("\"{}=3\" \"{}=1\" --thickness 4", names[0], names[1]));
+        library.amounts = AmountKind::Absolute;
+        let text = paint.mix_text(&library, &Medium::default()).unwrap();
+        assert_eq!(text, format!("\"{}=3\" \"{}=1\"", names[0], names[1]));
+        let half = LayerPaint { opacity: 0.5, ..paint };
+        let text = half.mix_text(&library, &Medium::default()).unwrap();
+        assert_eq!(text, format!("\"{}=1.5\" \"{}=0.5\"", names[0], names[1]));
+    }
+
+    #[test]
+    fn numbers_are_short_and_words_are_safe_in_a_shell() {
+        let told = [0.333_333, 12.0, 1234.56, 0.000_123_456, 0.0].map(significant);
+        assert_eq!(told, ["0.3333", "12", "1235", "0.0001235", "0"]);
+        assert_eq!(quoted("Hooker's \"$green`\\"), "\"Hooker's \\\"\\$green\\`\\\\\"");
+    }
+}

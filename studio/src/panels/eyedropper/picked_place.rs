@@ -1,0 +1,127 @@
+//! What lies at the place last picked.
+
+use calibrate::palette::Appearance;
+use eframe::egui::{Button, Grid, Ui, vec2};
+use render::paint::strokes::Surface;
+
+use super::super::desk::Desk;
+use super::layer_paint::LayerPaint;
+use super::swatch::swatch;
+use super::wanted::weights;
+use crate::chart::{Chart, Curve};
+use crate::worker::{Command, Picked};
+
+/// Shows colour, spectrum and recipes of what was picked; gives whether recipes
+/// for it are wanted.
+pub(super) fn picked_place(ui: &mut Ui, desk: &mut Desk<'_>, picked: &Picked) -> bool {
+    let easel = desk.easel;
+    let weights = weights(easel.library.grid, &easel.light.viewing);
+    let look = Appearance::of(weights.xyz(&picked.reflectance), weights.white());
+    ui.horizontal_top(|ui| {
+        let patch = swatch(ui, "Picked colour", vec2(68.0, 68.0), &[look.srgb]);
+        patch.on_hover_text("The colour as an instrument would see it: no relief, no gloss");
+        numbers(ui, &look, picked);
+    });
+    let library = &easel.library;
+    let colour = look.srgb.to_bytes();
+    let curve = Curve::new("reflectance", library.grid, &picked.reflectance).coloured(colour);
+    let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", most: Some(1.0) };
+    let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
+    chart.on_hover_text("Reflectance over wavelength at the picked place");
+    let paints: Vec<Option<LayerPaint>> = picked.layers.iter().map(LayerPaint::of).collect();
+    let wet = paints.len().saturating_sub(1);
+    if paints.iter().all(Option::is_none) {
+        ui.weak("Bare ground");
+    }
+    for (index, paint) in paints.iter().enumerate().rev() {
+        if let Some(paint) = paint {
+            layer(ui, desk, &layer_name(index, wet), paint);
+        }
+    }
+    let mut wanted = false;
+    ui.horizontal(|ui| {
+        let has_wet = paints.last().is_some_and(Option::is_some);
+        let load = ui.add_enabled(has_wet, Button::new("Load the brush"));
+        let load = load
+            .on_hover_text("Puts this wet paint on the brush in hand, as it is")
+            .on_disabled_hover_text("There is no wet paint at this place");
+        if load.clicked() {
+            desk.command(Command::LoadPicked {
+                brush: desk.tools.brush.clone(),
+                picked: Box::new(picked.clone()),
+                amount_mm: desk.tools.load_mm,
+            });
+        }
+        let find = ui.button("Find recipes");
+        wanted = find.on_hover_text("Searches recipes for the colour of this place").clicked();
+    });
+    wanted
+}
+
+fn numbers(ui: &mut Ui, look: &Appearance, picked: &Picked) {
+    let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
+    let grid = Grid::new("picked numbers").num_columns(2).min_row_height(16.0);
+    grid.spacing(vec2(8.0, 1.0)).show(ui, |ui| {
+        ui.weak("Lab").on_hover_text("CIELAB under the light of the painting");
+        ui.monospace(three(look.lab.to_array()));
+        ui.end_row();
+        ui.weak("XYZ").on_hover_text("Tristimulus values, 100 for the white");
+        ui.monospace(three(look.xyz.to_array()));
+        ui.end_row();
+        ui.weak("sRGB").on_hover_text("As shown on the screen");
+        let note = if look.srgb.in_gamut() { "" } else { "  out of gamut" };
+        ui.monospace(format!("{}{note}", look.srgb.to_hex()));
+        ui.end_row();
+        let surface = match picked.surface {
+            Surface::Canvas => "Canvas",
+            Surface::Palette => "Palette",
+        };
+        ui.weak(surface).on_hover_text("Where it was picked, from the upper left corner");
+        ui.monospace(format!("{:.1}, {:.1} mm", picked.x_mm, picked.y_mm));
+        ui.end_row();
+    });
+}
+
+fn layer_name(index: usize, wet: usize) -> String {
+    if index == wet { "Wet".to_owned() } else { format!("Dry {}", index + 1) }
+}
+
+fn layer(ui: &mut Ui, desk: &Desk<'_>, name: &str, paint: &LayerPaint) {
+    let library = &desk.easel.library;
+    ui.separator();
+    ui.horizontal(|ui| {
+        ui.label(name);
+        let mut told = format!("{:.3} mm", paint.thickness_mm);
+        if paint.vehicle >= 0.005 {
+            told += &format!(", {:.0} % medium", 100.0 * paint.vehicle);
+        }
+        if (paint.opacity - 1.0).abs() > 1e-9 {
+            told += &format!(", opacity {:.2}", paint.opacity);
+        }
+        ui.weak(told).on_hover_text("Height of the paint, and how much of it is clear medium");
+        if let Some(text) = paint.mix_text(library, &desk.easel.medium) {
+            let copy = ui.small_button("Copy").accessible_name(format!("Copy {name}"));
+            let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");
+            if copy.on_hover_text(hover).clicked() {
+                ui.ctx().copy_text(text);
+            }
+        }
+    });
+    recipe(ui, &format!("parts of {name}"), &paint.lines(library));
+    if !paint.traces.is_empty() {
+        let names = paint.traces.iter().map(|&trace| library.pigments[trace].name.as_str());
+        ui.weak(format!("traces of {}", names.collect::<Vec<_>>().join(", ")));
+    }
+}
+
+/// Amounts before names, in two columns.
+fn recipe(ui: &mut Ui, salt: &str, lines: &[(String, String)]) {
+    let grid = Grid::new(salt).num_columns(2).min_row_height(16.0).spacing(vec2(8.0, 2.0));
+    grid.show(ui, |ui| {
+        for (amount, name) in lines {
+            ui.monospace(format!("{amount:>6}"));
+            ui.label(name);
+            ui.end_row();
+        }
+    });
+}

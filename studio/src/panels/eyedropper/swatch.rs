@@ -1,0 +1,29 @@
+//! Patches of colour.
+
+use eframe::egui::{
+    Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+};
+use spectra::color::Rgb;
+
+use crate::theme;
+
+/// The nearest colour that the screen has.
+pub(super) fn on_screen(rgb: Rgb) -> Color32 {
+    let [red, green, blue] = rgb.to_bytes();
+    Color32::from_rgb(red, green, blue)
+}
+
+/// A patch called `name`. Two colours lie side by side without a seam, so that
+/// they can be compared.
+pub(super) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colours: &[Rgb]) -> Response {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
+    let width = rect.width() / colours.len().max(1) as f32;
+    for (at, &rgb) in colours.iter().enumerate() {
+        let left = rect.left() + at as f32 * width;
+        let part = Rect::from_x_y_ranges(left..=left + width, rect.y_range());
+        ui.painter().rect_filled(part, 0.0, on_screen(rgb));
+    }
+    ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, theme::WELL), StrokeKind::Outside);
+    response
+}

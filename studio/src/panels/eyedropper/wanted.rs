@@ -1,0 +1,145 @@
+//! A colour that is wanted.
+
+use std::sync::Arc;
+
+use calibrate::evaluate::{Viewing, lab};
+use calibrate::matching::{Sight, Target};
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::{Grid, TristimulusWeights};
+
+/// A colour in one of three forms.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Colour {
+    /// As on the screen, linear sRGB: wanted to look so under any light.
+    Screen([f64; 3]),
+    /// CIELAB under the light of the painting.
+    Lab(Lab),
+    /// A reflectance on the library's grid.
+    Reflectance(Arc<Vec<f64>>),
+}
+
+/// What is wanted, and what it is called.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wanted {
+    /// Where it comes from.
+    pub name: String,
+    /// The colour.
+    pub colour: Colour,
+}
+
+impl Wanted {
+    /// A colour of the screen.
+    #[must_use]
+    pub fn screen(name: &str, linear: [f64; 3]) -> Self {
+        Self { name: name.to_owned(), colour: Colour::Screen(linear) }
+    }
+
+    /// What a painter types: `#rrggbb`, or `L,a,b`.
+    #[must_use]
+    pub fn from_text(text: &str) -> Option<Self> {
+        let text = text.trim();
+        if let Some(rgb) = Rgb::from_hex(text) {
+            return Some(Self::screen(&rgb.to_hex(), rgb.linear().0));
+        }
+        let lab = Lab::from_text(text)?;
+        let [l, a, b] = lab.to_array();
+        Some(Self { name: format!("Lab {l} {a} {b}"), colour: Colour::Lab(lab) })
+    }
+
+    /// CIELAB under a light.
+    #[must_use]
+    pub fn lab(&self, grid: Grid, viewing: &Viewing) -> Lab {
+        match &self.colour {
+            Colour::Screen(linear) => {
+                let white = weights(grid, viewing).white();
+                Lab::from_xyz(from_screen(*linear, white), white)
+            }
+            Colour::Lab(lab) => *lab,
+            Colour::Reflectance(values) => lab(&weights(grid, viewing), values),
+        }
+    }
+
+    /// Encoded sRGB under a light, not cut off at the gamut.
+    #[must_use]
+    pub fn shown(&self, grid: Grid, viewing: &Viewing) -> Rgb {
+        match &self.colour {
+            Colour::Screen(linear) => Rgb(*linear).encoded(),
+            _ => shown(self.lab(grid, viewing), weights(grid, viewing).white()),
+        }
+    }
+
+    /// The target of a search under `sights`.
+    #[must_use]
+    pub fn target(&self, grid: Grid, sights: &[Sight]) -> Target {
+        let lab = sights.iter().map(|sight| self.lab(grid, &sight.viewing)).collect();
+        Target { name: self.name.clone(), lab }
+    }
+}
+
+/// Encoded sRGB of a colour under `white`, as the painting is shown.
+pub(super) fn shown(lab: Lab, white: Xyz) -> Rgb {
+    RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford)
+}
+
+/// XYZ under `white` of what the screen shows.
+fn from_screen(linear: [f64; 3], white: Xyz) -> Xyz {
+    RgbSpace::Srgb.xyz_from_encoded(Rgb(linear).encoded(), white, Adaptation::Bradford)
+}
+
+/// The weights of a light for reflectances on `grid`.
+pub(super) fn weights(grid: Grid, viewing: &Viewing) -> TristimulusWeights {
+    viewing.weights(grid).expect("the method is chosen to fit the grid")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spectra::{Illuminant, Observer};
+
+    fn grid() -> Grid {
+        Grid::from_nm(380.0, 10.0, 36).unwrap()
+    }
+
+    fn tungsten() -> Viewing {
+        let illuminant = Illuminant::named("A").unwrap();
+        Viewing { illuminant, observer: Observer::default() }
+    }
+
+    #[test]
+    fn hexadecimal_and_lab_are_read_and_other_text_is_not() {
+        let hex = Wanted::from_text(" #2a5caa ").unwrap();
+        assert_eq!(hex.name, "#2a5caa");
+        assert_eq!(hex.shown(grid(), &tungsten()).to_hex(), "#2a5caa", "whatever the light");
+        let lab = Wanted::from_text("52,-10.5,8").unwrap();
+        assert_eq!(lab.name, "Lab 52 -10.5 8");
+        let found = lab.lab(grid(), &tungsten());
+        assert_eq!(found, Lab { lightness: 52.0, a: -10.5, b: 8.0 });
+        for text in ["", "blue", "1,2", "#12345"] {
+            assert_eq!(Wanted::from_text(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_the_screen_shows_is_met_by_paint_that_looks_the_same_there() {
+        let wanted = Wanted::screen("sky", [0.2, 0.4, 0.7]);
+        for viewing in [Viewing::default(), tungsten()] {
+            let lab = wanted.lab(grid(), &viewing);
+            let back = shown(lab, weights(grid(), &viewing).white()).linear().0;
+            for (found, wanted) in back.into_iter().zip([0.2, 0.4, 0.7]) {
+                assert!((found - wanted).abs() < 1e-9, "{back:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_reflectance_has_the_colour_that_calibrate_gives_it() {
+        let values: Vec<f64> = (0..36).map(|i| 0.1 + 0.02 * f64::from(i)).collect();
+        let viewing = tungsten();
+        let wanted =
+            Wanted { name: String::new(), colour: Colour::Reflectance(Arc::new(values.clone())) };
+        assert_eq!(wanted.lab(grid(), &viewing), lab(&viewing.weights(grid()).unwrap(), &values));
+        let perfect =
+            Wanted { name: String::new(), colour: Colour::Reflectance(vec![1.0; 36].into()) };
+        assert_eq!(perfect.shown(grid(), &viewing).to_hex(), "#ffffff");
+    }
+}

@@ -1,1 +1,0 @@
-//! A picture pinned beside the canvas.

@@ -1,0 +1,9 @@
+//! A picture pinned beside the canvas.
+
+mod picture;
+
+mod placing;
+
+mod panel;
+
+pub use panel::Reference;

@@ -1,0 +1,164 @@
+//! A picture to look at and to take colours from.
+
+use std::path::Path;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use eframe::egui::{Color32, ColorImage};
+use rayon::prelude::*;
+use render::photograph::{Framing, Photograph, Picture as Linear};
+use spectra::color::{Rgb, RgbSpace};
+
+/// Pixels of the longer side; larger pictures are reduced.
+const LONGEST: usize = 2048;
+
+/// Cells of the table from linear light to the screen.
+const SHADES: usize = 4096;
+
+/// A picture in linear sRGB.
+#[derive(Debug, Clone)]
+pub(super) struct Picture {
+    linear: Linear,
+}
+
+impl Picture {
+    /// Reads a PNG or JPEG, and reduces it in linear light if it is large.
+    fn open(path: &Path) -> Result<Self, String> {
+        let photograph =
+            Photograph::open(path).map_err(|error| format!("{error}; {}", error.hint()))?;
+        let (width, height) = reduced(photograph.size());
+        Ok(Self { linear: photograph.on_canvas(width, height, Framing::Stretched) })
+    }
+
+    /// Width and height in pixels.
+    pub(super) fn size(&self) -> [usize; 2] {
+        [self.linear.width(), self.linear.height()]
+    }
+
+    /// As the screen shows it, in colour or grey of the same luminance.
+    pub(super) fn on_screen(&self, grey: bool) -> ColorImage {
+        let luminance = RgbSpace::Srgb.xyz_from_linear().0[1].map(|share| share as f32 / 100.0);
+        let shades: Vec<u8> = (0..=SHADES)
+            .map(|step| Rgb([step as f64 / SHADES as f64; 3]).encoded().to_bytes()[0])
+            .collect();
+        let shade = |value: f32| shades[(value.clamp(0.0, 1.0) * SHADES as f32).round() as usize];
+        let pixels = self.linear.values().par_iter().map(|&[red, green, blue]| {
+            if grey {
+                let [r, g, b] = luminance;
+                return Color32::from_gray(shade(r * red + g * green + b * blue));
+            }
+            Color32::from_rgb(shade(red), shade(green), shade(blue))
+        });
+        ColorImage::new(self.size(), pixels.collect())
+    }
+
+    /// The mean in linear sRGB of the pixels whose middles are within `radius` of a
+    /// place in pixels, at least that of the pixel there; `None` outside.
+    pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32) -> Option<[f64; 3]> {
+        let [width, height] = self.size();
+        if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
+            return None;
+        }
+        let range = |at: f32, most: usize| {
+            let first = (at - radius).floor().max(0.0) as usize;
+            first..=((at + radius).floor() as usize).min(most - 1)
+        };
+        let mut sum = [0.0; 3];
+        let mut count = 0.0;
+        for row in range(y, height) {
+            for column in range(x, width) {
+                let away = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
+                if away <= radius || (column, row) == (x as usize, y as usize) {
+                    count += 1.0;
+                    for (sum, value) in sum.iter_mut().zip(self.linear.row(row, column, 1)[0]) {
+                        *sum += f64::from(value);
+                    }
+                }
+            }
+        }
+        Some(sum.map(|sum| sum / count))
+    }
+}
+
+/// The size at which a picture is kept.
+fn reduced((width, height): (usize, usize)) -> (usize, usize) {
+    let scale = (LONGEST as f64 / width.max(height) as f64).min(1.0);
+    let side = |pixels: usize| ((pixels as f64 * scale).round() as usize).max(1);
+    (side(width), side(height))
+}
+
+/// A picture being read on a thread of its own.
+#[derive(Debug)]
+pub(super) struct Reading {
+    told: Receiver<Result<Picture, String>>,
+}
+
+impl Reading {
+    /// Begins to read; `wake` is called when it ends.
+    pub(super) fn begin(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
+        let (tell, told) = channel();
+        let path = path.to_owned();
+        std::thread::spawn(move || {
+            let _ = tell.send(Picture::open(&path));
+            wake();
+        });
+        Self { told }
+    }
+
+    /// What was read, once it is.
+    pub(super) fn end(&self) -> Option<Result<Picture, String>> {
+        match self.told.try_recv() {
+            Ok(read) => Some(read),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err("the picture cannot be read".to_owned())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_by_two() -> Picture {
+        let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.2, 0.2]];
+        let mut linear = Linear::filled(2, 2, [0.0; 3]);
+        linear.values_mut().copy_from_slice(&values);
+        Picture { linear }
+    }
+
+    #[test]
+    fn large_pictures_are_reduced_and_small_ones_are_not() {
+        assert_eq!(reduced((4000, 3000)), (2048, 1536));
+        assert_eq!(reduced((640, 480)), (640, 480));
+        assert_eq!(reduced((100_000, 3)), (2048, 1));
+    }
+
+    #[test]
+    fn the_mean_is_that_of_the_pixels_around_in_linear_light() {
+        let picture = two_by_two();
+        assert_eq!(picture.mean([0.5, 0.5], 0.0), Some([1.0, 0.0, 0.0]));
+        assert_eq!(picture.mean([0.9, 0.1], 0.0), Some([1.0, 0.0, 0.0]), "anywhere in a pixel");
+        let all = picture.mean([1.0, 1.0], 1.0).unwrap();
+        for value in all {
+            assert!((value - 0.3).abs() < 1e-7, "{all:?}");
+        }
+        for outside in [[-0.1, 0.5], [2.0, 0.5], [0.5, 2.1], [f32::NAN, 0.5]] {
+            assert_eq!(picture.mean(outside, 3.0), None, "{outside:?}");
+        }
+    }
+
+    #[test]
+    fn the_screen_shows_srgb_and_grey_of_the_same_luminance() {
+        let picture = two_by_two();
+        let colour = picture.on_screen(false);
+        assert_eq!(colour.pixels[0], Color32::from_rgb(255, 0, 0));
+        let [shade, ..] = Rgb([0.2; 3]).encoded().to_bytes();
+        assert_eq!(colour.pixels[3], Color32::from_gray(shade));
+        let grey = picture.on_screen(true);
+        assert_eq!(grey.pixels[3], Color32::from_gray(shade));
+        // IEC 61966-2-1: Y of the primaries.
+        for (pixel, luminance) in grey.pixels.iter().zip([0.2126, 0.7152, 0.0722]) {
+            let [wanted, ..] = Rgb([luminance; 3]).encoded().to_bytes();
+            assert!(pixel.r().abs_diff(wanted) <= 1, "{pixel:?} for {wanted}");
+        }
+    }
+}
