@@ -26,7 +26,7 @@ fn sorted_mm(ground: &Ground) -> Vec<f64> {
 
 #[test]
 fn every_kind_is_as_deep_as_it_says_and_the_same_again() {
-    for (kind, relief) in [("linen", 0.12), ("paper", 0.08), ("panel", 0.012)] {
+    for (kind, relief) in [("linen", 0.12), ("paper", 0.08), ("panel", 0.012), ("wood", 0.1)] {
         let described = |seed: u64, relief: f64| {
             made(&format!(r#"{{"kind":"{kind}","seed":{seed},"relief_mm":{relief}}}"#), 300, 200)
         };
@@ -44,6 +44,31 @@ fn every_kind_is_as_deep_as_it_says_and_the_same_again() {
         let twice = sorted_mm(&described(1, 2.0 * relief));
         assert!((twice[30_000] - 2.0 * heights[30_000]).abs() < 1e-6, "{kind}");
     }
+}
+
+#[test]
+fn wood_is_brown_and_shines_and_its_grain_is_long() {
+    let wood = made(r#"{"kind":"wood"}"#, 400, 400);
+    let white = made(r#"{"kind":"panel"}"#, 2, 2);
+    assert!(wood.gloss.strength > 0.0 && white.gloss.strength == 0.0, "{:?}", wood.gloss);
+    // Red more than green more than blue, and nowhere dazzling or black.
+    let part = |from: usize, to: usize| {
+        let values = &wood.reflectance[from..to];
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    let (blue, green, red) = (part(4, 9), part(12, 18), part(22, 28));
+    assert!(blue < green && green < red && red < 0.4 && blue > 0.02, "{blue} {green} {red}");
+    // From cell to cell heights change less along the fibres than across them.
+    let change = |right: usize, down: usize| -> f64 {
+        let height = |x: usize, y: usize| f64::from(wood.height[(x, y)]);
+        let cells = (0..390 * 390).map(|i| (i % 390, i / 390));
+        cells.map(|(x, y)| (height(x + right, y + down) - height(x, y)).abs()).sum()
+    };
+    let (along, across) = (change(1, 0), change(0, 1));
+    assert!(along * 4.0 < across, "{along} along, {across} across");
+    let own =
+        made(r#"{"kind":"wood","reflectance":0.5,"gloss":{"strength":0,"exponent":9}}"#, 2, 2);
+    assert!(own.gloss.strength == 0.0 && own.reflectance[3] == 0.5, "{own:?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::layer::{Cell, Layer};
-use render::paint::brush::HeadShape;
+use render::paint::brush::{HeadMesh, HeadShape};
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::pose::Sample;
 use render::paint::stroke::StrokeError;
@@ -49,7 +49,7 @@ fn in_pieces(
             let reached = painting.stroke_reached();
             assert!(reached <= samples.len(), "{reached} of {}", samples.len());
         }
-        assert_eq!(painting.stroke_reached(), samples.len());
+        assert_eq!(painting.stroke_reached(), samples.len(), "not all were reached");
     }
     assert!(painting.stroke_open(), "closed too early");
     let report = painting.end_stroke().unwrap();
@@ -161,6 +161,29 @@ fn a_brush_that_comes_with_paint_gets_back_what_it_held_here() {
         assert!(painting.redo().unwrap(), "no redo");
         assert!(painting.brush_paint(brush).unwrap() == after, "done again");
     }
+}
+
+#[test]
+fn a_brush_hovers_between_strokes_and_bends_within_them() {
+    let mut painting = on_both(&bare(130, 100)).remove(0);
+    let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
+    let samples = along(&[(3.0, 4.0), (15.0, 9.0)], 0.6);
+    assert!(painting.head(brush).mesh().is_none(), "seen before it was held");
+    painting.hover(brush, &samples[0]);
+    let hovering = painting.head(brush).mesh().unwrap();
+    assert!(painting.wet().unwrap().totals()[BLUE] == 0, "it touched");
+    painting.begin_stroke(brush).unwrap();
+    painting.extend_stroke(&samples).unwrap();
+    painting.lift_stroke();
+    painting.advance_stroke(32).unwrap();
+    let bent = painting.head(brush).mesh().unwrap();
+    let lowest = |mesh: &HeadMesh| {
+        mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min)
+    };
+    assert!(lowest(&bent) < lowest(&hovering), "not pressed");
+    painting.hover(brush, &samples[0]);
+    assert_eq!(painting.head(brush).mesh(), Some(bent), "it hovers while it paints");
+    painting.end_stroke().unwrap();
 }
 
 #[test]

@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::footprint::Footprint;
 use super::grip::Grip;
+use super::mesh::HeadMesh;
 use super::net::{Net, Point, columns};
 use super::relief::{Relief, View};
 use super::shape::HeadShape;
@@ -47,6 +48,8 @@ pub struct Head {
     footprint: Footprint,
     /// The origin of coordinates, while the head touches.
     origin: Option<(i64, i64)>,
+    /// The same while it hovers.
+    hovering: Option<(i64, i64)>,
 }
 
 impl Head {
@@ -84,6 +87,7 @@ impl Head {
             footprint: Footprint::new(bristles(of.bristles, around, size_mm), along, hair),
             surface,
             origin: None,
+            hovering: None,
         })
     }
 
@@ -115,7 +119,27 @@ impl Head {
 
     /// Takes the head off the canvas; it is straight again.
     pub fn lift(&mut self) {
-        self.origin = None;
+        (self.origin, self.hovering) = (None, None);
+    }
+
+    /// Holds the head just above the canvas at `pose`, straight, whatever its
+    /// pressure: it touches nothing. Nothing of it is left in the stroke after it.
+    pub fn hover(&mut self, pose: &Pose, relief: &Relief) {
+        self.lift();
+        let held = Pose { pressure: 1.0, ..*pose };
+        let Some(grip) = Grip::new(&held, self.spines.of.rigid) else { return };
+        self.spines.stand(&grip, Vector::ZERO, &relief.seen_from(grip.origin));
+        self.net.follow(&self.spines, &grip);
+        self.net.rest();
+        self.hovering = Some(grip.origin);
+    }
+
+    /// The surface of the head as it is bent now; none while it is lifted. Made
+    /// in some 30 us.
+    #[must_use]
+    pub fn mesh(&self) -> Option<HeadMesh> {
+        let origin = self.origin.or(self.hovering)?;
+        Some(HeadMesh::of(&self.net, origin))
     }
 
     /// Sets the head down at `pose`, bent as its pressure bends it, without

@@ -19,11 +19,14 @@ mod net;
 
 mod surface;
 
+mod mesh;
+
 mod footprint;
 
 mod head;
 
 pub use head::{BrushError, Head};
+pub use mesh::HeadMesh;
 pub use relief::{BLOCK, Relief};
 pub use shape::{HeadShape, UnknownShape};
 

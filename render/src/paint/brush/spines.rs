@@ -118,9 +118,14 @@ impl Spines {
     /// Lets the head hang just above the canvas at `grip`, bent a little to where it
     /// will fall: behind `heading`, if that is a direction.
     pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &View<'_>) {
+        let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
+        self.stand(grip, fall, relief);
+    }
+
+    /// The same straight, or with its tip at `fall` from there.
+    pub(super) fn stand(&mut self, grip: &Grip, fall: Vector, relief: &View<'_>) {
         let grip = &Grip { pressure: 0.0, ..*grip };
         let ferrule = self.ferrule(grip, relief);
-        let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
         for (i, rest) in self.rest.iter().enumerate() {
             let share = (i % NODES) as f32 / (NODES - 1) as f32;
             let bent = if self.of.rigid { Vector::ZERO } else { fall * (share * share) };

@@ -13,7 +13,7 @@ const FACET: f32 = 4.0;
 const MOST_CELLS: f32 = 1_048_576.0;
 
 /// Spans of the surface along the head.
-const SPANS: usize = ROWS - 3;
+pub(super) const SPANS: usize = ROWS - 3;
 
 /// The facets of one span, along or around.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ impl Span {
 }
 
 /// Uniform cubic B-spline.
-fn b_spline(t: f32) -> [f32; 4] {
+pub(super) fn b_spline(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
     let inner = |t: f32, s: f32| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t;
     [s * s * s, inner(t, s) + t * t * t, inner(s, t) + s * s * s, t * t * t].map(|w| w / 6.0)

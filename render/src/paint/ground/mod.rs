@@ -17,11 +17,14 @@ mod picture_relief;
 
 mod primer;
 
+mod wood;
+
 pub use linen::Linen;
 pub use panel::Panel;
 pub use paper::Paper;
 pub use picture_relief::PictureRelief;
 pub use primer::{ColourPrimer, MeasuredPrimer, Primer, PrimerSpectrum};
+pub use wood::Wood;
 
 use calibrate::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
@@ -40,10 +43,10 @@ pub struct GroundSpec {
     /// Its relief.
     #[serde(flatten)]
     pub relief: GroundRelief,
-    /// Its colour; the library's white if not given.
+    /// Its colour; the library's white if not given, of wood a walnut brown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reflectance: Option<Primer>,
-    /// Its shine; matt if not given.
+    /// Its shine; matt if not given, of wood that of its varnish.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gloss: Option<Gloss>,
 }
@@ -58,6 +61,8 @@ pub enum GroundRelief {
     Paper(Paper),
     /// A primed panel, nearly flat.
     Panel(Panel),
+    /// A varnished wooden palette.
+    Wood(Wood),
     /// Heights from a picture.
     Image(PictureRelief),
 }
@@ -105,10 +110,12 @@ impl GroundSpec {
         cell_mm: f64,
         library: &PigmentLibrary,
     ) -> Result<Ground, GroundError> {
-        let reflectance = match &self.reflectance {
-            Some(primer) => primer.reflectance(library)?,
-            None => Primer::of_library(library),
+        let reflectance = match (&self.reflectance, &self.relief) {
+            (Some(primer), _) => primer.reflectance(library)?,
+            (None, GroundRelief::Wood(_)) => Wood::walnut().reflectance(library)?,
+            (None, _) => Primer::of_library(library),
         };
+        let bare = if let GroundRelief::Wood(_) = self.relief { Wood::VARNISH } else { MATT };
         let (name, heights_mm) = match &self.relief {
             GroundRelief::Linen(linen) => {
                 (format!("linen, seed {}", linen.seed), linen.heights_mm(width, height, cell_mm)?)
@@ -118,6 +125,9 @@ impl GroundSpec {
             }
             GroundRelief::Panel(panel) => {
                 (format!("panel, seed {}", panel.seed), panel.heights_mm(width, height, cell_mm)?)
+            }
+            GroundRelief::Wood(wood) => {
+                (format!("wood, seed {}", wood.seed), wood.heights_mm(width, height, cell_mm)?)
             }
             GroundRelief::Image(picture) => {
                 (format!("picture {}", picture.path), picture.heights_mm(width, height)?)
@@ -134,7 +144,7 @@ impl GroundSpec {
         };
         let quanta = heights_mm.values().iter().map(quantum).collect::<Result<_, _>>()?;
         let height = Field::from_values(width, height, quanta);
-        Ok(Ground { name, height, reflectance, gloss: self.gloss.unwrap_or(MATT) })
+        Ok(Ground { name, height, reflectance, gloss: self.gloss.unwrap_or(bare) })
     }
 }
 

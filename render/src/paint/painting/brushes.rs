@@ -6,6 +6,7 @@ use crate::amount::{FULL, mm_from_quanta, quanta_from_mm};
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::paint::brush::{Head, HeadShape};
 use crate::paint::engine::BrushId;
+use crate::paint::pose::Sample;
 
 /// A brush in hand.
 #[derive(Debug)]
@@ -158,6 +159,14 @@ impl Painting {
     #[must_use]
     pub fn head(&self, brush: usize) -> &Head {
         &self.brushes[brush].head
+    }
+
+    /// Holds a brush just above the canvas, as to draw its [`Painting::head`]
+    /// there. While a stroke with it is open nothing happens.
+    pub fn hover(&mut self, brush: usize, sample: &Sample) {
+        if !self.strokes_with(brush) {
+            self.brushes[brush].head.hover(&sample.pose(self.cell_mm), &self.relief);
+        }
     }
 
     fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {

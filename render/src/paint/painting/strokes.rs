@@ -183,6 +183,11 @@ impl Painting {
         self.stroke.is_some()
     }
 
+    /// Whether a stroke with this brush is open.
+    pub(super) fn strokes_with(&self, brush: usize) -> bool {
+        self.stroke.as_ref().is_some_and(|stroke| stroke.brush == brush)
+    }
+
     /// Leads the stroke on through `samples`, which [`Painting::advance_stroke`]
     /// will paint. If one is refused those before it are taken, and the stroke
     /// stays open: it can go on with others, or end.
