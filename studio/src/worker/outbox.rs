@@ -1,6 +1,7 @@
 //! The pictures on their way to the window: never more than it takes.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use render::paint::easel::Easel;
@@ -8,7 +9,7 @@ use render::paint::painting::{Painting, PaintingError};
 use render::paint::strokes::Surface;
 use render::tile::{Rect, TileSet};
 
-use super::event::Event;
+use super::event::{Event, HeadOnCanvas};
 use super::meter::Meter;
 use super::srgb::SrgbBytes;
 use super::tiles::encoded;
@@ -91,6 +92,12 @@ impl Outbox {
     /// When to look again; none while the window has not taken what it was told.
     pub(super) fn due(&self) -> Option<Instant> {
         (self.untaken < UNTAKEN).then_some(self.next)
+    }
+
+    /// Tells where the head is; a part like those of pictures.
+    pub(super) fn tell_head(&mut self, head: HeadOnCanvas, tell: &dyn Fn(Event)) {
+        tell(Event::Head(Some(Arc::new(head))));
+        self.untaken += 1;
     }
 
     /// Whether something is computed that was not told.
