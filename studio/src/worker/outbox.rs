@@ -161,3 +161,23 @@ fn first_tiles(set: &mut TileSet, most: usize) -> TileSet {
     *set = rest;
     first
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_whole_picture_comes_piece_by_piece_and_no_tile_twice() {
+        let all = TileSet::all(Rect { x: 0, y: 0, width: 1920, height: 1080 });
+        let (mut left, mut told) = (all.clone(), TileSet::default());
+        let mut pieces = Vec::new();
+        while !left.is_empty() {
+            let piece = first_tiles(&mut left, PIECE);
+            pieces.push(piece.len());
+            for tile in piece.iter() {
+                assert!(told.insert_tile(tile), "{tile:?} is told once");
+            }
+        }
+        assert_eq!((pieces, told), (vec![128, 128, 128, 126], all));
+    }
+}
