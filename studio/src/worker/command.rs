@@ -154,6 +154,7 @@ impl Command {
             Self::Replay { .. } => "a replay",
             Self::Cancel => "cancelling",
             Self::LoadPicked { .. } => "loading a brush",
+            Self::LayOut { .. } => "laying paint out",
             Self::UndoMemory(_) => "the memory of undo",
             Self::Quit => "quitting",
         }
