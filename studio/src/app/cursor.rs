@@ -70,9 +70,8 @@ impl Studio {
         let Some(brush) = easel.brushes.iter().find(|brush| brush.name == hover.brush) else {
             return;
         };
-        let same = |held: &Hovering| {
-            held.spec == brush.spec && held.level.cell_mm() == easel.cell_mm
-        };
+        let same =
+            |held: &Hovering| held.spec == brush.spec && held.level.cell_mm() == easel.cell_mm;
         if !self.hovering.as_ref().is_some_and(same) {
             self.hovering = Hovering::of(&brush.spec, easel.cell_mm);
         }
