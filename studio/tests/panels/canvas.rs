@@ -365,3 +365,32 @@ fn the_view_follows_hand_wheel_and_held_keys() {
     assert!(window.studio().canvas.view.zoom > 1.1 * zoom, "the wheel zooms");
     assert!(near(cell(&window, pointer), held), "about the pointer");
 }
+
+#[test]
+fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
+    let mut window = told_window("head", vec2(1280.0, 800.0), 1.0);
+    for (turn, mirror) in [(0.0, false), (1.0, true)] {
+        window.studio_mut().canvas.view.turn = turn;
+        window.studio_mut().canvas.view.mirror = mirror;
+        window.harness().run_ok();
+        let at = window.point(Surface::Canvas, 96.0, 54.0);
+        let before = window.picture();
+        window.frame(vec![UiEvent::PointerMoved(at)]);
+        window.frame(Vec::new());
+        let (Some(before), Some(after)) = (before, window.picture()) else { return };
+        window.save(&format!("head-{turn}"));
+        let changed = |offset: Vec2| {
+            window.colour(&before, at + offset) != window.colour(&after, at + offset)
+        };
+        // The mouse's hold leans to the lower right of the window, however the
+        // canvas is turned.
+        assert!(changed(vec2(14.0, 14.0)), "the head is seen");
+        assert!(!changed(vec2(-60.0, -60.0)), "and nowhere else");
+        let [red, green, blue] = window.colour(&after, at + vec2(14.0, 14.0));
+        assert!(red.min(green).min(blue) > 10, "it lets the paint through: {red} {green} {blue}");
+        window.frame(vec![UiEvent::PointerMoved(pos2(1200.0, 300.0))]);
+        window.frame(Vec::new());
+        let gone = window.picture().unwrap();
+        assert_eq!(window.colour(&gone, at), window.colour(&before, at), "it left");
+    }
+}

@@ -63,7 +63,6 @@ fn combined(weights: [f32; 4], points: [[f32; 3]; 4]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::super::{Head, HeadShape, Relief};
-    use super::*;
     use crate::paint::contact::Contact;
     use crate::paint::pose::Pose;
     use crate::tile::Rect;
