@@ -272,7 +272,9 @@ impl Files {
                 self.ctx.send_viewport_cmd(ViewportCommand::Close);
             }
             Then::Replace(Replacement { commands, opening }) => {
-                self.recovered = None;
+                if let Some(lost) = self.recovered.take() {
+                    lost.discard();
+                }
                 self.awaiting.clear();
                 self.opening = Some(opening);
                 self.commands.extend(commands);
