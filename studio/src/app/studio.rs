@@ -14,11 +14,12 @@ use super::cursor::Hovering;
 use super::frames::Frames;
 use super::keys::Keys;
 use super::parts::{Begun, Parts};
-use super::side::Panels;
+use super::side::{Panels, Tab};
 use super::status::Message;
 use super::surfaces::Hover;
 use super::{help, menus, status, toolbar};
-use crate::files::{FiguresLog, Files, FrameFigures};
+use crate::files::{FiguresLog, Files, FrameFigures, Reference as Pinned};
+use crate::panels::eyedropper::Eyedropper;
 use crate::panels::figures::FrameRate;
 use crate::panels::{Desk, FileRequest, Request, Tools};
 use crate::pen::Pen;
@@ -187,10 +188,19 @@ impl Studio {
                 self.act(intent, &context);
             }
         }
+        let wanted = self.tools.wanted;
         self.layout(ui);
+        if self.tools.wanted != wanted {
+            self.panels.bring(Tab::Colour);
+        }
         help::show(&context, &mut self.shown.keys);
         self.dropped(&context);
         self.files.show(ui);
+        match self.files.take_reference() {
+            Some(Pinned::Open(path)) => self.panels.reference.open(&context, &path),
+            Some(Pinned::Close) => self.panels.reference.close(),
+            None => {}
+        }
         self.carry_out();
         self.name_window(&context);
         self.measure(&context, now);
@@ -310,6 +320,11 @@ impl Studio {
             (paths.collect::<Vec<_>>(), !input.raw.hovered_files.is_empty())
         });
         for path in dropped {
+            if Eyedropper::takes(&path) {
+                self.panels.eyedropper.open_swatches(&path);
+                self.panels.bring(Tab::Colour);
+                continue;
+            }
             self.asked.push(Request::File(FileRequest::Open(Some(path))));
         }
         if hovering {

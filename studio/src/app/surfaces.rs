@@ -15,9 +15,6 @@ use crate::theme;
 use crate::view::{Hand, Split};
 use crate::worker::Command;
 
-/// Mean over cells this near, for the eyedropper, in mm.
-const PICK_MM: f64 = 0.2;
-
 /// Where the brush hovers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
@@ -49,6 +46,18 @@ impl Studio {
                 .default_size(height)
                 .size_range(110.0..=520.0)
                 .show(ui, |ui| self.table(ui, hand, mode));
+        }
+        if self.panels.reference.is_open() && self.shown.panels {
+            let pane = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(6));
+            let most = (0.6 * ui.available_width()).max(160.0);
+            Panel::left("reference")
+                .frame(pane)
+                .resizable(true)
+                .default_size((0.35 * ui.available_width()).clamp(160.0, most))
+                .size_range(160.0..=most)
+                .show(ui, |ui| {
+                    self.with_desk(|panels, desk| panels.reference.show(ui, desk));
+                });
         }
         let room = ui.available_rect_before_wrap();
         let easel = self.easel.clone();
@@ -106,7 +115,8 @@ impl Studio {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.asked_at != Some(place) {
                 self.asked_at = Some(place);
-                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+                let radius_mm = self.tools.pick_radius_mm;
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {
