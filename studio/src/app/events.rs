@@ -6,6 +6,7 @@ use std::time::Instant;
 use render::paint::strokes::Surface;
 
 use super::Studio;
+use super::side::Tab;
 use super::status::Message;
 use crate::worker::{EaselState, Event};
 
@@ -39,7 +40,10 @@ impl Studio {
             }
             Event::Head(head) => self.head = head,
             Event::Figures(figures) => self.figures = figures,
-            Event::Picked(picked) => self.tools.picked = Some(picked),
+            Event::Picked(picked) => {
+                self.tools.picked = Some(picked);
+                self.panels.bring(Tab::Colour);
+            }
             Event::Recording { number, .. } => self.answered = Some(number),
             // Of the files.
             Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}

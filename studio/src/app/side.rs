@@ -1,12 +1,14 @@
 //! The panels at the right: one group of tabs, or two where there is room.
 
-use eframe::egui::{Button, CornerRadius, Panel, ScrollArea, Ui, vec2};
+use eframe::egui::{Button, CornerRadius, Panel, RichText, ScrollArea, Ui, vec2};
 
 use crate::files::Files;
 use crate::panels::brushes::Brushes;
+use crate::panels::eyedropper::Eyedropper;
 use crate::panels::history::History;
 use crate::panels::layers::Layers;
 use crate::panels::light::LightPanel;
+use crate::panels::reference::Reference;
 use crate::panels::tubes::Tubes;
 use crate::panels::{Desk, revisions};
 use crate::theme;
@@ -23,6 +25,8 @@ pub enum Tab {
     Layers,
     /// The light.
     Light,
+    /// What was picked, and recipes for a colour.
+    Colour,
     /// What was done.
     History,
     /// Revisions.
@@ -34,7 +38,7 @@ impl Tab {
     const UPPER: [Self; 2] = [Self::Brush, Self::Layers];
 
     /// What is looked at now and then.
-    const LOWER: [Self; 3] = [Self::Light, Self::History, Self::Files];
+    const LOWER: [Self; 4] = [Self::Light, Self::Colour, Self::History, Self::Files];
 
     /// Its name.
     #[must_use]
@@ -43,6 +47,7 @@ impl Tab {
             Self::Brush => "Brush",
             Self::Layers => "Layers",
             Self::Light => "Light",
+            Self::Colour => "Colour",
             Self::History => "History",
             Self::Files => "Files",
         }
@@ -53,6 +58,7 @@ impl Tab {
             Self::Brush => "The stand, the head of the brush, its paint",
             Self::Layers => "Wet and dry paint",
             Self::Light => "The light, the gloss, and a second light to compare",
+            Self::Colour => "What lies where the eyedropper asked, and recipes for a colour",
             Self::History => "What was done, to go back to",
             Self::Files => "Numbered revisions of the painting",
         }
@@ -66,6 +72,10 @@ pub struct Panels {
     pub brushes: Brushes,
     /// The tubes, beside the palette.
     pub tubes: Tubes,
+    /// What was picked, and recipes for a colour.
+    pub eyedropper: Eyedropper,
+    /// The picture beside the canvas.
+    pub reference: Reference,
     layers: Layers,
     light: LightPanel,
     history: History,
@@ -80,6 +90,8 @@ impl Default for Panels {
         Self {
             brushes: Brushes::default(),
             tubes: Tubes::default(),
+            eyedropper: Eyedropper::default(),
+            reference: Reference::default(),
             layers: Layers::default(),
             light: LightPanel::default(),
             history: History::default(),
@@ -131,6 +143,7 @@ impl Panels {
             Tab::Brush => self.brushes.show(ui, desk),
             Tab::Layers => self.layers.show(ui, desk),
             Tab::Light => self.light.show(ui, desk),
+            Tab::Colour => self.eyedropper.show(ui, desk),
             Tab::History => self.history.show(ui, desk),
             Tab::Files => revisions::show(ui, desk, &files.revisions),
         });
@@ -141,11 +154,12 @@ impl Panels {
 fn tabs(ui: &mut Ui, all: &[Tab], mut chosen: Tab) -> Tab {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
+        ui.spacing_mut().button_padding.x = 1.0;
         let width = (ui.available_width() - (all.len() - 1) as f32) / all.len() as f32;
         for &tab in all {
             let here = tab == chosen;
             let fill = if here { theme::CHOSEN } else { theme::BAR };
-            let button = Button::new(tab.name())
+            let button = Button::new(RichText::new(tab.name()).size(12.0))
                 .fill(fill)
                 .selected(here)
                 .corner_radius(CornerRadius { sw: 0, se: 0, ..CornerRadius::same(theme::ROUND) });

@@ -121,8 +121,9 @@ pub enum Command {
         /// How high it lies on the head, in mm.
         amount_mm: f64,
     },
-    /// Puts a heap of paint on the palette, as [`Action::Squeeze`], where the worker
-    /// finds room for it.
+    /// Puts a heap of paint on the palette, as [`Action::Squeeze`], at the first of
+    /// some places that has no wet paint around it; if none has, where there is the
+    /// least.
     LayOut {
         /// The paint, by names of the library.
         recipe: Recipe,
@@ -130,6 +131,10 @@ pub enum Command {
         vehicle: f64,
         /// How much, in cubic millimetres.
         volume_mm3: f64,
+        /// Places from the upper left corner, in mm; the most welcome first.
+        places: Vec<[f64; 2]>,
+        /// How far around a place must be free, in mm.
+        reach_mm: f64,
     },
     /// Bytes that undo may keep from now on.
     UndoMemory(u64),
@@ -154,6 +159,7 @@ impl Command {
             Self::Replay { .. } => "a replay",
             Self::Cancel => "cancelling",
             Self::LoadPicked { .. } => "loading a brush",
+            Self::LayOut { .. } => "laying paint out",
             Self::UndoMemory(_) => "the memory of undo",
             Self::Quit => "quitting",
         }

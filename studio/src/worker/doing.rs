@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use render::layer::SLOTS;
 use render::paint::easel::{Easel, EaselError, Outcome};
-use render::paint::strokes::{Action, Load};
+use render::paint::strokes::{Action, Load, Squeeze, Surface};
 
 use super::command::{Command, PenSample};
 use super::event::{Event, Picked, Snapshot};
 use super::live::Live;
 use super::pick::{Place, picked};
+use super::room::roomiest;
 use super::state::EaselState;
 use super::telling::Beside;
 use super::workshop::{Stage, Workshop};
@@ -161,6 +162,18 @@ impl Workshop<'_> {
             }
             Command::LoadPicked { brush, picked, amount_mm } => {
                 self.load_picked(brush, &picked, amount_mm)
+            }
+            Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm } => {
+                let palette = self.easel().painting_mut(Surface::Palette).expect(PALETTE);
+                let Some([x_mm, y_mm]) = roomiest(palette, &places, reach_mm)? else {
+                    let hint = "squeeze it out of the tubes";
+                    let text = "there is no place for it on the palette";
+                    self.say(text.to_owned(), Some(hint.to_owned()), true);
+                    return Ok(());
+                };
+                let on = Surface::Palette;
+                let heap = Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 };
+                self.act(&Action::Squeeze(heap))
             }
             question => self.answer(question),
         }

@@ -22,6 +22,8 @@ mod layers;
 
 mod pick;
 
+mod room;
+
 mod meter;
 
 mod inbox;

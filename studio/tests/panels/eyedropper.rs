@@ -17,6 +17,7 @@ use spectra::color::{Adaptation, Lab, RgbSpace};
 use spectra::{Illuminant, Observer};
 use studio::panels::Mode;
 use studio::panels::eyedropper::{Colour, Eyedropper};
+use studio::view::Outline;
 use studio::worker::{Command, EaselState, Picked, PickedLayer};
 
 use super::stage::{Stage, made_easel};
@@ -182,10 +183,18 @@ fn a_typed_colour_is_matched_as_calibrate_matches_it() {
         assert_eq!((load.vehicle, load.amount_mm), (0.15, 0.3));
         stage.click(&format!("Lay recipe {}", index + 1));
         let commands = stage.commands();
-        let [Command::LayOut { recipe, vehicle, volume_mm3 }] = &commands[..] else {
+        let [Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm }] = &commands[..]
+        else {
             panic!("{commands:?}");
         };
         assert_eq!((recipe, *vehicle, *volume_mm3), (&all, 0.15, 60.0));
+        assert!(places.len() > 20, "{} places on a palette of 64 x 42 mm", places.len());
+        for &[x, y] in places {
+            for [right, down] in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+                let edge = [x + right * reach_mm, y + down * reach_mm].map(|mm| mm / 0.1);
+                assert!(Outline::Palette.contains(edge, (640, 420)), "{x}, {y} mm is on the wood");
+            }
+        }
     }
 }
 

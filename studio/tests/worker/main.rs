@@ -16,4 +16,6 @@ mod layers;
 
 mod picking;
 
+mod room;
+
 mod messages;

@@ -1,5 +1,7 @@
 //! Recipes that were found, one click from brush and palette.
 
+use std::f64::consts::TAU;
+
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::Recipe;
 use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
@@ -10,10 +12,15 @@ use spectra::color::{Rgb, Xyz};
 use super::super::desk::Desk;
 use super::swatch::swatch;
 use super::wanted::shown;
-use crate::worker::Command;
+use crate::view::Outline;
+use crate::worker::{Command, EaselState};
 
 /// The two colours beside each other, in points.
 const PATCH: Vec2 = vec2(72.0, 40.0);
+
+/// How far a heap is kept from other paint, over the cube root of its volume: its
+/// radius is 0.94 (`Painting::squeeze`).
+const REACH: f64 = 1.2;
 
 /// A recipe found, with what it is compared to.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +76,10 @@ impl Offer<'_> {
                 .on_disabled_hover_text("Some of its pigments are not on the palette");
             if lay.clicked() {
                 let (vehicle, volume_mm3) = (desk.tools.vehicle, desk.tools.squeeze_mm3);
-                desk.command(Command::LayOut { recipe: self.parts(), vehicle, volume_mm3 });
+                let reach_mm = REACH * volume_mm3.cbrt();
+                let places = places(desk.easel, reach_mm);
+                let recipe = self.parts();
+                desk.command(Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm });
             }
         });
         if !ready {
@@ -180,4 +190,21 @@ fn told(ui: &mut Ui, found: &Recipe) {
         let thickness = ui.weak(format!("film {thickness:.3}"));
         thickness.on_hover_text("Thickness of the film in units of the library");
     }
+}
+
+/// Places of the palette, in mm, that are on its wood as far as `reach_mm`, row by
+/// row from the upper left.
+fn places(easel: &EaselState, reach_mm: f64) -> Vec<[f64; 2]> {
+    let cells = easel.palette_cells;
+    let (reach, step) = (reach_mm / easel.cell_mm, (reach_mm / easel.cell_mm).max(1.0));
+    let along = |size: usize| (size as f64 / step) as usize;
+    let rim = |[x, y]: [f64; 2]| {
+        let turns = (0..16).map(|turn| f64::from(turn) * TAU / 16.0);
+        turns.map(move |turn| [x + reach * turn.cos(), y + reach * turn.sin()])
+    };
+    let rows = (1..=along(cells.1)).map(|row| row as f64 * step);
+    let all = rows.flat_map(|y| (1..=along(cells.0)).map(move |column| [column as f64 * step, y]));
+    let on_wood =
+        all.filter(|&place| rim(place).all(|place| Outline::Palette.contains(place, cells)));
+    on_wood.map(|place| place.map(|cells| cells * easel.cell_mm)).collect()
 }

@@ -9,9 +9,10 @@ use eframe::egui::{
 };
 use spectra::color::Rgb;
 
-use super::super::desk::{Desk, FileRequest};
+use super::super::desk::Desk;
 use super::picture::{Picture, Reading};
 use super::placing::Placing;
+use crate::files::FileRequest;
 use crate::theme;
 
 /// The radius of the mean at first, in pixels of the picture.

@@ -1,0 +1,54 @@
+//! Paint laid on the palette where there is room.
+
+use render::gpu::BackendChoice;
+use render::paint::strokes::{Action, Squeeze, Surface};
+use studio::worker::Command;
+
+use super::window::Window;
+
+fn lay(window: &mut Window, pigment: &str, places: &[[f64; 2]]) {
+    window.ask(Command::LayOut {
+        recipe: [(pigment.to_owned(), 1.0)].into(),
+        vehicle: 0.0,
+        volume_mm3: 0.5,
+        places: places.to_vec(),
+        reach_mm: 1.0,
+    });
+}
+
+/// Where the heaps of the recording are.
+fn heaps(window: &mut Window) -> Vec<[f64; 2]> {
+    let recording = window.recording();
+    let heaps = recording.actions.iter().filter_map(|action| match action {
+        Action::Squeeze(Squeeze { on: Surface::Palette, x_mm, y_mm, .. }) => Some([*x_mm, *y_mm]),
+        _ => None,
+    });
+    heaps.collect()
+}
+
+#[test]
+fn heaps_take_the_first_place_that_is_free_and_then_the_one_with_the_least() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let places = [[-3.0, 2.0], [2.0, 2.0], [2.5, 2.5], [6.0, 2.0]];
+    lay(&mut window, "Vermilion", &places);
+    lay(&mut window, "Ultramarine", &places);
+    assert_eq!(heaps(&mut window), [[2.0, 2.0], [6.0, 2.0]], "beside the surface is no place");
+    // A little more at the last one: now the first has the least.
+    lay(&mut window, "Zinc White", &[[6.0, 2.0]]);
+    lay(&mut window, "Zinc White", &[[6.0, 2.0], [2.0, 2.0]]);
+    assert_eq!(heaps(&mut window)[2..], [[6.0, 2.0], [2.0, 2.0]]);
+    window.act(Action::Undo {});
+    window.act(Action::Undo {});
+    window.act(Action::Undo {});
+    lay(&mut window, "Bone Black", &places);
+    assert_eq!(heaps(&mut window).last(), Some(&[6.0, 2.0]), "what was taken back is free again");
+}
+
+#[test]
+fn without_a_place_nothing_is_laid_and_that_is_said() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    lay(&mut window, "Vermilion", &[[50.0, 2.0]]);
+    let (text, hint, failed) = window.message();
+    assert!(failed && text.contains("no place") && hint.is_some(), "{text}");
+    assert!(heaps(&mut window).is_empty(), "the palette is bare");
+}
