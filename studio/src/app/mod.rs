@@ -32,6 +32,10 @@ mod acts;
 
 mod events;
 
+mod layout;
+
+mod outside;
+
 mod studio;
 
 pub use entries::ENTRIES;

@@ -25,7 +25,7 @@ pub enum Tab {
     Layers,
     /// The light.
     Light,
-    /// What lies at a place, and recipes for a colour.
+    /// What was picked, and recipes for a colour.
     Colour,
     /// What was done.
     History,
@@ -58,7 +58,7 @@ impl Tab {
             Self::Brush => "The stand, the head of the brush, its paint",
             Self::Layers => "Wet and dry paint",
             Self::Light => "The light, the gloss, and a second light to compare",
-            Self::Colour => "What lies at a place, and recipes for a colour",
+            Self::Colour => "What lies where the eyedropper asked, and recipes for a colour",
             Self::History => "What was done, to go back to",
             Self::Files => "Numbered revisions of the painting",
         }
@@ -72,7 +72,7 @@ pub struct Panels {
     pub brushes: Brushes,
     /// The tubes, beside the palette.
     pub tubes: Tubes,
-    /// The eyedropper.
+    /// What was picked, and recipes for a colour.
     pub eyedropper: Eyedropper,
     /// The picture beside the canvas.
     pub reference: Reference,

@@ -9,6 +9,7 @@ use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
 
 use super::Studio;
+use super::side::Tab;
 use crate::panels::tubes::{DraggedTube, squeeze};
 use crate::panels::{Desk, Mode, figures};
 use crate::theme;
@@ -48,15 +49,17 @@ impl Studio {
                 .show(ui, |ui| self.table(ui, hand, mode));
         }
         if self.panels.reference.is_open() && self.shown.panels {
-            let pane = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(6));
-            let most = (0.6 * ui.available_width()).max(160.0);
             Panel::left("reference")
-                .frame(pane)
-                .resizable(true)
-                .default_size((0.35 * ui.available_width()).clamp(160.0, most))
-                .size_range(160.0..=most)
+                .frame(Frame::new().fill(theme::PANEL).inner_margin(Margin::same(6)))
+                .show_separator_line(false)
+                .default_size(0.3 * ui.available_width())
+                .size_range(160.0..=0.6 * ui.available_width())
                 .show(ui, |ui| {
+                    let before = self.tools.wanted;
                     self.with_desk(|panels, desk| panels.reference.show(ui, desk));
+                    if self.tools.wanted != before {
+                        self.panels.bring(Tab::Colour);
+                    }
                 });
         }
         let room = ui.available_rect_before_wrap();

@@ -46,13 +46,15 @@ impl Files {
     fn finished(&mut self, done: Done) {
         match done {
             Done::Read { path, opened } => self.read_as(path, opened),
-            Done::Revision(document) => {
+            Done::Revision(document, start) => {
                 let commands = vec![Command::Open(Origin::Painting(document))];
-                self.go_on(Then::Replace(Replacement { commands, opening: Opening::default() }));
+                let opening = Opening { start: Some(start), ..Opening::default() };
+                self.go_on(Then::Replace(Replacement { commands, opening }));
             }
             Done::Recovered { canvas, palette, lost } => {
                 let commands = vec![Command::Open(Origin::Session { canvas, palette })];
-                let opening = Opening { path: lost.meta.path.clone(), lost: Some(lost) };
+                let path = lost.meta.path.clone();
+                let opening = Opening { path, lost: Some(lost), start: None };
                 self.go_on(Then::Replace(Replacement { commands, opening }));
             }
             Done::Saved { path, revision, epoch, then, keep } => {
@@ -113,9 +115,9 @@ impl Files {
     /// Takes up what a file was read as.
     fn read_as(&mut self, path: PathBuf, opened: Opened) {
         let replacement = match opened {
-            Opened::Painting(document) => Replacement {
+            Opened::Painting(document, start) => Replacement {
                 commands: vec![Command::Open(Origin::Painting(document))],
-                opening: Opening { path: Some(path), lost: None },
+                opening: Opening { path: Some(path), lost: None, start: Some(start) },
             },
             Opened::Library(library) => {
                 self.preferences.remember(&path);
@@ -126,9 +128,7 @@ impl Files {
             Opened::Recording { script, library, remarks } => {
                 self.preferences.remember(&path);
                 self.notices.extend(remarks.into_iter().map(Notice::failed));
-                let origin = Origin::Bare { script: script.clone(), library: library.clone() };
-                let replay = Command::Replay { script, library, pace: self.pace() };
-                let commands = vec![Command::Open(origin), replay];
+                let commands = vec![Command::Replay { script, library, pace: self.pace() }];
                 Replacement { commands, opening: Opening::default() }
             }
             Opened::Picture => {

@@ -3,11 +3,12 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use calibrate::library::PigmentLibrary;
 use render::paint::document::Document;
 use render::paint::ground::GroundRelief;
-use render::paint::strokes::{Action, Strokes};
+use render::paint::strokes::Strokes;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
@@ -18,13 +19,13 @@ use crate::worker::oils;
 /// What a file was opened as.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Opened {
-    /// A painting.
-    Painting(Box<Document>),
+    /// A painting, and its file, which a recording of what is done to it needs.
+    Painting(Box<Document>, Arc<Vec<u8>>),
     /// Pigments to begin a painting with.
     Library(Box<PigmentLibrary>),
     /// Strokes to be played.
     Recording {
-        /// The script; what it saves on its way is left out.
+        /// The script; files that it names are told from the root.
         script: Box<Strokes>,
         /// Its pigments.
         library: Box<PigmentLibrary>,
@@ -73,7 +74,7 @@ pub fn read(path: &Path, progress: &Progress) -> Result<Opened, Stopped> {
         Kind::OpenExr => {
             let document = render::paint::file::read(&name, &bytes)
                 .map_err(|error| FileFailure::told(&error, error.hint()))?;
-            Opened::Painting(Box::new(document))
+            Opened::Painting(Box::new(document), Arc::new(bytes))
         }
         Kind::Json => json(path, &name, &bytes)?,
         Kind::Picture | Kind::Text => {
@@ -172,16 +173,16 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailur
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let mut remarks = Vec::new();
     let library = named_library(&script, &folder, &mut remarks)?;
-    script.resolve(&library).map_err(|error| FileFailure::told(&error, error.hint()))?;
-    if let GroundRelief::Image(picture) = &mut script.canvas.ground.relief {
-        picture.path = folder.join(&picture.path).display().to_string();
+    if let Some(start) = &mut script.start {
+        // Its pigments are those of that painting.
+        *start = folder.join(&start).display().to_string();
+    } else {
+        script.resolve(&library).map_err(|error| FileFailure::told(&error, error.hint()))?;
     }
-    let actions = script.actions.len();
-    script.actions.retain(|action| !matches!(action, Action::Save { .. }));
-    if script.actions.len() < actions {
-        let count = actions - script.actions.len();
-        let what = format!("{name}: {count} times it would save; that is left out here");
-        remarks.push(FileFailure::new(what, "File, Save keeps what is there at the end"));
+    for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
+        if let GroundRelief::Image(picture) = &mut surface.ground.relief {
+            picture.path = folder.join(&picture.path).display().to_string();
+        }
     }
     Ok(Opened::Recording { script: Box::new(script), library: Box::new(library), remarks })
 }
@@ -249,7 +250,8 @@ mod tests {
         let ground = script.canvas.ground.ground(width, height, 0.5, &library).unwrap();
         let document = script.bare(&library, &resolved, ground);
         let painting = render::paint::file::write(&document).unwrap();
-        assert_eq!(opened("a.txt", &painting), Ok(Opened::Painting(Box::new(document))));
+        let wanted = Opened::Painting(Box::new(document), Arc::new(painting.clone()));
+        assert_eq!(opened("a.txt", &painting), Ok(wanted));
         let told = opened("b.png", script.to_json().unwrap().as_bytes()).unwrap();
         assert!(matches!(&told, Opened::Recording { script: s, .. } if **s == script), "{told:?}");
         let told = opened("c", library.to_json().as_bytes());
@@ -280,29 +282,29 @@ mod tests {
     }
 
     #[test]
-    fn a_recording_takes_the_library_beside_it_and_saves_nothing() {
+    fn a_recording_takes_the_files_beside_it() {
         let folder = tempfile::tempdir().unwrap();
         let mut library = oils();
         library.title = "mine".to_owned();
         std::fs::write(folder.path().join("mine.json"), library.to_json()).unwrap();
         let mut script = script();
         script.library = Some("mine.json".to_owned());
-        script.actions =
-            vec![Action::Dry { fraction: 1.0 }, Action::Save { path: "a.exr".to_owned() }];
         let path = folder.path().join("strokes.json");
-        std::fs::write(&path, script.to_json().unwrap()).unwrap();
-        let Ok(Opened::Recording { script: told, library: found, remarks }) =
-            read(&path, &Progress::default())
-        else {
-            panic!("no recording")
+        let told = |script: &Strokes| {
+            std::fs::write(&path, script.to_json().unwrap()).unwrap();
+            match read(&path, &Progress::default()) {
+                Ok(Opened::Recording { script, library, remarks }) => (script, library, remarks),
+                other => panic!("no recording: {other:?}"),
+            }
         };
-        assert_eq!(*found, library);
-        assert_eq!((told.actions.len(), remarks.len()), (1, 1));
-
+        assert_eq!(told(&script), (Box::new(script.clone()), Box::new(library), Vec::new()));
         script.library = Some("lost.json".to_owned());
-        std::fs::write(&path, script.to_json().unwrap()).unwrap();
-        let told = read(&path, &Progress::default()).unwrap();
-        let Opened::Recording { library, remarks, .. } = told else { panic!("no recording") };
-        assert_eq!((*library, remarks.len()), (oils(), 2));
+        let (_, library, remarks) = told(&script);
+        assert_eq!((*library, remarks.len()), (oils(), 1));
+        script.library = None;
+        script.start = Some("before.exr".to_owned());
+        let (script, ..) = told(&script);
+        let wanted = folder.path().join("before.exr");
+        assert_eq!(script.start.as_deref(), wanted.to_str());
     }
 }

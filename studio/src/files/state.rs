@@ -41,6 +41,8 @@ pub(super) struct Opening {
     pub(super) path: Option<PathBuf>,
     /// The session that it was recovered from.
     pub(super) lost: Option<LostSession>,
+    /// The file that it was read from.
+    pub(super) start: Option<Arc<Vec<u8>>>,
 }
 
 /// What waits for a painting to be safe.
@@ -64,6 +66,8 @@ pub struct Files {
     pub pace: Option<Pace>,
     pub(super) easel: Option<Arc<EaselState>>,
     pub(super) path: Option<PathBuf>,
+    /// The file that it was read from, as it was then.
+    pub(super) start: Option<Arc<Vec<u8>>>,
     /// The revision that stands in the file, or that was there at first.
     pub(super) saved: Option<u64>,
     /// Counts paintings taken up, so that what was begun for one is not taken for
@@ -111,6 +115,7 @@ impl Files {
             pace: None,
             easel: None,
             path: None,
+            start: None,
             saved: None,
             epoch: 0,
             opening: None,
@@ -196,8 +201,9 @@ impl Files {
     }
 
     fn opened(&mut self, easel: &Arc<EaselState>) {
-        let Opening { path, lost } = self.opening.take().unwrap_or_default();
+        let Opening { path, lost, start } = self.opening.take().unwrap_or_default();
         self.epoch += 1;
+        self.start = start;
         self.saved = Some(easel.revision);
         self.easel = Some(easel.clone());
         self.autosaved.1 = None;
@@ -266,7 +272,9 @@ impl Files {
                 self.ctx.send_viewport_cmd(ViewportCommand::Close);
             }
             Then::Replace(Replacement { commands, opening }) => {
-                self.recovered = None;
+                if let Some(lost) = self.recovered.take() {
+                    lost.discard();
+                }
                 self.awaiting.clear();
                 self.opening = Some(opening);
                 self.commands.extend(commands);

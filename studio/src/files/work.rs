@@ -32,7 +32,7 @@ pub(super) enum Purpose {
 #[derive(Debug)]
 pub(super) enum Done {
     Read { path: PathBuf, opened: Opened },
-    Revision(Box<Document>),
+    Revision(Box<Document>, Arc<Vec<u8>>),
     Recovered { canvas: Box<Document>, palette: Box<Document>, lost: LostSession },
     Saved { path: PathBuf, revision: u64, epoch: u64, then: Option<Then>, keep: bool },
     Kept(PathBuf),
@@ -76,7 +76,7 @@ impl Work {
 }
 
 impl Files {
-    pub(super) fn start(
+    pub(super) fn begin_work(
         &mut self,
         kind: WorkKind,
         label: String,
@@ -135,22 +135,26 @@ impl Files {
         match purpose {
             Purpose::Save { path, then, revision: keep } => {
                 let label = format!("saving {}", name(&path));
-                self.start(WorkKind::Saving, label, move |progress| {
+                self.begin_work(WorkKind::Saving, label, move |progress| {
                     write_painting(&path, &canvas, progress)?;
                     Ok(Done::Saved { path, revision, epoch, then, keep })
                 });
             }
             Purpose::Revision { path } => {
                 let light = self.light_of(&canvas);
-                self.start(WorkKind::Shown, "keeping a revision".to_owned(), move |progress| {
-                    let light = light()?;
-                    revisions::keep(&path, &canvas, &light, progress).map(Done::Kept)
-                });
+                self.begin_work(
+                    WorkKind::Shown,
+                    "keeping a revision".to_owned(),
+                    move |progress| {
+                        let light = light()?;
+                        revisions::keep(&path, &canvas, &light, progress).map(Done::Kept)
+                    },
+                );
             }
             Purpose::Export { export, path } => {
                 let light = self.light_of(&canvas);
                 let label = format!("exporting {}", name(&path));
-                self.start(WorkKind::Shown, label, move |progress| {
+                self.begin_work(WorkKind::Shown, label, move |progress| {
                     let light = light()?;
                     let remark = exporting::export(export, &canvas, &light, &path, progress)?;
                     Ok(Done::Exported { path, remark })
@@ -163,7 +167,9 @@ impl Files {
 
     pub(super) fn begin_recording(&mut self, path: PathBuf, script: Arc<Strokes>) {
         let label = format!("saving {}", name(&path));
-        self.start(WorkKind::Shown, label, move |_| {
+        let start = self.start.clone();
+        self.begin_work(WorkKind::Shown, label, move |_| {
+            let script = with_its_start(&path, &script, start)?;
             let text = script.to_json();
             let text = text.map_err(|error| FileFailure::told(&error, error.hint()))?;
             whole::write(&path, text.as_bytes())?;
@@ -200,7 +206,7 @@ impl Files {
         // A later folder of the program must not change what is meant.
         let path = std::path::absolute(&path).unwrap_or(path);
         let label = format!("reading {}", name(&path));
-        self.start(WorkKind::Shown, label, move |progress| {
+        self.begin_work(WorkKind::Shown, label, move |progress| {
             let opened = opened::read(&path, progress)?;
             Ok(Done::Read { path, opened })
         });
@@ -208,8 +214,9 @@ impl Files {
 
     pub(super) fn read_revision(&mut self, path: PathBuf) {
         let label = format!("reading revision {}", name(&path));
-        self.start(WorkKind::Shown, label, move |progress| {
-            Ok(Done::Revision(painting(&path, progress)?))
+        self.begin_work(WorkKind::Shown, label, move |progress| {
+            let (document, bytes) = painting(&path, progress)?;
+            Ok(Done::Revision(document, bytes))
         });
     }
 
@@ -217,12 +224,16 @@ impl Files {
     pub(super) fn recover(&mut self, folder: &Path) {
         let Some(at) = self.lost.iter().position(|lost| lost.folder() == folder) else { return };
         let lost = self.lost.remove(at);
-        self.start(WorkKind::Shown, format!("recovering {}", lost.meta.title), move |progress| {
-            let [canvas, palette] = lost.files();
-            let canvas = painting(&canvas, progress)?;
-            let palette = painting(&palette, progress)?;
-            Ok(Done::Recovered { canvas, palette, lost })
-        });
+        self.begin_work(
+            WorkKind::Shown,
+            format!("recovering {}", lost.meta.title),
+            move |progress| {
+                let [canvas, palette] = lost.files();
+                let (canvas, _) = painting(&canvas, progress)?;
+                let (palette, _) = painting(&palette, progress)?;
+                Ok(Done::Recovered { canvas, palette, lost })
+            },
+        );
     }
 
     pub(super) fn list_revisions(&mut self) {
@@ -231,7 +242,7 @@ impl Files {
             self.revisions.set(&self.ctx, None, Vec::new());
             return;
         };
-        self.start(WorkKind::Quiet, "looking for revisions".to_owned(), move |progress| {
+        self.begin_work(WorkKind::Quiet, "looking for revisions".to_owned(), move |progress| {
             let revisions = revisions::list(&path, progress)?;
             Ok(Done::Listed { epoch, revisions })
         });
@@ -262,7 +273,7 @@ impl Files {
         let (revision, epoch) = (snapshot.revision, self.epoch);
         let meta = SessionMeta { title: self.title(), path: self.path.clone(), seconds: now() };
         let session = self.session.clone();
-        self.start(WorkKind::Autosave, "autosave".to_owned(), move |_| {
+        self.begin_work(WorkKind::Autosave, "autosave".to_owned(), move |_| {
             let mut session = session.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(session) = session.as_mut() {
                 alone(|| session.keep(&canvas, &palette, &meta))?;
@@ -275,7 +286,7 @@ impl Files {
     pub(super) fn clear_session(&mut self) {
         self.autosaved = (Instant::now(), None);
         let session = self.session.clone();
-        self.start(WorkKind::Quiet, "clearing autosaves".to_owned(), move |_| {
+        self.begin_work(WorkKind::Quiet, "clearing autosaves".to_owned(), move |_| {
             let mut session = session.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(session) = session.as_mut() {
                 session.clear()?;
@@ -293,11 +304,33 @@ impl Files {
         self.preferences.bound();
         self.written = self.preferences.clone();
         let (preferences, path) = (self.preferences.clone(), self.home.preferences());
-        self.start(WorkKind::Quiet, "writing preferences".to_owned(), move |_| {
+        self.begin_work(WorkKind::Quiet, "writing preferences".to_owned(), move |_| {
             preferences.write(&path)?;
             Ok(Done::Preferences)
         });
     }
+}
+
+/// The script, to be saved as `path`. One that goes on with a painting needs that
+/// painting as it was at first: it is put beside the script, `NAME.start.exr`.
+fn with_its_start(
+    path: &Path,
+    script: &Strokes,
+    start: Option<Arc<Vec<u8>>>,
+) -> Result<Strokes, FileFailure> {
+    let mut script = script.clone();
+    let Some(named) = &script.start else { return Ok(script) };
+    let bytes = match start {
+        Some(bytes) => bytes,
+        // Of a recording that was played and is recorded anew.
+        None => std::fs::read(named)
+            .map(Arc::new)
+            .map_err(|error| FileFailure::io(Path::new(named), "read", &error))?,
+    };
+    let beside = path.with_extension("start.exr");
+    whole::write(&beside, &bytes)?;
+    script.start = Some(name(&beside));
+    Ok(script)
 }
 
 /// Runs `work` so that of all cores it takes one: the painter has the others.
@@ -316,9 +349,9 @@ fn write_painting(path: &Path, canvas: &Document, progress: &Progress) -> Result
     Ok(())
 }
 
-fn painting(path: &Path, progress: &Progress) -> Result<Box<Document>, Stopped> {
+fn painting(path: &Path, progress: &Progress) -> Result<(Box<Document>, Arc<Vec<u8>>), Stopped> {
     match opened::read(path, progress)? {
-        Opened::Painting(document) => Ok(document),
+        Opened::Painting(document, bytes) => Ok((document, bytes)),
         _ => {
             let what = format!("{}: is no painting", path.display());
             Err(FileFailure::new(what, "it was changed by another program").into())

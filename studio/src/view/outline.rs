@@ -54,13 +54,16 @@ impl Outline {
         }
     }
 
-    /// What is cut away, in the colour of the surround.
+    /// What is cut away, in the colour of the surround, and the edge.
     pub(super) fn over(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
-        if self == Self::Sheet {
-            return;
-        }
         let edge = self.edge(cells);
         let point = |place: [f64; 2]| placement.point(place);
+        if self == Self::Sheet {
+            // Smooth, where the picture's own edge would be steps.
+            let line = edge.into_iter().map(point).collect();
+            painter.add(Shape::closed_line(line, Stroke::new(1.0, Color32::from_gray(76))));
+            return;
+        }
         for (quarter, arc) in edge.chunks(QUARTER + 1).enumerate() {
             let (right, low) = [(0, 0), (1, 0), (1, 1), (0, 1)][quarter];
             let tip = [(right * cells.0) as f64, (low * cells.1) as f64];

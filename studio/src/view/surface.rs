@@ -90,10 +90,14 @@ impl SurfaceView {
 
     /// Takes what the worker told of one of the pictures.
     pub fn write(&mut self, second: bool, tile: &TilePixels) {
-        let picture = if second { self.second.as_mut() } else { Some(&mut self.first) };
-        if let Some(picture) = picture {
-            picture.write(tile);
-        }
+        let (name, cells) = (self.name, self.cells());
+        let picture = if second {
+            // Its tiles may be told before the light is.
+            self.second.get_or_insert_with(|| Picture::new(name, cells))
+        } else {
+            &mut self.first
+        };
+        picture.write(tile);
     }
 
     /// Its cells, across and down.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use calibrate::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
-use render::paint::ground::{GroundRelief, GroundSpec, Panel};
+use render::paint::ground::{GroundRelief, GroundSpec, Wood};
 use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Strokes};
 
 use super::command::{Command, Origin};
@@ -53,7 +53,7 @@ pub fn brushes() -> BTreeMap<String, BrushSpec> {
 /// 64 x 42 mm beside the usual canvas.
 #[must_use]
 pub fn mixing(cell_mm: f64) -> Canvas {
-    let ground = GroundRelief::Panel(Panel::default()).into();
+    let ground = GroundRelief::Wood(Wood::default()).into();
     let (width_mm, height_mm) = (640.0 * cell_mm, 420.0 * cell_mm);
     Canvas { width_mm, height_mm, cell_mm, ground }
 }

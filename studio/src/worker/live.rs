@@ -7,6 +7,7 @@ use render::paint::easel::{Easel, EaselError};
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
 
+use super::event::HeadOnCanvas;
 use super::meter::Meter;
 use super::outbox::Outbox;
 
@@ -125,5 +126,17 @@ impl Live {
     pub(super) fn substeps_a_sample(&self) -> f64 {
         let samples = self.reached + self.arrived.len();
         (self.played + self.waiting) as f64 / samples.max(1) as f64
+    }
+
+    /// The head as it is bent now.
+    pub(super) fn head(&self, easel: &Easel) -> Option<HeadOnCanvas> {
+        let number = easel.brush_number(&self.brush, self.surface)?;
+        let mesh = easel.painting(self.surface)?.head(number).mesh()?;
+        Some(HeadOnCanvas {
+            surface: self.surface,
+            around: mesh.around,
+            along: mesh.along,
+            vertices: mesh.vertices,
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! The pictures on their way to the window: never more than it takes.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use render::paint::easel::Easel;
@@ -8,7 +9,7 @@ use render::paint::painting::{Painting, PaintingError};
 use render::paint::strokes::Surface;
 use render::tile::{Rect, TileSet};
 
-use super::event::Event;
+use super::event::{Event, HeadOnCanvas};
 use super::meter::Meter;
 use super::srgb::SrgbBytes;
 use super::tiles::encoded;
@@ -93,6 +94,12 @@ impl Outbox {
         (self.untaken < UNTAKEN).then_some(self.next)
     }
 
+    /// Tells where the head is; a part like those of pictures.
+    pub(super) fn tell_head(&mut self, head: HeadOnCanvas, tell: &dyn Fn(Event)) {
+        tell(Event::Head(Some(Arc::new(head))));
+        self.untaken += 1;
+    }
+
     /// Whether something is computed that was not told.
     pub(super) fn is_behind(&self) -> bool {
         self.views.iter().any(|view| !view.unsent.is_empty())
@@ -153,4 +160,24 @@ fn first_tiles(set: &mut TileSet, most: usize) -> TileSet {
     }
     *set = rest;
     first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_whole_picture_comes_piece_by_piece_and_no_tile_twice() {
+        let all = TileSet::all(Rect { x: 0, y: 0, width: 1920, height: 1080 });
+        let (mut left, mut told) = (all.clone(), TileSet::default());
+        let mut pieces = Vec::new();
+        while !left.is_empty() {
+            let piece = first_tiles(&mut left, PIECE);
+            pieces.push(piece.len());
+            for tile in piece.iter() {
+                assert!(told.insert_tile(tile), "{tile:?} is told once");
+            }
+        }
+        assert_eq!((pieces, told), (vec![128, 128, 128, 126], all));
+    }
 }

@@ -149,3 +149,79 @@ impl Workshop<'_> {
         self.say(text, None, false);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::sync::Arc;
+    use std::sync::mpsc::channel;
+
+    use render::gpu::BackendChoice;
+    use render::paint::EngineError;
+    use render::paint::painting::PaintingError;
+    use render::paint::strokes::{Action, Squeeze, Surface};
+
+    use super::super::backend::Backend;
+    use super::super::fresh::{bare, oils};
+    use super::super::inbox::Inbox;
+    use super::*;
+
+    /// Paints, loses the device, and gives what was told since; `saved` if a
+    /// snapshot was told before.
+    fn lost(saved: bool) -> (Option<Snapshot>, Vec<Event>) {
+        let told = RefCell::new(Vec::new());
+        let tell = |event| told.borrow_mut().push(event);
+        let (_say, heard) = channel();
+        let backend = Backend::new(BackendChoice::Cpu);
+        let mut workshop = Workshop::new(Inbox::new(heard), backend, 1 << 24, &tell);
+        workshop.open(bare(oils(), 6.0, 5.0, 0.1));
+        let heap = Action::Squeeze(Squeeze {
+            on: Surface::Canvas,
+            recipe: [("Vermilion".to_owned(), 1.0)].into(),
+            vehicle: 0.0,
+            x_mm: 3.0,
+            y_mm: 2.0,
+            volume_mm3: 2.0,
+        });
+        workshop.easel().act(&heap).unwrap();
+        let (canvas, palette) = workshop.easel().documents().unwrap();
+        let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
+        let snapshot = Snapshot { number: 1, canvas, palette, revision: 1 };
+        // As on a device.
+        workshop.kept = saved.then(|| snapshot.clone());
+        told.borrow_mut().clear();
+        let gone = EngineError::Lost { reason: "it was pulled out".to_owned() };
+        workshop.failed(&EaselError::Painting(PaintingError::Engine(gone)));
+        let found = workshop.stage.as_mut().map(|stage| stage.opened.easel.documents().unwrap());
+        if let Some((canvas, palette)) = found {
+            assert!(canvas == *snapshot.canvas, "the canvas as it was saved");
+            assert_eq!(palette.as_ref(), Some(&*snapshot.palette), "the palette as well");
+            assert!(canvas.wet.totals()[3] > 0, "there is paint on it");
+        }
+        let kept = workshop.stage.is_some().then_some(snapshot);
+        (kept, told.take())
+    }
+
+    #[test]
+    fn a_device_that_is_lost_takes_no_more_than_what_came_since_the_last_save() {
+        let (kept, told) = lost(true);
+        assert!(kept.is_some(), "one can paint on");
+        let [first, Event::Opened(_), last] = &told[..] else { panic!("three events: {told:?}") };
+        let said = |event: &Event| match event {
+            Event::Message { text, failed, .. } => (text.clone(), *failed),
+            other => panic!("no message: {other:?}"),
+        };
+        assert!(said(first).0.contains("pulled out") && said(first).1, "the loss is told");
+        assert!(said(last).0.contains("processor") && !said(last).1, "and the way on");
+    }
+
+    #[test]
+    fn a_device_that_is_lost_before_any_save_is_told_of() {
+        let (kept, told) = lost(false);
+        assert!(kept.is_none(), "there is no painting");
+        let Some(Event::Message { hint: Some(hint), failed: true, .. }) = told.last() else {
+            panic!("a message with a hint: {told:?}");
+        };
+        assert!(hint.contains("recovered"), "{hint}");
+    }
+}

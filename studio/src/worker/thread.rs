@@ -53,20 +53,10 @@ impl Worker {
                 let _ = told.send(event);
                 wake();
             };
-            let work = || {
+            watched(&tell, || {
                 let backend = Backend::new(options.backend);
                 Workshop::new(Inbox::new(heard), backend, options.undo_bytes, &tell).run();
-            };
-            if let Err(panic) = catch_unwind(AssertUnwindSafe(work)) {
-                tell(Event::Message {
-                    text: format!(
-                        "painting has stopped by a fault of the program: {}",
-                        words(&*panic)
-                    ),
-                    hint: Some("start it again; it takes up what was saved last".to_owned()),
-                    failed: true,
-                });
-            }
+            });
         });
         Self { said, events }
     }
@@ -88,8 +78,36 @@ impl Worker {
     }
 }
 
-/// What a panic said.
-fn words(panic: &(dyn std::any::Any + Send)) -> &str {
+/// Works, and tells if that ends in a panic.
+fn watched(tell: &dyn Fn(Event), work: impl FnOnce()) {
+    let Err(panic) = catch_unwind(AssertUnwindSafe(work)) else { return };
     let text = panic.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given")
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    let reason = text.unwrap_or("no reason given");
+    tell(Event::Message {
+        text: format!("painting has stopped by a fault of the program: {reason}"),
+        hint: Some("start it again; it takes up what was saved last".to_owned()),
+        failed: true,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told() {
+        let told = RefCell::new(Vec::new());
+        let tell = |event| told.borrow_mut().push(event);
+        watched(&tell, || {});
+        assert!(told.borrow().is_empty(), "nothing happened");
+        let cells = 3;
+        watched(&tell, || assert!(cells > 7, "there are {cells} cells"));
+        let [Event::Message { text, hint, failed: true }] = &told.borrow()[..] else {
+            panic!("one message: {told:?}");
+        };
+        assert!(text.contains("there are 3 cells") && hint.is_some(), "{text}");
+    }
 }

@@ -132,6 +132,10 @@ impl<'a> Workshop<'a> {
         if self.outbox.is_due(Instant::now()) && (self.unseen || self.outbox.is_behind()) {
             self.unseen = false;
             self.outbox.show(easel, &mut self.meter, self.tell)?;
+            if let Some(head) = self.live.as_ref().and_then(|live| live.head(easel)) {
+                self.outbox.tell_head(head, self.tell);
+                self.head = true;
+            }
         }
         if self.head && self.live.is_none() {
             self.head = false;

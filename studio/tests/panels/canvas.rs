@@ -6,18 +6,19 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use eframe::egui::{
-    Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
-    TouchPhase, Ui, Vec2, pos2, vec2,
+    Color32, Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton,
+    Pos2, TouchPhase, Ui, Vec2, pos2, vec2,
 };
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
-use render::paint::strokes::Surface;
+use render::paint::document::Lighting;
+use render::paint::strokes::{Action, Load, Surface};
 use render::tile;
 use studio::panels::Mode;
 use studio::theme;
 use studio::view::{Hand, Outline, Split, SurfaceView, View};
-use studio::worker::{Event, TilePixels};
+use studio::worker::{Command, Event, TilePixels};
 
 use crate::harness::{Window, has_adapter};
 
@@ -392,5 +393,126 @@ fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
         window.frame(Vec::new());
         let gone = window.picture().unwrap();
         assert_eq!(window.colour(&gone, at), window.colour(&before, at), "it left");
+    }
+}
+
+/// A window on linen with the rigger in hand, loaded with vermilion.
+fn loaded(name: &'static str) -> Window {
+    let mut window = Window::open(name);
+    window.studio_mut().tools.brush = "rigger".to_owned();
+    let paint = Load {
+        brush: "rigger".to_owned(),
+        recipe: [("Vermilion".to_owned(), 1.0)].into(),
+        vehicle: 0.1,
+        amount_mm: 0.4,
+    };
+    window.studio_mut().ask(Command::Act(Action::Load(paint)));
+    window.settle();
+    window
+}
+
+/// From the left to the right in the middle of the canvas.
+fn stroke(window: &mut Window) {
+    let along: Vec<Pos2> =
+        (0..=40).map(|at| window.point(Surface::Canvas, 8.0 + 0.4 * f64::from(at), 10.0)).collect();
+    window.pen_stroke(&along);
+    window.settle();
+}
+
+/// The mean of the canvas within half a millimetre of a place, as the window has it.
+fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
+    let (x, y) = ((x_mm / 0.1) as usize - 5, (y_mm / 0.1) as usize - 5);
+    let rect = tile::Rect { x, y, width: 10, height: 10 };
+    let cells = window.studio().canvas.picture(second).unwrap().pixels(rect).pixels;
+    let sum = |channel: fn(&Color32) -> u8| cells.iter().map(|c| i64::from(channel(c))).sum();
+    let sums: [i64; 3] = [sum(Color32::r), sum(Color32::g), sum(Color32::b)];
+    sums.map(|sum| sum / cells.len() as i64)
+}
+
+#[test]
+fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
+    for (turn, mirror) in [(0.0, false), (1.1, false), (2.4, true)] {
+        let mut window = loaded("stroke");
+        window.studio_mut().canvas.view.turn = turn;
+        window.studio_mut().canvas.view.mirror = mirror;
+        window.harness().run_ok();
+        let places = [(16.0, 10.0), (16.0, 5.0), (16.0, 15.0), (4.0, 10.0), (28.0, 10.0)];
+        let look = |window: &Window| places.map(|(x, y)| seen(window, false, x, y));
+        let before = look(&window);
+        stroke(&mut window);
+        let after = look(&window);
+        let [red, green, _] = after[0];
+        assert!(red > green + 12, "{:?} in the middle, {turn}", after[0]);
+        assert_eq!(before[1..], after[1..], "beside the stroke, {turn}");
+        window.save(&format!("stroke-{turn}"));
+        let Some(picture) = window.picture() else { continue };
+        let reddest = (-8..8).map(|step| {
+            let at = window.point(Surface::Canvas, 16.0, 10.0 + 0.1 * f64::from(step));
+            let [red, green, _] = window.colour(&picture, at);
+            i64::from(red) - i64::from(green)
+        });
+        assert!(reddest.max().unwrap() > 40, "on the screen, {turn}");
+    }
+}
+
+#[test]
+fn keys_take_back_dry_and_choose_brushes() {
+    let mut window = loaded("history");
+    let bare = seen(&window, false, 16.0, 10.0);
+    stroke(&mut window);
+    let done = window.studio().easel().unwrap().done;
+    let painted = seen(&window, false, 16.0, 10.0);
+    assert_ne!(bare, painted);
+    window.key(Modifiers::COMMAND, Key::Z);
+    window.settle();
+    assert_eq!(window.studio().easel().unwrap().done, done - 1);
+    assert_eq!(seen(&window, false, 16.0, 10.0), bare, "taken back");
+    let held = Modifiers { shift: true, ..Modifiers::COMMAND };
+    window.key(held, Key::Z);
+    window.settle();
+    assert_eq!(seen(&window, false, 16.0, 10.0), painted, "done again");
+    window.key(Modifiers::NONE, Key::D);
+    window.settle();
+    assert_eq!(window.studio().easel().unwrap().layers.len(), 1, "D dries");
+    let brush = window.studio().tools.brush.clone();
+    window.key(Modifiers::NONE, Key::Num1);
+    assert_ne!(window.studio().tools.brush, brush, "1 takes another brush");
+}
+
+#[test]
+fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
+    let mut window = loaded("split");
+    stroke(&mut window);
+    let second = Lighting { illuminant: "A".to_owned(), ..Lighting::default() };
+    window.studio_mut().ask(Command::SecondLight(Some(second)));
+    window.settle();
+    assert_ne!(seen(&window, false, 20.0, 10.0), seen(&window, true, 20.0, 10.0));
+    let knob = window.studio().canvas.knob().unwrap().center();
+    let done = window.studio().easel().unwrap().done;
+    let to = knob + vec2(120.0, 0.0);
+    window.pen_stroke(&[knob, knob + vec2(60.0, 0.0), to, to]);
+    window.settle();
+    assert_eq!(window.studio().easel().unwrap().done, done, "the line is no paint");
+    let wanted = window.studio().canvas.placement().cell(to)[0] / 320.0;
+    assert!((f64::from(window.studio().tools.split) - wanted).abs() < 0.02, "{wanted}");
+    window.save("split");
+    window.key(Modifiers::COMMAND, Key::Num1);
+    let Some(picture) = window.picture() else { return };
+    // A cell is a pixel: each shows the picture of its side.
+    for (x, second) in [(120, false), (310, true)] {
+        let mut differ = 0;
+        for y in 80..120 {
+            let cell = tile::Rect { x, y, width: 1, height: 1 };
+            let told = |second| {
+                let view = &window.studio().canvas;
+                let [red, green, blue, _] =
+                    view.picture(second).unwrap().pixels(cell).pixels[0].to_array();
+                [red, green, blue]
+            };
+            let at = window.studio().canvas.placement().point([x as f64 + 0.5, y as f64 + 0.5]);
+            assert_eq!(window.colour(&picture, at), told(second), "cell {x} {y}");
+            differ += usize::from(told(false) != told(true));
+        }
+        assert!(differ > 0, "the lights differ in column {x}");
     }
 }

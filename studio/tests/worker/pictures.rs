@@ -12,7 +12,7 @@ use super::pen::{load, wander};
 use super::window::Window;
 
 /// The document's picture as an export writes it.
-fn exported(document: &Document, light: &Light) -> Vec<[u8; 4]> {
+pub(crate) fn exported(document: &Document, light: &Light) -> Vec<[u8; 4]> {
     let picture = picture(document, &scene(document, light));
     let bytes = png8(&picture, document.cell_mm).unwrap().bytes;
     let file = image::load_from_memory(&bytes).unwrap().into_rgba8();

@@ -1,12 +1,15 @@
 //! Strokes in bursts, and commands between them.
 
+use std::io::Write;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use render::gpu::BackendChoice;
+use render::gpu::{BackendChoice, choose};
 use render::paint::document::Document;
 use render::paint::easel::Easel;
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
+use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Surface};
 use studio::worker::{Command, Event, Origin, Snapshot};
 
@@ -82,7 +85,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     easel.act(&load("filbert", "Prussian Blue")).unwrap();
     window.act(load("filbert", "Prussian Blue"));
     window.ask(Command::PenDown { surface: Surface::Canvas, brush: "filbert".to_owned() });
-    let moves = |samples: &[render::paint::pose::Sample]| {
+    let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
         let sample = |&sample| studio::worker::PenSample { sample, arrived };
         Command::PenMove(samples.iter().map(sample).collect())
@@ -146,10 +149,83 @@ fn a_sample_that_cannot_be_is_told_and_the_stroke_goes_on() {
     window.act(load("round", "Vermilion"));
     let good = wander(7, 60, 32.0, 20.0);
     let mut told = good.clone();
-    told.insert(30, render::paint::pose::Sample { pressure: 7.0, ..good[30] });
-    told.insert(40, render::paint::pose::Sample { x_mm: f64::NAN, ..good[40] });
+    told.insert(30, Sample { pressure: 7.0, ..good[30] });
+    told.insert(40, Sample { x_mm: f64::NAN, ..good[40] });
     window.stroke(Surface::Canvas, "round", [&told[..]]);
     let snapshot = window.snapshot();
     easel.act(&stroke(Surface::Canvas, "round", &good)).unwrap();
     assert_same(&snapshot, &mut easel, "without the samples that cannot be");
+}
+
+#[test]
+fn the_head_is_told_while_it_is_down_and_lifted() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("flat", "Vermilion"));
+    let samples = wander(8, 200, 32.0, 20.0);
+    window.stroke(Surface::Canvas, "flat", samples.chunks(10));
+    let head = window.wait("a head", |event| match event {
+        Event::Head(Some(head)) => Some(head.clone()),
+        _ => None,
+    });
+    assert_eq!(head.surface, Surface::Canvas);
+    assert_eq!(head.vertices.len(), head.around * head.along);
+    let tip = head.vertices.last().expect("a head has a tip");
+    let near = |sample: &Sample| {
+        let (x, y) = (f64::from(tip[0]), f64::from(tip[1]));
+        (10.0 * sample.x_mm - x).hypot(10.0 * sample.y_mm - y)
+    };
+    let nearest = samples.iter().map(near).fold(f64::INFINITY, f64::min);
+    assert!(nearest < 100.0, "the tip is {nearest} cells off the way");
+    window.wait("the lifted head", |event| matches!(event, Event::Head(None)).then_some(()));
+}
+
+#[test]
+fn on_a_device_it_is_the_same() {
+    if !has_adapter() {
+        return;
+    }
+    let mut window = Window::open(BackendChoice::Gpu);
+    assert!(window.state().backend != easel().canvas().backend(), "it is on the device");
+    let mut easel = easel();
+    let far = wander(9, 60, 32.0, 20.0);
+    let near = wander(10, 40, 10.0, 8.0);
+    for action in [
+        load("round", "Ultramarine"),
+        stroke(Surface::Palette, "round", &near),
+        stroke(Surface::Canvas, "round", &far),
+        Action::Dry { fraction: 0.7 },
+        Action::Undo {},
+    ] {
+        easel.act(&action).unwrap();
+        match action {
+            Action::Stroke(stroke) => {
+                window.stroke(stroke.on, &stroke.brush, stroke.samples.chunks(13));
+            }
+            action => window.act(action),
+        }
+    }
+    let snapshot = window.snapshot();
+    assert_same(&snapshot, &mut easel, "on the device");
+    // Light agrees to rounding: a byte may differ by one.
+    let light = Arc::clone(&window.state().light);
+    let wanted = super::pictures::exported(&snapshot.canvas, &light);
+    window.wait_until("the canvas as it is", |window| {
+        let pairs = window.pictures.canvas.iter().zip(&wanted);
+        pairs.into_iter().all(|(a, b)| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1))
+    });
+}
+
+/// Whether there is a graphics adapter; what is found is noted as other tests on
+/// adapters do.
+fn has_adapter() -> bool {
+    let device = choose(BackendChoice::Gpu).ok().flatten();
+    let name = device.as_ref().map_or("none", |device| &device.adapter().name);
+    if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
+        let mut list = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
+        writeln!(list, "{name}").unwrap();
+    }
+    if device.is_none() {
+        let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
+    }
+    device.is_some()
 }

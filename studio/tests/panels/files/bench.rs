@@ -100,6 +100,8 @@ pub(super) struct Bench {
     pub(super) easel: Arc<EaselState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
+    /// What was recorded, if it is not a bare canvas.
+    pub(super) recorded: Option<Strokes>,
     /// What the worker was asked for, but for documents.
     pub(super) commands: Vec<Command>,
 }
@@ -160,7 +162,7 @@ impl Bench {
             }
             _ => {}
         }
-        if let Command::Open(_) = &command {
+        if let Command::Open(_) | Command::Replay { .. } = &command {
             self.easel = easel(&self.canvas, self.easel.revision + 1);
             self.events.push(Event::Opened(self.easel.clone()));
         }
@@ -169,6 +171,9 @@ impl Bench {
 
     /// The recording that the worker would tell.
     pub(super) fn script(&self) -> Strokes {
+        if let Some(script) = &self.recorded {
+            return script.clone();
+        }
         let Origin::Bare { script, .. } = bare(oils(), 24.0, 16.0, 0.2) else {
             panic!("a bare canvas");
         };
@@ -198,6 +203,7 @@ pub(super) fn window(home: &Path, document: Document) -> Window {
         events: vec![Event::Opened(easel.clone())],
         easel,
         requests: Vec::new(),
+        recorded: None,
         commands: Vec::new(),
     };
     let builder = Harness::builder().with_size([1000.0, 760.0]).wgpu();

@@ -1,0 +1,80 @@
+//! What the window has to do with the world outside: its title, files dropped on
+//! it, the log of figures, its end.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
+
+use super::Studio;
+use super::side::Tab;
+use crate::files::FrameFigures;
+use crate::panels::eyedropper::Eyedropper;
+use crate::panels::{FileRequest, Request};
+use crate::theme;
+use crate::worker::Command;
+
+impl Studio {
+    /// The window closes: what is being written is waited for, and what the painter
+    /// had in hand is kept.
+    pub fn finish(&mut self) {
+        let kept = &mut self.files.preferences.tools;
+        kept.brush.clone_from(&self.tools.brush);
+        kept.vehicle = self.tools.vehicle;
+        kept.load_mm = self.tools.load_mm;
+        kept.squeeze_mm3 = self.tools.squeeze_mm3;
+        kept.dry_share = self.tools.dry_share;
+        self.files.finish();
+        self.worker.ask(Command::Quit);
+    }
+
+    /// Files dropped on the window are opened.
+    pub(super) fn dropped(&mut self, context: &Context) {
+        let (dropped, hovering) = context.input(|input| {
+            let paths = input.raw.dropped_files.iter().map(|file| file.path().to_owned());
+            (paths.collect::<Vec<_>>(), !input.raw.hovered_files.is_empty())
+        });
+        for path in dropped {
+            if Eyedropper::takes(&path) {
+                self.panels.eyedropper.open_swatches(&path);
+                self.panels.bring(Tab::Colour);
+                continue;
+            }
+            self.asked.push(Request::File(FileRequest::Open(Some(path))));
+        }
+        if hovering {
+            let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
+            let (painter, whole) = (context.layer_painter(layer), context.content_rect());
+            painter.rect_filled(whole, 0.0, Color32::from_black_alpha(150));
+            let (font, text) = (FontId::proportional(18.0), "Drop to open");
+            painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::STRONG);
+        }
+    }
+
+    pub(super) fn name_window(&mut self, context: &Context) {
+        let mark = if self.files.unsaved() { "*" } else { "" };
+        let title = format!("{}{mark}", self.files.title());
+        if self.title != title {
+            context.send_viewport_cmd(ViewportCommand::Title(format!("{title} - impasto")));
+            self.title = title;
+        }
+    }
+
+    /// Tells the log how window and worker keep up.
+    pub(super) fn measure(&mut self, context: &Context, now: Instant) {
+        let Some(log) = &mut self.log else { return };
+        let rate = self.frames.rate();
+        let (width, height) = self.canvas.cells();
+        let placement = self.canvas.placement();
+        let corners = [[0, 0], [width, 0], [0, height], [width, height]];
+        let sheet = corners.map(|corner| placement.point(corner.map(|cells| cells as f64)));
+        let sheet = Rect::from_points(&sheet) * context.pixels_per_point();
+        let frames = FrameFigures {
+            frames_a_second: rate.frames_a_second,
+            latency_ms: rate.latency_ms,
+            worst_latency_ms: rate.worst_ms,
+            canvas_px: [sheet.left(), sheet.top(), sheet.right(), sheet.bottom()],
+        };
+        log.tell(now, &frames, &self.figures);
+        context.request_repaint_after(Duration::from_secs(1));
+    }
+}
