@@ -19,9 +19,6 @@ use crate::worker::Command;
 /// The most that the tubes take beside the palette, in points.
 const SHELF: f32 = 640.0;
 
-/// Mean over cells this near, for the eyedropper, in mm.
-const PICK_MM: f64 = 0.2;
-
 /// Where the brush hovers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
@@ -126,7 +123,8 @@ impl Studio {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.asked_at != Some(place) {
                 self.asked_at = Some(place);
-                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+                let radius_mm = self.tools.pick_radius_mm;
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {

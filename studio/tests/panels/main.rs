@@ -27,3 +27,5 @@ mod pen;
 mod reference;
 
 mod tubes;
+
+mod whole;

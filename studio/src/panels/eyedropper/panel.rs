@@ -60,7 +60,7 @@ impl Eyedropper {
         if desk.tools.wanted != self.taken {
             self.taken = desk.tools.wanted;
             if let Some(linear) = self.taken {
-                self.want(ui, desk, Wanted::screen("Reference picture", linear));
+                self.want(ui, desk, Wanted::screen("From the reference picture", linear));
             }
         }
         pick_controls(ui, desk);

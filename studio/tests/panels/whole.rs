@@ -1,0 +1,174 @@
+//! Light, eyedropper and reference picture in the whole window, on a real worker.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::{DroppedFile, Role};
+use egui_kittest::kittest::Queryable;
+use image::{Rgb, RgbImage};
+use render::paint::strokes::{Action, Load, Squeeze, Surface};
+use studio::app::Tab;
+use studio::panels::Mode;
+use studio::worker::Command;
+
+use super::harness::Window;
+
+/// Presses and releases the mouse at a place of a surface.
+fn press(window: &mut Window, surface: Surface, x_mm: f64, y_mm: f64) {
+    let place = window.point(surface, x_mm, y_mm);
+    window.pen_stroke(&[place, place]);
+    window.settle();
+}
+
+/// Draws frames until there is something with this label.
+fn wait_for(window: &mut Window, label: &str) {
+    for _ in 0..6000 {
+        if window.harness().query_by_label(label).is_some() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        window.harness().step();
+    }
+    panic!("there is no {label}");
+}
+
+/// A file as a window system drops it.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_file(window: &mut Window, path: &Path) {
+    let dropped = Arc::new(Dropped(path.to_owned()));
+    window.harness().input_mut().dropped_files.push(dropped);
+    window.harness().step();
+}
+
+fn squeeze(window: &mut Window, recipe: &[(&str, f64)]) {
+    let recipe = recipe.iter().map(|(name, parts)| ((*name).to_owned(), *parts)).collect();
+    let on = Surface::Palette;
+    let heap = Squeeze { on, recipe, vehicle: 0.2, x_mm: 20.0, y_mm: 15.0, volume_mm3: 60.0 };
+    window.studio_mut().ask(Command::Act(Action::Squeeze(heap)));
+    window.settle();
+}
+
+#[test]
+fn a_place_of_the_palette_is_picked_matched_loaded_and_laid_out() {
+    let mut window = Window::open("picked-and-matched");
+    squeeze(&mut window, &[("Zinc White", 3.0), ("Ultramarine", 1.0)]);
+    window.studio_mut().tools.mode = Mode::Pick;
+    press(&mut window, Surface::Palette, 20.0, 15.0);
+    // The eyedropper comes to the front and tells the mixture.
+    wait_for(&mut window, "Copy Wet");
+    assert!(window.harness().query_by_label_contains("20 % medium").is_some(), "its medium");
+    window.click("Find recipes");
+    wait_for(&mut window, "Load recipe 1");
+    window.save("eyedropper-window");
+    window.studio_mut().tools.mode = Mode::Paint;
+    let answer = window.harness().query_by_label("\u{2206}E 0.00").is_some()
+        || window.harness().query_by_label("\u{2206}E 0.01").is_some();
+    assert!(answer, "the mixture itself is found");
+    window.click("Load recipe 1");
+    window.settle();
+    let easel = window.studio().easel().unwrap().clone();
+    let brush = easel.brushes.iter().find(|brush| brush.name == "round").unwrap();
+    let slot = |name: &str| {
+        let pigment = easel.library.find(name).unwrap();
+        easel.slots.iter().position(|slot| *slot == Some(pigment)).unwrap()
+    };
+    for (name, share) in [("Zinc White", 0.75), ("Ultramarine", 0.25)] {
+        let found = brush.parts[slot(name)];
+        assert!((found - share).abs() < 1e-3, "{found} of {name}");
+    }
+    let before = easel.history.len();
+    let revision = easel.revision;
+    window.click("Lay recipe 1");
+    window.settle();
+    let easel = window.studio().easel().unwrap();
+    assert!(easel.history.len() > before && easel.revision > revision, "{:?}", easel.history);
+    assert!(easel.history.last().unwrap().contains("squeeze"), "{:?}", easel.history);
+}
+
+#[test]
+fn another_illuminant_is_chosen_and_the_brush_shows_it() {
+    let mut window = Window::open("relit");
+    let load = Load {
+        brush: "round".to_owned(),
+        recipe: [("Vermilion".to_owned(), 1.0)].into(),
+        vehicle: 0.0,
+        amount_mm: 0.3,
+    };
+    window.studio_mut().ask(Command::Act(Action::Load(load)));
+    window.studio_mut().panels.bring(Tab::Light);
+    window.settle();
+    let colour = |window: &Window| {
+        let brushes = &window.studio().easel().unwrap().brushes;
+        brushes.iter().find(|brush| brush.name == "round").unwrap().colour
+    };
+    let before = colour(&window);
+    assert!(before.is_some(), "there is paint on it");
+    window.click("Illuminant: D65");
+    window.harness().get_by_role(Role::TextInput).type_text("LED-RGB1");
+    window.settle();
+    window.click("LED-RGB1");
+    window.settle();
+    let easel = window.studio().easel().unwrap();
+    assert_eq!(easel.lighting.illuminant, "LED-RGB1");
+    assert_eq!(easel.light.viewing.illuminant.name(), "LED-RGB1");
+    assert_ne!(colour(&window), before, "red paint looks otherwise under it");
+}
+
+#[test]
+fn a_colour_of_the_reference_picture_finds_recipes() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pinned.png");
+    let picture =
+        RgbImage::from_fn(
+            320,
+            400,
+            |_, y| {
+                if y < 200 { Rgb([196, 140, 70]) } else { Rgb([60, 80, 110]) }
+            },
+        );
+    picture.save(&path).unwrap();
+    let mut window = Window::open("pinned");
+    assert!(window.harness().query_by_label("Reference picture").is_none(), "none is pinned");
+    drop_file(&mut window, &path);
+    wait_for(&mut window, "Reference picture");
+    for _ in 0..100 {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        window.harness().step();
+    }
+    let place = window.harness().get_by_label("Reference picture").rect();
+    window.pen_stroke(&[place.center() - eframe::egui::vec2(0.0, 20.0); 2]);
+    wait_for(&mut window, "Load recipe 1");
+    window.save("reference-window");
+    let wanted = window.studio().panels.eyedropper.wanted().unwrap().clone();
+    let easel = window.studio().easel().unwrap();
+    let shown = wanted.shown(easel.library.grid, &easel.light.viewing);
+    assert_eq!(shown.to_bytes(), [196, 140, 70]);
+    let done = easel.done;
+    window.click("Close picture");
+    window.settle();
+    assert!(window.harness().query_by_label("Reference picture").is_none(), "it is gone");
+    assert_eq!(window.studio().easel().unwrap().done, done, "nothing was painted by it");
+}
+
+#[test]
+fn a_dropped_file_of_colours_is_shown_to_be_matched() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("dropped.gpl");
+    std::fs::write(&path, "GIMP Palette\n#\n 120 96 60 Umber\n").unwrap();
+    let mut window = Window::open("dropped-colours");
+    drop_file(&mut window, &path);
+    wait_for(&mut window, "Umber");
+    window.click("Umber");
+    wait_for(&mut window, "Load recipe 1");
+    assert_eq!(window.studio().panels.eyedropper.wanted().unwrap().name, "Umber");
+}
