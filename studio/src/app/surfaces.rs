@@ -123,8 +123,7 @@ impl Studio {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.asked_at != Some(place) {
                 self.asked_at = Some(place);
-                let radius_mm = self.tools.pick_radius_mm;
-                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {

@@ -56,6 +56,25 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
 }
 
 #[test]
+fn a_layer_whose_paint_became_another_is_looked_at_again() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("flat", "Vermilion"));
+    window.stroke(Surface::Canvas, "flat", [&wander(44, 60, 32.0, 20.0)[..]]);
+    window.act(Action::Dry { fraction: 0.5 });
+    window.act(Action::Dry { fraction: 1.0 });
+    window.wait_until("both layers", |window| {
+        let layers = &window.state().layers;
+        layers.len() == 2 && layers.iter().all(|layer| layer.most_mm > 0.0)
+    });
+    let most: f64 = window.state().layers.iter().map(|layer| layer.most_mm).sum();
+    window.act(Action::Merge { layer: 1 });
+    window.wait_until("one layer as thick as both", |window| {
+        let layers = &window.state().layers;
+        layers.len() == 1 && (layers[0].most_mm - most).abs() < 1e-6
+    });
+}
+
+#[test]
 fn brushes_and_tubes_are_told() {
     let mut window = Window::open(BackendChoice::Cpu);
     let state = window.state();

@@ -1,5 +1,6 @@
 //! Canvas and palette as one: brushes between them, one history.
 
+use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
@@ -13,7 +14,7 @@ use super::easels::{
     BACKENDS, easels, header, live, load, loaded, seeded, set_up, something, spec, squeeze, wander,
     whole,
 };
-use super::studio::{PALETTE, RED, along, pigment};
+use super::studio::{CELL_MM, PALETTE, RED, along, pigment};
 
 #[test]
 fn whatever_was_done_on_either_surface_is_undone_and_redone_to_the_bit() {
@@ -81,14 +82,14 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
     }
 }
 
-/// Quanta of each pigment and of vehicle on both surfaces and all brushes.
+/// Heights of each pigment and of vehicle on both surfaces and all brushes there,
+/// in quanta summed over cells.
 fn wet(easel: &mut Easel) -> [u64; SLOTS + 1] {
-    let (canvas, palette, brushes) = whole(easel);
-    let mut totals = canvas.wet.totals();
-    let others = palette.iter().map(|palette| palette.wet.totals());
-    let others = others.chain(brushes.iter().flatten().map(|paint| paint.totals()));
-    for other in others {
-        totals.iter_mut().zip(other).for_each(|(total, more)| *total += more);
+    let mut totals = [0; SLOTS + 1];
+    for surface in [Surface::Canvas, Surface::Palette] {
+        let mm = easel.painting_mut(surface).unwrap().wet_totals_mm().unwrap();
+        let quanta = mm.map(|mm| (mm / mm_from_quanta(1, CELL_MM)).round() as u64);
+        totals.iter_mut().zip(quanta).for_each(|(total, more)| *total += more);
     }
     totals
 }
@@ -100,7 +101,7 @@ fn a_brush_takes_its_paint_along_and_an_undo_takes_it_back() {
         let all = wet(&mut easel);
         let before = whole(&mut easel);
         let there = along(&[(3.0, 3.0), (15.0, 10.0)], 0.5);
-        for on in [Surface::Palette, Surface::Canvas, Surface::Palette, Surface::Canvas] {
+        for on in [Surface::Palette, Surface::Canvas, Surface::Palette] {
             easel.begin_stroke(on, "flat").unwrap();
             easel.extend(&there).unwrap();
             easel.end_stroke().unwrap();
@@ -113,7 +114,7 @@ fn a_brush_takes_its_paint_along_and_an_undo_takes_it_back() {
         assert!(whole(&mut easel) == before, "all is back on the brush");
         // A brush that was loaded in between does as one on a canvas alone.
         easel.act(&load("flat", "Vermilion", 0.2)).unwrap();
-        easel.travel(4).unwrap();
+        easel.travel(3).unwrap();
         assert!(whole(&mut easel) == after, "what was done is done again");
         assert_eq!(wet(&mut easel), all);
     }

@@ -6,7 +6,9 @@ use render::paint::document::Lighting;
 use render::paint::painting::{Coating, Painting};
 use render::tile::{Rect, TileSet};
 
-use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both, on_cpu, on_gpu, pigment};
+use super::studio::{
+    BLUE, CELL_MM, WHITE, along, bare, crossing, loaded, on_both, on_cpu, on_gpu, pigment, pure,
+};
 
 /// Fifteen tiles.
 const WIDTH: usize = 300;
@@ -129,6 +131,27 @@ fn relighting_changes_the_first_view_alone_and_the_second_comes_and_goes() {
         painting.set_second_light(Some(lamp_light())).unwrap();
         assert_eq!(painting.refresh(true).unwrap().len(), 15);
         assert!(painting.picture_in(true, painting.bounds()).unwrap() == before, "come back");
+    }
+}
+
+#[test]
+fn a_heap_that_ends_with_its_tile_is_seen_beyond_it() {
+    for mut painting in on_both(&bare(130, 100)) {
+        let mut ended = 0;
+        for step in 0..12 {
+            // In cells: from well within the first tile to over its edge.
+            let x_mm = (56.0 + 0.25 * f64::from(step)) * CELL_MM;
+            painting.squeeze(&pure(WHITE), 0.0, x_mm, 6.0, 3.0).unwrap();
+            let wet = painting.wet().unwrap();
+            let painted = |x: usize| (0..64).any(|y| wet.cell(y * 130 + x).volume() > 0);
+            ended += usize::from(painted(63) && !painted(64));
+            let seen = painting.picture().unwrap();
+            assert!(seen == anew(&mut painting, None), "step {step}");
+            painting.scrape().unwrap();
+            let seen = painting.picture().unwrap();
+            assert!(seen == anew(&mut painting, None), "scraped, step {step}");
+        }
+        assert!(ended > 0, "no heap ended with its tile");
     }
 }
 

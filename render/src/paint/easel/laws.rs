@@ -2,8 +2,10 @@
 
 use calibrate::library::PigmentLibrary;
 
+use super::failure::EaselError;
 use super::record::Limits;
 use super::state::Easel;
+use crate::paint::EngineError;
 use crate::paint::brush::HeadShape;
 use crate::paint::on_cpu::OnCpu;
 use crate::paint::painting::Painting;
@@ -95,6 +97,29 @@ fn as_many_heads_are_recorded_as_a_file_may_name() {
     easel.take_brush("round", &round(9.0)).unwrap();
     easel.act(&wipe).unwrap();
     assert_eq!(easel.recording_stopped(), Some("a recording holds 20 brushes"));
+}
+
+#[test]
+fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
+    let mut easel = recorded();
+    dab(&mut easel);
+    dab(&mut easel);
+    easel.undo().unwrap();
+    let reason = EngineError::NoAdapter { reason: "it burnt".to_owned() };
+    let failed = easel.followed::<()>(Err(EaselError::Painting(reason.into())));
+    assert!(failed.is_err(), "it is told");
+    assert_eq!(easel.history(), (Vec::new(), 0));
+    assert!(!easel.undo().unwrap() && !easel.redo().unwrap(), "nothing is known of before");
+    let stopped = easel.recording_stopped().unwrap();
+    assert!(stopped.starts_with("the backend failed: ") && stopped.contains("burnt"), "{stopped}");
+    dab(&mut easel);
+    assert!(easel.undo().unwrap(), "what was done since");
+    assert!(!easel.undo().unwrap(), "and no more");
+    assert_eq!(easel.recording().unwrap().actions.len(), 3);
+    // Anything else that is refused leaves both as they are.
+    dab(&mut easel);
+    assert!(easel.act(&Action::Merge { layer: 7 }).is_err(), "no such layer");
+    assert_eq!(easel.history().1, 1);
 }
 
 #[test]
