@@ -123,7 +123,8 @@ impl Studio {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.asked_at != Some(place) {
                 self.asked_at = Some(place);
-                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+                let radius_mm = self.tools.pick_radius_mm;
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {
