@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use eframe::egui::{
-    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, vec2,
+    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, pos2, vec2,
 };
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
@@ -16,8 +16,8 @@ use crate::theme;
 use crate::view::{Hand, Split};
 use crate::worker::Command;
 
-/// Mean over cells this near, for the eyedropper, in mm.
-const PICK_MM: f64 = 0.2;
+/// The most that the tubes take beside the palette, in points.
+const SHELF: f32 = 640.0;
 
 /// Where the brush hovers.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +42,7 @@ impl Studio {
         };
         ui.painter().rect_filled(ui.max_rect(), 0.0, theme::SURROUND);
         if self.shown.palette && self.shown.panels {
-            let height = (0.3 * ui.available_height()).clamp(150.0, 300.0);
+            let height = (0.3 * ui.available_height()).clamp(150.0, 236.0);
             Panel::bottom("palette")
                 .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
                 .resizable(true)
@@ -93,7 +93,9 @@ impl Studio {
         let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
         let response = self.palette.show(ui, room, hand, None);
         self.used(ui, Surface::Palette, &response, mode);
-        let beside = Rect::from_min_max(room.right_top(), whole.max).shrink2(vec2(6.0, 8.0));
+        let right = whole.right().min(room.right() + SHELF);
+        let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
+        let beside = beside.shrink2(vec2(6.0, 8.0));
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
         let shelf = Frame::new().fill(theme::PANEL).corner_radius(6).inner_margin(Margin::same(8));
         shelf.show(&mut ui, |ui| {
@@ -121,7 +123,8 @@ impl Studio {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.asked_at != Some(place) {
                 self.asked_at = Some(place);
-                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm: PICK_MM });
+                let radius_mm = self.tools.pick_radius_mm;
+                self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {

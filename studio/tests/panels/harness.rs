@@ -1,7 +1,7 @@
 //! The whole window on a real worker, without a window system.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, UiBuilder, Vec2, vec2};
@@ -27,8 +27,8 @@ pub(crate) struct Window {
     harness: Harness<'static, Option<Studio>>,
     name: &'static str,
     fences: u64,
-    /// The program's own folders.
-    folder: tempfile::TempDir,
+    /// The program's own folders, for as long as the window is there.
+    _folder: tempfile::TempDir,
 }
 
 impl Window {
@@ -89,7 +89,7 @@ impl Window {
                 },
                 None,
             );
-        Self { harness, name, fences: 0, folder }
+        Self { harness, name, fences: 0, _folder: folder }
     }
 
     /// The window's own state.
@@ -130,11 +130,6 @@ impl Window {
             std::thread::sleep(Duration::from_millis(2));
         }
         self.harness.run_ok();
-    }
-
-    /// The folder of preferences and autosaves.
-    pub(crate) fn home(&self) -> &Path {
-        self.folder.path()
     }
 
     /// Gives the window these events within one frame.
