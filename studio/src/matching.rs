@@ -128,6 +128,21 @@ mod tests {
         Question { library, target, request }
     }
 
+    /// A question that takes minutes.
+    fn long_question() -> Question {
+        let mut asked = question(60.0, 8);
+        let library = Arc::make_mut(&mut asked.library);
+        for copy in 0..2 {
+            let mut copies = oils().pigments;
+            for pigment in &mut copies {
+                pigment.name.push_str(&format!(" {copy}"));
+            }
+            library.pigments.extend(copies);
+        }
+        asked.request.allowed = (0..library.pigments.len()).collect();
+        asked
+    }
+
     fn wait(matcher: &mut Matcher) {
         let patience = Instant::now() + Duration::from_secs(120);
         while matcher.progress().is_some() {
@@ -154,15 +169,15 @@ mod tests {
 
     #[test]
     fn an_older_question_never_answers_after_a_newer_one() {
-        let (old, new) = (question(60.0, 5), question(30.0, 1));
+        let (old, new) = (long_question(), question(30.0, 1));
         let mut matcher = Matcher::default();
         let (ended, ends) = channel();
         let of_old = ended.clone();
         matcher.ask(old, move || of_old.send("old").unwrap());
         matcher.ask(new.clone(), move || ended.send("new").unwrap());
-        // Both threads have ended, whichever was the first.
+        // Both threads end soon, whichever is the first: the older one was stopped.
         for _ in 0..2 {
-            ends.recv_timeout(Duration::from_secs(120)).unwrap();
+            ends.recv_timeout(Duration::from_secs(20)).unwrap();
         }
         wait(&mut matcher);
         assert_eq!(matcher.answer().unwrap().question, new);
@@ -175,10 +190,10 @@ mod tests {
         matcher.ask(first.clone(), || ());
         wait(&mut matcher);
         let (ended, ends) = channel();
-        matcher.ask(question(70.0, 8), move || ended.send(()).unwrap());
+        matcher.ask(long_question(), move || ended.send(()).unwrap());
         matcher.cancel();
         assert_eq!(matcher.progress(), None);
-        ends.recv_timeout(Duration::from_secs(120)).unwrap();
+        ends.recv_timeout(Duration::from_secs(20)).expect("a search that is stopped ends soon");
         matcher.update();
         assert_eq!(matcher.answer().unwrap().question, first);
         assert!(!matcher.died(), "cancelled is not dead");

@@ -6,6 +6,8 @@ mod harness;
 
 mod made;
 
+mod painter;
+
 mod stage;
 
 mod brushes;

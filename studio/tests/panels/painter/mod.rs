@@ -1,0 +1,236 @@
+//! A painter at tubes, brushes, layers and history, with the worker's own paint.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui::{UiBuilder, Vec2, accesskit::Role, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use render::gpu::BackendChoice;
+use render::paint::pose::Sample;
+use render::paint::strokes::Surface;
+use studio::panels::brushes::Brushes;
+use studio::panels::history::History;
+use studio::panels::layers::Layers;
+use studio::panels::tubes::{Tubes, squeeze};
+use studio::panels::{Desk, Request, Tools};
+use studio::theme;
+use studio::worker::{
+    BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare, oils,
+};
+
+use super::harness::has_adapter;
+
+mod trials;
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The four panels side by side, and a worker.
+struct Studio {
+    worker: Worker,
+    easel: Option<Arc<EaselState>>,
+    tools: Tools,
+    asked: Vec<Request>,
+    messages: Vec<(String, Option<String>)>,
+    answered: u64,
+    panels: (Tubes, Brushes, Layers, History),
+}
+
+impl Studio {
+    fn new() -> Self {
+        let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
+        let worker = Worker::start(options, || {});
+        worker.ask(Command::Open(bare(oils(), 32.0, 20.0, 0.1)));
+        Self {
+            worker,
+            easel: None,
+            tools: Tools::default(),
+            asked: Vec::new(),
+            messages: Vec::new(),
+            answered: 0,
+            panels: Default::default(),
+        }
+    }
+
+    fn listen(&mut self) {
+        for event in self.worker.events() {
+            match event {
+                Event::Opened(state) | Event::State(state) => self.easel = Some(state),
+                Event::Recording { number, .. } => self.answered = number,
+                Event::Message { text, hint, .. } => self.messages.push((text, hint)),
+                _ => {}
+            }
+        }
+    }
+
+    fn ui(&mut self, ui: &mut eframe::egui::Ui) {
+        self.listen();
+        let Some(easel) = self.easel.clone() else { return };
+        let Self { tools, asked, panels, .. } = self;
+        let mut desk = Desk { easel: &easel, tools, asked };
+        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
+        for column in 0..4_u8 {
+            let corner = pos2(8.0 + f32::from(column) * theme::PANEL_WIDTH, 8.0);
+            let room = eframe::egui::Rect::from_min_size(
+                corner,
+                vec2(theme::PANEL_WIDTH - 16.0, ui.max_rect().height() - 16.0),
+            );
+            ui.scope_builder(UiBuilder::new().max_rect(room), |ui| match column {
+                0 => panels.0.show(ui, &mut desk),
+                1 => panels.1.show(ui, &mut desk),
+                2 => panels.2.show(ui, &mut desk),
+                _ => panels.3.show(ui, &mut desk),
+            });
+        }
+        for request in std::mem::take(&mut self.asked) {
+            match request {
+                Request::Worker(command) => self.worker.ask(command),
+                Request::File(request) => panic!("no file was asked for: {request:?}"),
+            }
+        }
+    }
+}
+
+/// A painter in front of it.
+struct Painter {
+    harness: Harness<'static, Studio>,
+    fences: u64,
+}
+
+impl Painter {
+    fn new() -> Self {
+        let harness = Harness::builder()
+            .with_size(Vec2::new(4.0 * theme::PANEL_WIDTH, 720.0))
+            .with_step_dt(1.0 / 60.0)
+            .with_max_steps(60)
+            .with_context_setup(theme::apply)
+            .build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), Studio::new());
+        let mut painter = Self { harness, fences: 0 };
+        painter.settle();
+        painter
+    }
+
+    /// Lets the worker do all that was asked for.
+    fn settle(&mut self) {
+        self.harness.step();
+        self.fences += 1;
+        self.harness.state().worker.ask(Command::Recording(self.fences));
+        let start = Instant::now();
+        loop {
+            self.harness.step();
+            let studio = self.harness.state();
+            if studio.answered == self.fences && studio.easel.is_some() {
+                break;
+            }
+            assert!(start.elapsed() < PATIENCE, "the worker does not answer");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        self.harness.run();
+    }
+
+    /// Waits until the worker tells of a painting that is so: it answers before all
+    /// is measured and told.
+    #[track_caller]
+    fn sees(&mut self, what: &str, is: impl Fn(&EaselState) -> bool) -> Arc<EaselState> {
+        let start = Instant::now();
+        loop {
+            self.harness.step();
+            let easel = self.easel();
+            if is(&easel) {
+                self.harness.run();
+                return easel;
+            }
+            assert!(start.elapsed() < PATIENCE, "never told: {what}; but {easel:?}");
+            std::thread::sleep(Duration::from_millis(3));
+        }
+    }
+
+    /// The same of a brush.
+    #[track_caller]
+    fn sees_brush(&mut self, name: &str, is: impl Fn(&BrushState) -> bool) -> BrushState {
+        self.sees(name, |easel| easel.brushes.iter().any(|brush| brush.name == name && is(brush)));
+        self.brush(name)
+    }
+
+    fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.harness.run();
+        self.settle();
+    }
+
+    /// Clicks a row of a list, which may be out of sight.
+    fn choose(&mut self, label: &str) {
+        self.harness.get_by_label(label).click_accesskit();
+        self.harness.run();
+        self.settle();
+    }
+
+    fn slide(&mut self, label: &str, value: f64) {
+        let slider = self.harness.get_by_role_and_label(Role::Slider, label);
+        slider.set_value_accesskit(value);
+        self.harness.run();
+        self.settle();
+    }
+
+    /// Squeezes the chosen tube.
+    fn squeeze(&mut self, on: Surface, x_mm: f64, y_mm: f64) {
+        let Studio { easel, tools, asked, .. } = self.harness.state_mut();
+        let easel = easel.clone().unwrap();
+        let slot = tools.tube;
+        squeeze(&mut Desk { easel: &easel, tools, asked }, slot, on, x_mm, y_mm);
+        self.settle();
+    }
+
+    /// Leads the brush in hand along a line with a pen that tells 200 samples a
+    /// second, at 50 mm a second.
+    fn stroke(&mut self, surface: Surface, from: (f64, f64), to: (f64, f64)) {
+        let studio = self.harness.state();
+        let brush = studio.tools.brush.clone();
+        studio.worker.ask(Command::PenDown { surface, brush });
+        let length = (to.0 - from.0).hypot(to.1 - from.1);
+        let count = (length / 50.0 * 200.0).ceil() as u32;
+        for index in 0..=count {
+            let along = f64::from(index) / f64::from(count);
+            let sample = Sample {
+                seconds: f64::from(index) / 200.0,
+                x_mm: from.0 + along * (to.0 - from.0),
+                y_mm: from.1 + along * (to.1 - from.1),
+                pressure: 0.5,
+                tilt_x_deg: 20.0,
+                tilt_y_deg: 10.0,
+                twist_deg: 0.0,
+            };
+            let sample = PenSample { sample, arrived: Instant::now() };
+            studio.worker.ask(Command::PenMove(vec![sample]));
+        }
+        studio.worker.ask(Command::PenUp);
+        self.settle();
+    }
+
+    fn easel(&self) -> Arc<EaselState> {
+        self.harness.state().easel.clone().unwrap()
+    }
+
+    fn brush(&self, name: &str) -> BrushState {
+        let easel = self.easel();
+        easel.brushes.iter().find(|brush| brush.name == name).unwrap().clone()
+    }
+
+    /// The share of a pigment in what a brush holds.
+    fn part(&self, brush: &str, pigment: &str) -> f64 {
+        let easel = self.easel();
+        let index = easel.library.find(pigment).unwrap();
+        let slot = easel.slots.iter().position(|slot| *slot == Some(index)).unwrap();
+        self.brush(brush).parts[slot]
+    }
+
+    fn save(&mut self, name: &str) {
+        if has_adapter() {
+            let image = self.harness.render().unwrap();
+            let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("panels");
+            std::fs::create_dir_all(&folder).unwrap();
+            image.save(folder.join(format!("{name}.png"))).unwrap();
+        }
+    }
+}

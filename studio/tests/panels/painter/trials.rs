@@ -1,0 +1,177 @@
+//! What a painter does, and what comes of it.
+
+use super::*;
+
+/// Whether two amounts are the same but for whole quanta.
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 0.01
+}
+
+#[test]
+fn paint_is_squeezed_mixed_and_taken_up() {
+    let mut painter = Painter::new();
+    painter.click("tube of Chrome Yellow");
+    painter.squeeze(Surface::Palette, 20.0, 20.0);
+    painter.click("tube of Ultramarine");
+    painter.squeeze(Surface::Palette, 34.0, 20.0);
+    painter.sees("two heaps", |easel| easel.history.len() == 2);
+    painter.click("knife");
+    assert_eq!(painter.brush("knife").amount_mm, 0.0);
+    for y_mm in [18.0, 20.0, 22.0] {
+        painter.stroke(Surface::Palette, (14.0, y_mm), (40.0, y_mm));
+        painter.stroke(Surface::Palette, (40.0, y_mm), (14.0, y_mm));
+    }
+    painter.sees("six strokes more", |easel| easel.history.len() == 8 && !easel.painting);
+    let knife = painter.sees_brush("knife", |knife| knife.amount_mm > 0.0);
+    let both = [painter.part("knife", "Chrome Yellow"), painter.part("knife", "Ultramarine")];
+    assert!(both[0] > 0.02 && both[1] > 0.02, "both are on the knife: {both:?}, {knife:?}");
+    assert!((both[0] + both[1] - 1.0).abs() < 1e-9, "and nothing else: {both:?}");
+    painter.click("Wash");
+    painter.sees_brush("knife", |knife| knife.amount_mm == 0.0);
+    assert_eq!(painter.harness.state().messages, []);
+}
+
+#[test]
+fn a_brush_is_loaded_thinned_wiped_kept_and_resized() {
+    let mut painter = Painter::new();
+    painter.harness.state_mut().tools.tube = 3;
+    painter.harness.run();
+    painter.slide("Medium", 20.0);
+    painter.click("Load from tube");
+    let is = |mm, share| {
+        move |brush: &BrushState| near(brush.amount_mm, mm) && near(brush.vehicle, share)
+    };
+    painter.sees_brush("round", is(0.3, 0.2));
+    assert_eq!(painter.part("round", "Vermilion"), 1.0);
+    painter.click("Medium only");
+    painter.sees_brush("round", is(0.6, 0.6));
+
+    // The paint goes along to the larger head.
+    painter.slide("Size", 9.0);
+    let larger =
+        painter.sees_brush("round", |brush| brush.spec.size_mm == 9.0 && is(0.6, 0.6)(brush));
+    painter.slide("Wipe to", 50.0);
+    painter.click("Wipe");
+    let wiped = painter.sees_brush("round", is(0.3, 0.6));
+
+    painter.click("Keep");
+    assert_eq!(painter.harness.state().tools.brush, "round 2");
+    let twin = painter.sees_brush("round 2", |twin| twin.amount_mm == 0.0);
+    assert_eq!(twin.spec, larger.spec);
+    assert_eq!(painter.brush("round"), wiped, "the kept one keeps its paint");
+    assert_eq!(painter.harness.state().messages, []);
+}
+
+#[test]
+fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
+    let mut painter = Painter::new();
+    painter.click("tube of Vermilion");
+    painter.click("Load brush");
+    let loaded = painter.sees_brush("round", |brush| near(brush.amount_mm, 0.3));
+    painter.stroke(Surface::Canvas, (6.0, 6.0), (26.0, 12.0));
+    painter.sees_brush("round", |brush| brush.amount_mm < loaded.amount_mm);
+    painter.slide("Share", 50.0);
+    painter.click("Dry share");
+    painter.click("Dry all");
+    let easel = painter.sees("two layers, measured", |easel| {
+        easel.layers.len() == 2 && easel.layers.iter().all(|layer| layer.mean_mm > 0.0)
+    });
+    for layer in &easel.layers {
+        assert!(layer.mean_mm <= layer.most_mm, "{layer:?}");
+        assert!((0.01..0.6).contains(&layer.covers), "{}", layer.covers);
+    }
+    painter.save("painter");
+
+    // A drag is one action, and where it ends is where it stays.
+    let before = easel.history.len();
+    let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
+    let start = rail.rect().left_center() + vec2(30.0, 0.0);
+    painter.harness.hover_at(start);
+    painter.harness.drag_at(start);
+    painter.harness.run();
+    for step in 1..6_u8 {
+        painter.harness.hover_at(start + vec2(6.0 * f32::from(step), 0.0));
+        painter.harness.run();
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    painter.harness.drop_at(start + vec2(30.0, 0.0));
+    painter.settle();
+    let dimmed = painter.sees("one action", |easel| easel.history.len() == before + 1);
+    let opacity = dimmed.layers[0].opacity;
+    assert!(opacity != 1.0 && opacity > 0.0, "{opacity}");
+
+    painter.click("visibility of dry layer 1");
+    painter.sees("hidden", |easel| easel.layers[0].opacity == 0.0);
+    painter.click("visibility of dry layer 1");
+    let back = painter.sees("shown", |easel| easel.layers[0].opacity > 0.0);
+    assert_eq!(back.layers[0].opacity, opacity);
+
+    for _ in 0..3 {
+        painter.click("Undo");
+    }
+    painter
+        .sees("as before the drag", |easel| easel.done == before && easel.layers[0].opacity == 1.0);
+    painter.click("merge dry layer 2 down");
+    let both = easel.layers[0].mean_mm + easel.layers[1].mean_mm;
+    let is_merged = |easel: &EaselState| {
+        easel.layers.len() == 1 && (easel.layers[0].mean_mm / both - 1.0).abs() < 0.05
+    };
+    let merged = painter.sees("one layer as high as both", is_merged);
+
+    let history = merged.history.clone();
+    painter.click("0 beginning");
+    painter.sees("bare", |easel| easel.done == 0 && easel.layers.is_empty());
+    assert_eq!(painter.brush("round"), loaded, "as before the stroke");
+    painter.click(&format!("{} {}", history.len(), history[history.len() - 1]));
+    let again =
+        painter.sees("all done again", |easel| easel.done == history.len() && is_merged(easel));
+    assert_eq!(again.history, history);
+    assert_eq!(again.layers[0].mean_mm, merged.layers[0].mean_mm);
+    assert_eq!(again.brushes, merged.brushes);
+    assert_eq!(painter.harness.state().messages, []);
+}
+
+#[test]
+fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
+    let mut painter = Painter::new();
+    painter.click("tube of Vermilion");
+    painter.click("Load brush");
+    painter.stroke(Surface::Canvas, (6.0, 6.0), (26.0, 12.0));
+    painter.sees("a stroke", |easel| easel.history.len() == 1);
+
+    // A slot whose paint is still wet.
+    let slots = painter.easel().slots;
+    painter.click("Tubes...");
+    painter.click("slot 4");
+    painter.choose("Cobalt Blue");
+    let start = Instant::now();
+    while painter.harness.state().messages.is_empty() {
+        assert!(start.elapsed() < PATIENCE, "nothing was said");
+        painter.settle();
+    }
+    let (text, hint) = painter.harness.state_mut().messages.pop().unwrap();
+    assert!(text.contains("Vermilion") && hint.is_some(), "{text}, {hint:?}");
+    assert_eq!(painter.easel().slots, slots, "it stays");
+
+    // Another one.
+    painter.click("slot 5");
+    painter.choose("Cobalt Blue");
+    let mut wanted = slots;
+    wanted[4] = Some(painter.easel().library.find("Cobalt Blue").unwrap());
+    painter.sees("Cobalt Blue in slot 5", |easel| easel.slots == wanted);
+    painter.click("Close window");
+
+    // In the painting: wet and dry.
+    painter.slide("Share", 50.0);
+    painter.click("Dry share");
+    painter.sees("a dry layer", |easel| easel.layers.len() == 1);
+    painter.harness.get_by_label("tube of Vermilion").click_secondary();
+    painter.harness.run();
+    painter.click("Exchange in the painting...");
+    painter.choose("Minium");
+    let minium = Some(painter.easel().library.find("Minium").unwrap());
+    painter.sees("Minium, wet and dry", |easel| {
+        easel.slots[3] == minium && easel.layers[0].slots[3] == minium
+    });
+    assert_eq!(painter.harness.state().messages, []);
+}
