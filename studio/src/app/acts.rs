@@ -45,6 +45,7 @@ impl Studio {
             Intent::Wash => self.with_desk(|_, desk| wash(desk)),
             Intent::Wipe => self.with_desk(|_, desk| wipe(desk)),
             Intent::ScrapePalette => self.action(Action::Scrape { on: Surface::Palette }),
+            Intent::OtherLight => self.with_desk(|panels, desk| panels.light.exchange(desk)),
             Intent::Larger => self.with_desk(|panels, desk| panels.brushes.resize(STEP, desk)),
             Intent::Smaller => {
                 self.with_desk(|panels, desk| panels.brushes.resize(1.0 / STEP, desk));

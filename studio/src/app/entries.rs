@@ -114,6 +114,13 @@ pub const ENTRIES: &[Entry] = &[
         &[],
     ),
     entry(
+        Intent::OtherLight,
+        Menu::Edit,
+        "Other light",
+        "Exchanges the light for the one before, at first for a bulb, and back",
+        &[key(NONE, Key::L)],
+    ),
+    entry(
         Intent::Larger,
         Menu::Edit,
         "Larger brush",

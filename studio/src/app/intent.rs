@@ -39,6 +39,8 @@ pub enum Intent {
     Wipe,
     /// Scrapes the palette clean.
     ScrapePalette,
+    /// Exchanges the light for the one before.
+    OtherLight,
     /// Makes the brush larger.
     Larger,
     /// Makes it smaller.

@@ -77,7 +77,7 @@ pub struct Panels {
     /// The picture beside the canvas.
     pub reference: Reference,
     layers: Layers,
-    light: LightPanel,
+    pub(super) light: LightPanel,
     history: History,
     upper: Tab,
     lower: Tab,

@@ -1,1 +1,98 @@
-//! Of pen.
+//! A pen that tells pressure and tilt, over the whole window.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Event, Key, Modifiers, Pos2};
+use image::RgbaImage;
+use render::paint::strokes::Surface;
+use studio::pen::{Device, Hold, Script};
+
+use super::harness::{Window, button};
+
+/// A hold at a place of the canvas, in mm.
+fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> Hold {
+    let at = window.point(Surface::Canvas, x_mm, y_mm);
+    Hold { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
+}
+
+/// Plays a stroke from 6 to 26 mm, 200 reports a second, in frames of 20 ms; in
+/// each frame `beside` tells what else the system says of the pen's place.
+fn stroke(
+    window: &mut Window,
+    y_mm: f64,
+    pressure: f64,
+    beside: impl Fn(Pos2, bool, bool) -> Vec<Event>,
+) {
+    let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
+    let holds: Vec<Hold> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();
+    let mut script = Script::new(Device::Pen).stroke(holds.clone(), Duration::from_millis(5));
+    let start = Instant::now();
+    let frames = 17;
+    for frame in 1..=frames {
+        let now = start + Duration::from_millis(20) * frame;
+        std::thread::sleep(now.saturating_duration_since(Instant::now()));
+        for report in script.due(start, now) {
+            window.studio_mut().pen.feed(report);
+        }
+        let at = holds[(4 * frame as usize).min(holds.len()) - 1].at;
+        window.frame(beside(at, frame == 1, frame == frames));
+    }
+    assert!(!window.studio().pen.is_down(), "the script has ended");
+    window.settle();
+}
+
+/// Pixels that differ, of rows around a place of the canvas.
+fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) -> usize {
+    let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(Surface::Canvas, 2.0, y));
+    let right = window.point(Surface::Canvas, 30.0, y_mm).x as u32;
+    let rows = from.y as u32..to.y as u32;
+    let differs = |&(x, y): &(u32, u32)| before.get_pixel(x, y) != after.get_pixel(x, y);
+    rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y))).filter(differs).count()
+}
+
+/// The window with a brush full of paint.
+fn loaded(name: &'static str) -> Window {
+    let mut window = Window::open(name);
+    window.click("Load from tube");
+    window.settle();
+    window
+}
+
+#[test]
+fn a_pen_that_presses_harder_paints_broader() {
+    let mut window = loaded("pen-pressure");
+    let Some(before) = window.picture() else { return };
+    stroke(&mut window, 5.0, 0.15, |_, _, _| Vec::new());
+    stroke(&mut window, 15.0, 0.8, |_, _, _| Vec::new());
+    let after = window.picture().expect("it was there before");
+    let (light, heavy) =
+        (painted(&window, &before, &after, 5.0), painted(&window, &before, &after, 15.0));
+    assert!(light > 200, "{light} pixels of a light stroke");
+    assert!(heavy as f64 > 1.5 * light as f64, "{heavy} pixels pressed, {light} not");
+}
+
+#[test]
+fn what_the_system_also_tells_as_a_mouse_makes_no_second_stroke() {
+    let mut window = loaded("pen-mouse");
+    let strokes = |window: &Window| {
+        let easel = window.studio().easel().expect("a painting is open");
+        easel.done
+    };
+    let before = strokes(&window);
+    stroke(&mut window, 5.0, 0.5, |at, first, last| {
+        let mut events = vec![Event::PointerMoved(at)];
+        events.extend(first.then(|| button(at, true)));
+        events.extend(last.then(|| button(at, false)));
+        events
+    });
+    assert_eq!(strokes(&window), before + 1);
+}
+
+#[test]
+fn keys_turn_the_brush_that_a_mouse_leads() {
+    let mut window = Window::open("pen-twist");
+    window.key(Modifiers::NONE, Key::Period);
+    window.key(Modifiers::NONE, Key::Period);
+    window.key(Modifiers::NONE, Key::Comma);
+    assert_eq!(window.studio().pen.settings.grip.twist_deg, 15.0);
+}

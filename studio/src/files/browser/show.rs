@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::time::SystemTime;
 
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
     Align, Button, ComboBox, Context, Event, Frame, Id, Key, Label, Layout, Modal, Modifiers,
     RichText, ScrollArea, TextEdit, Ui, vec2,
@@ -166,6 +168,10 @@ impl Browser {
                 ui.label("Name");
                 let edit = TextEdit::singleline(&mut self.name).desired_width(260.0);
                 let edit = ui.add(edit).on_hover_text("The file's name; Enter saves");
+                if !std::mem::replace(&mut self.named, true) {
+                    edit.request_focus();
+                    select_all(ui, edit.id, &self.name);
+                }
                 if edit.changed() {
                     self.selected = None;
                     self.failure = None;
@@ -252,6 +258,14 @@ impl Browser {
         });
         if pressed(Key::Enter) && !held { self.enter() } else { None }
     }
+}
+
+/// Selects all of the text of a field, so that typing takes its place.
+fn select_all(ui: &Ui, field: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
+    let ends = [0, text.chars().count()].map(CCursor::new);
+    state.cursor.set_char_range(Some(CCursorRange::two(ends[0], ends[1])));
+    state.store(ui.ctx(), field);
 }
 
 fn down() -> Layout {

@@ -41,6 +41,8 @@ pub struct Browser {
     pub(super) selected: Option<String>,
     /// The name of a file to be made.
     pub(super) name: String,
+    /// Whether the field of the name has had the keyboard: it begins with it.
+    pub(super) named: bool,
     /// The file that would be written over, while the painter is asked.
     pub(super) replaces: Option<PathBuf>,
     /// Whether the selection moved, and must be scrolled to.
@@ -80,6 +82,7 @@ impl Browser {
             failure: None,
             filter: 0,
             selected: None,
+            named: false,
             replaces: None,
             moved: false,
             wake: wake.clone(),

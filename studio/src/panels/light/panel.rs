@@ -21,11 +21,16 @@ use crate::worker::Command;
 /// Side of the half sphere, in points.
 const DOME: f32 = 104.0;
 
+/// The light that paintings are most often seen under besides daylight.
+const BULB: &str = "A";
+
 /// The light as it is being set.
 #[derive(Debug)]
 pub struct LightPanel {
     first: Choice,
     second: Choice,
+    /// The illuminant before the one there is.
+    before: String,
     /// What the second light was when it was last switched off.
     kept_second: String,
     lighting: Draft<Lighting>,
@@ -38,7 +43,8 @@ impl Default for LightPanel {
         Self {
             first: Choice::new("Illuminant", "Temperature"),
             second: Choice::new("Second illuminant", "Second temperature"),
-            kept_second: "A".to_owned(),
+            before: BULB.to_owned(),
+            kept_second: BULB.to_owned(),
             lighting: Draft::default(),
             gloss: Draft::default(),
             white: None,
@@ -90,8 +96,19 @@ impl LightPanel {
         });
     }
 
+    /// Exchanges the illuminant for the one before; at first for a bulb.
+    pub fn exchange(&mut self, desk: &mut Desk<'_>) {
+        let now = &desk.easel.lighting;
+        let illuminant = std::mem::replace(&mut self.before, now.illuminant.clone());
+        let lighting = Lighting { illuminant, ..now.clone() };
+        desk.command(Command::Act(Action::Light(lighting)));
+    }
+
     fn take(&mut self, ui: &Ui, desk: &mut Desk<'_>, lighting: Lighting) {
         self.lighting.set(lighting.clone(), ui.input(|input| input.time));
+        if lighting.illuminant != desk.easel.lighting.illuminant {
+            self.before.clone_from(&desk.easel.lighting.illuminant);
+        }
         desk.command(Command::Act(Action::Light(lighting)));
     }
 

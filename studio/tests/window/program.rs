@@ -1,0 +1,112 @@
+//! The program as a painter starts it.
+
+use std::io::Write;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+
+use studio::files::{Home, Preferences};
+
+use crate::screen::{CONTROL, Screen, until};
+
+/// Writes what the painter prefers where a program of this home reads it.
+pub(crate) fn keep_preferences(home: &Path, preferences: &Preferences) {
+    let path = Home::in_folder(home).preferences();
+    std::fs::create_dir_all(path.parent().expect("it is in a folder")).expect("a folder is made");
+    preferences.write(&path).expect("preferences are written");
+}
+
+/// The program, running on a screen.
+pub(crate) struct Program<'a> {
+    pub(crate) screen: &'a Screen,
+    /// Columns and rows of the screen in which the canvas is.
+    pub(crate) room: (Range<usize>, Range<usize>),
+    child: Child,
+    figures: PathBuf,
+}
+
+impl<'a> Program<'a> {
+    /// Starts it on a screen, with a home of its own, and waits for its window
+    /// and the first picture.
+    pub(crate) fn start(screen: &'a Screen, home: &Path, size: &str, arguments: &[&Path]) -> Self {
+        let figures = home.join("figures.jsonl");
+        let _ = std::fs::remove_file(&figures);
+        let child = Command::new(env!("CARGO_BIN_EXE_impasto-studio"))
+            .env("DISPLAY", &screen.name)
+            .env_remove("WAYLAND_DISPLAY")
+            .arg("--home")
+            .arg(home)
+            .arg("--figures")
+            .arg(&figures)
+            .args(["--window", size, "--backend", "cpu"])
+            .args(arguments)
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let mut program = Self { screen, room: (0..0, 0..0), child, figures };
+        program.must_run();
+        screen.focus_window();
+        program.room = until("the program tells where its canvas is", || {
+            program.must_run();
+            program.fitted()
+        });
+        program
+    }
+
+    /// A place of the room, by shares of its width and height.
+    pub(crate) fn at(&self, across: f64, down: f64) -> (i32, i32) {
+        let place = |range: &Range<usize>, share: f64| {
+            (range.start as f64 + share * range.len() as f64) as i32
+        };
+        (place(&self.room.0, across), place(&self.room.1, down))
+    }
+
+    /// Where the canvas is on the screen, in pixels: left, top, right, bottom. Told
+    /// once a second; the window has no frame and is at the corner.
+    pub(crate) fn canvas(&self) -> Option<[f64; 4]> {
+        let text = std::fs::read_to_string(&self.figures).ok()?;
+        let line: serde_json::Value = serde_json::from_str(text.lines().last()?).ok()?;
+        let sides = line["canvas_px"].as_array()?.iter().map(serde_json::Value::as_f64);
+        sides.collect::<Option<Vec<f64>>>()?.try_into().ok()
+    }
+
+    /// Columns and rows of the screen that the canvas covers while all of it is
+    /// seen, as at first: whatever the zoom, nothing else is there later.
+    fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
+        let [left, top, right, bottom] = self.canvas()?;
+        let whole = |from: f64, to: f64| from.ceil() as usize..to.floor() as usize;
+        let (x, y) = (whole(left, right), whole(top, bottom));
+        // The window has its size a moment after it is there.
+        let (width, height) = self.screen.size();
+        let wide = x.len() > width / 2;
+        (left > 0.0 && top > 0.0 && wide && x.end < width && y.end < height).then_some((x, y))
+    }
+
+    /// Ends it as a painter does.
+    pub(crate) fn quit(mut self) -> ExitStatus {
+        self.screen.key(u32::from('q'), &[CONTROL]);
+        until("the program ends", || self.child.try_wait().expect("a process is told of"))
+    }
+
+    /// Ends it as a crash does: at once, nothing asked.
+    pub(crate) fn kill(mut self) {
+        self.child.kill().expect("it was running");
+        self.child.wait().expect("it ended");
+    }
+
+    fn must_run(&mut self) {
+        let ended = self.child.try_wait().expect("a process is told of");
+        assert!(ended.is_none(), "the program ended: {ended:?}");
+    }
+}
+
+impl Drop for Program<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            let path = self.screen.all().keep("failed");
+            let _ = writeln!(std::io::stderr(), "the screen is in {path}");
+        }
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

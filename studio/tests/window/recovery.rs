@@ -1,0 +1,104 @@
+//! What is left when the program is killed.
+
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use render::paint::document::Document;
+use studio::files::{Home, Preferences};
+use studio::theme;
+
+use crate::export::{exported, painting, shows};
+use crate::program::{Program, keep_preferences};
+use crate::screen::{CONTROL, Pixels, until};
+
+/// Seconds between autosaves.
+const AUTOSAVE: u64 = 2;
+
+/// The newest painting that autosave keeps below `home`, and when it was written.
+fn kept(home: &Path) -> Option<(PathBuf, SystemTime)> {
+    let entries = |folder: &Path| {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        entries.map(|entry| entry.path()).collect::<Vec<_>>()
+    };
+    let sessions = Home::in_folder(home).sessions();
+    let canvases = entries(&sessions).into_iter().flat_map(|session| entries(&session));
+    let canvases = canvases.filter(|folder| {
+        let name = folder.file_name().and_then(|name| name.to_str());
+        name.is_some_and(|name| !name.starts_with('.'))
+    });
+    let found = canvases.filter_map(|folder| {
+        let canvas = folder.join("canvas.exr");
+        let written = canvas.metadata().ok()?.modified().ok()?;
+        Some((canvas, written))
+    });
+    found.max_by_key(|(_, written)| *written)
+}
+
+/// All wet paint of a painting, in quanta.
+fn wet(document: &Document) -> u64 {
+    document.wet.totals().iter().sum()
+}
+
+/// The middle of the left one of two buttons side by side, just below the menus:
+/// that which recovers. Both are evenly of the colour of buttons but for words.
+fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
+    let fill = [theme::BUTTON.r(), theme::BUTTON.g(), theme::BUTTON.b()];
+    for y in 44..120 {
+        let row: Vec<usize> = (0..screen.width).filter(|&x| screen.at(x, y) == fill).collect();
+        let runs = row.chunk_by(|left, right| right - left == 1);
+        let buttons: Vec<&[usize]> = runs.filter(|run| (40..90).contains(&run.len())).collect();
+        if let [left, right] = buttons[..]
+            && right[0] - left[left.len() - 1] < 20
+        {
+            return Some(((left[0] + left.len() / 2) as i32, y as i32 + 4));
+        }
+    }
+    None
+}
+
+#[test]
+fn a_kill_within_a_stroke_loses_no_more_than_the_seconds_since_the_last_autosave() {
+    let Some(screen) = crate::screen(1280, 800) else { return };
+    let folder = tempfile::Builder::new().prefix("window").tempdir().unwrap();
+    let home = folder.path().join("home");
+    let preferences = Preferences { autosave_seconds: AUTOSAVE, ..Preferences::default() };
+    keep_preferences(&home, &preferences);
+    let program = Program::start(&screen, &home, "1280x800", &[]);
+    screen.key(u32::from('1'), &[CONTROL]);
+    let (x, y) = program.room.clone();
+    let at = |across, down| program.at(across, down);
+    screen.drag(at(0.2, 0.2), at(0.8, 0.2), 0.5);
+    let first = until("the first stroke is kept", || {
+        let document = painting(&kept(&home)?.0);
+        (wet(&document) > 0).then_some(document)
+    });
+    // A stroke that does not end; it is killed when some of it has been kept.
+    screen.begin_drag(at(0.2, 0.5), at(0.8, 0.5), 4.0);
+    let some = until("some of the open stroke is kept", || {
+        let document = painting(&kept(&home)?.0);
+        (wet(&document) > wet(&first)).then_some(document)
+    });
+    screen.begin_drag(at(0.8, 0.5), at(0.8, 0.9), 1.0);
+    let before = screen.pixels(x.clone(), y.clone());
+    let killed = SystemTime::now();
+    program.kill();
+    screen.button(false);
+    let (canvas, written) = kept(&home).expect("the autosave stands");
+    let lost = killed.duration_since(written).unwrap_or_default();
+    // How long ago that was is the machine's matter; that it was within the stroke
+    // is the program's.
+    eprintln!("killed {:.1} s after the last autosave", lost.as_secs_f64());
+    let last = painting(&canvas);
+    assert!(wet(&last) >= wet(&some), "autosaves go forwards");
+
+    let program = Program::start(&screen, &home, "1280x800", &[]);
+    let recover = until("a lost painting is offered", || recover_button(&screen.all()));
+    screen.click(recover);
+    let picture = exported(&last);
+    let covered = shows(&program, &picture);
+    assert_eq!(covered, x.len() * y.len());
+    let now = screen.pixels(x.clone(), y.clone());
+    assert!(before.differing(&now) > 0, "what came after the autosave is lost");
+    // It would ask about what is in no file yet.
+    program.kill();
+}

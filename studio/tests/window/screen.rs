@@ -1,0 +1,260 @@
+//! A screen that nobody sees, with a hand on its keyboard and pointer.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{self, ConnectionExt as _, ImageFormat, InputFocus, MapState};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+/// Keys that write nothing, as X names them (keysymdef.h).
+pub(crate) const RETURN: u32 = 0xff0d;
+pub(crate) const CONTROL: u32 = 0xffe3;
+pub(crate) const SHIFT: u32 = 0xffe1;
+
+/// An X server and what it shows.
+pub(crate) struct Screen {
+    server: Child,
+    /// What programs are told as `DISPLAY`.
+    pub(crate) name: String,
+    connection: RustConnection,
+    root: u32,
+    size: (u16, u16),
+    /// By key: what it writes plain, and with shift.
+    keys: Vec<(u8, u32, u32)>,
+}
+
+/// A part of the screen.
+#[derive(Clone, PartialEq, Eq)]
+pub(crate) struct Pixels {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// Red, green, blue, row by row.
+    pub(crate) rows: Vec<[u8; 3]>,
+}
+
+impl Pixels {
+    /// The pixel of a column and a row.
+    pub(crate) fn at(&self, x: usize, y: usize) -> [u8; 3] {
+        self.rows[y * self.width + x]
+    }
+
+    /// How many pixels differ from another picture of the same size.
+    pub(crate) fn differing(&self, other: &Self) -> usize {
+        assert_eq!((self.width, self.height), (other.width, other.height), "two sizes");
+        self.rows.iter().zip(&other.rows).filter(|(a, b)| a != b).count()
+    }
+
+    /// Keeps it where a person can look at it.
+    pub(crate) fn keep(&self, name: &str) -> String {
+        let thread = std::thread::current();
+        let test = thread.name().and_then(|name| name.split("::").next()).unwrap_or("window");
+        let path = format!("{}/window-{test}-{name}.png", env!("CARGO_TARGET_TMPDIR"));
+        let bytes: Vec<u8> = self.rows.iter().flatten().copied().collect();
+        let (width, height) = (self.width as u32, self.height as u32);
+        let saved = image::save_buffer(&path, &bytes, width, height, image::ColorType::Rgb8);
+        saved.expect("a picture is written");
+        path
+    }
+}
+
+impl Screen {
+    /// A screen of this size; `None` without Xvfb.
+    pub(crate) fn start(width: u16, height: u16) -> Option<Self> {
+        let size = format!("{width}x{height}x24");
+        let mut command = Command::new("Xvfb");
+        command.args(["-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp"]);
+        let spawned = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
+        let mut server = spawned.ok()?;
+        let mut number = String::new();
+        let told = server.stdout.take().expect("its output is taken");
+        BufReader::new(told).read_line(&mut number).expect("a server tells its number");
+        let name = format!(":{}", number.trim());
+        let (connection, screen) = x11rb::connect(Some(&name)).expect("the server answers");
+        connection.xtest_get_version(2, 2).unwrap().reply().expect("the server has XTEST");
+        let setup = connection.setup();
+        let (root, first, last) = (setup.roots[screen].root, setup.min_keycode, setup.max_keycode);
+        let map =
+            connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
+        let of_each = usize::from(map.keysyms_per_keycode);
+        let keys = (first..=last)
+            .zip(map.keysyms.chunks(of_each))
+            .map(|(code, writes)| (code, writes[0], writes.get(1).copied().unwrap_or_default()))
+            .collect();
+        Some(Self { server, name, connection, root, size: (width, height), keys })
+    }
+
+    /// Waits for a program's window, and gives it the keyboard: there is nobody
+    /// else to do so.
+    pub(crate) fn focus_window(&self) {
+        let window = until("a window is shown", || {
+            let tree = self.connection.query_tree(self.root).unwrap().reply().unwrap();
+            tree.children.into_iter().find(|&window| {
+                let shown = self.connection.get_window_attributes(window).unwrap().reply();
+                let size = self.connection.get_geometry(window).unwrap().reply();
+                shown.is_ok_and(|shown| shown.map_state == MapState::VIEWABLE)
+                    && size.is_ok_and(|size| size.width > 100)
+            })
+        });
+        self.connection
+            .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME)
+            .unwrap()
+            .check()
+            .expect("the window takes the keyboard");
+    }
+
+    /// Presses a key that writes `writes`, while others are held.
+    pub(crate) fn key(&self, writes: u32, held: &[u32]) {
+        let (code, shifted) = self.code(writes);
+        let mut held = held.to_vec();
+        if shifted && !held.contains(&SHIFT) {
+            held.push(SHIFT);
+        }
+        let codes: Vec<u8> = held.iter().map(|&key| self.code(key).0).collect();
+        codes.iter().for_each(|&code| self.fake(xproto::KEY_PRESS_EVENT, code));
+        self.fake(xproto::KEY_PRESS_EVENT, code);
+        self.fake(xproto::KEY_RELEASE_EVENT, code);
+        codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code));
+        self.connection.sync().expect("the server is there");
+        // A frame sees a key with what is held beside it.
+        std::thread::sleep(Duration::from_millis(40));
+    }
+
+    /// Types a text.
+    pub(crate) fn text(&self, text: &str) {
+        for letter in text.chars() {
+            self.key(u32::from(letter), &[]);
+        }
+    }
+
+    /// Moves the pointer.
+    pub(crate) fn point(&self, (x, y): (i32, i32)) {
+        let at = |length: i32| i16::try_from(length).expect("a place on a screen");
+        self.connection
+            .xtest_fake_input(xproto::MOTION_NOTIFY_EVENT, 0, 0, self.root, at(x), at(y), 0)
+            .unwrap();
+        self.connection.sync().expect("the server is there");
+    }
+
+    /// Presses the pointer's first button, or lets it go.
+    pub(crate) fn button(&self, pressed: bool) {
+        let kind = if pressed { xproto::BUTTON_PRESS_EVENT } else { xproto::BUTTON_RELEASE_EVENT };
+        self.fake(kind, 1);
+        self.connection.sync().expect("the server is there");
+    }
+
+    /// Clicks at a place.
+    pub(crate) fn click(&self, at: (i32, i32)) {
+        self.point(at);
+        std::thread::sleep(Duration::from_millis(80));
+        self.button(true);
+        std::thread::sleep(Duration::from_millis(80));
+        self.button(false);
+    }
+
+    /// Leads the pressed pointer along a line, at 125 places a second.
+    pub(crate) fn drag(&self, from: (i32, i32), to: (i32, i32), seconds: f64) {
+        self.begin_drag(from, to, seconds);
+        self.button(false);
+    }
+
+    /// As [`Self::drag`], but the button stays pressed.
+    pub(crate) fn begin_drag(&self, from: (i32, i32), to: (i32, i32), seconds: f64) {
+        self.point(from);
+        std::thread::sleep(Duration::from_millis(60));
+        self.button(true);
+        let steps = (seconds * 125.0).ceil().max(1.0) as i32;
+        for step in 1..=steps {
+            std::thread::sleep(Duration::from_millis(8));
+            let between = |from: i32, to: i32| from + (to - from) * step / steps;
+            self.point((between(from.0, to.0), between(from.1, to.1)));
+        }
+    }
+
+    /// What is shown in columns `x` and rows `y`.
+    pub(crate) fn pixels(&self, x: std::ops::Range<usize>, y: std::ops::Range<usize>) -> Pixels {
+        let (width, height) = (x.len(), y.len());
+        assert!(x.end <= self.size.0.into() && y.end <= self.size.1.into(), "beyond the screen");
+        let whole = |length: usize| u16::try_from(length).expect("a screen is small");
+        let image = self
+            .connection
+            .get_image(
+                ImageFormat::Z_PIXMAP,
+                self.root,
+                whole(x.start) as i16,
+                whole(y.start) as i16,
+                whole(width),
+                whole(height),
+                u32::MAX,
+            )
+            .unwrap()
+            .reply()
+            .expect("the server tells its pixels");
+        // 24 bits of colour in 32, blue first: the order of every Xvfb on x86 and ARM.
+        let rows = image.data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]);
+        let rows: Vec<[u8; 3]> = rows.collect();
+        assert_eq!(rows.len(), width * height, "32 bits a pixel");
+        Pixels { width, height, rows }
+    }
+
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.size.0.into(), self.size.1.into())
+    }
+
+    /// Puts the pointer on the line below, where it shows nothing over a canvas.
+    pub(crate) fn aside(&self) {
+        self.point((120, i32::from(self.size.1) - 8));
+    }
+
+    /// The whole screen.
+    pub(crate) fn all(&self) -> Pixels {
+        self.pixels(0..self.size.0.into(), 0..self.size.1.into())
+    }
+
+    /// What is shown there once it has not changed for two seconds.
+    pub(crate) fn still(&self, x: std::ops::Range<usize>, y: std::ops::Range<usize>) -> Pixels {
+        let mut last = self.pixels(x.clone(), y.clone());
+        let mut since = Instant::now();
+        until("the picture rests", || {
+            let now = self.pixels(x.clone(), y.clone());
+            if now != last {
+                last = now;
+                since = Instant::now();
+            }
+            (since.elapsed() > Duration::from_secs(2)).then(|| last.clone())
+        })
+    }
+
+    fn code(&self, writes: u32) -> (u8, bool) {
+        let plain = self.keys.iter().find(|key| key.1 == writes).map(|key| (key.0, false));
+        let shifted = || self.keys.iter().find(|key| key.2 == writes).map(|key| (key.0, true));
+        plain.or_else(shifted).unwrap_or_else(|| panic!("no key writes {writes:#x}"))
+    }
+
+    fn fake(&self, kind: u8, detail: u8) {
+        self.connection.xtest_fake_input(kind, detail, 0, self.root, 0, 0, 0).unwrap();
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+/// What `found` gives, as soon as it gives something; for two minutes.
+pub(crate) fn until<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+    let began = Instant::now();
+    loop {
+        if let Some(found) = found() {
+            return found;
+        }
+        assert!(began.elapsed() < Duration::from_secs(120), "never: {what}");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
