@@ -1,4 +1,4 @@
-//! The program in a window of the system: the only file of it that knows of wgpu.
+//! The program in a window of the system.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,6 +12,7 @@ use crate::app::{Begun, Parts, Studio};
 use crate::arguments::Start;
 use crate::files::{FileFailure, Files};
 use crate::pen::{Pen, PenSettings};
+use crate::view;
 use crate::worker::fresh;
 
 /// The smallest window in which everything is within reach, in points.
@@ -31,6 +32,9 @@ pub fn run(start: Start) -> Result<(), FileFailure> {
         options,
         Box::new(move |creation| {
             let context = &creation.egui_ctx;
+            if let Some(drawn) = &creation.wgpu_render_state {
+                view::set_format(context, drawn.target_format);
+            }
             let mut files = Files::new(context, start.home, start.preferences);
             files.pace = start.pace;
             start.failures.into_iter().for_each(|failure| files.say(failure));

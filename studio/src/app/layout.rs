@@ -8,12 +8,13 @@ use super::Studio;
 use super::{menus, status, toolbar};
 use crate::panels::Desk;
 use crate::theme;
+use crate::view::fill;
 
 impl Studio {
     /// The window from its edges inwards.
     pub(super) fn layout(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
-        let bar = Frame::new().fill(theme::BAR).inner_margin(Margin::symmetric(6, 2));
+        let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
         let easel = self.easel.clone();
         let history = easel
             .as_ref()
@@ -25,13 +26,16 @@ impl Studio {
             let state = menus::State { open: easel.is_some(), history, shown, mirror };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
+                fill(ui.painter(), ui.clip_rect(), theme::BAR);
                 asked = menus::show(ui, state, &title);
             });
-            Panel::bottom("line")
-                .frame(bar)
-                .exact_size(24.0)
-                .show_separator_line(false)
-                .show(ui, |ui| self.line(ui));
+            Panel::bottom("line").frame(bar).exact_size(24.0).show_separator_line(false).show(
+                ui,
+                |ui| {
+                    fill(ui.painter(), ui.clip_rect(), theme::BAR);
+                    self.line(ui);
+                },
+            );
             let column = bar.inner_margin(Margin::symmetric(4, 6));
             Panel::left("tools")
                 .frame(column)
@@ -39,17 +43,19 @@ impl Studio {
                 .exact_size(42.0)
                 .show_separator_line(false)
                 .show(ui, |ui| {
+                    fill(ui.painter(), ui.clip_rect(), theme::BAR);
                     let mode = self.keys.mode(self.tools.mode);
                     let state = toolbar::State { mode, mirror, history };
                     asked = asked.or(toolbar::show(ui, state));
                 });
-            let side = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(8, 6));
+            let side = Frame::new().inner_margin(Margin::symmetric(8, 6));
             Panel::right("side")
                 .frame(side)
                 .resizable(false)
                 .exact_size(theme::PANEL_WIDTH)
                 .show_separator_line(false)
                 .show(ui, |ui| {
+                    fill(ui.painter(), ui.clip_rect(), theme::PANEL);
                     let Some(easel) = &easel else { return };
                     let asked = &mut self.asked;
                     let mut desk = Desk { easel, tools: &mut self.tools, asked };

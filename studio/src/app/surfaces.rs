@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use eframe::egui::{
-    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Ui, UiBuilder, pos2, vec2,
+    Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Stroke, StrokeKind, Ui,
+    UiBuilder, pos2, vec2,
 };
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
@@ -13,7 +14,7 @@ use super::side::Tab;
 use crate::panels::tubes::{DraggedTube, squeeze};
 use crate::panels::{Desk, Mode, figures};
 use crate::theme;
-use crate::view::{Hand, Split};
+use crate::view::{Hand, Split, fill};
 use crate::worker::Command;
 
 /// The most that the tubes take beside the palette, in points.
@@ -40,11 +41,11 @@ impl Studio {
             Mode::Zoom => Hand::Zoom,
             Mode::Paint | Mode::Pick | Mode::Squeeze => Hand::Free,
         };
-        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::SURROUND);
+        fill(ui.painter(), ui.max_rect(), theme::SURROUND);
         if self.shown.palette && self.shown.panels {
             let height = (0.3 * ui.available_height()).clamp(150.0, 236.0);
             Panel::bottom("palette")
-                .frame(Frame::new().fill(theme::SURROUND).inner_margin(Margin::ZERO))
+                .frame(Frame::NONE)
                 .resizable(true)
                 .show_separator_line(false)
                 .default_size(height)
@@ -53,11 +54,12 @@ impl Studio {
         }
         if self.panels.reference.is_open() && self.shown.panels {
             Panel::left("reference")
-                .frame(Frame::new().fill(theme::PANEL).inner_margin(Margin::same(6)))
+                .frame(Frame::new().inner_margin(Margin::same(6)))
                 .show_separator_line(false)
                 .default_size(0.3 * ui.available_width())
                 .size_range(160.0..=0.6 * ui.available_width())
                 .show(ui, |ui| {
+                    fill(ui.painter(), ui.clip_rect(), theme::PANEL);
                     let before = self.tools.wanted;
                     self.with_desk(|panels, desk| panels.reference.show(ui, desk));
                     if self.tools.wanted != before {
@@ -97,7 +99,11 @@ impl Studio {
         let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
         let beside = beside.shrink2(vec2(6.0, 8.0));
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
-        let shelf = Frame::new().fill(theme::PANEL).corner_radius(6).inner_margin(Margin::same(8));
+        // The middle at little cost; the rest is a line with round corners.
+        fill(ui.painter(), beside.shrink(1.0), theme::PANEL);
+        let edge = Stroke::new(3.0, theme::PANEL);
+        ui.painter().rect_stroke(beside, 6, edge, StrokeKind::Inside);
+        let shelf = Frame::new().inner_margin(Margin::same(8));
         shelf.show(&mut ui, |ui| {
             ui.set_min_size(ui.available_size());
             ScrollArea::vertical().show(ui, |ui| {

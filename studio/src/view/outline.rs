@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, Vec2};
 
+use super::sheet::{Quad, draw};
 use super::transform::Placement;
 use crate::theme;
 
@@ -16,6 +17,12 @@ const CORNER: f64 = 0.2;
 /// The radius of the hole, as a share of the shorter side, and how far its middle
 /// is from the right and lower edges.
 const HOLE: (f64, f64) = (0.085, 0.24);
+
+/// How far a surface's shadow reaches, in points.
+const SHADOW: f32 = 6.0;
+
+/// Its colour at the surface's edge.
+const SHADE: Color32 = Color32::from_gray(88);
 
 /// What a surface is cut to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,14 +51,21 @@ impl Outline {
         !in_corner && (x - middle[0]).hypot(y - middle[1]) > hole
     }
 
-    /// The shadow below the surface.
+    /// The shadow below the surface, fading into the surround.
     pub(super) fn under(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
         let edge: Vec<Pos2> =
             self.edge(cells).into_iter().map(|place| placement.point(place)).collect();
-        for (width, alpha) in [(14.0, 9), (9.0, 12), (5.0, 18), (2.0, 40)] {
-            let stroke = Stroke::new(width, Color32::from_black_alpha(alpha));
-            painter.add(Shape::closed_line(edge.clone(), stroke));
-        }
+        let outer = grown(&edge, SHADOW);
+        let strip = (0..edge.len()).map(|at| {
+            let next = (at + 1) % edge.len();
+            Quad::coloured([
+                (edge[at], SHADE),
+                (edge[next], SHADE),
+                (outer[next], theme::SURROUND),
+                (outer[at], theme::SURROUND),
+            ])
+        });
+        draw(painter, strip.collect());
     }
 
     /// What is cut away, in the colour of the surround, and the edge.
@@ -110,6 +124,24 @@ impl Outline {
         }
         edge
     }
+}
+
+/// A closed convex line moved outwards by so many points, point by point.
+fn grown(edge: &[Pos2], by: f32) -> Vec<Pos2> {
+    let count = edge.len();
+    let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / count as f32;
+    let outwards = |from: Pos2, to: Pos2| {
+        let normal = (to - from).normalized().rot90();
+        if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
+    };
+    let moved = |at: usize| {
+        let (before, here, next) =
+            (edge[(at + count - 1) % count], edge[at], edge[(at + 1) % count]);
+        let (one, other) = (outwards(before, here), outwards(here, next));
+        // Both lines keep their distance: at a corner the point moves further.
+        here + (one + other) * (by / (1.0 + one.dot(other)))
+    };
+    (0..count).map(moved).collect()
 }
 
 fn corner(cells: (usize, usize)) -> f64 {

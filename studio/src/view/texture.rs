@@ -1,12 +1,11 @@
 //! A picture on the screen, in pieces: only what is seen is uploaded, and of that
 //! only what changed.
 
-use eframe::egui::{
-    Color32, ColorImage, Mesh, Painter, Rect as Points, Shape, TextureHandle, TextureOptions, pos2,
-};
+use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use render::tile::Rect;
 
 use super::levels::{Levels, halved};
+use super::sheet::{Corner, Quad, Sheet, draw};
 use super::transform::Placement;
 use crate::theme;
 use crate::worker::TilePixels;
@@ -38,8 +37,7 @@ struct Chunk {
     inner: Rect,
     /// Those and their neighbours: the texture.
     padded: Rect,
-    texture: Option<TextureHandle>,
-    options: TextureOptions,
+    sheet: Option<Sheet>,
     /// What changed since the last upload.
     changed: Vec<Rect>,
 }
@@ -107,9 +105,8 @@ impl Picture {
         let finest = (1.0 / zoom).log2().floor().max(0.0) as usize;
         let level = finest.min(self.levels.count() - 1);
         let smooth = zoom < SQUARES && !placement.aligned;
-        let options = if smooth { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
         // A level seen smaller than it is always blends.
-        let options = if zoom < 1.0 { TextureOptions::LINEAR } else { options };
+        let blended = smooth || zoom < 1.0;
         let size = 1_usize << level;
         let (width, height) = self.cells();
         let (from, to) = match half {
@@ -117,6 +114,7 @@ impl Picture {
             Half::Left(column) => (0.0, column.clamp(0.0, width as f64)),
             Half::Right(column) => (column.clamp(0.0, width as f64), width as f64),
         };
+        let mut quads = Vec::new();
         for chunk in &mut self.chunks[level] {
             let cells = |at: usize| (at * size) as f64;
             let left = cells(chunk.inner.x).max(from);
@@ -131,20 +129,15 @@ impl Picture {
             if !Points::from_points(&points).intersects(painter.clip_rect()) {
                 continue;
             }
-            self.uploaded += chunk.upload(painter, self.name, &self.levels, level, options);
-            let Some(texture) = &chunk.texture else { continue };
-            let mut mesh = Mesh::with_texture(texture.id());
-            for (corner, point) in corners.iter().zip(points) {
-                mesh.vertices.push(eframe::egui::epaint::Vertex {
-                    pos: point,
-                    uv: chunk.place([corner[0] / size as f64, corner[1] / size as f64]),
-                    color: Color32::WHITE,
-                });
-            }
-            mesh.add_triangle(0, 1, 2);
-            mesh.add_triangle(0, 2, 3);
-            painter.add(Shape::mesh(mesh));
+            let (sheet, bytes) = chunk.upload(&self.levels, level);
+            self.uploaded += bytes;
+            let corner = |at: usize| {
+                let place = chunk.place(corners[at].map(|cells| cells / size as f64));
+                Corner { point: points[at], place, colour: Color32::WHITE }
+            };
+            quads.push(Quad { corners: [0, 1, 2, 3].map(corner), sheet: Some((sheet, blended)) });
         }
+        draw(painter, quads);
     }
 }
 
@@ -157,8 +150,7 @@ fn chunks(bounds: Rect) -> Vec<Chunk> {
             all.push(Chunk {
                 inner,
                 padded: inner.grown(1, bounds),
-                texture: None,
-                options: TextureOptions::LINEAR,
+                sheet: None,
                 changed: Vec::new(),
             });
         }
@@ -170,7 +162,7 @@ impl Chunk {
     /// Notes a change of its level.
     fn mark(&mut self, rect: Rect) {
         let part = rect.intersection(self.padded);
-        if part.is_empty() || self.texture.is_none() {
+        if part.is_empty() || self.sheet.is_none() {
             return;
         }
         // Neighbouring tiles become one upload.
@@ -183,34 +175,25 @@ impl Chunk {
         }
     }
 
-    /// Brings the texture up to date; how many bytes that took.
-    fn upload(
-        &mut self,
-        painter: &Painter,
-        name: &str,
-        levels: &Levels,
-        level: usize,
-        options: TextureOptions,
-    ) -> u64 {
+    /// Its sheet, brought up to date, and how many bytes that took.
+    fn upload(&mut self, levels: &Levels, level: usize) -> (Sheet, u64) {
         let bytes = |rect: Rect| (4 * rect.width * rect.height) as u64;
-        let Some(texture) = &mut self.texture else {
-            let image = levels.cut(level, self.padded);
-            self.texture = Some(painter.ctx().load_texture(name, image, options));
-            self.options = options;
-            return bytes(self.padded);
+        let Some(sheet) = &self.sheet else {
+            let sheet = Sheet::new(levels.cut(level, self.padded));
+            self.sheet = Some(sheet.clone());
+            return (sheet, bytes(self.padded));
         };
-        if self.options != options && self.changed.is_empty() {
-            // An upload of one cell takes the other way of blending along.
-            self.changed.push(Rect { width: 1, height: 1, ..self.padded });
+        if !self.changed.is_empty() && sheet.waiting() > self.padded.width * self.padded.height {
+            // Nothing was drawn for long: all at once is less.
+            self.changed = vec![self.padded];
         }
-        self.options = options;
         let mut sum = 0;
         for rect in self.changed.drain(..) {
             let at = [rect.x - self.padded.x, rect.y - self.padded.y];
-            texture.set_partial(at, levels.cut(level, rect), options);
+            sheet.write(at, levels.cut(level, rect));
             sum += bytes(rect);
         }
-        sum
+        (sheet.clone(), sum)
     }
 
     /// A place of its level in the texture, 0..1.
