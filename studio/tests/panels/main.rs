@@ -22,6 +22,8 @@ mod history;
 
 mod layers;
 
+mod layout;
+
 mod light;
 
 mod pen;
