@@ -68,7 +68,7 @@ impl Layers {
                         ui.label(RichText::new(format!("Dry {}", layer + 1)).strong());
                         ui.weak(covers).on_hover_text("Share of the canvas that has its paint");
                     });
-                    ui.label(RichText::new(format!("{mean}, at most {most}")).small().weak())
+                    ui.weak(format!("{mean}, most {most}"))
                         .on_hover_text("Mean height where it has paint, and the greatest");
                     pigments(ui, catalogue, &state.slots);
                 });

@@ -1,0 +1,153 @@
+//! Draws the pictures of the window that the README shows: the real window on a
+//! real worker, without a window system, painting a small study.
+//!
+//! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes
+//! `studio.png`, `studio-lights.png`, `studio-colour.png` and `studio-layers.png`
+//! there; `docs/studio.sh` makes the JPEGs in `docs/` of them. It needs a graphics
+//! adapter; a software one will do.
+
+#[expect(dead_code, reason = "the tests need more of it")]
+#[path = "../../tests/panels/harness.rs"]
+mod harness;
+
+mod hand;
+
+mod study;
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Event, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use render::paint::document::Lighting;
+use render::paint::pose::Sample;
+use render::paint::strokes::{Action, Surface};
+use studio::app::Tab;
+use studio::panels::Mode;
+use studio::worker::{Command, PenSample};
+
+use hand::{Hand, samples};
+use harness::{Window, has_adapter};
+
+const SIZE: Vec2 = vec2(1440.0, 900.0);
+
+/// High enough for two groups of panels.
+const TALL: Vec2 = vec2(1440.0, 960.0);
+
+/// Everything that is not steady about the hand.
+const SEED: u64 = 1890;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args_os().nth(1).map(PathBuf::from);
+    let folder = folder.ok_or("which folder? screenshots FOLDER")?;
+    if !has_adapter() {
+        return Err("the window is drawn on a graphics adapter; install a Vulkan driver, such as \
+                    lavapipe (mesa-vulkan-drivers)"
+            .into());
+    }
+    let mut window = Window::begun("screenshots", SIZE, 1.0, vec![study::begun()]);
+    at_work(&mut window);
+    save(&mut window, &folder, "studio")?;
+    window.studio_mut().ask(Command::PenUp);
+    window.settle();
+    two_lights(&mut window);
+    save(&mut window, &folder, "studio-lights")?;
+    window.studio_mut().ask(Command::SecondLight(None));
+    colours(&mut window)?;
+    save(&mut window, &folder, "studio-colour")?;
+    window.studio_mut().panels.reference.close();
+    layers(&mut window);
+    save(&mut window, &folder, "studio-layers")
+}
+
+/// The study is painted, down to the stroke that the pen is in.
+fn at_work(window: &mut Window) {
+    let mut hand = Hand::new(SEED);
+    study::palette(&mut hand);
+    study::surroundings(&mut hand);
+    hand.actions.push(Action::Dry { fraction: 1.0 });
+    study::fruits(&mut hand);
+    study::lights(&mut hand);
+    carry_out(window, hand);
+    window.studio_mut().tools.brush = "round".to_owned();
+    let brush = "round".to_owned();
+    window.studio_mut().ask(Command::PenDown { surface: Surface::Canvas, brush });
+    let mut led = samples(&study::AT_WORK, 0.55);
+    // Before it is lifted.
+    led.truncate(led.len() * 4 / 5);
+    let arrived = Instant::now();
+    // As a right hand holds it.
+    let held = |sample| Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample };
+    let led = led.into_iter().map(|sample| PenSample { sample: held(sample), arrived }).collect();
+    window.studio_mut().ask(Command::PenMove(led));
+    window.settle();
+}
+
+fn carry_out(window: &mut Window, hand: Hand) {
+    for action in hand.actions {
+        window.studio_mut().ask(Command::Act(action));
+        window.settle();
+    }
+}
+
+/// Daylight and a lamp, side by side.
+fn two_lights(window: &mut Window) {
+    let lamp = Lighting { illuminant: "A".to_owned(), ..study::light() };
+    window.studio_mut().ask(Command::SecondLight(Some(lamp)));
+    window.studio_mut().panels.bring(Tab::Light);
+    window.studio_mut().tools.split = 0.5;
+    window.settle();
+}
+
+/// A colour of the photograph beside the study is matched.
+fn colours(window: &mut Window) -> Result<(), Box<dyn Error>> {
+    let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/still-life.png");
+    let context = window.harness().ctx.clone();
+    window.studio_mut().panels.reference.open(&context, &photograph);
+    wait_for(window, "Reference picture")?;
+    window.settle();
+    window.studio_mut().tools.mode = Mode::Pick;
+    let there = window.point(Surface::Canvas, 55.5, 34.0);
+    window.pen_stroke(&[there, there]);
+    window.settle();
+    let picture = window.harness().get_by_label("Reference picture").rect();
+    let pear = picture.center() + vec2(0.02, 0.0) * picture.width();
+    window.pen_stroke(&[pear, pear]);
+    wait_for(window, "Load recipe 3")?;
+    window.frame(vec![Event::PointerMoved(there)]);
+    window.settle();
+    Ok(())
+}
+
+/// All is dry, and glazed.
+fn layers(window: &mut Window) {
+    window.studio_mut().tools.mode = Mode::Paint;
+    window.frame(vec![Event::PointerGone]);
+    window.harness().set_size(TALL);
+    let mut hand = Hand::new(SEED);
+    hand.actions.push(Action::Dry { fraction: 1.0 });
+    study::glazes(&mut hand);
+    carry_out(window, hand);
+    window.studio_mut().panels.bring(Tab::Layers);
+    window.studio_mut().panels.bring(Tab::History);
+    window.studio_mut().tools.brush = "mop".to_owned();
+    window.settle();
+}
+
+/// Draws frames until there is something with this label.
+fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn Error>> {
+    for _ in 0..6000 {
+        if window.harness().query_by_label(label).is_some() {
+            return Ok(());
+        }
+        std::thread::sleep(Duration::from_millis(5));
+        window.harness().step();
+    }
+    Err(format!("the window shows no \"{label}\"").into())
+}
+
+fn save(window: &mut Window, folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {
+    let picture = window.picture().ok_or("the graphics adapter is gone")?;
+    Ok(picture.save(folder.join(format!("{name}.png")))?)
+}

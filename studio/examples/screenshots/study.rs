@@ -1,0 +1,263 @@
+//! Two pears and a plum, after the photograph `docs/still-life.png`.
+
+use std::f64::consts::TAU;
+
+use render::paint::brush::HeadShape;
+use render::paint::document::{Lighting, Medium};
+use render::paint::ground::{ColourPrimer, GroundRelief, GroundSpec, Linen, Primer};
+use render::paint::strokes::{BrushSpec, Canvas};
+use studio::worker::{Command, Origin, bare, oils};
+
+use crate::hand::{Hand, Place};
+
+const WIDTH: f64 = 96.0;
+const HEIGHT: f64 = 54.0;
+
+/// Where the table ends.
+const EDGE: f64 = 31.0;
+
+/// A toned linen, stiff paint, and light from low at the left.
+pub(crate) fn begun() -> Command {
+    let Origin::Bare { mut script, library } = bare(oils(), WIDTH, HEIGHT, 0.1) else {
+        unreachable!("a bare canvas is bare");
+    };
+    script.title = "Two pears and a plum".to_owned();
+    let linen = Linen { seed: 7, threads_per_cm: 16.0, relief_mm: 0.05 };
+    let primer = Primer::Colour(ColourPrimer { rgb: "#c39a6b".to_owned() });
+    let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
+    script.canvas = Canvas { ground, ..script.canvas };
+    script.medium = Some(Medium { scattering_per_mm: 300.0, ..Medium::default() });
+    script.lighting = Some(light());
+    for (name, shape, size_mm) in [
+        ("round", HeadShape::Round, 4.0),
+        ("flat", HeadShape::Flat, 5.0),
+        ("filbert", HeadShape::Filbert, 5.0),
+        ("rigger", HeadShape::Rigger, 1.2),
+        ("mop", HeadShape::Mop, 7.0),
+        ("knife", HeadShape::Knife, 7.0),
+    ] {
+        script.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
+    }
+    Command::Open(Origin::Bare { script, library })
+}
+
+/// Daylight that shows every ridge.
+pub(crate) fn light() -> Lighting {
+    Lighting { azimuth_deg: 300.0, elevation_deg: 34.0, relief: 2.5, ..Lighting::default() }
+}
+
+/// Heaps along the rim of the palette, and mixtures, drawn together with the knife.
+pub(crate) fn palette(hand: &mut Hand) {
+    for (index, parts) in ["W1", "L1", "Y1", "R1", "C1", "U1", "P1", "K1"].iter().enumerate() {
+        let share = index as f64 / 7.0;
+        let place = (7.0 + 50.0 * share, 8.0 - 2.5 * (share * TAU / 2.0).sin());
+        hand.squeeze(parts, place, if index == 0 { 60.0 } else { 34.0 });
+    }
+    for (one, other, (x, y)) in [
+        ("L3 Y1", "W1", (9.0, 18.0)),
+        ("Y2 R1", "W1", (28.0, 18.5)),
+        ("W5 K1", "U1 P0.3", (10.0, 31.0)),
+        ("C3 U1", "W1", (26.0, 31.5)),
+    ] {
+        for (mixture, y) in [(one, y), (other, y + 4.5)] {
+            hand.load("flat", mixture, 0.1, 2.0);
+            hand.mix("flat", &[(x, y), (x + 13.0, y - 0.5)], 0.6);
+        }
+        // From one into the other and back; then the blade, which lies well behind
+        // its tip, draws it out.
+        hand.wash("flat");
+        let zigzag = [(4.0, 0.0), (5.0, 7.5), (7.0, -1.0), (8.5, 7.0), (10.5, -1.0), (12.0, 6.5)];
+        hand.mix("flat", &zigzag.map(|(right, down)| (x + right, y + down)), 0.5);
+        hand.wash("knife");
+        hand.mix("knife", &[(x + 12.0, y + 2.5), (x + 22.0, y + 2.0)], 0.4);
+    }
+    hand.wash("knife");
+}
+
+/// Wall and table in short strokes, with the shadows that lie on the table.
+pub(crate) fn surroundings(hand: &mut Hand) {
+    let wall =
+        ["W12 U0.8 P0.2 K1", "W15 U1 P0.2 K0.7", "W11 U0.6 P0.3 K1 L0.4", "W13 U1.1 K0.8 C0.2"];
+    let table = ["W16 Y0.4 R0.2 K0.25", "W18 Y0.5 R0.2", "W15 Y0.4 R0.3 U0.25", "W22 Y0.5 R0.1"];
+    rows(hand, &wall, 1.0, EDGE - 1.0, -0.35);
+    rows(hand, &table, EDGE + 2.0, HEIGHT - 1.5, 0.08);
+    let shadow = ["W4 K1 U0.5 Y0.8 C0.3", "W3.5 K1.2 Y1 R0.4 U0.5"];
+    for (index, (x, y, long)) in [
+        (44.0, 47.0, 17.0),
+        (41.0, 49.5, 13.0),
+        (62.0, 44.0, 14.0),
+        (79.0, 46.0, 14.0),
+        (76.0, 48.0, 13.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        hand.load("flat", shadow[index % 2], 0.15, 0.9);
+        hand.stroke("flat", &[(x - 4.0, y), (x + 0.5 * long, y - 0.8), (x + long, y - 2.2)], 0.5);
+    }
+}
+
+fn rows(hand: &mut Hand, mixtures: &[&str], from: f64, to: f64, slope: f64) {
+    let count = ((to - from) / 3.1).round();
+    for row in 0..=count as usize {
+        let y = from + (to - from) * row as f64 / count;
+        let mut x = 1.0 - if row % 2 == 0 { 0.0 } else { 5.0 };
+        let mut turn = row;
+        while x < WIDTH {
+            let long = 11.0 + hand.about(2.5);
+            let mixture = mixtures[(turn * 7 + row * 3) % mixtures.len()];
+            hand.load("flat", mixture, 0.1, 1.4);
+            let (rise, bow) = (slope * long + hand.about(0.8), hand.about(0.6));
+            let inside =
+                |(x, y): Place| (x.clamp(-2.0, WIDTH + 2.0), y.clamp(from - 1.0, to + 1.0));
+            let along =
+                [(x, y - 0.5 * rise), (x + 0.5 * long, y + bow), (x + long, y + 0.5 * rise)];
+            let pressure = 0.6 + hand.about(0.08);
+            hand.stroke("flat", &along.map(inside), pressure);
+            x += long - 1.5;
+            turn += 1;
+        }
+    }
+}
+
+/// Half the width of a pear at shares of its height, where its widest is 1.
+const PEAR: [(f64, f64); 9] = [
+    (0.0, 0.12),
+    (0.07, 0.3),
+    (0.3, 0.34),
+    (0.45, 0.6),
+    (0.55, 0.86),
+    (0.7, 1.0),
+    (0.85, 0.95),
+    (0.94, 0.68),
+    (1.0, 0.4),
+];
+
+const PLUM: [(f64, f64); 7] =
+    [(0.0, 0.2), (0.1, 0.6), (0.3, 0.92), (0.5, 1.0), (0.7, 0.92), (0.9, 0.6), (1.0, 0.2)];
+
+/// A fruit that stands upright.
+struct Fruit {
+    x: f64,
+    top: f64,
+    tall: f64,
+    half_width: f64,
+    outline: &'static [(f64, f64)],
+    /// From the side of the light to the other.
+    mixtures: [&'static str; 7],
+}
+
+/// The fruits, wet in wet on what is dry.
+pub(crate) fn fruits(hand: &mut Hand) {
+    let orange = Fruit {
+        x: 58.0,
+        top: 9.0,
+        tall: 34.0,
+        half_width: 9.6,
+        outline: &PEAR,
+        mixtures: [
+            "Y3 R1.4 K0.5",
+            "Y4 R1 W2",
+            "Y4 R0.8 W8",
+            "Y5 R1 W3",
+            "Y4 R1.4",
+            "Y3 R1.6 K0.25",
+            "Y2 R1.5 C0.6 K0.6",
+        ],
+    };
+    let yellow = Fruit {
+        x: 37.0,
+        top: 9.5,
+        tall: 37.0,
+        half_width: 11.0,
+        outline: &PEAR,
+        mixtures: [
+            "L5 Y1 W4",
+            "L4 W12 Y0.3",
+            "L5 W8 Y0.6",
+            "L5 Y1.2 W2",
+            "L4 Y1.4 K0.12",
+            "L3 Y1.6 K0.35 P0.04",
+            "L2 Y1.6 K0.8 P0.08",
+        ],
+    };
+    let plum = Fruit {
+        x: 79.0,
+        top: 30.0,
+        tall: 17.0,
+        half_width: 8.6,
+        outline: &PLUM,
+        mixtures: [
+            "C4 U1 W7",
+            "C5 U1 W14",
+            "C5 U1.2 W8",
+            "C5 U1.4 W4",
+            "C5 U1.8 W2",
+            "C4 U2 W1",
+            "C3 U2 K0.6",
+        ],
+    };
+    for fruit in [&orange, &yellow, &plum] {
+        modelled(hand, fruit);
+    }
+    for (x, y, lean) in [(37.0, 10.5, -1.2), (58.0, 10.0, 2.2)] {
+        hand.load("rigger", "K2 R1 Y0.6", 0.05, 0.5);
+        hand.stroke("rigger", &[(x, y), (x + 0.2 * lean, y - 3.0), (x + lean, y - 6.0)], 0.7);
+        hand.stroke("rigger", &[(x + 0.4, y), (x + 0.2 * lean + 0.4, y - 3.0)], 0.6);
+    }
+}
+
+/// Strokes from the top down, following the form, dark ones first.
+fn modelled(hand: &mut Hand, fruit: &Fruit) {
+    let last = 12;
+    for index in (0..=last).rev() {
+        // Inside the outline by half a brush.
+        let side = (2.0 * index as f64 / last as f64 - 1.0) * (1.0 - 2.2 / fruit.half_width);
+        let along: Vec<Place> = fruit
+            .outline
+            .iter()
+            .map(|&(down, wide)| {
+                (fruit.x + side * wide * fruit.half_width, fruit.top + down * fruit.tall)
+            })
+            .collect();
+        hand.load("filbert", fruit.mixtures[index / 2], 0.08, 1.8);
+        // Every other begins below the neck.
+        let from = if index % 2 == 0 { 0 } else { 2 };
+        hand.stroke("filbert", &along[from..], 0.6);
+    }
+    // Along the foot, where the ends are ragged.
+    let foot = [(-0.35, 3.6), (0.0, 2.6), (0.35, 2.5), (0.75, 3.6)];
+    let foot =
+        foot.map(|(side, up)| (fruit.x + side * fruit.half_width, fruit.top + fruit.tall - up));
+    hand.load("filbert", fruit.mixtures[3], 0.08, 1.2);
+    hand.stroke("filbert", &foot, 0.5);
+}
+
+/// Lights, thick: the last of them is left to the pen that is seen at work.
+pub(crate) fn lights(hand: &mut Hand) {
+    hand.load("round", "L1 W14", 0.02, 2.0);
+    hand.stroke("round", &[(31.0, 36.0), (30.3, 33.0), (31.5, 29.5)], 0.4);
+    hand.stroke("round", &[(34.6, 17.5), (34.9, 14.0)], 0.35);
+    hand.load("round", "W20 C0.5 U0.2", 0.02, 1.6);
+    hand.stroke("round", &[(75.0, 36.5), (76.0, 34.8), (77.5, 34.0)], 0.35);
+    for (brush, parts) in [
+        ("flat", "W8 U1 P0.2"),
+        ("filbert", "L4 Y1"),
+        ("rigger", "K2 R1"),
+        ("round", "Y1.5 R0.3 W16"),
+    ] {
+        hand.load(brush, parts, 0.05, if brush == "round" { 2.0 } else { 0.7 });
+    }
+}
+
+/// The light on the second pear, as far as the pen has come.
+pub(crate) const AT_WORK: [Place; 4] = [(56.0, 16.5), (55.3, 22.0), (54.4, 27.5), (53.0, 32.5)];
+
+/// Over the dry study: cool glazes in the shadows, a warm one on the second pear.
+pub(crate) fn glazes(hand: &mut Hand) {
+    hand.load("mop", "U1 C0.1", 0.99, 0.4);
+    hand.stroke("mop", &[(40.0, 49.0), (54.0, 47.5), (67.0, 45.5)], 0.35);
+    hand.stroke("mop", &[(77.0, 48.5), (91.0, 47.0)], 0.35);
+    hand.load("mop", "R1 C0.2", 0.994, 0.4);
+    hand.stroke("mop", &[(60.0, 18.0), (63.5, 28.0), (64.0, 38.0)], 0.35);
+}
