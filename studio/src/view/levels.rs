@@ -144,8 +144,14 @@ mod tests {
         [value, value, value, 255]
     }
 
+    /// A level of greys: all three channels are one value.
     fn whole(levels: &Levels, level: usize) -> Vec<u8> {
-        levels.cut(level, levels.bounds(level)).pixels.iter().map(|pixel| pixel.g()).collect()
+        let value = |pixel: &Color32| {
+            let [red, green, blue, _] = pixel.to_array();
+            assert!(red == green && green == blue, "{pixel:?} of greys");
+            green
+        };
+        levels.cut(level, levels.bounds(level)).pixels.iter().map(value).collect()
     }
 
     #[test]
