@@ -128,7 +128,7 @@ mod tests {
         Question { library, target, request }
     }
 
-    /// A question that takes minutes.
+    /// A question that takes many seconds.
     fn long_question() -> Question {
         let mut asked = question(60.0, 8);
         let library = Arc::make_mut(&mut asked.library);
@@ -174,8 +174,10 @@ mod tests {
         let (ended, ends) = channel();
         let of_old = ended.clone();
         matcher.ask(old, move || of_old.send("old").unwrap());
+        let watch = Arc::clone(&matcher.running.as_ref().unwrap().watch);
         matcher.ask(new.clone(), move || ended.send("new").unwrap());
-        // Both threads end soon, whichever is the first: the older one was stopped.
+        assert!(watch.stopped(), "the older search was told to stop");
+        // Both threads end soon, whichever is the first.
         for _ in 0..2 {
             ends.recv_timeout(Duration::from_secs(20)).unwrap();
         }
@@ -191,7 +193,9 @@ mod tests {
         wait(&mut matcher);
         let (ended, ends) = channel();
         matcher.ask(long_question(), move || ended.send(()).unwrap());
+        let watch = Arc::clone(&matcher.running.as_ref().unwrap().watch);
         matcher.cancel();
+        assert!(watch.stopped(), "the search was told to stop");
         assert_eq!(matcher.progress(), None);
         ends.recv_timeout(Duration::from_secs(20)).expect("a search that is stopped ends soon");
         matcher.update();

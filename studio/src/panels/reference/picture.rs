@@ -147,6 +147,17 @@ mod tests {
     }
 
     #[test]
+    fn the_mean_takes_what_is_within_the_radius_and_nothing_beyond() {
+        let mut linear = Linear::filled(7, 7, [0.0; 3]);
+        linear.values_mut()[3 * 7 + 5] = [1.0; 3];
+        let picture = Picture { linear };
+        let green = |radius: f32| picture.mean([3.5, 3.5], radius).unwrap()[1];
+        assert_eq!(green(1.9), 0.0, "the white pixel is two pixels away");
+        // 13 pixels of a square grid lie within two of one of them.
+        assert!((green(2.0) - 1.0 / 13.0).abs() < 1e-9, "{}", green(2.0));
+    }
+
+    #[test]
     fn the_screen_shows_srgb_and_grey_of_the_same_luminance() {
         let picture = two_by_two();
         let colour = picture.on_screen(false);
