@@ -129,7 +129,9 @@ fn unfit(limits: Limits, computes: bool) -> Option<String> {
 /// driver is installed.
 #[must_use]
 pub fn adapters() -> Vec<Adapter> {
-    let backends = wgpu::Instance::enabled_backend_features();
+    // Never OpenGL, which another crate of the same program may have switched on:
+    // nothing was tried there.
+    let backends = wgpu::Instance::enabled_backend_features() & wgpu::Backends::PRIMARY;
     if backends.is_empty() {
         return Vec::new();
     }
