@@ -38,6 +38,7 @@ impl Studio {
             Intent::SaveRecording => self.file(FileRequest::SaveRecording),
             Intent::OpenReference => self.file(FileRequest::OpenReference(None)),
             Intent::OpenLamp => self.file(FileRequest::OpenLamp),
+            Intent::Preferences => self.file(FileRequest::Preferences),
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
             Intent::Undo => self.action(Action::Undo {}),
             Intent::Redo => self.action(Action::Redo {}),
@@ -50,8 +51,8 @@ impl Studio {
             Intent::Smaller => {
                 self.with_desk(|panels, desk| panels.brushes.resize(1.0 / STEP, desk));
             }
-            Intent::TwistLeft => self.pen.settings.grip.turn(-TURN_DEG),
-            Intent::TwistRight => self.pen.settings.grip.turn(TURN_DEG),
+            Intent::TwistLeft => self.files.preferences.pen.grip.turn(-TURN_DEG),
+            Intent::TwistRight => self.files.preferences.pen.grip.turn(TURN_DEG),
             Intent::Brush(number) => self.with_desk(|panels, desk| {
                 if panels.brushes.choose(usize::from(number), desk) {
                     desk.tools.mode = Mode::Paint;

@@ -149,6 +149,13 @@ pub const ENTRIES: &[Entry] = &[
         &[key(NONE, Key::Period)],
     ),
     entry(
+        Intent::Preferences,
+        Menu::Edit,
+        "Preferences...",
+        "Autosave, undo memory, what computes, sizes, and how pens and mice lead a brush",
+        &[key(CTRL, Key::Comma)],
+    ),
+    entry(
         Intent::ZoomIn,
         Menu::View,
         "Zoom in",

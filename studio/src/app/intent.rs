@@ -25,6 +25,8 @@ pub enum Intent {
     OpenReference,
     /// Paints under a measured lamp.
     OpenLamp,
+    /// Shows the preferences.
+    Preferences,
     /// Ends the program.
     Quit,
     /// Takes the last action back.

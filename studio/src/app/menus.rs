@@ -69,6 +69,7 @@ fn begins_group(intent: Intent) -> bool {
             | Intent::Quit
             | Intent::Dry
             | Intent::Larger
+            | Intent::Preferences
             | Intent::Fit
             | Intent::TurnLeft
             | Intent::Panels
@@ -79,7 +80,12 @@ fn enabled(intent: Intent, state: State) -> bool {
     match intent {
         Intent::Undo => state.history.0,
         Intent::Redo => state.history.1,
-        Intent::Open | Intent::New | Intent::Quit | Intent::Keys | Intent::FullScreen => true,
+        Intent::Open
+        | Intent::New
+        | Intent::Preferences
+        | Intent::Quit
+        | Intent::Keys
+        | Intent::FullScreen => true,
         _ => state.open,
     }
 }

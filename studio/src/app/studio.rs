@@ -170,6 +170,7 @@ impl Studio {
             Some(Reference::Close) => self.panels.reference.close(),
             None => {}
         }
+        self.pen.settings = self.files.preferences.pen;
         let scale = self.files.preferences.interface_scale;
         if context.zoom_factor() != scale {
             context.set_zoom_factor(scale);

@@ -9,6 +9,7 @@ use render::paint::strokes::Canvas;
 
 use super::exporting::Export;
 use super::preferences::{Backend, Preferences};
+use crate::pen::PenSettings;
 
 /// What came of a dialog in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -259,6 +260,7 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
                 ui.checkbox(&mut preferences.replay_as_painted, "Play as painted")
                     .on_hover_text(tip);
             });
+            pen(ui, &mut preferences.pen);
         });
         ui.add_space(8.0);
         ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
@@ -266,6 +268,28 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
         });
     });
     open && !modal.should_close()
+}
+
+/// Rows of how a brush is led.
+fn pen(ui: &mut Ui, pen: &mut PenSettings) {
+    named(ui, "Pen", |ui| {
+        let drag = DragValue::new(&mut pen.gamma).range(0.2..=5.0).speed(0.01).max_decimals(2);
+        let tip = "Pressure is raised to this: above 1 for a softer hand, below for a heavier";
+        ui.add(drag.prefix("pressure ")).on_hover_text(tip);
+        let tip = "Tilt and twist of the pen lead the brush; else it is held as by a mouse";
+        ui.checkbox(&mut pen.pen_tilt, "Tilt and twist").on_hover_text(tip);
+    });
+    named(ui, "Mouse", |ui| {
+        let drag = DragValue::new(&mut pen.grip.lean_deg).range(0.0..=80.0).max_decimals(0);
+        let tip = "How far the handle leans, from upright";
+        ui.add(drag.prefix("leans ").suffix("\u{b0}")).on_hover_text(tip);
+        let drag = DragValue::new(&mut pen.grip.towards_deg).range(0.0..=360.0).max_decimals(0);
+        let tip =
+            "Where it leans to, clockwise from the right: 45 for a right hand, 135 for a left";
+        ui.add(drag.prefix("towards ").suffix("\u{b0}")).on_hover_text(tip);
+        let tip = "The broad side turns across the way that the brush is led";
+        ui.checkbox(&mut pen.follow, "Follow the way").on_hover_text(tip);
+    });
 }
 
 fn named(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {

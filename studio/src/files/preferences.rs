@@ -11,6 +11,7 @@ use serde_json::{Map, Value};
 
 use super::failure::FileFailure;
 use super::whole;
+use crate::pen::PenSettings;
 
 /// Files of the list of recent ones.
 const MOST_RECENT: usize = 12;
@@ -67,6 +68,8 @@ pub struct Preferences {
     pub replay_as_painted: bool,
     /// What is in hand at the start.
     pub tools: ToolPreferences,
+    /// How pens, mice and fingers lead a brush.
+    pub pen: PenSettings,
     /// Where files were last looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_folder: Option<PathBuf>,
@@ -89,6 +92,7 @@ impl Default for Preferences {
             interface_scale: 1.0,
             replay_as_painted: false,
             tools: ToolPreferences::default(),
+            pen: PenSettings::default(),
             last_folder: None,
             recent: Vec::new(),
             window: None,
@@ -150,6 +154,7 @@ impl Preferences {
         tools.load_mm = within(tools.load_mm, 0.0, 10.0, usual.load_mm);
         tools.squeeze_mm3 = within(tools.squeeze_mm3, 0.1, 1e5, usual.squeeze_mm3);
         tools.dry_share = within(tools.dry_share, 0.01, 1.0, usual.dry_share);
+        self.pen.bound();
         self.recent.truncate(MOST_RECENT);
         self.window = self.window.filter(|size| size.iter().all(|s| (200.0..20_000.0).contains(s)));
     }
@@ -216,6 +221,8 @@ mod tests {
         assert_eq!((&preferences, failures.len()), (&Preferences::default(), 0));
         preferences.autosave_seconds = 7;
         preferences.window = Some([1280.0, 800.0]);
+        preferences.pen.gamma = 1.5;
+        preferences.pen.grip.turn(30.0);
         preferences.remember(Path::new("/a/study.exr"));
         preferences.write(&path).unwrap();
         assert_eq!(Preferences::read(&path), (preferences, Vec::new()));
@@ -235,10 +242,12 @@ mod tests {
 
     #[test]
     fn one_strange_value_costs_no_other() {
-        let (preferences, failures, _folder) =
-            read(r#"{"backend": "quantum", "undo_mib": 64, "interface_scale": 900}"#);
+        let (preferences, failures, _folder) = read(
+            r#"{"backend": "quantum", "undo_mib": 64, "interface_scale": 900, "pen": {"gamma": 99}}"#,
+        );
         assert_eq!((preferences.backend, preferences.undo_mib), (Backend::Auto, 64));
         assert!((preferences.interface_scale - 1.0).abs() < 1e-6, "the scale is out of range");
+        assert_eq!(preferences.pen, PenSettings::default(), "gamma is out of range");
         let [failure] = &failures[..] else { panic!("{failures:?}") };
         assert!(failure.what.contains("`backend`"), "{failure}");
     }

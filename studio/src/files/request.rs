@@ -32,8 +32,4 @@ pub enum FileRequest {
     New,
     /// Shows the preferences.
     Preferences,
-    /// Takes up what a lost session left.
-    Recover(PathBuf),
-    /// Throws away what a lost session left.
-    Discard(PathBuf),
 }

@@ -328,13 +328,6 @@ impl Files {
             FileRequest::OpenLamp => self.ask_for_lamp(),
             FileRequest::New => self.ask_for_new(easel),
             FileRequest::Preferences => self.dialogs.push(Dialog::Preferences),
-            FileRequest::Recover(folder) => self.recover(&folder),
-            FileRequest::Discard(folder) => {
-                let at = self.lost.iter().position(|lost| lost.folder() == folder);
-                if let Some(at) = at {
-                    self.lost.remove(at).discard();
-                }
-            }
         }
     }
 }

@@ -58,6 +58,21 @@ impl Default for PenSettings {
 }
 
 impl PenSettings {
+    /// Brings numbers into their range.
+    pub fn bound(&mut self) {
+        let (usual, grip) = (Self::default(), &mut self.grip);
+        // What is not a number is in no range.
+        let within = |value: &mut f64, least: f64, most: f64, usual: f64| {
+            if !(least..=most).contains(value) {
+                *value = usual;
+            }
+        };
+        within(&mut self.gamma, 0.2, 5.0, usual.gamma);
+        within(&mut grip.lean_deg, 0.0, 80.0, usual.grip.lean_deg);
+        within(&mut grip.towards_deg, 0.0, 360.0, usual.grip.towards_deg);
+        within(&mut grip.twist_deg, 0.0, 360.0, usual.grip.twist_deg);
+    }
+
     /// The pressure that the brush gets, 0..1.
     pub(super) fn pressed(&self, pressure: f64) -> f64 {
         let gamma = if self.gamma.is_finite() { self.gamma.clamp(0.2, 5.0) } else { 1.0 };

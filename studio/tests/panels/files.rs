@@ -386,6 +386,7 @@ fn preferences_hold_and_are_written() {
     ask(&mut window, FileRequest::Preferences);
     click(&mut window, "Processor");
     click(&mut window, "Play as painted");
+    click(&mut window, "Follow the way");
     picture(&mut window, "preferences");
     click(&mut window, "Close");
     assert!(!window.state_mut().files().asks(), "closed");
@@ -396,5 +397,5 @@ fn preferences_hold_and_are_written() {
     let (read, failures) = Preferences::read(&path);
     assert_eq!(failures, []);
     assert_eq!(read, window.state_mut().files().preferences);
-    assert!(read.replay_as_painted, "it was ticked");
+    assert!(read.replay_as_painted && read.pen.follow, "they were ticked");
 }

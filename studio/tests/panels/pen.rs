@@ -82,5 +82,7 @@ fn keys_turn_the_brush_that_a_mouse_leads() {
     window.key(Modifiers::NONE, Key::Period);
     window.key(Modifiers::NONE, Key::Period);
     window.key(Modifiers::NONE, Key::Comma);
+    window.settle();
     assert_eq!(window.studio().pen.settings.grip.twist_deg, 15.0);
+    assert_eq!(window.studio().files.preferences.pen, window.studio().pen.settings, "kept");
 }

@@ -2,21 +2,17 @@
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::layer::SLOTS;
-use render::light::Light;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Lighting, Medium};
-use render::paint::strokes::BrushSpec;
 use studio::panels::{Desk, FileRequest, Request, Tools};
 use studio::theme;
-use studio::worker::{BrushState, Command, EaselState, oils};
+use studio::worker::{BrushState, Command, EaselState};
 
 use super::harness::has_adapter;
+use super::made::easel;
 
 /// A panel with what it sees and asks for.
 pub(crate) struct Scene<P> {
@@ -133,44 +129,29 @@ impl<P> Stage<P> {
 
 /// Van Gogh's oils on a bare canvas of 1920 x 1080 cells, a clean round brush.
 pub(crate) fn made_easel() -> EaselState {
-    let library = oils();
-    let lighting = Lighting::default();
-    let light = Light::named(&library, &lighting.illuminant, &lighting.observer)
-        .expect("the usual light is a light");
-    let count = library.grid.count();
+    let made = easel();
     let mut slots = [None; SLOTS];
     for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
-        *slot = Some(library.find(pigment).expect("one of Van Gogh's"));
+        *slot = Some(made.library.find(pigment).expect("one of Van Gogh's"));
     }
+    let round = BrushState {
+        amount_mm: 0.0,
+        vehicle: 0.0,
+        parts: [0.0; SLOTS],
+        colour: None,
+        ..made.brushes[0].clone()
+    };
     EaselState {
-        title: "untitled".to_owned(),
         canvas_cells: (1920, 1080),
         palette_cells: (640, 420),
-        cell_mm: 0.1,
-        library: Arc::new(library),
         slots,
         masstones: [None; SLOTS],
         tints: [None; SLOTS],
         layers: Vec::new(),
-        lighting,
-        light: Arc::new(light),
-        second: None,
-        medium: Medium::default(),
-        ground: Arc::new(vec![0.85; count]),
         history: Vec::new(),
         done: 0,
-        undo_bytes: (0, 1 << 30),
-        brushes: vec![BrushState {
-            name: "round".to_owned(),
-            spec: BrushSpec { shape: HeadShape::Round, size_mm: 6.0 },
-            amount_mm: 0.0,
-            vehicle: 0.0,
-            parts: [0.0; SLOTS],
-            colour: None,
-        }],
-        backend: "CPU".to_owned(),
-        revision: 0,
-        painting: false,
+        brushes: vec![round],
+        ..made
     }
 }
 

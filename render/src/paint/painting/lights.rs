@@ -27,15 +27,6 @@ impl Painting {
         self.shine(lighting, light)
     }
 
-    /// The same under a light that is known already, made for the painting's
-    /// library; `lighting` calls it by some name.
-    ///
-    /// # Errors
-    /// [`PaintingError`] as every action; to change the light alone meets none.
-    pub fn relight_under(&mut self, light: Light, lighting: Lighting) -> Result<(), PaintingError> {
-        self.shine(lighting, Some(light))
-    }
-
     /// Shows the painting under a measured light, which `lighting` calls by some
     /// name of its own.
     ///
@@ -108,12 +99,6 @@ impl Painting {
         };
         self.shine_second(lighting, light);
         Ok(())
-    }
-
-    /// The same under a light that is known already, made for the painting's
-    /// library, such as a measured one; `lighting` calls it by some name.
-    pub fn set_second_light_under(&mut self, light: Light, lighting: Lighting) {
-        self.shine_second(lighting, Arc::new(light));
     }
 
     fn shine_second(&mut self, lighting: Lighting, light: Arc<Light>) {
