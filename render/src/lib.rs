@@ -28,8 +28,16 @@ pub mod composite;
 
 pub mod shade;
 
+pub mod mesh;
+
+pub mod camera;
+
+pub mod surface;
+
 pub mod paint;
 
 pub mod export;
 
 pub mod photograph;
+
+pub mod watercolor;

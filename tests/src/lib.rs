@@ -1,5 +1,6 @@
 //! What the tests of this folder share.
 
+pub mod adapter;
 pub mod golden;
 pub mod near;
 pub mod oils;

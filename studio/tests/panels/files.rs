@@ -7,8 +7,7 @@ mod bench;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::{Event as Input, Key, ViewportCommand, ViewportEvent, ViewportId};
-use render::export::spectral_file;
-use render::export::{Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
+use render::export::{self, Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
 use render::paint::document::Document;
 use render::paint::strokes::{Action, Strokes};
 use studio::files::{FileRequest, Preferences, Reference};
@@ -257,7 +256,8 @@ fn exports_are_those_of_the_engine() {
     let shown = painting.picture().unwrap();
     let document = window.state().canvas.clone();
     let light = painting.light().clone();
-    let spectral = |bands| spectral_file(&document, &light, &shown, bands, |_| true).unwrap();
+    let spectral =
+        |bands| export::spectral_file(&document, &light, &shown, bands, |_| true).unwrap();
     let picture_of = |format| picture_file(&shown, document.cell_mm, format).unwrap().bytes;
     for (kind, name, wanted) in [
         ("Picture, PNG of 8 bits", "a.png", picture_of(PictureFormat::Png8)),
@@ -277,8 +277,7 @@ fn exports_are_those_of_the_engine() {
         assert!(std::fs::read(&path).unwrap() == wanted, "{name} differs");
     }
     ask(&mut window, FileRequest::Export);
-    click(&mut window, "Pigment maps, a folder of PNG");
-    click(&mut window, "Choose a name");
+    ["Pigment maps, a folder of PNG", "Choose a name"].map(|label| click(&mut window, label));
     type_name(&mut window, "f");
     click(&mut window, "Save");
     let maps = folder.path().join("f.maps");

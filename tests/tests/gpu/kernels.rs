@@ -3,7 +3,12 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
-use render::paint::on_gpu::kernels;
+use render::{paint, watercolor};
+
+/// Those of all techniques.
+fn kernels() -> Vec<&'static Kernel> {
+    [paint::on_gpu::kernels(), watercolor::kernels()].concat()
+}
 
 fn parsed(kernel: &Kernel) -> naga::Module {
     let parsed = naga::front::wgsl::parse_str(kernel.source);

@@ -21,20 +21,4 @@ mod device;
 
 mod program;
 
-use std::io::Write;
-
-use render::gpu::{BackendChoice, Device, choose};
-
-/// The device to test on, hardware before software; none where there is none.
-fn device() -> Option<Device> {
-    let device = choose(BackendChoice::Gpu).ok().flatten();
-    let name = device.as_ref().map_or("none", |device| &device.adapter().name);
-    if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
-        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
-        file.write_all(format!("{name}\n").as_bytes()).unwrap();
-    }
-    if device.is_none() {
-        let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
-    }
-    device
-}
+use suite::adapter::device;

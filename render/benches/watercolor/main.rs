@@ -1,0 +1,9 @@
+//! How fast watercolor is: what of a mesh is seen, abstraction, effects, noise.
+
+#![expect(clippy::unwrap_used, reason = "a bench may panic")]
+
+mod effects;
+
+fn main() {
+    divan::main();
+}

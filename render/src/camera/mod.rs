@@ -1,0 +1,5 @@
+//! From where a mesh is seen.
+
+mod perspective;
+
+pub use perspective::Camera;

@@ -1,0 +1,40 @@
+//! Where pictures live while they are worked on: with the processor, or on a
+//! device. What is done to them are traits above this one, a concept each.
+
+use crate::field::Field;
+use crate::gpu::GpuError;
+
+/// Keeps pictures. Both backends take the same steps in the same order.
+pub trait Backend {
+    /// Encoded sRGB and coverage of every pixel.
+    type Colour;
+    /// A number for every pixel.
+    type Grey;
+
+    /// For people: `cpu`, or the adapter.
+    fn name(&self) -> String;
+
+    /// Takes a picture in.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the device has no room or is lost; never on the processor.
+    fn colour_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Colour, GpuError>;
+
+    /// Takes numbers in.
+    ///
+    /// # Errors
+    /// As [`Backend::colour_of`].
+    fn grey_of(&mut self, field: &Field<f32>) -> Result<Self::Grey, GpuError>;
+
+    /// The picture.
+    ///
+    /// # Errors
+    /// As [`Backend::colour_of`].
+    fn colour_field(&mut self, colour: &Self::Colour) -> Result<Field<[f32; 4]>, GpuError>;
+
+    /// The numbers.
+    ///
+    /// # Errors
+    /// As [`Backend::colour_of`].
+    fn grey_field(&mut self, grey: &Self::Grey) -> Result<Field<f32>, GpuError>;
+}

@@ -1,0 +1,1 @@
+//! Noise that stays on its object.

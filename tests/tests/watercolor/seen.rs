@@ -1,0 +1,1 @@
+//! What of a mesh is seen.
