@@ -7,6 +7,8 @@
 //! Colours are encoded sRGB in 0..1, as the paper has them: a change of density is
 //! then about even to the eye.
 
+mod settings;
+
 mod wash;
 
 mod backend;
@@ -21,4 +23,9 @@ pub use backend::Backend;
 pub use kernels::kernels;
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
+pub use settings::{
+    AbstractionSettings, CoherenceMethod, CoherenceSettings, DispersionSettings, DryBrushSettings,
+    EdgeSettings, FlowSettings, PaperKind, PaperSettings, Preset, Settings, SettingsError,
+    ToonSettings, WobbleSettings,
+};
 pub use wash::{Controls, Wash};

@@ -1,0 +1,22 @@
+//! Numbers that have a range.
+
+/// A number of the settings with what it may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Figure {
+    /// Group and key: `wobble.amount_px`.
+    pub(super) key: &'static str,
+    pub(super) value: f64,
+    pub(super) least: f64,
+    pub(super) most: f64,
+}
+
+impl Figure {
+    pub(super) fn new(key: &'static str, value: impl Into<f64>, [least, most]: [f64; 2]) -> Self {
+        Self { key, value: value.into(), least, most }
+    }
+
+    /// Whether it is a number within its range.
+    pub(super) fn fits(&self) -> bool {
+        (self.least..=self.most).contains(&self.value)
+    }
+}

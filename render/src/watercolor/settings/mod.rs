@@ -1,0 +1,22 @@
+//! All that can be set of watercolor, as a file tells it.
+
+mod effects;
+
+mod figures;
+
+mod subject;
+
+mod whole;
+
+mod file;
+
+mod preset;
+
+pub use effects::{
+    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperKind, PaperSettings,
+    WobbleSettings,
+};
+pub use file::SettingsError;
+pub use preset::Preset;
+pub use subject::{AbstractionSettings, CoherenceMethod, CoherenceSettings, ToonSettings};
+pub use whole::Settings;

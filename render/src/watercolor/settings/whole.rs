@@ -1,0 +1,105 @@
+//! All settings together.
+
+use serde::{Deserialize, Serialize};
+
+use super::effects::{
+    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperSettings, WobbleSettings,
+};
+use super::figures::Figure;
+use super::subject::{AbstractionSettings, CoherenceSettings, ToonSettings};
+
+/// All that can be set. A file that leaves keys out has these defaults for them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Lengths in px are those of a picture whose longer side has this many,
+    /// 16..=65536; in other pictures they are longer or shorter in proportion.
+    pub reference_px: f32,
+    /// Of photographs.
+    pub abstraction: AbstractionSettings,
+    /// Of meshes.
+    pub toon: ToonSettings,
+    /// Edges that follow the grain.
+    pub wobble: WobbleSettings,
+    /// Pigment at the rim of a wash.
+    pub edges: EdgeSettings,
+    /// Clouds.
+    pub flow: FlowSettings,
+    /// Grains of pigment.
+    pub dispersion: DispersionSettings,
+    /// What is painted on.
+    pub paper: PaperSettings,
+    /// A brush with little water.
+    pub dry_brush: DryBrushSettings,
+    /// Of noise while a mesh moves.
+    pub coherence: CoherenceSettings,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            reference_px: 1000.0,
+            abstraction: AbstractionSettings::default(),
+            toon: ToonSettings::default(),
+            wobble: WobbleSettings::default(),
+            edges: EdgeSettings::default(),
+            flow: FlowSettings::default(),
+            dispersion: DispersionSettings::default(),
+            paper: PaperSettings::default(),
+            dry_brush: DryBrushSettings::default(),
+            coherence: CoherenceSettings::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The same look in a picture of `width` x `height`: all lengths in its own px,
+    /// which nothing changes a second time. Ranges are those of the reference;
+    /// lengths of small pictures may be less.
+    #[must_use]
+    pub fn for_size(&self, width: usize, height: usize) -> Self {
+        let longer = width.max(height).max(1) as f32;
+        let by = longer / self.reference_px;
+        let mut own = self.clone();
+        own.reference_px = longer;
+        own.abstraction.scale(by);
+        own.wobble.scale(by);
+        own.edges.scale(by);
+        own.flow.scale(by);
+        own.dispersion.scale(by);
+        own.paper.scale(by);
+        own.coherence.scale(by);
+        own
+    }
+
+    /// All effects off, on smooth white paper: what comes in goes out.
+    #[must_use]
+    pub fn without_effects(mut self) -> Self {
+        self.wobble.amount_px = 0.0;
+        self.edges.strength = 0.0;
+        self.flow.strength = 0.0;
+        self.dispersion.strength = 0.0;
+        self.paper.strength = 0.0;
+        self.paper.relief = 0.0;
+        "#ffffff".clone_into(&mut self.paper.colour);
+        self.dry_brush.amount = 0.0;
+        self
+    }
+
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        let own = vec![Figure::new("reference_px", self.reference_px, [16.0, 65536.0])];
+        [
+            own,
+            self.abstraction.figures(),
+            self.toon.figures(),
+            self.wobble.figures(),
+            self.edges.figures(),
+            self.flow.figures(),
+            self.dispersion.figures(),
+            self.paper.figures(),
+            self.dry_brush.figures(),
+            self.coherence.figures(),
+        ]
+        .concat()
+    }
+}
