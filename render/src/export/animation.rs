@@ -1,0 +1,247 @@
+//! GIF and APNG, written frame by frame: memory holds one frame, however many
+//! there are.
+
+use std::borrow::Cow;
+use std::io::Write;
+
+use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
+
+use super::colour_table::{COLOURS, ColourTable};
+use super::frame::{Frame, FrameError, FrameRate, check_size, encoder_failed};
+
+/// A GIF that repeats for ever. Frames last whole hundredths of a second, the
+/// mean of them as long as the rate says.
+#[expect(missing_debug_implementations, reason = "the encoder has none")]
+pub struct Gif<'a, W: Write> {
+    encoder: gif::Encoder<W>,
+    rate: FrameRate,
+    table: &'a ColourTable,
+    size: [usize; 2],
+    count: usize,
+    /// Indices that are shown so far.
+    shown: Vec<u8>,
+    written: Vec<u8>,
+}
+
+/// The index of pixels that stay as they are.
+const STAYS: u8 = COLOURS as u8;
+
+impl<'a, W: Write> Gif<'a, W> {
+    /// Begins a GIF with the colours of `table`.
+    ///
+    /// # Errors
+    /// [`FrameError::Size`], [`FrameError::Encoder`].
+    pub fn new(
+        to: W,
+        (width, height): (usize, usize),
+        rate: FrameRate,
+        table: &'a ColourTable,
+    ) -> Result<Self, FrameError> {
+        check_size("GIF", usize::from(u16::MAX), width, height)?;
+        let mut colours = table.colours().as_flattened().to_vec();
+        colours.resize(3 * (COLOURS + 1), 0);
+        let failed = |error| encoder_failed("GIF", &error);
+        let mut encoder =
+            gif::Encoder::new(to, width as u16, height as u16, &colours).map_err(failed)?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
+        let (shown, written) = (Vec::new(), vec![0; width * height]);
+        Ok(Self { encoder, rate, table, size: [width, height], count: 0, shown, written })
+    }
+
+    /// Adds a frame.
+    ///
+    /// # Errors
+    /// [`FrameError::Differs`], [`FrameError::Encoder`].
+    pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
+        check_same(self.size, frame)?;
+        let indices = frame.values().iter().map(|&pixel| self.table.index(pixel));
+        if self.shown.is_empty() {
+            self.shown.extend(indices);
+            self.written.clone_from(&self.shown);
+        } else {
+            for ((index, shown), written) in indices.zip(&mut self.shown).zip(&mut self.written) {
+                *written = if index == *shown { STAYS } else { index };
+                *shown = index;
+            }
+        }
+        let delay = self.rate.start(self.count + 1, 100.0) - self.rate.start(self.count, 100.0);
+        self.count += 1;
+        let frame = gif::Frame {
+            delay: delay as u16,
+            dispose: gif::DisposalMethod::Keep,
+            transparent: Some(STAYS),
+            width: self.size[0] as u16,
+            height: self.size[1] as u16,
+            buffer: Cow::Borrowed(&self.written),
+            ..gif::Frame::default()
+        };
+        self.encoder.write_frame(&frame).map_err(|error| encoder_failed("GIF", &error))
+    }
+
+    /// Ends it; what it was written to comes back.
+    ///
+    /// # Errors
+    /// [`FrameError::Count`] without frames, [`FrameError::Encoder`].
+    pub fn finish(self) -> Result<W, FrameError> {
+        if self.count == 0 {
+            return Err(FrameError::Count { wanted: 1, found: 0 });
+        }
+        self.encoder.into_inner().map_err(|error| encoder_failed("GIF", &error))
+    }
+}
+
+/// A PNG whose picture moves, for ever; in all its colours.
+#[expect(missing_debug_implementations, reason = "the encoder has none")]
+pub struct Apng<W: Write> {
+    writer: Writer<W>,
+    rate: FrameRate,
+    size: [usize; 2],
+    wanted: usize,
+    count: usize,
+}
+
+/// A thousand parts of a second are finer than any screen.
+const PARTS: u16 = 1000;
+
+impl<W: Write> Apng<W> {
+    /// Begins an APNG of `frames` frames.
+    ///
+    /// # Errors
+    /// [`FrameError::Size`], [`FrameError::Count`] for none,
+    /// [`FrameError::Encoder`].
+    pub fn new(
+        to: W,
+        (width, height): (usize, usize),
+        rate: FrameRate,
+        frames: usize,
+    ) -> Result<Self, FrameError> {
+        check_size("PNG", (1 << 30) - 2, width, height)?;
+        let Some(count) = u32::try_from(frames).ok().filter(|&count| count > 0) else {
+            return Err(FrameError::Count { wanted: 1, found: frames });
+        };
+        let begin = || {
+            let mut encoder = Encoder::new(to, width as u32, height as u32);
+            encoder.set_color(ColorType::Rgb);
+            encoder.set_depth(BitDepth::Eight);
+            encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+            encoder.set_animated(count, 0)?;
+            encoder.write_header()
+        };
+        let writer = begin().map_err(|error| encoder_failed("APNG", &error))?;
+        Ok(Self { writer, rate, size: [width, height], wanted: frames, count: 0 })
+    }
+
+    /// Adds a frame.
+    ///
+    /// # Errors
+    /// [`FrameError::Differs`], [`FrameError::Count`] for one too many,
+    /// [`FrameError::Encoder`].
+    pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
+        check_same(self.size, frame)?;
+        if self.count == self.wanted {
+            return Err(FrameError::Count { wanted: self.wanted, found: self.count + 1 });
+        }
+        let parts = f64::from(PARTS);
+        let delay = self.rate.start(self.count + 1, parts) - self.rate.start(self.count, parts);
+        self.count += 1;
+        let pixels = frame.values().as_flattened();
+        let written = self
+            .writer
+            .set_frame_delay(delay as u16, PARTS)
+            .and_then(|()| self.writer.write_image_data(pixels));
+        written.map_err(|error| encoder_failed("APNG", &error))
+    }
+
+    /// Ends it.
+    ///
+    /// # Errors
+    /// [`FrameError::Count`] if frames are missing, [`FrameError::Encoder`].
+    pub fn finish(self) -> Result<(), FrameError> {
+        if self.count < self.wanted {
+            return Err(FrameError::Count { wanted: self.wanted, found: self.count });
+        }
+        self.writer.finish().map_err(|error| encoder_failed("APNG", &error))
+    }
+}
+
+fn check_same(wanted: [usize; 2], frame: &Frame) -> Result<(), FrameError> {
+    let found = [frame.width(), frame.height()];
+    if wanted == found { Ok(()) } else { Err(FrameError::Differs { wanted, found }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use image::AnimationDecoder;
+    use image::codecs::gif::GifDecoder;
+    use image::codecs::png::PngDecoder;
+
+    use super::*;
+    use crate::field::Field;
+
+    /// A red square that moves over paper.
+    fn frames() -> Vec<Frame> {
+        let frame = |at: usize| {
+            let pixel = |i: usize| match (i % 8).abs_diff(at) < 2 && i / 8 < 4 {
+                true => [180, 20, 30],
+                false => [250, 248, 240 + (i % 3) as u8],
+            };
+            Field::from_values(8, 6, (0..48).map(pixel).collect())
+        };
+        (0..5).map(frame).collect()
+    }
+
+    fn check(decoded: Vec<image::Frame>, tolerance: u8) {
+        assert_eq!(decoded.len(), 5);
+        let mut elapsed_ms = 0.0;
+        for (decoded, frame) in decoded.iter().zip(frames()) {
+            let (numerator, denominator) = decoded.delay().numer_denom_ms();
+            elapsed_ms += f64::from(numerator) / f64::from(denominator);
+            for (found, wanted) in decoded.buffer().pixels().zip(frame.values()) {
+                let near = (0..3).all(|i| found.0[i].abs_diff(wanted[i]) <= tolerance);
+                assert!(near && found.0[3] == 255, "{found:?}, {wanted:?}");
+            }
+        }
+        // Five frames at 24 a second.
+        assert!((elapsed_ms - 5000.0 / 24.0).abs() <= 5.0, "{elapsed_ms} ms");
+    }
+
+    #[test]
+    fn a_gif_shows_its_frames() {
+        let table = ColourTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
+        let mut gif = Gif::new(Vec::new(), (8, 6), FrameRate::new(24.0).unwrap(), &table).unwrap();
+        frames().iter().for_each(|frame| gif.push(frame).unwrap());
+        let bytes = gif.finish().unwrap();
+        let decoder = GifDecoder::new(Cursor::new(bytes)).unwrap();
+        check(decoder.into_frames().collect_frames().unwrap(), 1);
+    }
+
+    #[test]
+    fn an_apng_shows_its_frames_as_they_are() {
+        let mut bytes = Vec::new();
+        let rate = FrameRate::new(24.0).unwrap();
+        let mut apng = Apng::new(&mut bytes, (8, 6), rate, 5).unwrap();
+        frames().iter().for_each(|frame| apng.push(frame).unwrap());
+        let more = apng.push(&frames()[0]);
+        assert_eq!(more, Err(FrameError::Count { wanted: 5, found: 6 }));
+        apng.finish().unwrap();
+        let decoder = PngDecoder::new(Cursor::new(bytes)).unwrap().apng().unwrap();
+        check(decoder.into_frames().collect_frames().unwrap(), 0);
+    }
+
+    #[test]
+    fn frames_of_another_size_and_missing_ones_are_told() {
+        let rate = FrameRate::new(10.0).unwrap();
+        let mut apng = Apng::new(Vec::new(), (8, 6), rate, 2).unwrap();
+        let other = Field::filled(3, 2, [0; 3]);
+        let wanted = FrameError::Differs { wanted: [8, 6], found: [3, 2] };
+        assert_eq!(apng.push(&other), Err(wanted));
+        assert_eq!(apng.finish(), Err(FrameError::Count { wanted: 2, found: 0 }));
+        let table = ColourTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
+        let large = Gif::new(Vec::new(), (70_000, 6), rate, &table);
+        assert!(large.is_err_and(|error| error.hint().is_some()));
+        let none = Gif::new(Vec::new(), (8, 6), rate, &table).unwrap().finish();
+        assert!(matches!(none, Err(FrameError::Count { .. })));
+    }
+}
