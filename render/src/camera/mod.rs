@@ -2,4 +2,7 @@
 
 mod perspective;
 
+mod framing;
+
+pub use framing::Framing;
 pub use perspective::Camera;

@@ -2,4 +2,7 @@
 
 mod model;
 
+mod shapes;
+
 pub use model::{Material, Mesh, Texture, Triangle};
+pub use shapes::Cells;

@@ -51,6 +51,14 @@ pub struct Texture {
     pub texels: Vec<u32>,
 }
 
+impl Material {
+    /// One colour all over, encoded sRGB in 0..1.
+    #[must_use]
+    pub fn plain(colour: [f32; 3]) -> Self {
+        Self { colour, texture: None }
+    }
+}
+
 impl Mesh {
     /// The lowest and the highest corner of the box around it; zeros without
     /// vertices.

@@ -2,4 +2,14 @@
 
 mod visible;
 
+mod screen;
+
+mod fill;
+
+mod raster;
+
+mod attributes;
+
+pub use attributes::position_at;
+pub use raster::{Rasteriser, Sides, visible};
 pub use visible::{NOTHING, Seen, Visible};

@@ -1,1 +1,262 @@
 //! What of a mesh is seen.
+
+use std::collections::BTreeSet;
+
+use glam::Vec3;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::camera::{Camera, Framing};
+use render::mesh::{Material, Mesh, Triangle};
+use render::surface::{NOTHING, Rasteriser, Seen, Sides, Visible, position_at, visible};
+
+/// Triangles that share no vertex.
+pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
+    let corners = triangles.iter().flatten();
+    let count = triangles.len() as u32;
+    let normals = triangles.iter().flat_map(|[a, b, c]| {
+        [(*b - *a).cross(*c - *a).try_normalize().unwrap_or(Vec3::Y).into(); 3]
+    });
+    Mesh {
+        positions: corners.map(|&place| place.into()).collect(),
+        normals: normals.collect(),
+        texture_coordinates: vec![[0.0; 2]; 3 * triangles.len()],
+        colours: vec![[1.0; 3]; 3 * triangles.len()],
+        triangles: (0..count)
+            .map(|i| Triangle { corners: [3 * i, 3 * i + 1, 3 * i + 2], material: 0 })
+            .collect(),
+        materials: vec![Material::plain([0.5; 3])],
+    }
+}
+
+/// Triangles about the origin, some of which the camera below stands in.
+pub(crate) fn random_triangles(count: usize, seed: u64) -> Mesh {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut place = |size: f32| Vec3::from([0, 1, 2].map(|_| rng.random_range(-size..size)));
+    let triangles: Vec<_> = (0..count)
+        .map(|i| {
+            let middle = place(2.0);
+            let size = if i % 5 == 0 { 4.0 } else { 0.6 };
+            [0, 1, 2].map(|_| middle + place(size))
+        })
+        .collect();
+    loose(&triangles)
+}
+
+pub(crate) fn inside_them() -> Camera {
+    Camera {
+        eye: Vec3::new(0.3, 0.4, 2.2),
+        target: Vec3::new(0.0, 0.1, 0.0),
+        up: Vec3::Y,
+        field_of_view_deg: 60.0,
+        near: 0.1,
+        far: 6.0,
+    }
+}
+
+type Exact = [f64; 3];
+
+fn exact(place: Vec3) -> Exact {
+    place.to_array().map(f64::from)
+}
+
+fn sum<const N: usize>(terms: [(Exact, f64); N]) -> Exact {
+    [0, 1, 2].map(|axis| terms.iter().map(|(vector, by)| vector[axis] * by).sum())
+}
+
+fn dot(a: Exact, b: Exact) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Exact, b: Exact) -> Exact {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The nearest triangle on the ray through a place of the picture, in pixels.
+fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64; 2]) -> u32 {
+    let unit = |vector: Exact| sum([(vector, 1.0 / dot(vector, vector).sqrt())]);
+    let minus = |a: Exact, b: Exact| sum([(a, 1.0), (b, -1.0)]);
+    let eye = exact(camera.eye);
+    let forward = unit(minus(exact(camera.target), eye));
+    let right = unit(cross(forward, exact(camera.up)));
+    let up = cross(right, forward);
+    let high = (f64::from(camera.field_of_view_deg) / 2.0).to_radians().tan();
+    let wide = high * width as f64 / height as f64;
+    let [x, y] = [at[0] / width as f64 * 2.0 - 1.0, 1.0 - at[1] / height as f64 * 2.0];
+    let ray = sum([(forward, 1.0), (right, x * wide), (up, y * high)]);
+    let mut nearest = (f64::from(camera.far), NOTHING);
+    for (triangle, number) in mesh.triangles.iter().zip(0..) {
+        let places = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
+        let [a, b, c] = places.map(|place| minus(exact(place), eye));
+        let normal = cross(minus(b, a), minus(c, a));
+        // Along the sight, as the ray goes one forward a unit.
+        let distance = dot(a, normal) / dot(ray, normal);
+        let hit = sum([(ray, distance)]);
+        let within =
+            |[from, to]: [Exact; 2]| dot(cross(minus(to, from), minus(hit, from)), normal) >= 0.0;
+        let near = distance > f64::from(camera.near) && distance < nearest.0;
+        if near && [[a, b], [b, c], [c, a]].into_iter().all(within) {
+            nearest = (distance, number);
+        }
+    }
+    nearest.1
+}
+
+#[test]
+fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
+    let size = (97, 61);
+    let (mut told, mut empty) = (0, 0);
+    for seed in 0..6 {
+        let (mesh, camera) = (random_triangles(60, seed), inside_them());
+        let found = visible(&mesh, &camera, size.0, size.1);
+        for y in 0..size.1 {
+            for x in 0..size.0 {
+                let ray = |dx: f64, dy: f64| {
+                    cast(&mesh, &camera, size, [x as f64 + 0.5 + dx, y as f64 + 0.5 + dy])
+                };
+                let around = [[0.02, 0.0], [-0.02, 0.0], [0.0, 0.02], [0.0, -0.02]];
+                let wanted = ray(0.0, 0.0);
+                if around.iter().all(|&[dx, dy]| ray(dx, dy) == wanted) {
+                    assert_eq!(found[(x, y)].triangle, wanted, "seed {seed}, {x}, {y}");
+                    told += 1;
+                    empty += usize::from(wanted == NOTHING);
+                }
+            }
+        }
+    }
+    let all = 6 * size.0 * size.1;
+    assert!(told > all * 9 / 10 && empty > 10 && empty < all / 2, "{told} {empty} of {all}");
+}
+
+#[test]
+fn a_pixel_tells_the_place_that_it_sees() {
+    let (mesh, camera) = (random_triangles(60, 9), inside_them());
+    let found = visible(&mesh, &camera, 96, 64);
+    let clip_from_model = camera.clip_from_model(1.5);
+    let mut seen = 0;
+    for y in 0..64 {
+        for x in 0..96 {
+            let pixel = found[(x, y)];
+            if pixel.triangle == NOTHING {
+                assert_eq!(pixel, Seen::EMPTY, "{x}, {y}");
+                continue;
+            }
+            let clip = clip_from_model * position_at(&mesh, pixel).extend(1.0);
+            let at = [(clip.x / clip.w + 1.0) * 48.0, (1.0 - clip.y / clip.w) * 32.0];
+            let off = (at[0] - x as f32 - 0.5).hypot(at[1] - y as f32 - 0.5);
+            // Vertices move by half a 256th of a pixel, which the weights of a
+            // slim triangle feel.
+            assert!(off < 0.05, "{x}, {y}: {off} pixels off: {pixel:?}");
+            assert!((clip.z / clip.w - pixel.depth).abs() < 1e-3, "{x}, {y}: {pixel:?}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 2000, "{seen}");
+}
+
+/// A fan about a point that is no vertex of the grid of pixels, closed by a rim.
+fn fan(spokes: usize) -> Mesh {
+    let rim = |i: usize| {
+        let angle = i as f32 / spokes as f32 * std::f32::consts::TAU;
+        Vec3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let middle = Vec3::new(0.013, -0.027, 0.0);
+    let triangles: Vec<_> = (0..spokes).map(|i| [middle, rim(i), rim((i + 1) % spokes)]).collect();
+    loose(&triangles)
+}
+
+#[test]
+fn edges_that_are_shared_are_drawn_once_and_leave_no_hole() {
+    let mesh = fan(89);
+    let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 40.0);
+    let clip_from_model = camera.clip_from_model(1.0);
+    let drawn_by = |triangles: &[Triangle]| {
+        let mut visible = Visible::filled(128, 128, Seen::EMPTY);
+        let mut rasteriser = Rasteriser::default();
+        rasteriser.draw(clip_from_model, &mesh.positions, triangles, Sides::Both, &mut visible);
+        let pixels = visible.values().iter().zip(0..).filter(|(seen, _)| seen.triangle != NOTHING);
+        pixels.map(|(_, pixel)| pixel).collect::<BTreeSet<usize>>()
+    };
+    let whole = drawn_by(&mesh.triangles);
+    let alone: Vec<_> = mesh.triangles.iter().map(|t| drawn_by(&[*t])).collect();
+    let pixels: usize = alone.iter().map(BTreeSet::len).sum();
+    assert_eq!(pixels, whole.len(), "pixels drawn twice");
+    // Every row of a disc is whole.
+    for y in 0..128 {
+        let row: Vec<usize> = whole.range(y * 128..(y + 1) * 128).copied().collect();
+        let [Some(first), Some(last)] = [row.first(), row.last()] else { continue };
+        assert_eq!(last - first + 1, row.len(), "row {y}");
+    }
+    assert!(whole.len() > 8000, "{}", whole.len());
+}
+
+#[test]
+fn of_equal_depth_the_first_triangle_is_seen_and_runs_agree() {
+    let triangle = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::Y];
+    let mesh = loose(&[triangle; 5000]);
+    let camera = Camera::framing(mesh.bounds(), 20.0, 10.0, 40.0);
+    let found = visible(&mesh, &camera, 64, 64);
+    assert!(found.values().iter().all(|seen| [0, NOTHING].contains(&seen.triangle)));
+    assert!(found[(32, 32)].triangle == 0);
+    let (mesh, camera) = (random_triangles(9000, 4), inside_them());
+    assert_eq!(visible(&mesh, &camera, 200, 100), visible(&mesh, &camera, 200, 100));
+}
+
+#[test]
+fn the_front_of_a_closed_mesh_is_all_that_is_seen_of_it() {
+    for mesh in [Mesh::sphere(900), Mesh::torus_knot(4000)] {
+        let camera = Camera::framing(mesh.bounds(), 35.0, 25.0, 30.0);
+        let both = visible(&mesh, &camera, 150, 150);
+        let mut front = Visible::filled(150, 150, Seen::EMPTY);
+        let clip_from_model = camera.clip_from_model(1.0);
+        Rasteriser::default().draw(
+            clip_from_model,
+            &mesh.positions,
+            &mesh.triangles,
+            Sides::Front,
+            &mut front,
+        );
+        let differ = both.values().iter().zip(front.values()).filter(|(a, b)| a != b).count();
+        assert!(differ <= 3, "{differ} pixels");
+        let seen = both.values().iter().filter(|seen| seen.triangle != NOTHING).count();
+        assert!(seen > 4000, "{seen}");
+    }
+}
+
+#[test]
+fn empty_pictures_and_empty_meshes_show_nothing() {
+    let camera = inside_them();
+    assert_eq!(visible(&Mesh::sphere(100), &camera, 0, 5).values().len(), 0);
+    let nothing = visible(&Mesh::default(), &camera, 5, 5);
+    assert!(nothing.values().iter().all(|seen| *seen == Seen::EMPTY));
+}
+
+#[test]
+fn the_whole_box_is_framed_from_every_side() {
+    let bounds = [Vec3::new(-3.0, 1.0, -0.5), Vec3::new(2.0, 2.5, 0.7)];
+    let shares = |camera: &Camera, aspect: f32| {
+        let corners = (0..8).map(|bits: usize| {
+            let pick = |axis: usize| bounds[bits >> axis & 1][axis];
+            Vec3::new(pick(0), pick(1), pick(2))
+        });
+        let clips = corners.map(|corner| camera.clip_from_model(aspect) * corner.extend(1.0));
+        clips.fold([0.0f32; 2], |[x, y], clip| {
+            assert!(clip.z > 0.0 && clip.z < clip.w, "between the planes: {clip}");
+            [x.max((clip.x / clip.w).abs()), y.max((clip.y / clip.w).abs())]
+        })
+    };
+    for azimuth_deg in [-170.0, -90.0, 0.0, 33.0, 90.0] {
+        for elevation_deg in [-90.0, -30.0, 0.0, 45.0, 90.0] {
+            for aspect in [0.5, 1.0, 1.6] {
+                let framing =
+                    Framing { azimuth_deg, elevation_deg, aspect, field_of_view_deg: 40.0 };
+                let [x, y] = shares(&framing.camera(bounds), aspect);
+                let most = x.max(y);
+                assert!((0.9..0.95).contains(&most), "{framing:?}: {x} {y}");
+                for camera in framing.turntable(bounds, 24) {
+                    let [x, y] = shares(&camera, aspect);
+                    assert!(x.max(y) < 0.95, "{camera:?}: {x} {y}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Cameras that have a whole model in the picture.
+
+use glam::Vec3;
+
+use super::perspective::Camera;
+
+/// Of the picture, from its middle to its edge, that the model may take.
+const FILLED: f32 = 0.92;
+
+/// From which side a model is framed, and in what picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Framing {
+    /// Around the vertical axis: 0 looks along -z, 90 along -x.
+    pub azimuth_deg: f32,
+    /// Above the horizon, -90 to 90.
+    pub elevation_deg: f32,
+    /// From the lower to the upper edge of the picture, above 0 and below 180.
+    pub field_of_view_deg: f32,
+    /// Width of the picture by its height, above 0.
+    pub aspect: f32,
+}
+
+impl Default for Framing {
+    /// From the front and a little above, as through a portrait lens, in a square.
+    fn default() -> Self {
+        Self { azimuth_deg: 30.0, elevation_deg: 20.0, field_of_view_deg: 30.0, aspect: 1.0 }
+    }
+}
+
+impl Framing {
+    /// The nearest camera that has the whole box in the picture, with a margin,
+    /// and looks at its middle. `bounds` as of [`crate::mesh::Mesh::bounds`].
+    #[must_use]
+    pub fn camera(&self, bounds: [Vec3; 2]) -> Camera {
+        self.at(bounds, self.distance(bounds))
+    }
+
+    /// The same around the model in `frames` even steps, once: the box is in the
+    /// picture all the way, at one distance.
+    #[must_use]
+    pub fn turntable(&self, bounds: [Vec3; 2], frames: usize) -> Vec<Camera> {
+        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
+        let distances = (0..360).map(|degrees| turned(degrees as f32).distance(bounds));
+        let distance = distances.fold(0.0, f32::max);
+        let step = 360.0 / frames.max(1) as f32;
+        (0..frames).map(|frame| turned(frame as f32 * step).at(bounds, distance)).collect()
+    }
+
+    /// Backwards, upwards and to the right, as the camera has it.
+    fn axes(&self) -> [Vec3; 3] {
+        let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
+        let (sin_e, cos_e) = self.elevation_deg.to_radians().sin_cos();
+        [
+            Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e),
+            Vec3::new(-sin_a * sin_e, cos_e, -cos_a * sin_e),
+            Vec3::new(cos_a, 0.0, -sin_a),
+        ]
+    }
+
+    /// From the middle of the box to the eye.
+    fn distance(&self, bounds: [Vec3; 2]) -> f32 {
+        let [back, up, right] = self.axes();
+        let half = half_size(bounds);
+        let high = (self.field_of_view_deg / 2.0).to_radians().tan() * FILLED;
+        let wide = high * self.aspect;
+        let corners = (0..8).map(|corner| {
+            let sign = |bit: i32| if corner & bit == 0 { 1.0 } else { -1.0 };
+            half * Vec3::new(sign(1), sign(2), sign(4))
+        });
+        // A corner is in the picture where its height is at most `high` times its
+        // distance along the sight.
+        let distances = corners.map(|corner| {
+            let least = (corner.dot(up).abs() / high).max(corner.dot(right).abs() / wide);
+            least + corner.dot(back)
+        });
+        distances.fold(half.length() * 1e-3, f32::max)
+    }
+
+    fn at(&self, bounds: [Vec3; 2], distance: f32) -> Camera {
+        let [back, up, _] = self.axes();
+        let target = (bounds[0] + bounds[1]) / 2.0;
+        let radius = half_size(bounds).length();
+        Camera {
+            eye: target + back * distance,
+            target,
+            up,
+            field_of_view_deg: self.field_of_view_deg,
+            near: (0.9 * (distance - radius)).max(distance * 0.01),
+            far: distance + radius * 1.1,
+        }
+    }
+}
+
+/// From the middle of a box to its highest corner; of a single place, as if it
+/// were of size 1.
+fn half_size(bounds: [Vec3; 2]) -> Vec3 {
+    let half = (bounds[1] - bounds[0]) / 2.0;
+    if half.max_element() > 0.0 { half } else { Vec3::splat(0.5) }
+}
+
+impl Camera {
+    /// The nearest camera that has the whole box in a picture at least as wide as
+    /// high; see [`Framing`] for the angles, and for other pictures.
+    #[must_use]
+    pub fn framing(
+        bounds: [Vec3; 2],
+        azimuth_deg: f32,
+        elevation_deg: f32,
+        field_of_view_deg: f32,
+    ) -> Self {
+        let framing = Framing { azimuth_deg, elevation_deg, field_of_view_deg, aspect: 1.0 };
+        framing.camera(bounds)
+    }
+}
