@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use render::field::Field;
-use render::gpu::{BackendChoice, choose};
+use render::gpu::{BackendChoice, Device, GpuError, choose};
 use render::paint::Engine;
 use render::paint::on_cpu::OnCpu;
 use render::paint::on_gpu::OnGpu;
@@ -20,12 +20,35 @@ enum BackendName {
     Gpu,
 }
 
-/// Where to compute, and how much undo may keep.
+/// Where to compute.
 #[derive(Debug, Clone, Args)]
-pub(crate) struct EngineOptions {
+pub(crate) struct BackendOption {
     /// What computes
     #[arg(long, value_enum, default_value = "auto")]
     backend: BackendName,
+}
+
+impl BackendOption {
+    /// The device to compute on; none where it is the processor.
+    pub(crate) fn device(&self) -> Result<Option<Device>, GpuError> {
+        choose(match self.backend {
+            BackendName::Auto => BackendChoice::Auto,
+            BackendName::Cpu => BackendChoice::Cpu,
+            BackendName::Gpu => BackendChoice::Gpu,
+        })
+    }
+
+    /// Whether a device that cannot do it may give way to the processor.
+    pub(crate) fn gives_way(&self) -> bool {
+        self.backend == BackendName::Auto
+    }
+}
+
+/// Where to compute, and how much undo may keep.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct EngineOptions {
+    #[command(flatten)]
+    backend: BackendOption,
     /// Memory that undo may keep, in MiB; what does not fit is forgotten, oldest first
     #[arg(long, value_name = "MIB", default_value_t = UNDO_BYTES >> 20, value_parser = clap::value_parser!(u64).range(0..=1 << 20))]
     undo_memory: u64,
@@ -39,16 +62,11 @@ impl EngineOptions {
         floor: &Field<i32>,
         console: &mut Console<'_>,
     ) -> anyhow::Result<Box<dyn Engine>> {
-        let choice = match self.backend {
-            BackendName::Auto => BackendChoice::Auto,
-            BackendName::Cpu => BackendChoice::Cpu,
-            BackendName::Gpu => BackendChoice::Gpu,
-        };
         let on_cpu = || Box::new(OnCpu::new(floor.clone()));
-        let Some(device) = choose(choice)? else { return Ok(on_cpu()) };
+        let Some(device) = self.backend.device()? else { return Ok(on_cpu()) };
         match OnGpu::new(device, floor) {
             Ok(engine) => Ok(Box::new(engine)),
-            Err(error) if self.backend == BackendName::Auto => {
+            Err(error) if self.backend.gives_way() => {
                 console.warnings(&[format!("{error}; painting on the processor")])?;
                 Ok(on_cpu())
             }

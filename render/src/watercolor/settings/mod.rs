@@ -12,6 +12,8 @@ mod file;
 
 mod preset;
 
+mod change;
+
 pub use effects::{
     DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperKind, PaperSettings,
     WobbleSettings,

@@ -1,0 +1,69 @@
+//! Some settings changed, the others kept.
+
+use toml::{Table, Value};
+
+use super::file::SettingsError;
+use super::whole::Settings;
+
+impl Settings {
+    /// These settings, but for what `text` (TOML) says; `name` stands in errors.
+    ///
+    /// ```
+    /// use render::watercolor::Preset;
+    /// let settings = Preset::Sketch.settings().changed("here", "edges.strength = 3.0")?;
+    /// assert_eq!(settings.edges.strength, 3.0);
+    /// # Ok::<(), render::watercolor::SettingsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SettingsError`] as of a file.
+    pub fn changed(&self, name: &str, text: &str) -> Result<Self, SettingsError> {
+        // By itself first, so that faults are told with their lines.
+        Self::from_toml(name, text)?;
+        let broken =
+            |reason: String| SettingsError::Line { name: name.to_owned(), line: 1, reason };
+        let mut all = Table::try_from(self).map_err(|error| broken(error.to_string()))?;
+        let changes: Table =
+            text.parse().map_err(|error: toml::de::Error| broken(error.to_string()))?;
+        for (key, change) in changes {
+            match (all.get_mut(&key), change) {
+                (Some(Value::Table(group)), Value::Table(changes)) => group.extend(changes),
+                (_, change) => {
+                    all.insert(key, change);
+                }
+            }
+        }
+        all.try_into().map_err(|error: toml::de::Error| broken(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Preset;
+
+    #[test]
+    fn what_is_not_named_stays() {
+        let sketch = Preset::Sketch.settings();
+        assert_eq!(sketch.changed("none", "").unwrap(), sketch);
+        let text = "[paper]\nseed = 7\n[dry_brush]\ncolour = \"#102030\"";
+        let changed = sketch.changed("some", text).unwrap();
+        assert_eq!((changed.paper.seed, changed.dry_brush.colour.as_deref()), (7, Some("#102030")));
+        let mut back = changed;
+        back.paper.seed = sketch.paper.seed;
+        back.dry_brush.colour.clone_from(&sketch.dry_brush.colour);
+        assert_eq!(back, sketch);
+    }
+
+    #[test]
+    fn faults_are_told_as_those_of_files() {
+        let sketch = Preset::Sketch.settings();
+        for (text, wanted) in [
+            ("\nedges.strength = 99", "mine, line 2: edges.strength takes 0 to 10, found `99`"),
+            ("edges.stronger = 1", "mine, line 1: unknown field `stronger`"),
+            ("edges = ", "mine, line 1"),
+        ] {
+            let error = sketch.changed("mine", text).unwrap_err().to_string();
+            assert!(error.starts_with(wanted), "{error}");
+        }
+    }
+}
