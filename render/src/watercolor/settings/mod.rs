@@ -13,7 +13,7 @@ mod file;
 mod preset;
 
 pub use effects::{
-    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperKind, PaperSettings,
+    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperSettings, WashSettings,
     WobbleSettings,
 };
 pub use file::SettingsError;
