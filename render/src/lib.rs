@@ -10,6 +10,8 @@
 
 pub mod amount;
 
+mod noise;
+
 pub mod tile;
 
 pub mod field;

@@ -1,9 +1,18 @@
 //! All kernels of watercolor, in one list.
 
+use super::{colour_mask, density, dry_brush, edges, sheet, wobble};
 use crate::gpu::Kernel;
 
 /// Every kernel that watercolor on a device runs.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
-    vec![]
+    vec![
+        &density::DENSITY,
+        &edges::EDGE_BLUR,
+        &edges::EDGES,
+        &wobble::WOBBLE,
+        &dry_brush::DRY_BRUSH,
+        &colour_mask::COLOUR_MASK,
+        &sheet::SHEET,
+    ]
 }

@@ -17,15 +17,44 @@ mod on_cpu;
 
 mod on_gpu;
 
+mod textures;
+
+mod density;
+
+mod edges;
+
+mod wobble;
+
+mod colour_mask;
+
+mod dry_brush;
+
+mod sheet;
+
+mod pipeline;
+
+mod glaze;
+
 mod kernels;
 
 pub use backend::Backend;
+pub use colour_mask::{ColourMask, ColourRange};
+pub use density::{Density, DensityLayer};
+pub use dry_brush::{DryBrush, DryBrushReach};
+pub use edges::Edges;
+pub use glaze::{GlazeError, Glazes, thickness};
 pub use kernels::kernels;
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
+pub use pipeline::{Stage, WashOn, Watcher, Watercolor, paint};
 pub use settings::{
     AbstractionSettings, CoherenceMethod, CoherenceSettings, DispersionSettings, DryBrushSettings,
-    EdgeSettings, FlowSettings, PaperKind, PaperSettings, Preset, Settings, SettingsError,
-    ToonSettings, WobbleSettings,
+    EdgeSettings, FlowSettings, PaperSettings, Preset, Settings, SettingsError, ToonSettings,
+    WashSettings, WobbleSettings,
+};
+pub use sheet::{OnSheet, Sheet};
+pub use textures::{
+    PaperOn, PaperTexture, PaperTextureError, Textures, TexturesOn, dispersion, turbulent_flow,
 };
 pub use wash::{Controls, Wash};
+pub use wobble::Wobble;

@@ -5,9 +5,9 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::noise::{Hills, random};
 use super::{GroundError, within};
 use crate::field::Field;
+use crate::noise::{Hills, random};
 
 /// Primed linen: warp (along y) and weft (along x) over and under each other,
 /// threads unevenly spaced, with slubs; the priming has filled the gaps.

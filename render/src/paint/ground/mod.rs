@@ -7,8 +7,6 @@
 
 mod linen;
 
-mod noise;
-
 mod panel;
 
 mod paper;
@@ -21,7 +19,7 @@ mod wood;
 
 pub use linen::Linen;
 pub use panel::Panel;
-pub use paper::Paper;
+pub use paper::{Making, Paper};
 pub use picture_relief::PictureRelief;
 pub use primer::{ColourPrimer, MeasuredPrimer, Primer, PrimerSpectrum};
 pub use wood::Wood;
@@ -57,7 +55,7 @@ pub struct GroundSpec {
 pub enum GroundRelief {
     /// Primed linen in plain weave.
     Linen(Linen),
-    /// Cold-pressed paper.
+    /// Watercolour paper.
     Paper(Paper),
     /// A primed panel, nearly flat.
     Panel(Panel),

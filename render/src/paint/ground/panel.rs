@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::noise::{Hills, random};
 use super::{GroundError, within};
 use crate::field::Field;
+use crate::noise::{Hills, random};
 
 /// A smooth panel, nearly flat: faint marks of the brush that primed it, along x,
 /// sanded down.

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::noise::{Hills, random};
 use super::primer::{ColourPrimer, Primer};
 use super::{GroundError, within};
 use crate::field::Field;
+use crate::noise::{Hills, random};
 use crate::optics::Gloss;
 
 /// Varnished walnut, as of a painter's palette: long fibres along x, growth rings

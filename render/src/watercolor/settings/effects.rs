@@ -3,6 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
+use crate::paint::ground::Making;
+
+/// How much water is in the paint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WashSettings {
+    /// Density of all paint, 0..=4: 1 as the colours are, less is paler, 2 is two glazes.
+    pub density: f32,
+}
 
 /// Edges that follow the paper's grain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,25 +62,12 @@ pub struct DispersionSettings {
     pub seed: u64,
 }
 
-/// The makings of paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PaperKind {
-    /// Pressed between felts: an even grain.
-    #[default]
-    ColdPressed,
-    /// Hardly pressed: deep and coarse.
-    Rough,
-    /// Pressed by hot rollers: nearly smooth.
-    HotPressed,
-}
-
 /// What is painted on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PaperSettings {
     /// How it was made.
-    pub kind: PaperKind,
+    pub kind: Making,
     /// A picture of heights (PNG or JPEG, white the highest) instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scan: Option<String>,
@@ -81,7 +77,8 @@ pub struct PaperSettings {
     pub seed: u64,
     /// How much density changes: pigment settles in hollows, 0..=5.
     pub strength: f32,
-    /// Width of the usual bump in px, 1..=512.
+    /// Width of the usual bump of cold-pressed paper in px, 1..=512; of rough paper
+    /// they are wider.
     pub grain_px: f32,
     /// Its colour, `#rrggbb`.
     pub colour: String,
@@ -97,6 +94,9 @@ pub struct DryBrushSettings {
     pub amount: f32,
     /// Over how much of the paper's height paint fades out, 0.001..=0.5.
     pub softness: f32,
+    /// How much of it is kept to patches, 0..=1: at 0 the brush is dry everywhere, at 1
+    /// only where the wash flows thinly.
+    pub patches: f32,
     /// Only where the wash is of about this colour, `#rrggbb`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<String>,
@@ -104,48 +104,60 @@ pub struct DryBrushSettings {
     pub tolerance: f32,
 }
 
+impl Default for WashSettings {
+    fn default() -> Self {
+        Self { density: 0.8 }
+    }
+}
+
 impl Default for WobbleSettings {
     fn default() -> Self {
-        Self { amount_px: 1.2 }
+        Self { amount_px: 1.0 }
     }
 }
 
 impl Default for EdgeSettings {
     fn default() -> Self {
-        Self { strength: 1.6, width_px: 1.0 }
+        Self { strength: 3.0, width_px: 1.0 }
     }
 }
 
 impl Default for FlowSettings {
     fn default() -> Self {
-        Self { strength: 1.2, size_px: 220.0, octaves: 5, seed: 1 }
+        Self { strength: 1.0, size_px: 240.0, octaves: 5, seed: 1 }
     }
 }
 
 impl Default for DispersionSettings {
     fn default() -> Self {
-        Self { strength: 0.6, finest_px: 0.5, scales: 4, seed: 1 }
+        Self { strength: 0.35, finest_px: 0.5, scales: 3, seed: 1 }
     }
 }
 
 impl Default for PaperSettings {
     fn default() -> Self {
         Self {
-            kind: PaperKind::ColdPressed,
+            kind: Making::ColdPressed,
             scan: None,
             scan_scale: 1.0,
             seed: 1,
-            strength: 0.7,
-            grain_px: 7.0,
+            strength: 0.5,
+            grain_px: 4.5,
             colour: "#fbf9f4".to_owned(),
-            relief: 0.06,
+            relief: 0.02,
         }
     }
 }
 
 impl Default for DryBrushSettings {
     fn default() -> Self {
-        Self { amount: 0.0, softness: 0.1, colour: None, tolerance: 25.0 }
+        Self { amount: 0.0, softness: 0.1, patches: 1.0, colour: None, tolerance: 25.0 }
+    }
+}
+
+impl WashSettings {
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        vec![Figure::new("wash.density", self.density, [0.0, 4.0])]
     }
 }
 
@@ -221,6 +233,7 @@ impl DryBrushSettings {
         vec![
             Figure::new("dry_brush.amount", self.amount, [0.0, 1.0]),
             Figure::new("dry_brush.softness", self.softness, [0.001, 0.5]),
+            Figure::new("dry_brush.patches", self.patches, [0.0, 1.0]),
             Figure::new("dry_brush.tolerance", self.tolerance, [1.0, 200.0]),
         ]
     }

@@ -15,7 +15,7 @@ mod preset;
 mod change;
 
 pub use effects::{
-    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperKind, PaperSettings,
+    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperSettings, WashSettings,
     WobbleSettings,
 };
 pub use file::SettingsError;

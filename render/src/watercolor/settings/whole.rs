@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::effects::{
-    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperSettings, WobbleSettings,
+    DispersionSettings, DryBrushSettings, EdgeSettings, FlowSettings, PaperSettings, WashSettings,
+    WobbleSettings,
 };
 use super::figures::Figure;
 use super::subject::{AbstractionSettings, CoherenceSettings, ToonSettings};
@@ -19,6 +20,8 @@ pub struct Settings {
     pub abstraction: AbstractionSettings,
     /// Of meshes.
     pub toon: ToonSettings,
+    /// Water in the paint.
+    pub wash: WashSettings,
     /// Edges that follow the grain.
     pub wobble: WobbleSettings,
     /// Pigment at the rim of a wash.
@@ -41,6 +44,7 @@ impl Default for Settings {
             reference_px: 1000.0,
             abstraction: AbstractionSettings::default(),
             toon: ToonSettings::default(),
+            wash: WashSettings::default(),
             wobble: WobbleSettings::default(),
             edges: EdgeSettings::default(),
             flow: FlowSettings::default(),
@@ -75,6 +79,7 @@ impl Settings {
     /// All effects off, on smooth white paper: what comes in goes out.
     #[must_use]
     pub fn without_effects(mut self) -> Self {
+        self.wash.density = 1.0;
         self.wobble.amount_px = 0.0;
         self.edges.strength = 0.0;
         self.flow.strength = 0.0;
@@ -92,6 +97,7 @@ impl Settings {
             own,
             self.abstraction.figures(),
             self.toon.figures(),
+            self.wash.figures(),
             self.wobble.figures(),
             self.edges.figures(),
             self.flow.figures(),

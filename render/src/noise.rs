@@ -7,31 +7,39 @@ use rand_chacha::ChaCha8Rng;
 /// Cells of the lattice before it repeats.
 const PERIOD: usize = 1024;
 
+/// Of the slopes at its corners; brings the spread to about a third.
+const STEEPNESS: f64 = 1.6;
+
 /// A surface of hills and hollows about one unit wide, of mean 0 and mostly
 /// within -1..1, the same for the same seed.
 ///
 /// Gradient noise with a quintic blend (Perlin 2002).
 #[derive(Debug, Clone)]
-pub(super) struct Hills {
+pub(crate) struct Hills {
     order: Vec<u16>,
     slopes: Vec<[f32; 2]>,
 }
 
 impl Hills {
-    pub(super) fn new(random: &mut ChaCha8Rng) -> Self {
+    /// The mean square of all heights: four corners, each a slope of `STEEPNESS` along
+    /// any way times the blend, whose square integrates to 181/462 and times the
+    /// squared distance to 535/18018.
+    pub(crate) const VARIANCE: f64 =
+        4.0 * STEEPNESS * STEEPNESS * (181.0 / 462.0) * (535.0 / 18018.0);
+
+    pub(crate) fn new(random: &mut ChaCha8Rng) -> Self {
         let mut order: Vec<u16> = (0..PERIOD as u16).collect();
         order.shuffle(random);
         let slope = |_| {
             let angle = random.random_range(0.0..std::f64::consts::TAU);
-            // Brings the usual spread to about a half.
-            [angle.cos(), angle.sin()].map(|v| 1.6 * v as f32)
+            [angle.cos(), angle.sin()].map(|v| STEEPNESS as f32 * v as f32)
         };
         let slopes = (0..PERIOD).map(slope).collect();
         Self { order, slopes }
     }
 
     /// The height at `(x, y)`.
-    pub(super) fn at(&self, x: f32, y: f32) -> f32 {
+    pub(crate) fn at(&self, x: f32, y: f32) -> f32 {
         let (left, top) = (x.floor(), y.floor());
         let (a, b) = (x - left, y - top);
         let (column, row) = (left as i64 as usize, top as i64 as usize);
@@ -49,8 +57,8 @@ impl Hills {
     }
 }
 
-/// The random numbers of a ground, apart from those of other kinds of it.
-pub(super) fn random(seed: u64, kind: u64) -> ChaCha8Rng {
+/// The random numbers of a seed, apart from those of other kinds of it.
+pub(crate) fn random(seed: u64, kind: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(kind);
     random

@@ -1,0 +1,225 @@
+//! Where a wash ends: the texture by which edges grow denser.
+//!
+//! Bousseau et al. 2006, section 3.2: the symmetric gradient
+//! `|p(x-1) - p(x+1)| + |p(y-1) - p(y+1)|`, averaged over red, green and blue, of
+//! the picture over white paper; before it the picture may be blurred, which widens
+//! edges. Where paint borders on bare paper, pigment gathers at the rim however
+//! pale it is: there the same gradient of the coverage counts if it is greater. Values
+//! run from 0 to 2; beyond its borders the picture goes on as it ends.
+
+use pulp::Simd;
+use rayon::prelude::*;
+
+use super::backend::Backend;
+use super::on_cpu::OnCpu;
+use super::on_gpu::{OnGpu, Plane};
+use crate::field::Field;
+use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
+use crate::optics::{greater, multiply_add};
+
+/// Edges of a picture.
+pub trait Edges: Backend {
+    /// How much of an edge every pixel of `colour` is, 0..2, after a Gaussian blur
+    /// of standard deviation `width_px`, 0 and up.
+    ///
+    /// # Errors
+    /// As [`Backend::colour_of`].
+    fn edges(&mut self, colour: &Self::Colour, width_px: f32) -> Result<Self::Grey, GpuError>;
+}
+
+/// Half of a Gaussian, from its middle outwards; whole, it sums to 1.
+fn half_gaussian(sigma: f32) -> Vec<f32> {
+    let radius = (2.5 * sigma).ceil().max(0.0) as usize;
+    let weight = |i: usize| match i {
+        0 => 1.0,
+        _ => (-0.5 * (i as f64 / f64::from(sigma)).powi(2)).exp(),
+    };
+    let half: Vec<f64> = (0..=radius).map(weight).collect();
+    let sum = 2.0 * half.iter().sum::<f64>() - 1.0;
+    half.into_iter().map(|weight| (weight / sum) as f32).collect()
+}
+
+/// Rows that are worked on together, so that what lies between stays in the cache.
+const BAND: usize = 24;
+
+impl Edges for OnCpu {
+    fn edges(&mut self, colour: &Field<[f32; 4]>, width_px: f32) -> Result<Field<f32>, GpuError> {
+        let (width, height) = (colour.width(), colour.height());
+        let mut edges = Field::filled(width, height, 0.0);
+        if width == 0 || height == 0 {
+            return Ok(edges);
+        }
+        let half = half_gaussian(width_px);
+        let bands = edges.values_mut().par_chunks_mut(width * BAND).enumerate();
+        bands.for_each_init(Scratch::default, |scratch, (band, edges)| {
+            let band = Band { colour, half: &half, first: band * BAND, scratch, edges };
+            pulp::Arch::new().dispatch(band);
+        });
+        Ok(edges)
+    }
+}
+
+/// Rows of the picture on the way; kept from band to band.
+#[derive(Default)]
+struct Scratch {
+    /// One row over white, its ends repeated.
+    line: Vec<[f32; 4]>,
+    /// Rows blurred sideways.
+    sideways: Vec<[f32; 4]>,
+    /// Rows blurred both ways.
+    blurred: Vec<[f32; 4]>,
+}
+
+struct Band<'a> {
+    colour: &'a Field<[f32; 4]>,
+    half: &'a [f32],
+    /// Its first row.
+    first: usize,
+    scratch: &'a mut Scratch,
+    edges: &'a mut [f32],
+}
+
+/// A pixel over white paper, and its coverage.
+#[inline(always)]
+fn over_white([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let bare = 1.0 - a;
+    [r * a + bare, g * a + bare, b * a + bare, a]
+}
+
+impl pulp::WithSimd for Band<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { colour, half, first, scratch, edges } = self;
+        let (width, last) = (colour.width(), colour.height() as isize - 1);
+        let (rows, radius) = (edges.len() / width, half.len() - 1);
+        let Scratch { line, sideways, blurred } = scratch;
+        line.resize(width + 2 * radius, [0.0; 4]);
+        sideways.resize(width * (rows + 2 + 2 * radius), [0.0; 4]);
+        blurred.resize(width * (rows + 2), [0.0; 4]);
+        let top = first as isize - 1 - radius as isize;
+        for (i, out) in sideways.chunks_exact_mut(width).enumerate() {
+            let y = (top + i as isize).clamp(0, last) as usize;
+            let row = colour.row(y, 0, width);
+            for (out, &pixel) in line[radius..].iter_mut().zip(row) {
+                *out = over_white(pixel);
+            }
+            let (left, right) = (line[radius], line[radius + width - 1]);
+            line[..radius].fill(left);
+            line[radius + width..].fill(right);
+            mean::<S>(half, out, |tap| &line[radius.wrapping_add_signed(tap)..][..width]);
+        }
+        for (i, out) in blurred.chunks_exact_mut(width).enumerate() {
+            mean::<S>(half, out, |tap| {
+                &sideways[(radius + i).wrapping_add_signed(tap) * width..][..width]
+            });
+        }
+        for (y, out) in edges.chunks_exact_mut(width).enumerate() {
+            let row = |y: usize| &blurred[y * width..][..width];
+            let (is_first, is_last) = (first + y == 0, (first + y) as isize == last);
+            let above = row(y + usize::from(is_first));
+            let (here, below) = (row(y + 1), row(y + 2 - usize::from(is_last)));
+            out[0] = edge([here[0], here[1.min(width - 1)]], [above[0], below[0]]);
+            let end = width - 1;
+            out[end] = edge([here[end.max(1) - 1], here[end]], [above[end], below[end]]);
+            let middle = above.iter().zip(below).skip(1);
+            for (out, (here, (&above, &below))) in
+                out.iter_mut().skip(1).zip(here.windows(3).zip(middle))
+            {
+                *out = edge([here[0], here[2]], [above, below]);
+            }
+        }
+    }
+}
+
+/// The weighted mean of `taps`, from -radius to radius.
+#[inline(always)]
+fn mean<'a, S: Simd>(half: &[f32], out: &mut [[f32; 4]], taps: impl Fn(isize) -> &'a [[f32; 4]]) {
+    let middle = taps(0);
+    for (out, pixel) in out.iter_mut().zip(middle) {
+        *out = pixel.map(|value| half[0] * value);
+    }
+    for (tap, &weight) in half.iter().enumerate().skip(1) {
+        let (before, after) = (taps(-(tap as isize)), taps(tap as isize));
+        for ((out, before), after) in out.iter_mut().zip(before).zip(after) {
+            for i in 0..4 {
+                out[i] = multiply_add::<S>(weight, before[i] + after[i], out[i]);
+            }
+        }
+    }
+}
+
+/// The symmetric gradient, by left and right, above and below.
+#[inline(always)]
+fn edge([left, right]: [[f32; 4]; 2], [above, below]: [[f32; 4]; 2]) -> f32 {
+    let step: [f32; 4] =
+        std::array::from_fn(|i| (left[i] - right[i]).abs() + (above[i] - below[i]).abs());
+    greater((step[0] + step[1] + step[2]) / 3.0, step[3])
+}
+
+/// What the blur is told.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct EdgeBlurNow {
+    size: [u32; 2],
+    /// (1, 0) along rows, (0, 1) along columns.
+    along: [u32; 2],
+    /// Where in the batch the weights start, and how many there are.
+    first: u32,
+    count: u32,
+    /// Whether pixels are colours yet to be laid over white.
+    bare: u32,
+    spare: u32,
+}
+
+/// What the gradient is told.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct EdgesNow {
+    size: [u32; 2],
+    spare: [u32; 2],
+}
+
+pub(super) static EDGE_BLUR: Kernel = Kernel {
+    name: "watercolor_edge_blur",
+    source: include_str!("edges_blur.wgsl"),
+    parameters: layout!(EdgeBlurNow { size, along, first, count, bare, spare }),
+    structs: &[],
+    storage: &[Storage::Batch, Storage::Read, Storage::Write],
+};
+
+pub(super) static EDGES: Kernel = Kernel {
+    name: "watercolor_edges",
+    source: include_str!("edges.wgsl"),
+    parameters: layout!(EdgesNow { size, spare }),
+    structs: &[],
+    storage: &[Storage::Read, Storage::Write],
+};
+
+impl Edges for OnGpu {
+    fn edges(&mut self, colour: &Plane, width_px: f32) -> Result<Plane, GpuError> {
+        let (width, height) = (colour.width(), colour.height());
+        let half = half_gaussian(width_px);
+        let first = self.recording.batch(&half);
+        let size = [width as u32, height as u32];
+        let groups = [groups(width), groups(height), 1];
+        let rows =
+            EdgeBlurNow { size, along: [1, 0], first, count: half.len() as u32, bare: 1, spare: 0 };
+        let mut blurred = self.plane(width, height, size_of::<[f32; 4]>())?;
+        let buffers = [colour.buffer(), blurred.buffer()];
+        self.recording.dispatch(&EDGE_BLUR, &rows, &buffers, groups);
+        if half.len() > 1 {
+            let columns = EdgeBlurNow { along: [0, 1], bare: 0, ..rows };
+            let both = self.plane(width, height, size_of::<[f32; 4]>())?;
+            let buffers = [blurred.buffer(), both.buffer()];
+            self.recording.dispatch(&EDGE_BLUR, &columns, &buffers, groups);
+            blurred = both;
+        }
+        let edges = self.plane(width, height, size_of::<f32>())?;
+        let now = EdgesNow { size, spare: [0; 2] };
+        let buffers = [blurred.buffer(), edges.buffer()];
+        self.recording.dispatch(&EDGES, &now, &buffers, groups);
+        Ok(edges)
+    }
+}

@@ -1,0 +1,210 @@
+//! The height of paper, 0..1.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+use spectra::color::{Rgb, RgbSpace};
+
+use crate::amount::QUANTA_PER_CELL;
+use crate::field::Field;
+use crate::paint::ground::{GroundError, Making, Paper};
+use crate::photograph::{Framing, Photograph, PhotographError};
+use crate::watercolor::PaperSettings;
+
+/// The usual bump of cold-pressed paper in mm.
+const BUMP_MM: f64 = 1.3;
+
+/// The standard deviation of cold-pressed paper, and of scans.
+const SPREAD: f64 = 0.18;
+
+/// Made up: from black to white of a scan, in mm; about what cold-pressed paper has.
+const SCAN_MM: f64 = 0.1;
+
+/// The largest scan, in pixels a side.
+const LARGEST: usize = 16384;
+
+/// Points between which the share of paper below a height is told.
+const QUANTILES: usize = 1024;
+
+/// Paper as effects see it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaperTexture {
+    /// Of mean 0.5. The standard deviation is 0.18 for cold-pressed paper and for scans; of
+    /// other papers it goes with their depth in mm. What leaves 0..1 is cut.
+    pub heights: Field<f32>,
+    /// Width of a pixel in mm.
+    pub px_mm: f64,
+    /// What a height of 1 is in mm.
+    unit_mm: f64,
+    /// Depth relative to that of cold-pressed paper.
+    depth: f32,
+    /// Root mean square of the slopes' length (height to the right less that to the
+    /// left, and below less above).
+    slope: f32,
+    /// Heights below which 0, 1/1024 .. of the paper lies.
+    quantiles: Vec<f32>,
+}
+
+impl PaperTexture {
+    /// The paper of `settings` over `width` x `height` px. Scans go on mirrored.
+    ///
+    /// # Errors
+    /// [`PaperTextureError`] if there is no such scan or no such paper.
+    pub fn new(
+        width: usize,
+        height: usize,
+        settings: &PaperSettings,
+    ) -> Result<Self, PaperTextureError> {
+        let px_mm = BUMP_MM / f64::from(settings.grain_px);
+        let (raw, depth) = match &settings.scan {
+            Some(path) => (scanned(width, height, path, settings.scan_scale)?, 1.0),
+            None => {
+                let paper = Paper::of(settings.kind, settings.seed);
+                let depth = paper.relief_mm / Making::ColdPressed.relief_mm();
+                (paper.heights_mm(width, height, px_mm)?, depth)
+            }
+        };
+        let (heights, per_raw) = spread(raw, SPREAD * depth);
+        let unit_mm =
+            if settings.scan.is_some() || per_raw == 0.0 { SCAN_MM } else { 1.0 / per_raw };
+        let slope = slope(&heights);
+        let mut sorted = heights.values().to_vec();
+        sorted.par_sort_unstable_by(f32::total_cmp);
+        let at = |i: usize| sorted.get(i * sorted.len().saturating_sub(1) / QUANTILES);
+        let quantiles = (0..=QUANTILES).map(|i| at(i).copied().unwrap_or(0.5)).collect();
+        Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles })
+    }
+
+    /// The height below which this share of the paper lies, to a thousandth of the
+    /// paper.
+    #[must_use]
+    pub fn height_above(&self, share: f32) -> f32 {
+        let place = share.clamp(0.0, 1.0) * QUANTILES as f32;
+        let first = (place as usize).min(QUANTILES - 1);
+        let (low, high) = (self.quantiles[first], self.quantiles[first + 1]);
+        low + (high - low) * (place - first as f32)
+    }
+
+    /// What slopes are multiplied with so that their length is `amount`, root mean
+    /// square; 0 on a level paper.
+    #[must_use]
+    pub fn per_slope(&self, amount: f32) -> f32 {
+        if self.slope > 0.0 { amount / self.slope } else { 0.0 }
+    }
+
+    /// The same with the paper's depth: `amount` is that of cold-pressed paper.
+    #[must_use]
+    pub fn relief_per_slope(&self, amount: f32) -> f32 {
+        self.per_slope(amount * self.depth)
+    }
+
+    /// The same heights as a painting has them, in quanta over pixels of
+    /// [`PaperTexture::px_mm`].
+    #[must_use]
+    pub fn quanta(&self) -> Field<i32> {
+        let scale = self.unit_mm / self.px_mm * f64::from(QUANTA_PER_CELL);
+        let quanta = |&height: &f32| (f64::from(height) * scale).round() as i32;
+        let values = self.heights.values().par_iter().map(quanta).collect();
+        Field::from_values(self.heights.width(), self.heights.height(), values)
+    }
+}
+
+/// Heights brought to a mean of 0.5 and this standard deviation, and what they were
+/// multiplied with; a level field to 0.5.
+fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
+    let count = heights.values().len().max(1) as f64;
+    let mean = heights.values().iter().map(|&v| f64::from(v)).sum::<f64>() / count;
+    let squares = heights.values().iter().map(|&v| (f64::from(v) - mean).powi(2)).sum::<f64>();
+    let own = (squares / count).sqrt();
+    let scale = if own > 1e-9 { deviation / own } else { 0.0 };
+    heights.values_mut().par_iter_mut().for_each(|value| {
+        *value = (0.5 + scale * (f64::from(*value) - mean)).clamp(0.0, 1.0) as f32;
+    });
+    (heights, scale)
+}
+
+/// Root mean square of the slopes' length.
+fn slope(heights: &Field<f32>) -> f32 {
+    let (width, height) = (heights.width(), heights.height());
+    let squares = |y: usize| -> f64 {
+        let here = heights.row(y, 0, width);
+        let above = heights.row(y.saturating_sub(1), 0, width);
+        let below = heights.row((y + 1).min(height - 1), 0, width);
+        let square = |x: usize| {
+            let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
+            let down = below[x] - above[x];
+            f64::from(across * across + down * down)
+        };
+        (0..width).map(square).sum()
+    };
+    let rows: Vec<f64> = (0..height).into_par_iter().map(squares).collect();
+    (rows.iter().sum::<f64>() / (width * height).max(1) as f64).sqrt() as f32
+}
+
+/// A picture's lightness, its pixels `scale` px wide, mirrored where it ends.
+fn scanned(
+    width: usize,
+    height: usize,
+    path: &str,
+    scale: f32,
+) -> Result<Field<f32>, PaperTextureError> {
+    let photograph = Photograph::open(Path::new(path))?;
+    let side =
+        |pixels: usize| ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST);
+    let (columns, rows) = (side(photograph.size().0), side(photograph.size().1));
+    let weights = RgbSpace::Srgb.xyz_from_linear();
+    let picture = photograph.on_canvas(columns, rows, Framing::Stretched);
+    let mut heights = Field::filled(width, height, 0.0);
+    heights.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
+        let row = mirrored(y, rows);
+        for (x, out) in out.iter_mut().enumerate() {
+            let rgb = picture[(mirrored(x, columns), row)].map(f64::from);
+            let luminance = weights.apply(rgb)[1] / 100.0;
+            // Numbers as a file has them are nearly even to the eye, and so to a scanner.
+            *out = Rgb([luminance.clamp(0.0, 1.0); 3]).encoded().0[0] as f32;
+        }
+    });
+    Ok(heights)
+}
+
+/// `place` on a line that runs to its end, back, and so on.
+fn mirrored(place: usize, count: usize) -> usize {
+    let place = place % (2 * count);
+    place.min(2 * count - 1 - place)
+}
+
+/// Why there is no such paper.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperTextureError {
+    /// The scan cannot be read.
+    #[error("scan of paper: {0}")]
+    Scan(#[from] PhotographError),
+    /// A figure out of range.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+}
+
+impl PaperTextureError {
+    /// What to try.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Scan(_) => {
+                "paper.scan names a PNG or JPEG; without it paper.kind makes a paper".to_owned()
+            }
+            Self::Ground(error) => error.hint().unwrap_or_default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirrors_run_back_and_forth() {
+        let places: Vec<usize> = (0..8).map(|place| mirrored(place, 3)).collect();
+        assert_eq!(places, [0, 1, 2, 2, 1, 0, 0, 1]);
+        assert_eq!(mirrored(5, 1), 0);
+    }
+}

@@ -1,0 +1,232 @@
+//! What each effect does, against its definition.
+
+use render::field::Field;
+use render::watercolor::{
+    ColourMask, ColourRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu, OnSheet,
+    Sheet, Wobble,
+};
+use spectra::color::{Lab, Rgb, RgbSpace};
+
+use super::{any_grey, any_picture};
+
+fn layer(texture: &Field<f32>, strength: f32) -> [DensityLayer<'_, Field<f32>>; 1] {
+    [DensityLayer { texture, strength, pivot: 0.5 }]
+}
+
+#[test]
+fn density_2_squares_and_density_1_keeps_the_bits() {
+    let picture = any_picture(40, 30, 1);
+    let ones = Field::filled(40, 30, 1.0);
+    let middle = Field::filled(40, 30, 0.5);
+    for (overall, texture, strength) in [(1.0, &ones, 2.0), (2.0, &middle, 2.0)] {
+        let found =
+            OnCpu.densified(picture.clone(), overall, &layer(texture, strength), None).unwrap();
+        for (found, c) in found.values().iter().zip(picture.values()) {
+            let squared =
+                if c[3] > 0.0 { [c[0] * c[0], c[1] * c[1], c[2] * c[2], c[3]] } else { *c };
+            assert_eq!(*found, squared, "of {c:?}");
+        }
+    }
+    let grey = any_grey(40, 30, 2);
+    for (texture, strength) in [(&middle, 2.0), (&grey, 0.0)] {
+        let found = OnCpu.densified(picture.clone(), 1.0, &layer(texture, strength), None).unwrap();
+        assert_eq!(found, picture);
+    }
+    let none = Field::filled(40, 30, 0.0);
+    let masked = OnCpu.densified(picture.clone(), 1.0, &layer(&grey, 2.0), Some(&none)).unwrap();
+    assert_eq!(masked, picture, "a mask of 0");
+}
+
+#[test]
+fn density_is_the_formula_within_its_limits() {
+    let picture = any_picture(33, 21, 3);
+    let texture = any_grey(33, 21, 4);
+    for strength in [-3.0, -0.4, 0.7, 1.9, 9.0] {
+        let found =
+            OnCpu.densified(picture.clone(), 1.0, &layer(&texture, strength), None).unwrap();
+        for i in 0..found.values().len() {
+            let (found, c) = (found.values()[i], picture.values()[i]);
+            let d = (1.0 + f64::from(strength) * (f64::from(texture.values()[i]) - 0.5)).max(0.0);
+            for channel in 0..3 {
+                let c_i = f64::from(c[channel]);
+                let wanted = (c_i * (1.0 - (1.0 - c_i) * (d - 1.0))).clamp(0.0, 1.0);
+                let wanted = if c[3] > 0.0 { wanted } else { c_i };
+                let off = (f64::from(found[channel]) - wanted).abs();
+                assert!(off < 1e-6, "strength {strength}, {c:?}: {found:?}");
+            }
+            assert_eq!(found[3].to_bits(), c[3].to_bits());
+        }
+    }
+}
+
+/// A column of paint on bare paper whose colour there is anything.
+fn column(colour: [f32; 3]) -> Field<[f32; 4]> {
+    let [r, g, b] = colour;
+    let at = |i: usize| {
+        if (10..20).contains(&(i % 30)) { [r, g, b, 1.0] } else { [0.1, 0.2, 0.3, 0.0] }
+    };
+    Field::from_values(30, 8, (0..240).map(at).collect())
+}
+
+#[test]
+fn edges_darken_inside_the_paint_only_and_at_both_its_sides() {
+    let picture = column([0.8, 0.7, 0.6]);
+    for width_px in [0.0, 1.5] {
+        let edges = OnCpu.edges(&picture, width_px).unwrap();
+        let layers = [DensityLayer { texture: &edges, strength: 1.5, pivot: 0.0 }];
+        let found = OnCpu.densified(picture.clone(), 1.0, &layers, None).unwrap();
+        for x in 0..30 {
+            let (before, after) = (picture[(x, 4)], found[(x, 4)]);
+            if !(10..20).contains(&x) {
+                assert_eq!(before, after, "bare paper at {x}");
+            } else if [10, 19].contains(&x) {
+                assert!(after[0] < before[0] - 0.05, "the rim at {x}: {after:?}");
+            } else if (14..16).contains(&x) {
+                assert!((after[0] - before[0]).abs() < 1e-2, "the middle at {x}: {after:?}");
+            }
+            let mirrored = found[(29 - x, 4)];
+            assert!((mirrored[0] - after[0]).abs() < 1e-6, "both sides alike at {x}");
+        }
+    }
+}
+
+#[test]
+fn edges_are_the_symmetric_gradient() {
+    let mut picture = any_picture(17, 12, 5);
+    picture.values_mut().iter_mut().for_each(|colour| colour[3] = 1.0);
+    let edges = OnCpu.edges(&picture, 0.0).unwrap();
+    for y in 0..12 {
+        for x in 0..17 {
+            let p = |x: usize, y: usize| picture[(x.clamp(1, 17) - 1, y.clamp(1, 12) - 1)];
+            let (x1, y1) = (x + 1, y + 1);
+            let sum: f32 = (0..3)
+                .map(|i| {
+                    (p(x1 - 1, y1)[i] - p(x1 + 1, y1)[i]).abs()
+                        + (p(x1, y1 - 1)[i] - p(x1, y1 + 1)[i]).abs()
+                })
+                .sum();
+            assert!((edges[(x, y)] - sum / 3.0).abs() < 1e-6, "at {x}, {y}");
+        }
+    }
+    // A blur spreads the gradient of a step over as many pixels; its sum stays.
+    let step = (0..400).map(|i| if i % 40 < 20 { [0.0, 0.0, 0.0, 1.0] } else { [1.0; 4] });
+    let step = Field::from_values(40, 10, step.collect());
+    for width_px in [0.0, 0.7, 2.0] {
+        let edges = OnCpu.edges(&step, width_px).unwrap();
+        let row = edges.row(5, 0, 40);
+        let sum: f32 = row.iter().sum();
+        assert!((sum - 2.0).abs() < 1e-5, "{width_px}: {sum}");
+        let around = row.iter().zip(0..).map(|(e, x)| e * (x as f32 - 19.5_f32).powi(2));
+        let spread = (around.sum::<f32>() / sum).sqrt();
+        // Of the difference over two pixels alone: a half.
+        let wanted = width_px.hypot(0.5);
+        assert!((spread - wanted).abs() < 0.1 * wanted, "{width_px}: {spread} for {wanted}");
+    }
+}
+
+#[test]
+fn wobble_displaces_by_the_stated_px() {
+    // Heights rise by 0.01 a pixel to the right and by 0.02 downwards.
+    let heights = (0..60 * 50).map(|i| 0.01 * (i % 60) as f32 + 0.02 * (i / 60) as f32);
+    let heights = Field::from_values(60, 50, heights.collect());
+    let ramp = |i: usize| [(i % 60) as f32 / 100.0, (i / 60) as f32 / 100.0, 0.5, 1.0];
+    let picture = Field::from_values(60, 50, (0..3000).map(ramp).collect());
+    for px_per_slope in [30.0, -75.0, 122.5] {
+        let found = OnCpu.wobbled(picture.clone(), &heights, px_per_slope).unwrap();
+        let (x, y) = (0.02 * px_per_slope, 0.04 * px_per_slope);
+        for at in [(20, 20), (31, 17), (25, 30)] {
+            let [red, green, blue, covered] = found[at];
+            let wanted = [(at.0 as f32 + x) / 100.0, (at.1 as f32 + y) / 100.0, 0.5, 1.0];
+            for (found, wanted) in [red, green, blue, covered].iter().zip(wanted) {
+                assert!(
+                    (found - wanted).abs() < 1e-5,
+                    "{px_per_slope} at {at:?}: {found} {wanted}"
+                );
+            }
+        }
+    }
+    let still = OnCpu.wobbled(picture.clone(), &heights, 0.0).unwrap();
+    assert_eq!(still, picture);
+}
+
+#[test]
+fn wobble_never_mixes_in_the_colour_of_bare_paper() {
+    let picture = column([0.9, 0.8, 0.7]);
+    let found = OnCpu.wobbled(picture, &any_grey(30, 8, 6), 2.3).unwrap();
+    for colour in found.values().iter().filter(|colour| colour[3] > 0.0) {
+        for (found, wanted) in colour.iter().zip([0.9, 0.8, 0.7]) {
+            assert!((found - wanted).abs() < 1e-6, "{colour:?}");
+        }
+    }
+    assert!(found.values().iter().any(|colour| colour[3] > 0.0 && colour[3] < 1.0));
+}
+
+#[test]
+fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
+    let heights = any_grey(200, 100, 7);
+    let flow = Field::filled(200, 100, 0.5);
+    let paint = Field::filled(200, 100, [0.2, 0.3, 0.4, 1.0]);
+    let reach = |threshold| DryBrushReach { threshold, softness: 1e-3, patches: 0.0 };
+    for threshold in [0.1, 0.37, 0.8] {
+        let found =
+            OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(threshold), None).unwrap();
+        let covered: f32 = found.values().iter().map(|colour| colour[3]).sum();
+        let below = heights.values().iter().filter(|height| **height < threshold).count();
+        let bare = 20000.0 - covered;
+        assert!((bare - below as f32).abs() < 60.0, "{threshold}: {bare} bare, {below} below");
+        assert!(found.values().iter().all(|c| c[..3] == [0.2, 0.3, 0.4]), "colours stay");
+    }
+    let none = Field::filled(200, 100, 0.0);
+    let masked = OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(0.6), Some(&none));
+    assert_eq!(masked.unwrap(), paint, "a mask of 0");
+    assert_eq!(OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(0.0), None).unwrap(), paint);
+    let patches = DryBrushReach { patches: 1.0, ..reach(0.6) };
+    let thick = OnCpu.dry_brushed(paint.clone(), &heights, &flow, patches, None).unwrap();
+    assert_eq!(thick, paint, "a wash that is not thin");
+    let thin = Field::filled(200, 100, 0.2);
+    let all = OnCpu.dry_brushed(paint.clone(), &heights, &thin, patches, None).unwrap();
+    let whole = OnCpu.dry_brushed(paint, &heights, &flow, reach(0.6), None).unwrap();
+    assert_eq!(all, whole, "a thin wash");
+}
+
+#[test]
+fn colours_alike_are_told_by_cielab() {
+    let picture = any_picture(40, 40, 8);
+    let like = Rgb::from_hex("#8060a0").unwrap();
+    let lab = |rgb: Rgb| {
+        let white = RgbSpace::Srgb.white();
+        let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.linear().0);
+        Lab::from_xyz(xyz.into(), white).to_array()
+    };
+    let range = ColourRange::around(like, 40.0);
+    let found = OnCpu.colour_mask(&picture, range, None).unwrap();
+    for (found, colour) in found.values().iter().zip(picture.values()) {
+        let own = lab(Rgb([colour[0], colour[1], colour[2]].map(f64::from)));
+        let off = own.iter().zip(lab(like)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let wanted = (3.0 - 2.0 * off / 40.0).clamp(0.0, 1.0);
+        assert!((f64::from(*found) - wanted).abs() < 1e-4, "{colour:?}: {found} {wanted}");
+    }
+    let some = found.values().iter().filter(|value| **value > 0.0).count();
+    assert!((1..1600).contains(&some), "{some} of 1600 pixels are alike");
+}
+
+#[test]
+fn a_sheet_shows_its_colour_where_bare_and_its_slopes_in_the_light() {
+    let heights = Field::from_values(30, 8, (0..240).map(|i| 0.02 * (i % 30) as f32).collect());
+    let picture = column([0.5, 0.4, 0.3]);
+    let sheet = Sheet { colour: [0.9, 0.8, 0.7], relief: 0.5 };
+    let found = OnCpu.on_sheet(picture.clone(), &heights, sheet).unwrap();
+    // Two pixels rise by 0.04.
+    let light = 1.02;
+    for (x, own) in [(5, [1.0, 1.0, 1.0]), (15, [0.5, 0.4, 0.3])] {
+        for i in 0..3 {
+            let wanted = own[i] * sheet.colour[i] * light;
+            assert!((found[(x, 4)][i] - wanted).abs() < 1e-6, "{x}: {:?}", found[(x, 4)]);
+        }
+    }
+    assert!(found.values().iter().all(|colour| colour[3].to_bits() == 1.0_f32.to_bits()));
+    let white = Sheet { colour: [1.0; 3], relief: 0.0 };
+    let mut full = any_picture(30, 8, 9);
+    full.values_mut().iter_mut().for_each(|colour| colour[3] = 1.0);
+    assert_eq!(OnCpu.on_sheet(full.clone(), &heights, white).unwrap(), full);
+}

@@ -1,0 +1,59 @@
+//! Effects, textures and settings, and both backends.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::watercolor::{Backend, OnCpu, OnGpu};
+use suite::adapter::device;
+
+mod laws;
+
+mod twins;
+
+mod textures;
+
+mod settings;
+
+mod whole;
+
+mod glazes;
+
+/// A picture of patches with bare, thin and full coverage.
+fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let patches: Vec<[f32; 4]> = (0..64)
+        .map(|i| {
+            let mut colour: [f32; 4] = std::array::from_fn(|_| random.random_range(0.0..1.0));
+            colour[3] = [0.0, 1.0, 1.0, colour[3]][i % 4];
+            colour
+        })
+        .collect();
+    let at = |i: usize| patches[(i % width / 5 + i / width / 4 * 7) % 64];
+    Field::from_values(width, height, (0..width * height).map(at).collect())
+}
+
+fn any_grey(width: usize, height: usize, seed: u64) -> Field<f32> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let values = (0..width * height).map(|_| random.random_range(0.0..1.0)).collect();
+    Field::from_values(width, height, values)
+}
+
+fn numbers(field: &Field<[f32; 4]>) -> Vec<f64> {
+    field.values().iter().flatten().map(|&value| f64::from(value)).collect()
+}
+
+fn greys(field: &Field<f32>) -> Vec<f64> {
+    field.values().iter().map(|&value| f64::from(value)).collect()
+}
+
+#[test]
+fn pictures_come_back_from_both_backends() {
+    let field = Field::from_values(3, 2, (0..6).map(|i| [i as f32 / 8.0; 4]).collect());
+    let on_cpu = OnCpu.colour_of(&field).unwrap();
+    assert_eq!(OnCpu.colour_field(&on_cpu).unwrap(), field);
+    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let there = on_gpu.colour_of(&field).unwrap();
+    assert_eq!(on_gpu.colour_field(&there).unwrap(), field);
+}
