@@ -15,6 +15,8 @@ mod on_cpu;
 
 mod on_gpu;
 
+pub mod coherence;
+
 mod kernels;
 
 pub use backend::Backend;
