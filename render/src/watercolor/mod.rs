@@ -31,6 +31,8 @@ mod dry_brush;
 
 mod sheet;
 
+pub mod coherence;
+
 mod pipeline;
 
 mod glaze;

@@ -74,11 +74,20 @@ impl OnGpu {
         self.device.submit(&mut self.recording)
     }
 
-    fn taken<T: bytemuck::Pod>(&mut self, field: &Field<T>) -> Result<Plane, GpuError> {
+    /// Puts `values` at the beginning of a plane, before all that is recorded next.
+    pub(super) fn fill<T: bytemuck::Pod>(
+        &mut self,
+        plane: &Plane,
+        values: &[T],
+    ) -> Result<(), GpuError> {
         // A free plane may still be read by steps not sent yet.
         self.send()?;
+        self.device.write(&plane.buffer, Rows::start(values.len()), values)
+    }
+
+    fn taken<T: bytemuck::Pod>(&mut self, field: &Field<T>) -> Result<Plane, GpuError> {
         let plane = self.plane(field.width(), field.height(), size_of::<T>())?;
-        self.device.write(&plane.buffer, Rows::start(field.values().len()), field.values())?;
+        self.fill(&plane, field.values())?;
         Ok(plane)
     }
 

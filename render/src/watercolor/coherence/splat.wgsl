@@ -1,0 +1,56 @@
+// Features added up, pixel by pixel; twin of splat.rs. A group is a square with
+// its list of features.
+
+struct Gathering {
+    width: u32,
+    height: u32,
+    starts: u32,
+    lists: u32,
+}
+
+struct Splat {
+    x: f32,
+    y: f32,
+    narrowness: f32,
+    amplitude: f32,
+    depth: f32,
+    slope_x: f32,
+    slope_y: f32,
+    tightness: f32,
+}
+
+@group(0) @binding(0) var<uniform> now: Gathering;
+@group(0) @binding(1) var<storage, read> depths: array<f32>;
+@group(0) @binding(2) var<storage, read> splats: array<Splat>;
+@group(0) @binding(3) var<storage, read> batch: array<u32>;
+@group(0) @binding(4) var<storage, read_write> sums: array<f32>;
+
+@compute @workgroup_size(8, 8)
+fn gather_splats(
+    @builtin(global_invocation_id) at: vec3<u32>,
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    if at.x >= now.width || at.y >= now.height {
+        return;
+    }
+    let pixel = at.y * now.width + at.x;
+    let depth = depths[pixel];
+    if depth >= 1.0 {
+        sums[pixel] = 0.5;
+        return;
+    }
+    let square = now.starts + group.y * groups.x + group.x;
+    let end = batch[square + 1u];
+    var sum = 0.0;
+    for (var i = batch[square]; i < end; i++) {
+        let splat = splats[batch[now.lists + i]];
+        let right = f32(at.x) + 0.5 - splat.x;
+        let down = f32(at.y) + 0.5 - splat.y;
+        let t = max(1.0 - length(vec2(right, down) * splat.narrowness), 0.0);
+        let off = abs(splat.depth + splat.slope_y * down + splat.slope_x * right - depth);
+        let share = clamp(2.0 - off * splat.tightness, 0.0, 1.0);
+        sum += splat.amplitude * share * (t * t * t * (t * (6.0 * t - 15.0) + 10.0));
+    }
+    sums[pixel] = clamp(0.5 + sum, 0.0, 1.0);
+}
