@@ -86,7 +86,7 @@ fn turntable() {
     for (name, mesh) in
         [("ball", Mesh::sphere(turn.triangles)), ("knot", Mesh::torus_knot(turn.triangles))]
     {
-        let (features, particles) = measured(mesh, &turn, &[6, 12, 24, 48, 64]);
+        let (features, particles) = measured(mesh, &turn, &[6, 12, 24, 48, 64, 96]);
         let told =
             format!("{name}: flow, dispersion {features:.3?}; 6 .. 64 particles {particles:.3?}");
         let _ = writeln!(std::io::stderr(), "{told}");
