@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
+mod coherence;
+
 mod effects;
 
 fn main() {

@@ -43,6 +43,13 @@ pub struct AnchoredNoise {
     pub seed: u64,
 }
 
+impl AnchoredNoise {
+    /// Slow changes, of a texture with waves of 32 texels.
+    pub const FLOW: Self = Self { wave_px: 80.0, wave_texels: 32.0, octaves: 4, seed: 1 };
+    /// Fine grain, of a texture with waves of 8 texels.
+    pub const DISPERSION: Self = Self { wave_px: 10.0, wave_texels: 8.0, octaves: 4, seed: 2 };
+}
+
 /// A copy of the texture in the picture, as backends take it.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]

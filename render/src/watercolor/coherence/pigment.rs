@@ -15,16 +15,16 @@ const SIDE: usize = 512;
 
 /// A texture of 512 x 512 texels that repeats, of mean 0.5 and a standard
 /// deviation of [`SPREAD`], with waves that are about `wave_texels` long, a power
-/// of two from 4 to 64.
+/// of two from 8 to 128.
 ///
 /// # Panics
 /// If `wave_texels` is another.
 #[must_use]
 pub fn repeating_pigment(wave_texels: usize, seed: u64) -> Field<f32> {
-    let fits = wave_texels.is_power_of_two() && (4..=64).contains(&wave_texels);
-    assert!(fits, "waves of 4 to 64 texels, a power of two, found {wave_texels}");
-    // A wave is a node up and a node down.
-    let step = wave_texels / 2;
+    let fits = wave_texels.is_power_of_two() && (8..=128).contains(&wave_texels);
+    assert!(fits, "waves of 8 to 128 texels, a power of two, found {wave_texels}");
+    // The shortest waves are two steps long, and the mean one is twice as long.
+    let step = wave_texels / 4;
     let nodes = SIDE / step;
     let value = |i: usize, j: usize| {
         let number = ((j % nodes) * nodes + i % nodes) as u64;
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn it_repeats_without_a_seam() {
-        let texture = repeating_pigment(16, 5);
+        let texture = repeating_pigment(32, 5);
         let step = |a: (usize, usize), b: (usize, usize)| (texture[a] - texture[b]).abs();
         let most = |inside: &dyn Fn(usize, usize) -> f32, at: usize| {
             (0..SIDE).map(|i| inside(at, i)).fold(0.0, f32::max)
@@ -79,6 +79,6 @@ mod tests {
         }
         let mean = texture.values().iter().sum::<f32>() / (SIDE * SIDE) as f32;
         assert!((mean - 0.5).abs() < 1e-4, "{mean}");
-        assert_ne!(texture, repeating_pigment(16, 6));
+        assert_ne!(texture, repeating_pigment(32, 6));
     }
 }

@@ -1,1 +1,0 @@
-//! Noise that stays on its object.

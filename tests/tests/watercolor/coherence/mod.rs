@@ -1,0 +1,98 @@
+//! Noise that stays on its object.
+
+mod popping;
+
+mod spectrum;
+
+mod twins;
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use render::camera::Camera;
+use render::field::Field;
+use render::mesh::{Mesh, Triangle};
+use render::surface::visible;
+use render::watercolor::OnCpu;
+use render::watercolor::coherence::{
+    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Sight, Splatting,
+    depth_of, repeating_pigment,
+};
+
+/// A mesh with all that noise needs of it, and what a camera sees of it.
+struct Subject {
+    mesh: Mesh,
+    hierarchy: Arc<Hierarchy>,
+    features: Features,
+    pigment: Field<f32>,
+}
+
+/// A picture without noise.
+struct Bare {
+    sight: Sight,
+    depth: Field<f32>,
+}
+
+impl Subject {
+    fn new(mesh: Mesh) -> Self {
+        let hierarchy = Arc::new(Hierarchy::new(&mesh));
+        let features = Features::new(Arc::clone(&hierarchy), 1);
+        Self { mesh, hierarchy, features, pigment: repeating_pigment(32, 1) }
+    }
+
+    fn bare(&self, camera: &Camera, width: usize, height: usize) -> Bare {
+        let depth = depth_of(&visible(&self.mesh, camera, width, height));
+        Bare { sight: Sight::new(camera, width, height), depth }
+    }
+
+    fn of_features(&self, bare: &Bare, noise: FeatureNoise) -> Field<f32> {
+        let splats = self.features.splats(&bare.sight, noise);
+        OnCpu.splatted(&bare.depth, &splats).unwrap()
+    }
+
+    fn of_particles(&self, bare: &Bare, particles: &Particles, wave_px: f32) -> Field<f32> {
+        let anchors = particles.anchors(&bare.sight, waves(wave_px));
+        OnCpu.anchored(&bare.depth, &self.pigment, &anchors).unwrap()
+    }
+}
+
+fn waves(wave_px: f32) -> AnchoredNoise {
+    AnchoredNoise { wave_px, ..AnchoredNoise::FLOW }
+}
+
+/// A wall of two triangles, which a picture from in front is full of.
+fn wall() -> (Mesh, Camera) {
+    let corners = [[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [5.0, 5.0, 0.0], [-5.0, 5.0, 0.0]];
+    let triangles = [[0, 1, 2], [0, 2, 3]].map(|corners| Triangle { corners, material: 0 });
+    let mesh = Mesh {
+        positions: corners.to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        texture_coordinates: vec![[0.0; 2]; 4],
+        colours: vec![[1.0; 3]; 4],
+        triangles: triangles.to_vec(),
+        materials: Mesh::sphere(20).materials,
+    };
+    (mesh, from_front(10.0, 20.0))
+}
+
+/// From `distance` along z towards the origin.
+fn from_front(distance: f32, field_of_view_deg: f32) -> Camera {
+    Camera {
+        eye: Vec3::Z * distance,
+        target: Vec3::ZERO,
+        up: Vec3::Y,
+        field_of_view_deg,
+        near: 0.02,
+        far: 20.0,
+    }
+}
+
+/// Mean and standard deviation where something is seen.
+fn spread(noise: &Field<f32>, depth: &Field<f32>) -> [f64; 2] {
+    let pairs = noise.values().iter().zip(depth.values());
+    let seen: Vec<f64> =
+        pairs.filter(|(_, depth)| **depth < 1.0).map(|(value, _)| f64::from(*value)).collect();
+    let count = seen.len() as f64;
+    let mean = seen.iter().sum::<f64>() / count;
+    [mean, (seen.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()]
+}
