@@ -4,6 +4,8 @@
 
 mod effects;
 
+mod shading;
+
 fn main() {
     divan::main();
 }

@@ -15,10 +15,19 @@ mod on_cpu;
 
 mod on_gpu;
 
+mod models;
+
+mod tones;
+
+mod toon;
+
 mod kernels;
 
 pub use backend::Backend;
 pub use kernels::kernels;
+pub use models::{CpuModel, GpuModel, Models};
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
+pub use tones::{Tones, TonesError};
+pub use toon::{Light, Shading, Toon};
 pub use wash::{Controls, Wash};
