@@ -6,6 +6,8 @@ mod coherence;
 
 mod effects;
 
+mod shading;
+
 fn main() {
     divan::main();
 }

@@ -1,6 +1,7 @@
 //! Cameras that have a whole model in the picture.
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use super::perspective::Camera;
 
@@ -46,6 +47,63 @@ impl Framing {
         (0..frames).map(|frame| turned(frame as f32 * step).at(bounds, distance)).collect()
     }
 
+    /// The nearest camera that has all `places` in the picture, with a margin, and them
+    /// in the middle: nearer than [`Framing::camera`] has their box.
+    #[must_use]
+    pub fn closest(&self, places: &[[f32; 3]]) -> Camera {
+        let bounds = bounds_of(places);
+        let reach = self.reach(places, bounds);
+        self.shifted(bounds, reach.distance(self.tangents()), reach.shift())
+    }
+
+    /// The same around the model in `frames` even steps, once: all places are in the
+    /// picture all the way, at one distance and height.
+    #[must_use]
+    pub fn closest_turntable(&self, places: &[[f32; 3]], frames: usize) -> Vec<Camera> {
+        let bounds = bounds_of(places);
+        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
+        let reaches = (0..120).map(|step| turned(step as f32 * 3.0).reach(places, bounds));
+        let Reach { right, up } = reaches.fold(Reach::default(), Reach::or);
+        // The axis stays in the middle.
+        let reach = Reach { right: [right[0].max(right[1]); 2], up };
+        let (distance, shift) = (reach.distance(self.tangents()), reach.shift());
+        let step = 360.0 / frames.max(1) as f32;
+        let camera = |frame| turned(frame as f32 * step).shifted(bounds, distance, shift);
+        (0..frames).map(camera).collect()
+    }
+
+    /// Half the height and the width of what fits a unit before the camera.
+    fn tangents(&self) -> [f32; 2] {
+        let high = (self.field_of_view_deg / 2.0).to_radians().tan() * FILLED;
+        [high * self.aspect, high]
+    }
+
+    fn reach(&self, places: &[[f32; 3]], bounds: [Vec3; 2]) -> Reach {
+        let [back, up, right] = self.axes();
+        let middle = (bounds[0] + bounds[1]) / 2.0;
+        let [wide, high] = self.tangents();
+        let reaches = places.par_iter().with_min_len(1 << 12).map(|&place| {
+            let from_middle = Vec3::from(place) - middle;
+            let [x, y, z] = [right, up, back].map(|axis| from_middle.dot(axis));
+            Reach { right: [x + wide * z, wide * z - x], up: [y + high * z, high * z - y] }
+        });
+        // The greatest of all, in whatever order.
+        reaches.reduce(Reach::default, Reach::or)
+    }
+
+    /// Moved sideways and upwards from where it looks at the middle.
+    fn shifted(&self, bounds: [Vec3; 2], distance: f32, [x, y]: [f32; 2]) -> Camera {
+        let [_, up, right] = self.axes();
+        let shift = right * x + up * y;
+        let camera = self.at(bounds, distance.max(half_size(bounds).length() * 1e-3));
+        Camera {
+            eye: camera.eye + shift,
+            target: camera.target + shift,
+            far: camera.far + shift.length(),
+            ..camera
+        }
+    }
+
     /// Backwards, upwards and to the right, as the camera has it.
     fn axes(&self) -> [Vec3; 3] {
         let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
@@ -61,8 +119,7 @@ impl Framing {
     fn distance(&self, bounds: [Vec3; 2]) -> f32 {
         let [back, up, right] = self.axes();
         let half = half_size(bounds);
-        let high = (self.field_of_view_deg / 2.0).to_radians().tan() * FILLED;
-        let wide = high * self.aspect;
+        let [wide, high] = self.tangents();
         let corners = (0..8).map(|corner| {
             let sign = |bit: i32| if corner & bit == 0 { 1.0 } else { -1.0 };
             half * Vec3::new(sign(1), sign(2), sign(4))
@@ -89,6 +146,45 @@ impl Framing {
             far: distance + radius * 1.1,
         }
     }
+}
+
+/// How far places reach in a picture: along each axis of it, the greatest coordinate
+/// plus the tangent of the edge times the coordinate towards the viewer; then the
+/// same the other way.
+#[derive(Debug, Clone, Copy)]
+struct Reach {
+    right: [f32; 2],
+    up: [f32; 2],
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { right: [f32::NEG_INFINITY; 2], up: [f32::NEG_INFINITY; 2] }
+    }
+}
+
+impl Reach {
+    fn or(self, other: Self) -> Self {
+        let greater = |a: [f32; 2], b: [f32; 2]| [a[0].max(b[0]), a[1].max(b[1])];
+        Self { right: greater(self.right, other.right), up: greater(self.up, other.up) }
+    }
+
+    /// The least distance at which both ways fit.
+    fn distance(self, [wide, high]: [f32; 2]) -> f32 {
+        let [right, up] = [self.right, self.up].map(|[a, b]| (a + b) / 2.0);
+        (right / wide).max(up / high)
+    }
+
+    /// What brings both ways to the middle.
+    fn shift(self) -> [f32; 2] {
+        [self.right, self.up].map(|[a, b]| if a.is_finite() { (a - b) / 2.0 } else { 0.0 })
+    }
+}
+
+fn bounds_of(places: &[[f32; 3]]) -> [Vec3; 2] {
+    let mut places = places.iter().map(|&place| Vec3::from(place));
+    let first = places.next().unwrap_or_default();
+    places.fold([first; 2], |[low, high], place| [low.min(place), high.max(place)])
 }
 
 /// From the middle of a box to its highest corner; of a single place, as if it

@@ -4,5 +4,8 @@ mod perspective;
 
 mod framing;
 
+mod path;
+
 pub use framing::Framing;
+pub use path::{CameraPath, CameraPathError, Keyframe};
 pub use perspective::Camera;

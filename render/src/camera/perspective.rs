@@ -23,6 +23,14 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// Rightwards, upwards and backwards, each of length 1.
+    #[must_use]
+    pub fn axes(&self) -> [Vec3; 3] {
+        let back = (self.eye - self.target).normalize();
+        let right = self.up.cross(back).normalize();
+        [right, back.cross(right), back]
+    }
+
     /// From the model's coordinates to clip coordinates as WebGPU has them: x
     /// right, y up, z from 0 (near) to w (far). `aspect` is width by height.
     #[must_use]

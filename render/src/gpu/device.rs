@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::adapter::Adapter;
+use super::drawing::RasterPipeline;
 use super::error::GpuError;
 use super::pipeline::Pipeline;
 use super::transfer::Rows;
@@ -40,6 +41,8 @@ pub struct Device {
     pub(super) queue: wgpu::Queue,
     reported: Arc<Mutex<Reported>>,
     pub(super) pipelines: BTreeMap<&'static str, Pipeline>,
+    /// By shader, and whether only fronts are drawn.
+    pub(super) raster_pipelines: BTreeMap<(&'static str, bool), RasterPipeline>,
     pub(super) parameters: Option<Buffer>,
     pub(super) batch: Option<Buffer>,
     in_flight: VecDeque<wgpu::SubmissionIndex>,
@@ -58,6 +61,7 @@ impl Device {
         let limits = wgpu::Limits {
             max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
             max_buffer_size: own.max_buffer_size,
+            max_texture_dimension_2d: own.max_texture_dimension_2d,
             ..wgpu::Limits::downlevel_defaults()
         };
         let limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 8, ..limits };
@@ -86,6 +90,7 @@ impl Device {
             queue,
             reported,
             pipelines: BTreeMap::new(),
+            raster_pipelines: BTreeMap::new(),
             parameters: None,
             batch: None,
             in_flight: VecDeque::new(),

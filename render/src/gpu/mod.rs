@@ -10,15 +10,21 @@ mod layout;
 
 mod kernel;
 
+mod raster;
+
 mod adapter;
 
-mod recording;
-
 mod device;
+
+mod target;
+
+mod recording;
 
 mod transfer;
 
 mod pipeline;
+
+mod drawing;
 
 pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best, choose};
 pub use device::{Buffer, Device};
@@ -26,5 +32,7 @@ pub use error::GpuError;
 pub use kernel::{GROUP, Kernel, Storage, groups};
 pub use layout::Layout;
 pub(crate) use layout::layout;
-pub use recording::Recording;
+pub use raster::RasterShader;
+pub use recording::{Recording, Triangles};
+pub use target::Target;
 pub use transfer::Rows;

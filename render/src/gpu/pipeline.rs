@@ -99,10 +99,18 @@ impl Device {
         }
         let mut longest = 0;
         for command in &recording.commands {
-            if let Command::Dispatch { kernel, .. } = command {
-                self.prepare(kernel)?;
-                longest = longest.max(kernel.parameters.bytes);
-            }
+            let parameters = match command {
+                Command::Dispatch { kernel, .. } => {
+                    self.prepare(kernel)?;
+                    kernel.parameters
+                }
+                Command::Draw(draw) => {
+                    self.prepare_raster(draw.shader, draw.front_only)?;
+                    draw.shader.parameters
+                }
+                Command::Copy { .. } => continue,
+            };
+            longest = longest.max(parameters.bytes);
         }
         let parameters = self.parameters.take();
         let bytes = recording.parameters.len() + longest;
@@ -153,13 +161,18 @@ impl Device {
                     pass = None;
                     encoder.copy_buffer_to_buffer(&from.inner, 0, &to.inner, 0, *bytes);
                 }
+                Command::Draw(draw) => {
+                    pass = None;
+                    self.encode_draw(&mut encoder, draw, parameters);
+                }
                 Command::Dispatch { kernel, buffers, parameters: start, groups } => {
                     let pipeline = &self.pipelines[kernel.name];
                     let all = all_buffers(kernel, buffers, batch);
                     let numbers = all.iter().map(|buffer| buffer.number).collect();
-                    let group = bound
-                        .entry((kernel.name, numbers))
-                        .or_insert_with(|| self.bind(kernel, pipeline, parameters, &all));
+                    let group = bound.entry((kernel.name, numbers)).or_insert_with(|| {
+                        let parameters = (parameters, kernel.parameters.bytes);
+                        self.bind(kernel.name, &pipeline.layout, parameters, &all)
+                    });
                     let pass = pass.get_or_insert_with(|| {
                         encoder.begin_compute_pass(&Default::default()).forget_lifetime()
                     });
@@ -173,17 +186,18 @@ impl Device {
         encoder.finish()
     }
 
-    fn bind(
+    /// `parameters` with the bytes of one struct, then `storage`.
+    pub(super) fn bind(
         &self,
-        kernel: &Kernel,
-        pipeline: &Pipeline,
-        parameters: &Buffer,
+        name: &'static str,
+        layout: &wgpu::BindGroupLayout,
+        (parameters, bytes): (&Buffer, usize),
         storage: &[&Buffer],
     ) -> wgpu::BindGroup {
         let parameters = wgpu::BufferBinding {
             buffer: &parameters.inner,
             offset: 0,
-            size: std::num::NonZero::new(kernel.parameters.bytes as u64),
+            size: std::num::NonZero::new(bytes as u64),
         };
         let first = wgpu::BindGroupEntry {
             binding: 0,
@@ -194,8 +208,8 @@ impl Device {
             resource: buffer.inner.as_entire_binding(),
         });
         self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(kernel.name),
-            layout: &pipeline.layout,
+            label: Some(name),
+            layout,
             entries: &std::iter::once(first).chain(rest).collect::<Vec<_>>(),
         })
     }

@@ -1,8 +1,10 @@
 //! What is to be done on the device, written down first: dispatches, what they
-//! read beside their buffers, copies.
+//! read beside their buffers, triangles, copies.
 
 use super::device::Buffer;
 use super::kernel::Kernel;
+use super::raster::RasterShader;
+use super::target::Target;
 
 /// Parameters of every dispatch start at a multiple of this: no adapter wants more.
 const ALIGNMENT: usize = 256;
@@ -21,6 +23,33 @@ pub(super) enum Command {
     },
     /// Bytes from one buffer into another.
     Copy { from: Buffer, to: Buffer, bytes: u64 },
+    /// Triangles over a whole target, and that into a buffer.
+    Draw(Box<Draw>),
+}
+
+/// Triangles to be drawn.
+#[derive(Debug)]
+pub(super) struct Draw {
+    pub(super) shader: &'static RasterShader,
+    pub(super) buffers: Vec<Buffer>,
+    /// As of a dispatch.
+    pub(super) parameters: u32,
+    pub(super) triangles: u32,
+    pub(super) front_only: bool,
+    pub(super) background: [u32; 4],
+    pub(super) target: Target,
+    pub(super) into: Buffer,
+}
+
+/// What is drawn, and how.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangles {
+    /// How many.
+    pub count: usize,
+    /// Only those that run counter-clockwise in the picture.
+    pub front_only: bool,
+    /// The four numbers of a pixel that shows none.
+    pub background: [u32; 4],
 }
 
 /// Commands that go to the device in one submission, with all they read.
@@ -56,15 +85,49 @@ impl Recording {
         if groups.contains(&0) {
             return;
         }
+        let parameters = self.keep(bytemuck::bytes_of(parameters));
+        let buffers = buffers.iter().map(|&buffer| buffer.clone()).collect();
+        self.commands.push(Command::Dispatch { kernel, buffers, parameters, groups });
+    }
+
+    /// Draws triangles with `shader` over all of `target`, the first of equal depth
+    /// before the later ones, and puts the four numbers of every pixel into `into`,
+    /// row by row without gaps.
+    ///
+    /// # Panics
+    /// If the parameters or the number of buffers are not the shader's, or there
+    /// are more than 2^32 corners.
+    pub fn draw<P: bytemuck::Pod>(
+        &mut self,
+        shader: &'static RasterShader,
+        parameters: &P,
+        buffers: &[&Buffer],
+        triangles: Triangles,
+        (target, into): (&Target, &Buffer),
+    ) {
+        assert_eq!(size_of::<P>(), shader.parameters.bytes, "parameters of {}", shader.name);
+        assert_eq!(buffers.len(), shader.buffers, "buffers of {}", shader.name);
+        let Triangles { count, front_only, background } = triangles;
+        assert!(count <= u32::MAX as usize / 3, "{count} triangles");
+        let parameters = self.keep(bytemuck::bytes_of(parameters));
+        self.commands.push(Command::Draw(Box::new(Draw {
+            shader,
+            buffers: buffers.iter().map(|&buffer| buffer.clone()).collect(),
+            parameters,
+            triangles: count as u32,
+            front_only,
+            background,
+            target: target.clone(),
+            into: into.clone(),
+        })));
+    }
+
+    /// Where the parameters of a command stand.
+    fn keep(&mut self, parameters: &[u8]) -> u32 {
         let start = self.parameters.len().next_multiple_of(ALIGNMENT);
         self.parameters.resize(start, 0);
-        self.parameters.extend_from_slice(bytemuck::bytes_of(parameters));
-        self.commands.push(Command::Dispatch {
-            kernel,
-            buffers: buffers.iter().map(|&buffer| buffer.clone()).collect(),
-            parameters: start as u32,
-            groups,
-        });
+        self.parameters.extend_from_slice(parameters);
+        start as u32
     }
 
     /// Copies the first `bytes` of one buffer into another.

@@ -2,7 +2,17 @@
 
 mod model;
 
+mod weld;
+
+mod check;
+
+mod normals;
+
+mod file;
+
 mod shapes;
 
+pub use check::MeshFault;
+pub use file::MeshError;
 pub use model::{Material, Mesh, Texture, Triangle};
-pub use shapes::Cells;
+pub use shapes::{Cells, Shape};

@@ -2,6 +2,8 @@
 
 mod visible;
 
+mod packed;
+
 mod screen;
 
 mod fill;
@@ -10,6 +12,7 @@ mod raster;
 
 mod attributes;
 
-pub use attributes::position_at;
-pub use raster::{Rasteriser, Sides, visible};
+pub use attributes::{Facet, position_at};
+pub use packed::{Coating, PackedMesh, Placed, Vertex};
+pub use raster::{RASTER, Rasteriser, Sides, View, visible};
 pub use visible::{NOTHING, Seen, Visible};

@@ -10,10 +10,30 @@ use glam::Mat4;
 use rayon::prelude::*;
 
 use super::fill::{Shape, fill};
+use super::packed::{Placed, Vertex};
 use super::screen::{Corner, Screen, middles};
 use super::visible::{Seen, Visible};
 use crate::camera::Camera;
+use crate::gpu::{RasterShader, layout};
 use crate::mesh::{Mesh, Triangle};
+
+/// How a device draws it: buffers of [`Vertex`] and [`Triangle`]; a pixel is a
+/// [`Seen`].
+pub static RASTER: RasterShader = RasterShader {
+    name: "raster",
+    source: include_str!("raster.wgsl"),
+    parameters: layout!(View { clip_from_model }),
+    structs: &[Vertex::LAYOUT],
+    buffers: 2,
+};
+
+/// What [`RASTER`] is told.
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct View {
+    /// Column by column.
+    pub clip_from_model: [[f32; 4]; 4],
+}
 
 /// Rows of pixels that are drawn by one thread at a time.
 const BAND: usize = 16;
@@ -84,7 +104,7 @@ impl Rasteriser {
     pub fn draw(
         &mut self,
         clip_from_model: Mat4,
-        positions: &[[f32; 3]],
+        vertices: &[impl Placed],
         triangles: &[Triangle],
         sides: Sides,
         visible: &mut Visible,
@@ -95,10 +115,10 @@ impl Rasteriser {
             return;
         }
         let screen = Screen::new(clip_from_model, width, height);
-        screen.corners(positions, &mut self.corners);
+        screen.corners(vertices, &mut self.corners);
         let corners = &self.corners;
         self.chunks.resize_with(triangles.len().div_ceil(CHUNK), Chunk::default);
-        let sorter = Sorter { screen, positions, corners, sides, width, height };
+        let sorter = Sorter { screen, vertices, corners, sides, width, height };
         self.chunks.par_iter_mut().zip(triangles.par_chunks(CHUNK)).enumerate().for_each(
             |(number, (chunk, triangles))| sorter.sort((number * CHUNK) as u32, triangles, chunk),
         );
@@ -123,16 +143,16 @@ impl Rasteriser {
 }
 
 /// Sorts triangles into bands.
-struct Sorter<'a> {
+struct Sorter<'a, V> {
     screen: Screen,
-    positions: &'a [[f32; 3]],
+    vertices: &'a [V],
     corners: &'a [Corner],
     sides: Sides,
     width: usize,
     height: usize,
 }
 
-impl Sorter<'_> {
+impl<V: Placed> Sorter<'_, V> {
     fn sort(&self, first: u32, triangles: &[Triangle], chunk: &mut Chunk) {
         chunk.bands.resize_with(self.height.div_ceil(BAND), Vec::new);
         chunk.bands.iter_mut().for_each(Vec::clear);
@@ -149,7 +169,7 @@ impl Sorter<'_> {
     }
 
     fn add_pieces(&self, triangle: Triangle, number: u32, chunk: &mut Chunk) {
-        let places = triangle.corners.map(|corner| self.positions[corner as usize]);
+        let places = triangle.corners.map(|corner| self.vertices[corner as usize].place());
         let polygon = self.screen.cut(places);
         for i in 2..polygon.len() {
             let fan = [polygon[0], polygon[i - 1], polygon[i]];

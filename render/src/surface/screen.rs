@@ -3,6 +3,8 @@
 use glam::{Mat4, Vec4};
 use rayon::prelude::*;
 
+use super::packed::Placed;
+
 /// Steps in a pixel that vertices are moved to, as graphics devices do it: edges
 /// are then exact.
 pub(super) const STEPS: i32 = 256;
@@ -72,8 +74,8 @@ impl Screen {
     }
 
     /// The same of many places, into `corners`.
-    pub(super) fn corners(&self, places: &[[f32; 3]], corners: &mut Vec<Corner>) {
-        let each = places.par_iter().with_min_len(1 << 11).map(|&place| self.corner(place));
+    pub(super) fn corners(&self, places: &[impl Placed], corners: &mut Vec<Corner>) {
+        let each = places.par_iter().with_min_len(1 << 11).map(|at| self.corner(at.place()));
         each.collect_into_vec(corners);
     }
 

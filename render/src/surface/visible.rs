@@ -1,6 +1,7 @@
 //! The triangle that each pixel shows (a visibility buffer, Burns and Hunt 2013).
 
 use crate::field::Field;
+use crate::gpu::{Layout, layout};
 
 /// The triangle of a pixel that shows none.
 pub const NOTHING: u32 = u32::MAX;
@@ -23,6 +24,8 @@ pub struct Seen {
 pub type Visible = Field<Seen>;
 
 impl Seen {
+    pub(crate) const LAYOUT: Layout = layout!(Seen { triangle, second, third, depth });
+
     /// A pixel that shows nothing.
     pub const EMPTY: Self = Self { triangle: NOTHING, second: 0.0, third: 0.0, depth: 1.0 };
 }

@@ -1,12 +1,13 @@
 //! All kernels of watercolor, in one list.
 
-use super::{coherence, colour_mask, density, dry_brush, edges, sheet, wobble};
+use super::{coherence, colour_mask, density, dry_brush, edges, sheet, toon, wobble};
 use crate::gpu::Kernel;
 
 /// Every kernel that watercolor on a device runs.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
     vec![
+        &toon::TOON,
         &coherence::GATHER_SPLATS,
         &coherence::ANCHOR_TEXTURES,
         &density::DENSITY,

@@ -17,6 +17,12 @@ mod on_cpu;
 
 mod on_gpu;
 
+mod models;
+
+mod tones;
+
+mod toon;
+
 mod textures;
 
 mod density;
@@ -46,6 +52,7 @@ pub use dry_brush::{DryBrush, DryBrushReach};
 pub use edges::Edges;
 pub use glaze::{GlazeError, Glazes, thickness};
 pub use kernels::kernels;
+pub use models::{CpuModel, GpuModel, Models};
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
 pub use pipeline::{Stage, WashOn, Watcher, Watercolor, paint};
@@ -58,5 +65,7 @@ pub use sheet::{OnSheet, Sheet};
 pub use textures::{
     PaperOn, PaperTexture, PaperTextureError, Textures, TexturesOn, dispersion, turbulent_flow,
 };
+pub use tones::{Tones, TonesError};
+pub use toon::{Light, Shading, Toon};
 pub use wash::{Controls, Wash};
 pub use wobble::Wobble;

@@ -91,7 +91,7 @@ impl OnGpu {
         Ok(plane)
     }
 
-    fn given<T: bytemuck::Pod>(&mut self, plane: &Plane) -> Result<Field<T>, GpuError> {
+    pub(super) fn given<T: bytemuck::Pod>(&mut self, plane: &Plane) -> Result<Field<T>, GpuError> {
         self.send()?;
         let count = plane.width * plane.height;
         let values = self.device.read(&plane.buffer, Rows::start(count))?;

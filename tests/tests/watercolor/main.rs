@@ -5,9 +5,15 @@
 //! variable `IMPASTO_GPU_TESTS` names a file, each adds a line to it: the
 //! adapter it ran on, or `none`.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod cameras;
+
 mod meshes;
 
 mod seen;
+
+mod shading;
 
 mod effects;
 

@@ -260,3 +260,34 @@ fn the_whole_box_is_framed_from_every_side() {
         }
     }
 }
+
+#[test]
+fn the_closest_camera_has_all_places_and_no_more() {
+    for mesh in [Mesh::torus_knot(2000), Mesh::still_life(2000)] {
+        let extent = |camera: &Camera, aspect: f32| {
+            let clips = mesh.positions.iter().map(|&place| {
+                let clip = camera.clip_from_model(aspect) * Vec3::from(place).extend(1.0);
+                assert!(clip.z > 0.0 && clip.z < clip.w, "between the planes: {clip}");
+                [clip.x / clip.w, clip.y / clip.w]
+            });
+            clips.fold([[f32::MAX, f32::MIN]; 2], |[x, y], at| {
+                [[x[0].min(at[0]), x[1].max(at[0])], [y[0].min(at[1]), y[1].max(at[1])]]
+            })
+        };
+        for (azimuth_deg, aspect) in [(0.0, 1.3), (77.0, 0.6)] {
+            let framing =
+                Framing { azimuth_deg, elevation_deg: 25.0, field_of_view_deg: 30.0, aspect };
+            let [x, y] = extent(&framing.closest(&mesh.positions), aspect);
+            assert!((x[0] + x[1]).abs() < 0.2 && (y[0] + y[1]).abs() < 0.2, "{x:?} {y:?}");
+            let most = [x[1], -x[0], y[1], -y[0]].into_iter().fold(0.0, f32::max);
+            assert!((0.915..0.925).contains(&most), "{x:?} {y:?}");
+            for camera in framing.closest_turntable(&mesh.positions, 7) {
+                let [x, y] = extent(&camera, aspect);
+                let most = [x[1], -x[0], y[1], -y[0]].into_iter().fold(0.0, f32::max);
+                assert!((0.4..0.925).contains(&most), "{x:?} {y:?}");
+            }
+        }
+    }
+    let nothing = Framing::default().closest(&[]);
+    assert!(nothing.eye.is_finite() && nothing.near > 0.0, "{nothing:?}");
+}

@@ -41,7 +41,7 @@ impl Mesh {
                 self.colours.push([1.0; 3]);
             }
         }
-        join(&mut self.positions[first..], cells);
+        join(&mut self.positions[first..], &mut self.normals[first..], cells);
         let vertex = |column: usize, row: usize| (first + row * (columns + 1) + column) as u32;
         for row in 0..rows {
             for column in 0..columns {
@@ -58,8 +58,9 @@ impl Mesh {
     }
 }
 
-/// Makes places that differ by rounding only the same, at the edges of a grid.
-fn join(places: &mut [[f32; 3]], Cells { columns, rows }: Cells) {
+/// Makes places that differ by rounding only the same, at the edges of a grid; a pole
+/// gets the mean of its normals.
+fn join(places: &mut [[f32; 3]], normals: &mut [[f32; 3]], Cells { columns, rows }: Cells) {
     let size = places.iter().flatten().fold(0.0f32, |most, at| most.max(at.abs()));
     let near = |p: [f32; 3], q: [f32; 3]| Vec3::from(p).distance(Vec3::from(q)) < 1e-5 * size;
     let width = columns + 1;
@@ -77,6 +78,9 @@ fn join(places: &mut [[f32; 3]], Cells { columns, rows }: Cells) {
         let edge = &mut places[row..row + width];
         if edge.iter().all(|&place| near(place, edge[0])) {
             edge.fill(edge[0]);
+            let around = &normals[row..row + columns];
+            let sum: Vec3 = around.iter().map(|&normal| Vec3::from(normal)).sum();
+            normals[row..row + width].fill(sum.try_normalize().unwrap_or(Vec3::Y).into());
         }
     }
 }

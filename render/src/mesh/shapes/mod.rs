@@ -4,4 +4,13 @@ mod grid;
 
 mod round;
 
+mod turned;
+
+mod still_life;
+
+mod village;
+
+mod named;
+
 pub use grid::Cells;
+pub use named::Shape;

@@ -1,0 +1,224 @@
+//! glTF 2.0 (Khronos Group, 2021): what its default scene shows in the pose of the
+//! file. Metal, roughness, opacity and all beyond base colours is left out.
+
+use std::path::Path;
+
+use glam::{Mat3, Mat4, Vec3};
+use gltf::mesh::Mode;
+use spectra::color::Rgb;
+
+use super::error::MeshError;
+use super::gltf_values::{COLOURS, COORDINATES, CORNERS, NORMALS, PLACES, check, path_of, slice};
+use super::part::{PLAIN, Part};
+use crate::mesh::model::{Material, Mesh, Texture};
+
+/// Reads both forms of glTF; `bytes` say themselves which it is.
+pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
+    let document = gltf::Gltf::from_slice(bytes)
+        .map_err(|error| malformed(name, "the document", error.to_string()))?;
+    let mut blob = document.blob.clone();
+    let mut buffers = Vec::new();
+    for buffer in document.buffers() {
+        let place = format!("buffer {}", buffer.index());
+        if let gltf::buffer::Source::Uri(reference) = buffer.source() {
+            path_of(reference).map_err(|reason| malformed(name, &place, reason))?;
+        }
+        let found =
+            gltf::buffer::Data::from_source_and_blob(buffer.source(), Some(folder), &mut blob);
+        let found = found.map_err(|error| malformed(name, &place, error.to_string()))?;
+        if found.len() < buffer.length() {
+            let reason = format!("{} bytes of {}", found.len(), buffer.length());
+            return Err(malformed(name, &place, reason));
+        }
+        buffers.push(found);
+    }
+    let mut reader = Reader { name, folder, buffers, mesh: Mesh::default(), coordinates: vec![] };
+    for material in document.materials() {
+        reader.add_material(&material)?;
+    }
+    // For those without a material.
+    reader.mesh.materials.push(PLAIN);
+    reader.coordinates.push(0);
+    let mut met = vec![false; document.nodes().len()];
+    let scene = document.default_scene().or_else(|| document.scenes().next());
+    let mut waiting: Vec<_> = match scene {
+        Some(scene) => scene.nodes().map(|node| (node, Mat4::IDENTITY)).collect(),
+        None => document.nodes().map(|node| (node, Mat4::IDENTITY)).collect(),
+    };
+    waiting.reverse();
+    while let Some((node, model_from_parent)) = waiting.pop() {
+        if std::mem::replace(&mut met[node.index()], true) {
+            let place = format!("node {}", node.index());
+            return Err(malformed(name, &place, "it has two parents".to_owned()));
+        }
+        let model_from_node =
+            model_from_parent * Mat4::from_cols_array_2d(&node.transform().matrix());
+        if let Some(mesh) = node.mesh() {
+            for primitive in mesh.primitives() {
+                let place = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
+                let added = reader.add_primitive(&primitive, model_from_node);
+                added.map_err(|reason| malformed(name, &place, reason))?;
+            }
+        }
+        let children: Vec<_> = node.children().collect();
+        waiting.extend(children.into_iter().rev().map(|child| (child, model_from_node)));
+    }
+    Ok(reader.mesh)
+}
+
+fn malformed(name: &str, place: &str, reason: String) -> MeshError {
+    MeshError::Malformed { name: name.to_owned(), place: place.to_owned(), reason }
+}
+
+/// Linear as in the file, to encoded.
+fn encoded(linear: [f32; 3]) -> [f32; 3] {
+    let linear = linear.map(|value| f64::from(value.clamp(0.0, 1.0)));
+    Rgb(linear).encoded().0.map(|value| value.clamp(0.0, 1.0) as f32)
+}
+
+struct Reader<'a> {
+    name: &'a str,
+    folder: &'a Path,
+    buffers: Vec<gltf::buffer::Data>,
+    mesh: Mesh,
+    /// Which set of texture coordinates each material's texture wants.
+    coordinates: Vec<u32>,
+}
+
+impl Reader<'_> {
+    fn add_material(&mut self, material: &gltf::Material<'_>) -> Result<(), MeshError> {
+        let base = material.pbr_metallic_roughness();
+        let [r, g, b, _] = base.base_color_factor();
+        let texture = base.base_color_texture();
+        self.coordinates.push(texture.as_ref().map_or(0, |texture| texture.tex_coord()));
+        let texture = texture.map(|texture| self.texture(&texture.texture().source()));
+        let texture = texture.transpose()?;
+        self.mesh.materials.push(Material { colour: encoded([r, g, b]), texture });
+        Ok(())
+    }
+
+    fn texture(&self, image: &gltf::Image<'_>) -> Result<Texture, MeshError> {
+        let texture = |texture: String, reason: String| MeshError::Texture {
+            name: self.name.to_owned(),
+            texture,
+            reason,
+        };
+        let number = format!("image {}", image.index());
+        match image.source() {
+            gltf::image::Source::View { view, .. } => {
+                let bytes = slice(&view, &self.buffers);
+                bytes.and_then(Texture::from_bytes).map_err(|reason| texture(number, reason))
+            }
+            gltf::image::Source::Uri { uri, .. } if uri.starts_with("data:") => {
+                // As a buffer it is decoded all the same.
+                let source = gltf::buffer::Source::Uri(uri);
+                let found = gltf::buffer::Data::from_source(source, Some(self.folder));
+                let bytes = found.map_err(|error| error.to_string());
+                let picture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
+                picture.map_err(|reason| texture(number, reason))
+            }
+            gltf::image::Source::Uri { uri, .. } => {
+                let path = path_of(uri).map_err(|reason| texture(number, reason))?;
+                let bytes = std::fs::read(self.folder.join(&path)).map_err(|e| e.to_string());
+                let picture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
+                picture.map_err(|reason| texture(path, reason))
+            }
+        }
+    }
+
+    /// Points and lines are left out.
+    fn add_primitive(
+        &mut self,
+        primitive: &gltf::Primitive<'_>,
+        model_from_node: Mat4,
+    ) -> Result<(), String> {
+        if matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
+        {
+            return Ok(());
+        }
+        let material = primitive.material().index().unwrap_or(self.coordinates.len() - 1);
+        let set = self.coordinates[material];
+        for (semantic, accessor) in primitive.attributes() {
+            let kind = match semantic {
+                gltf::Semantic::Positions => &PLACES,
+                gltf::Semantic::Normals => &NORMALS,
+                gltf::Semantic::TexCoords(found) if found == set => &COORDINATES,
+                gltf::Semantic::Colors(0) => &COLOURS,
+                _ => continue,
+            };
+            check(&accessor, kind, &self.buffers)
+                .map_err(|reason| format!("accessor {}: {reason}", accessor.index()))?;
+        }
+        if let Some(accessor) = primitive.indices() {
+            check(&accessor, &CORNERS, &self.buffers)
+                .map_err(|reason| format!("accessor {}: {reason}", accessor.index()))?;
+        }
+        let buffers = &self.buffers;
+        let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &**data));
+        let places = reader.read_positions().ok_or_else(|| "it has no POSITION".to_owned())?;
+        let place = |at: [f32; 3]| model_from_node.transform_point3(at.into()).into();
+        let mut part = Part {
+            positions: places.map(place).collect(),
+            material: material as u32,
+            ..Part::default()
+        };
+        let count = part.positions.len();
+        // The transpose of the inverse but for its length, also of flat nodes.
+        let linear = Mat3::from_mat4(model_from_node);
+        let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+        let mirrored = linear.determinant() < 0.0;
+        let cofactors = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        if let Some(normals) = reader.read_normals() {
+            let sign = if mirrored { -1.0 } else { 1.0 };
+            let turned =
+                normals.map(|at| (cofactors * (Vec3::from(at) * sign)).normalize_or_zero());
+            part.normals = turned.map(Into::into).collect();
+        }
+        if let Some(coordinates) = reader.read_tex_coords(set) {
+            part.texture_coordinates = coordinates.into_f32().collect();
+        }
+        if let Some(colours) = reader.read_colors(0) {
+            part.colours = colours.into_rgb_f32().map(encoded).collect();
+        }
+        for (what, found) in [
+            ("normals", part.normals.len()),
+            ("texture coordinates", part.texture_coordinates.len()),
+            ("colours", part.colours.len()),
+        ] {
+            if found != 0 && found != count {
+                return Err(format!("{found} {what} for {count} vertices"));
+            }
+        }
+        let listed: Vec<u32> = match reader.read_indices() {
+            Some(indices) => indices.into_u32().collect(),
+            None => (0..count as u32).collect(),
+        };
+        if let Some(found) = listed.iter().find(|&&corner| corner as usize >= count) {
+            return Err(format!("it has vertex {found}, of {count}"));
+        }
+        part.corners = triangles(primitive.mode(), &listed);
+        if mirrored {
+            part.corners.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
+        }
+        self.mesh.add(part);
+        Ok(())
+    }
+}
+
+/// Three corners a triangle.
+fn triangles(mode: Mode, listed: &[u32]) -> Vec<u32> {
+    match mode {
+        Mode::TriangleStrip => {
+            let turned = |(i, at): (usize, &[u32])| match i % 2 {
+                0 => [at[0], at[1], at[2]],
+                _ => [at[1], at[0], at[2]],
+            };
+            listed.windows(3).enumerate().flat_map(turned).collect()
+        }
+        Mode::TriangleFan => {
+            let rest = listed.get(1..).unwrap_or_default();
+            rest.windows(2).flat_map(|at| [listed[0], at[0], at[1]]).collect()
+        }
+        _ => listed[..listed.len() / 3 * 3].to_vec(),
+    }
+}

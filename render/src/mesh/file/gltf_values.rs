@@ -1,0 +1,102 @@
+//! What a glTF file refers to, checked before its reader follows it.
+
+use gltf::accessor::{Accessor, DataType, Dimensions};
+
+/// What an attribute may be made of.
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    pub(super) types: &'static [DataType],
+    pub(super) dimensions: &'static [Dimensions],
+}
+
+pub(super) const PLACES: Kind =
+    Kind { name: "POSITION", types: &[DataType::F32], dimensions: &[Dimensions::Vec3] };
+
+pub(super) const NORMALS: Kind =
+    Kind { name: "NORMAL", types: &[DataType::F32], dimensions: &[Dimensions::Vec3] };
+
+const FRACTIONS: &[DataType] = &[DataType::F32, DataType::U8, DataType::U16];
+
+pub(super) const COORDINATES: Kind =
+    Kind { name: "TEXCOORD", types: FRACTIONS, dimensions: &[Dimensions::Vec2] };
+
+pub(super) const COLOURS: Kind =
+    Kind { name: "COLOR", types: FRACTIONS, dimensions: &[Dimensions::Vec3, Dimensions::Vec4] };
+
+pub(super) const CORNERS: Kind = Kind {
+    name: "indices",
+    types: &[DataType::U8, DataType::U16, DataType::U32],
+    dimensions: &[Dimensions::Scalar],
+};
+
+/// Whether all values of an accessor are in its buffer and of the kind wanted;
+/// else what is wrong.
+pub(super) fn check(
+    accessor: &Accessor<'_>,
+    kind: &Kind,
+    buffers: &[gltf::buffer::Data],
+) -> Result<(), String> {
+    let (found, dimensions) = (accessor.data_type(), accessor.dimensions());
+    if !kind.types.contains(&found) || !kind.dimensions.contains(&dimensions) {
+        return Err(format!("{} of `{found:?}` in `{dimensions:?}`", kind.name));
+    }
+    if accessor.sparse().is_some() {
+        return Err("sparse values are not read".to_owned());
+    }
+    let view = accessor.view().ok_or_else(|| "it has no buffer view".to_owned())?;
+    slice(&view, buffers)?;
+    let count = accessor.count();
+    let stride = view.stride().unwrap_or(accessor.size());
+    let last = count.checked_sub(1).ok_or_else(|| "it has no values".to_owned())?;
+    let end = last
+        .checked_mul(stride)
+        .and_then(|end| end.checked_add(accessor.offset())?.checked_add(accessor.size()));
+    match end.is_some_and(|end| end <= view.length()) {
+        true => Ok(()),
+        false => Err(format!("{count} values are more than its buffer view has")),
+    }
+}
+
+/// The bytes of a buffer view.
+pub(super) fn slice<'a>(
+    view: &gltf::buffer::View<'_>,
+    buffers: &'a [gltf::buffer::Data],
+) -> Result<&'a [u8], String> {
+    let buffer: &[u8] = &buffers[view.buffer().index()];
+    let end = view.offset().checked_add(view.length());
+    let within = end.and_then(|end| buffer.get(view.offset()..end));
+    within.ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))
+}
+
+/// A relative reference as a path, its `%20` and the like decoded.
+pub(super) fn path_of(reference: &str) -> Result<String, String> {
+    let mut bytes = Vec::with_capacity(reference.len());
+    let mut rest = reference.as_bytes();
+    while let [first, after @ ..] = rest {
+        let coded = (*first == b'%').then(|| std::str::from_utf8(after.get(..2)?).ok()).flatten();
+        match coded.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            Some(byte) => {
+                bytes.push(byte);
+                rest = &after[2..];
+            }
+            None => {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8(bytes).map_err(|_| format!("not a reference: `{reference}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn references_are_decoded() {
+        assert_eq!(path_of("a%20b%2Fc.png").as_deref(), Ok("a b/c.png"));
+        assert_eq!(path_of("100%").as_deref(), Ok("100%"));
+        assert_eq!(path_of("%zz").as_deref(), Ok("%zz"));
+        assert!(path_of("%ff").is_err());
+    }
+}

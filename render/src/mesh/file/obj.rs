@@ -1,0 +1,160 @@
+//! Wavefront OBJ, with its MTL materials and their pictures.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use super::error::MeshError;
+use super::obj_lines::{check_mtl, check_obj};
+use super::part::{PLAIN, Part};
+use crate::mesh::model::{Material, Mesh, Texture};
+
+/// Colours of materials and vertices are taken as encoded. Vertices of a group of
+/// which some have no normal or texture coordinate are read as if none had.
+pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
+    let text = String::from_utf8_lossy(bytes);
+    let at_line = |name: &str, (line, reason): (usize, String)| MeshError::Malformed {
+        name: name.to_owned(),
+        place: format!("line {line}"),
+        reason,
+    };
+    check_obj(&text).map_err(|fault| at_line(name, fault))?;
+    let options = tobj::LoadOptions {
+        single_index: true,
+        triangulate: true,
+        ignore_points: true,
+        ignore_lines: true,
+    };
+    // The parser's errors do not say what ours do.
+    let failed = RefCell::new(None);
+    let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |file| {
+        let file = folder.join(file);
+        let name = file.display().to_string();
+        let read = std::fs::read(&file)
+            .map_err(|error| MeshError::Unreadable { name: name.clone(), error });
+        let checked = read.and_then(|bytes| {
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            check_mtl(&text).map_err(|fault| at_line(&name, fault)).map(|()| text)
+        });
+        let loaded = checked.and_then(|text| {
+            tobj::load_mtl_buf(&mut text.as_bytes()).map_err(|error| MeshError::Malformed {
+                name: name.clone(),
+                place: "materials".to_owned(),
+                reason: error.to_string(),
+            })
+        });
+        loaded.map_err(|error| {
+            failed.borrow_mut().get_or_insert(error);
+            tobj::LoadError::OpenFileFailed
+        })
+    });
+    if let Some(error) = failed.into_inner() {
+        return Err(error);
+    }
+    let (models, materials) = match loaded {
+        Ok((models, Ok(materials))) => (models, materials),
+        Ok((_, Err(error))) | Err(error) => {
+            return Err(MeshError::Malformed {
+                name: name.to_owned(),
+                place: "faces".to_owned(),
+                reason: error.to_string(),
+            });
+        }
+    };
+    unknown_material(&text, &materials).map_or(Ok(()), |fault| Err(at_line(name, fault)))?;
+    let mut mesh = Mesh::default();
+    for material in &materials {
+        mesh.materials.push(painted(name, folder, material)?);
+    }
+    let plain = mesh.materials.len() as u32;
+    for model in models {
+        let tobj::Mesh { positions, normals, texcoords, vertex_color, indices, .. } = model.mesh;
+        let count = positions.len() / 3;
+        let material = model.mesh.material_id.map_or(plain, |id| id as u32);
+        let mut part = Part { positions: triples(positions), material, ..Part::default() };
+        if normals.len() == 3 * count {
+            part.normals = triples(normals);
+        }
+        if texcoords.len() == 2 * count {
+            let upwards = texcoords.chunks_exact(2);
+            part.texture_coordinates = upwards.map(|at| [at[0], 1.0 - at[1]]).collect();
+        }
+        if vertex_color.len() == 3 * count {
+            let colours = triples(vertex_color);
+            part.colours = colours.iter().map(|rgb| rgb.map(|v| v.clamp(0.0, 1.0))).collect();
+        }
+        part.corners = indices;
+        mesh.add(part);
+    }
+    if mesh.triangles.iter().any(|triangle| triangle.material == plain) {
+        mesh.materials.push(PLAIN);
+    }
+    Ok(mesh)
+}
+
+fn triples(values: Vec<f32>) -> Vec<[f32; 3]> {
+    values.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect()
+}
+
+/// The first line that wants a material which no library has; without libraries
+/// all is plain.
+fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, String)> {
+    let line = |(line, number): (&str, usize)| {
+        let name = line.trim().strip_prefix("usemtl ")?.trim();
+        let known = materials.iter().any(|material| material.name == name);
+        (!known).then(|| (number, format!("no material `{name}` in the libraries")))
+    };
+    let has_library = text.lines().any(|line| line.trim().starts_with("mtllib "));
+    has_library.then(|| text.lines().zip(1..).find_map(line)).flatten()
+}
+
+fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material, MeshError> {
+    let texture = match &found.diffuse_texture {
+        None => None,
+        Some(told) => {
+            let file = without_options(told).replace('\\', "/");
+            let bytes = std::fs::read(folder.join(&file)).map_err(|error| error.to_string());
+            let texture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
+            Some(texture.map_err(|reason| MeshError::Texture {
+                name: name.to_owned(),
+                texture: file,
+                reason,
+            })?)
+        }
+    };
+    // A texture without a colour is shown as it is.
+    let colour = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.colour });
+    Ok(Material { colour: colour.map(|value| value.clamp(0.0, 1.0)), texture })
+}
+
+/// The name of a picture after its options (`-s 1 1 1 wood.png`).
+fn without_options(told: &str) -> &str {
+    let mut rest = told.trim();
+    while rest.starts_with('-') {
+        let mut after = rest.split_once(char::is_whitespace).map_or("", |(_, after)| after);
+        while let Some((word, further)) = after.trim_start().split_once(char::is_whitespace) {
+            if word.parse::<f32>().is_err() && !["on", "off"].contains(&word) {
+                break;
+            }
+            after = further;
+        }
+        rest = after.trim_start();
+    }
+    rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_named_after_its_options() {
+        for (told, wanted) in [
+            ("wood.png", "wood.png"),
+            ("-s 1 2 3 -clamp on my wood.png", "my wood.png"),
+            ("-bm 0.5", "0.5"),
+            ("-", ""),
+        ] {
+            assert_eq!(without_options(told), wanted);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Pictures that models wear.
+
+use std::io::Cursor;
+
+use image::{ImageReader, Limits};
+
+use crate::mesh::model::Texture;
+
+/// The longest side that is read, in texels.
+const LONGEST: u32 = 16_384;
+
+impl Texture {
+    /// The texture in a PNG or JPEG file's bytes, or why there is none.
+    pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let mut reader = ImageReader::new(Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|error| error.to_string())?;
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(LONGEST);
+        limits.max_image_height = Some(LONGEST);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|error| error.to_string())?.into_rgba8();
+        let (width, height) = picture.dimensions();
+        let texels = picture.pixels().map(|pixel| u32::from_le_bytes(pixel.0)).collect();
+        Ok(Self { width, height, texels })
+    }
+}

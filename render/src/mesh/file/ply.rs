@@ -1,0 +1,172 @@
+//! PLY (Turk 1994), as text or binary: places, normals, colours, texture coordinates,
+//! and polygons, which are cut into fans.
+
+use std::path::Path;
+
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
+};
+
+use super::error::MeshError;
+use super::part::{PLAIN, Part};
+use crate::mesh::model::Mesh;
+
+/// Reads a PLY file; other elements than vertices and faces are passed over.
+pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
+    let malformed = |place: &str, reason: &str| MeshError::Malformed {
+        name: name.to_owned(),
+        place: place.to_owned(),
+        reason: reason.split_whitespace().collect::<Vec<_>>().join(" "),
+    };
+    let failed = |place: &str, text: bool, error: ParseError| match error.line() {
+        Some(line) if text => {
+            let told = error.to_string();
+            // It names the line itself too.
+            let reason = told.strip_prefix(&format!("Line {line}: ")).unwrap_or(&told);
+            malformed(&format!("line {line}"), reason)
+        }
+        _ => malformed(place, &error.to_string()),
+    };
+    let mut reader = Reader::new(bytes);
+    let header = Parser::<Other>::new().read_header(&mut reader);
+    let header = header.map_err(|error| failed("the header", true, error))?;
+    let text = header.encoding == Encoding::Ascii;
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for (name, element) in &header.elements {
+        let of = format!("element `{name}`");
+        let read = match name.as_str() {
+            "vertex" => elements(&mut reader, element, &header).map(|found| vertices = found),
+            "face" => elements(&mut reader, element, &header).map(|found| faces = found),
+            _ => elements::<Other>(&mut reader, element, &header).map(drop),
+        };
+        read.map_err(|error| failed(&of, text, error))?;
+    }
+    let has = |element: &str, property: &str| {
+        header.elements.get(element).is_some_and(|found| found.properties.contains_key(property))
+    };
+    let lacking = ["x", "y", "z"].iter().find(|axis| !has("vertex", axis));
+    if let Some(axis) = lacking {
+        return Err(malformed("element `vertex`", &format!("it has no property `{axis}`")));
+    }
+    Ok(assembled(&vertices, &faces, &|property| has("vertex", property)))
+}
+
+fn elements<E: PropertyAccess>(
+    reader: &mut Reader<&[u8]>,
+    element: &ElementDef,
+    header: &Header,
+) -> Result<Vec<E>, ParseError> {
+    Parser::new().read_payload_for_element(reader, element, header)
+}
+
+fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) -> Mesh {
+    let mut part =
+        Part { positions: vertices.iter().map(|vertex| vertex.place).collect(), ..Part::default() };
+    if has("nx") {
+        part.normals = vertices.iter().map(|vertex| vertex.normal).collect();
+    }
+    if COORDINATES.iter().any(|[u, _]| has(u)) {
+        let upwards = vertices.iter().map(|vertex| vertex.coordinates);
+        part.texture_coordinates = upwards.map(|[u, v]| [u, 1.0 - v]).collect();
+    }
+    if COLOURS.iter().any(|[red, ..]| has(red)) {
+        let colours = vertices.iter().map(|vertex| vertex.colour);
+        part.colours = colours.map(|rgb| rgb.map(|value| value.clamp(0.0, 1.0))).collect();
+    }
+    for face in faces {
+        for i in 2..face.corners.len() {
+            part.corners.extend([face.corners[0], face.corners[i - 1], face.corners[i]]);
+        }
+    }
+    let mut mesh = Mesh::default();
+    // What is painted by its vertices is not darkened besides.
+    let colour = if part.colours.is_empty() { PLAIN.colour } else { [1.0; 3] };
+    mesh.materials.push(crate::mesh::Material::plain(colour));
+    mesh.add(part);
+    mesh
+}
+
+/// As programs name texture coordinates and colours.
+const COORDINATES: [[&str; 2]; 4] =
+    [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
+const COLOURS: [[&str; 3]; 3] =
+    [["red", "green", "blue"], ["r", "g", "b"], ["diffuse_red", "diffuse_green", "diffuse_blue"]];
+
+#[derive(Default)]
+struct Vertex {
+    place: [f32; 3],
+    normal: [f32; 3],
+    coordinates: [f32; 2],
+    colour: [f32; 3],
+}
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, key: &str, property: Property) -> PropertyAccessResult {
+        let Some(value) = property.to_f32_lossy() else { return PropertyAccessResult::Ignored };
+        match key {
+            "x" => self.place[0] = value,
+            "y" => self.place[1] = value,
+            "z" => self.place[2] = value,
+            "nx" => self.normal[0] = value,
+            "ny" => self.normal[1] = value,
+            "nz" => self.normal[2] = value,
+            _ => {
+                let column = |row: &[&str]| row.iter().position(|name| *name == key);
+                if let Some(axis) = COORDINATES.iter().find_map(|row| column(row)) {
+                    self.coordinates[axis] = value;
+                } else if let Some(channel) = COLOURS.iter().find_map(|row| column(row)) {
+                    // Whole numbers count up to their greatest.
+                    self.colour[channel] = match property {
+                        Property::UChar(_) | Property::Char(_) => value / 255.0,
+                        Property::UShort(_) | Property::Short(_) => value / 65535.0,
+                        _ => value,
+                    };
+                }
+            }
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+#[derive(Default)]
+struct Face {
+    corners: Vec<u32>,
+}
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, key: &str, property: Property) -> PropertyAccessResult {
+        if !["vertex_indices", "vertex_index"].contains(&key) {
+            return PropertyAccessResult::Ignored;
+        }
+        // A negative index is none: it becomes too great.
+        let whole = |value: i64| u32::try_from(value).unwrap_or(u32::MAX);
+        self.corners = match property {
+            Property::ListChar(list) => list.into_iter().map(|at| whole(at.into())).collect(),
+            Property::ListUChar(list) => list.into_iter().map(u32::from).collect(),
+            Property::ListShort(list) => list.into_iter().map(|at| whole(at.into())).collect(),
+            Property::ListUShort(list) => list.into_iter().map(u32::from).collect(),
+            Property::ListInt(list) => list.into_iter().map(|at| whole(at.into())).collect(),
+            Property::ListUInt(list) => list,
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+/// Anything that is passed over.
+struct Other;
+
+impl PropertyAccess for Other {
+    fn new() -> Self {
+        Self
+    }
+}

@@ -1,0 +1,207 @@
+//! A jug, pears, a lemon and an orange on a striped cloth.
+
+use std::f32::consts::TAU;
+
+use glam::{Quat, Vec3};
+
+use super::grid::Cells;
+use super::round::on_ball;
+use super::turned::{mixed, rising, rolled, turned};
+use crate::mesh::model::{Material, Mesh, Texture};
+
+const CLOTH: u32 = 0;
+const GLAZE: u32 = 1;
+const FRUIT: u32 = 2;
+const WOOD: u32 = 3;
+
+/// Of the cloth, spread out.
+const CLOTH_RADIUS: f32 = 2.95;
+
+/// Of what of it lies flat.
+const TABLE_RADIUS: f32 = 2.05;
+
+impl Mesh {
+    /// A still life of about `triangles` triangles, about 5 across; the table's top
+    /// is at 0. Open at the cloth, painted by materials, a texture, and colours of
+    /// vertices.
+    #[must_use]
+    pub fn still_life(triangles: usize) -> Self {
+        let materials = vec![
+            Material { colour: [1.0; 3], texture: Some(stripes()) },
+            Material::plain([1.0; 3]),
+            Material::plain([1.0; 3]),
+            Material::plain([0.42, 0.30, 0.20]),
+        ];
+        let mut mesh = Self { materials, ..Self::default() };
+        let share = |percent: usize| triangles * percent / 100;
+        add_cloth(&mut mesh, share(26));
+        add_jug(&mut mesh, share(22), Vec3::new(-0.75, 0.0, -0.35));
+        for (x, z, lean, turn, size) in
+            [(0.62, 0.05, 0.10, 0.4, 1.0), (1.35, -0.55, -0.16, 2.2, 0.92)]
+        {
+            let pose = Quat::from_rotation_y(turn) * Quat::from_rotation_x(lean);
+            add_pear(&mut mesh, share(13), Vec3::new(x, 0.02, z), pose, size);
+        }
+        let down = Quat::from_rotation_y(0.5) * Quat::from_rotation_z(1.45);
+        add_pear(&mut mesh, share(13), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
+        add_lemon(&mut mesh, share(6), Vec3::new(-0.72, 0.29, 1.28));
+        add_orange(&mut mesh, share(7), Vec3::new(-1.35, 0.43, 0.75));
+        mesh
+    }
+
+    /// Gives the vertices from `first` on colours by their places.
+    pub(super) fn tint(&mut self, first: usize, colour: impl Fn(Vec3) -> [f32; 3]) {
+        for (place, found) in self.positions[first..].iter().zip(&mut self.colours[first..]) {
+            *found = colour(Vec3::from(*place));
+        }
+    }
+}
+
+/// Four blue stripes and a red one, on linen.
+fn stripes() -> Texture {
+    let texel = |x: u32| {
+        let (blue, red) = ((8..16).contains(&(x % 32)), (19..21).contains(&(x % 32)));
+        let [r, g, b] = match (blue, red) {
+            (true, _) => [104, 138, 178],
+            (_, true) => [186, 98, 92],
+            _ => [238, 230, 214],
+        };
+        u32::from_le_bytes([r, g, b, 255])
+    };
+    Texture { width: 64, height: 2, texels: (0..128).map(|i| texel(i % 64)).collect() }
+}
+
+/// A round cloth, flat on the table and in folds beyond its edge.
+fn add_cloth(mesh: &mut Mesh, triangles: usize) {
+    let first = mesh.positions.len();
+    mesh.add_grid(Cells::of_about(triangles, 3.0), CLOTH, |uv| {
+        let angle = uv.x * TAU;
+        let along = CLOTH_RADIUS * uv.y;
+        let hanging = (along - TABLE_RADIUS).max(0.0);
+        let folds = rising(0.0, 0.9, hanging);
+        let fold = (7.0 * angle + 0.8 * (2.0 * angle).sin()).sin() + 0.4 * (11.0 * angle).sin();
+        // Around the edge of the table, then down.
+        let bend = (hanging / 0.35).min(1.5);
+        let beyond = 0.35 * bend.sin() + 0.13 * fold * folds;
+        let radius = along.min(TABLE_RADIUS) + beyond;
+        let drop = 0.35 * (1.0 - bend.cos()) + (hanging - 0.525).max(0.0);
+        let (sin, cos) = angle.sin_cos();
+        Vec3::new(radius * sin, -drop, radius * cos)
+    });
+    for at in first..mesh.positions.len() {
+        // Woven before it was laid: along the cloth, not seen from above.
+        let [u, v] = mesh.texture_coordinates[at];
+        let (sin, cos) = (u * TAU + 0.5).sin_cos();
+        mesh.texture_coordinates[at] =
+            [0.62 * CLOTH_RADIUS * v * sin, 0.62 * CLOTH_RADIUS * v * cos];
+    }
+}
+
+fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
+    let first = mesh.positions.len();
+    let body = turned(&[
+        [0.0, 0.10],
+        [0.40, 0.12],
+        [0.62, 0.45],
+        [0.60, 0.80],
+        [0.42, 1.20],
+        [0.33, 1.50],
+        [0.37, 1.74],
+        [0.43, 1.86],
+        [0.47, 1.86],
+        [0.42, 1.70],
+        [0.38, 1.50],
+        [0.48, 1.20],
+        [0.66, 0.80],
+        [0.68, 0.45],
+        [0.50, 0.10],
+        [0.44, 0.01],
+        [0.40, 0.0],
+        [0.0, 0.0],
+    ]);
+    let spout = Quat::from_rotation_y(-1.0);
+    mesh.add_grid(Cells::of_about(triangles * 3 / 4, 1.2), GLAZE, |uv| {
+        let place = body(uv);
+        let beside = (uv.x * TAU).sin().atan2((uv.x * TAU).cos());
+        let out = 0.2 * (-(beside * beside) / 0.1).exp() * rising(1.45, 1.86, place.y);
+        let (sin, cos) = (uv.x * TAU).sin_cos();
+        at + spout * (place + Vec3::new(out * sin, 0.3 * out, out * cos))
+    });
+    let handle = [[-0.38, 1.66], [-0.72, 1.72], [-0.92, 1.40], [-0.84, 0.95], [-0.58, 0.70]];
+    let points = handle.map(|[z, y]| Vec3::new(z, y, 0.0));
+    // Its ends are inside the body.
+    let thickness = |v: f32| (0.085 - 0.02 * v) * rising(0.0, 0.04, v.min(1.0 - v));
+    let handle = rolled(&points, thickness);
+    let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
+    mesh.add_grid(Cells::of_about(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
+    mesh.tint(first, |place| {
+        // The foot is bare clay, a band is left pale.
+        let band = rising(0.84, 0.88, place.y) * (1.0 - rising(1.08, 1.12, place.y));
+        let glazed = mixed([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);
+        mixed([0.68, 0.47, 0.35], glazed, rising(0.10, 0.16, place.y))
+    });
+}
+
+fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) {
+    let first = mesh.positions.len();
+    let body = turned(&[
+        [0.0, 1.12],
+        [0.10, 1.14],
+        [0.19, 1.05],
+        [0.23, 0.88],
+        [0.30, 0.70],
+        [0.43, 0.47],
+        [0.46, 0.27],
+        [0.36, 0.08],
+        [0.14, 0.0],
+        [0.0, 0.05],
+    ]);
+    let placed = |place: Vec3| at + pose * (place * size);
+    mesh.add_grid(Cells::of_about(triangles * 9 / 10, 1.1), FRUIT, |uv| {
+        let place = body(uv);
+        // The neck leans.
+        let lean = 0.09 * rising(0.5, 1.1, place.y);
+        placed(place + Vec3::new(lean, 0.0, 0.4 * lean))
+    });
+    let turned_back = pose.inverse();
+    mesh.tint(first, |place| {
+        let own = turned_back * (place - at) / size;
+        let ripe = mixed([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], rising(0.0, 0.9, own.y));
+        mixed(ripe, [0.80, 0.40, 0.24], 0.75 * rising(0.05, 0.42, own.x + 0.3 * own.z))
+    });
+    let stem = [[0.08, 1.06, 0.03], [0.10, 1.22, 0.04], [0.16, 1.36, 0.06]].map(Vec3::from);
+    let stem = rolled(&stem, |v| 0.03 * rising(0.0, 0.1, v.min(1.0 - v)));
+    mesh.add_grid(Cells::of_about(triangles / 10, 0.5), WOOD, |uv| placed(stem(uv)));
+}
+
+fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {
+    let first = mesh.positions.len();
+    let body = turned(&[
+        [0.0, 0.46],
+        [0.05, 0.45],
+        [0.09, 0.39],
+        [0.22, 0.27],
+        [0.29, 0.0],
+        [0.23, -0.25],
+        [0.12, -0.36],
+        [0.06, -0.43],
+        [0.0, -0.44],
+    ]);
+    let pose = Quat::from_rotation_y(0.8) * Quat::from_rotation_z(1.5);
+    mesh.add_grid(Cells::of_about(triangles, 1.3), FRUIT, |uv| at + pose * body(uv));
+    mesh.tint(first, |place| {
+        mixed([0.80, 0.72, 0.22], [0.96, 0.86, 0.30], rising(-0.2, 0.2, place.y - at.y))
+    });
+}
+
+fn add_orange(mesh: &mut Mesh, triangles: usize, at: Vec3) {
+    let first = mesh.positions.len();
+    mesh.add_grid(Cells::of_about(triangles, 2.0), FRUIT, |uv| {
+        let ball = on_ball(uv);
+        // A dent at the stalk.
+        at + ball * (0.43 - 0.05 * (-(ball.x * ball.x + ball.z * ball.z) / 0.02).exp())
+    });
+    mesh.tint(first, |place| {
+        mixed([0.86, 0.44, 0.16], [0.93, 0.58, 0.20], rising(-0.4, 0.4, place.y - at.y))
+    });
+}

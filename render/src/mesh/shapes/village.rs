@@ -1,0 +1,239 @@
+//! A village on a hill: houses about a church, trees, a path.
+
+use std::f32::consts::TAU;
+
+use glam::{Quat, Vec2, Vec3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::grid::Cells;
+use super::round::on_ball;
+use super::turned::{mixed, rising, turned};
+use crate::mesh::model::{Material, Mesh};
+
+const LAND: u32 = 0;
+const WALLS: [u32; 3] = [1, 2, 3];
+const ROOFS: [u32; 2] = [4, 5];
+const DARK: u32 = 6;
+const LEAVES: u32 = 7;
+const TRUNK: u32 = 8;
+
+/// From the middle of the land to its edge.
+const RADIUS: f32 = 10.0;
+
+/// Houses on the hill: angle about the church and distance from it.
+const HOUSES: [[f32; 2]; 15] = [
+    [0.3, 1.9],
+    [1.1, 2.1],
+    [1.9, 1.8],
+    [2.8, 2.0],
+    [3.7, 2.1],
+    [4.5, 1.9],
+    [5.5, 2.2],
+    [0.0, 3.7],
+    [0.8, 3.9],
+    [1.6, 3.6],
+    [2.4, 4.0],
+    [3.9, 3.9],
+    [4.8, 3.7],
+    [5.4, 4.1],
+    [1.25, 5.6],
+];
+
+impl Mesh {
+    /// A village of about `triangles` triangles (1,500 and up), 20 across. Open below.
+    #[must_use]
+    pub fn village(triangles: usize) -> Self {
+        let materials = [
+            [1.0, 1.0, 1.0],
+            [0.91, 0.86, 0.76],
+            [0.86, 0.76, 0.62],
+            [0.90, 0.82, 0.78],
+            [0.74, 0.42, 0.31],
+            [0.62, 0.37, 0.33],
+            [0.34, 0.36, 0.42],
+            [1.0, 1.0, 1.0],
+            [0.42, 0.33, 0.26],
+        ]
+        .map(Material::plain);
+        let mut mesh = Self { materials: materials.to_vec(), ..Self::default() };
+        add_land(&mut mesh, triangles * 45 / 100);
+        add_church(&mut mesh);
+        let mut rng = ChaCha8Rng::seed_from_u64(2006);
+        for (i, [angle, distance]) in HOUSES.into_iter().enumerate() {
+            let at = on_land(angle, distance);
+            let size = Vec3::new(
+                rng.random_range(0.5..0.68),
+                rng.random_range(0.55..0.95),
+                rng.random_range(0.62..0.9),
+            );
+            // They stand along the slope.
+            let turn = angle + rng.random_range(-0.25..0.25);
+            let colours = [WALLS[i % 3], ROOFS[i * 7 % 2]];
+            add_house(&mut mesh, at, turn, size, colours);
+        }
+        let trees = 46;
+        let each = (triangles * 55 / 100).saturating_sub(HOUSES.len() * 60) / trees;
+        let mut planted = 0;
+        while planted < trees {
+            let angle = rng.random_range(0.0..TAU);
+            let distance = RADIUS * rng.random_range(0.2f32..0.92).sqrt();
+            let near = |&[a, d]: &[f32; 2]| on_land(a, d).distance(on_land(angle, distance)) < 1.0;
+            if HOUSES.iter().any(near) || distance < 1.6 || on_path(on_land(angle, distance)) > 0.2
+            {
+                continue;
+            }
+            let height = rng.random_range(0.8..1.5);
+            add_tree(&mut mesh, each, on_land(angle, distance), height, planted % 4 == 0);
+            planted += 1;
+        }
+        mesh
+    }
+}
+
+fn height([x, z]: [f32; 2]) -> f32 {
+    let distance = x.hypot(z);
+    let hill = 2.3 * (-(distance / 4.6).powi(2)).exp();
+    let waves = 0.35 * (0.55 * x + 1.0).sin() * (0.6 * z - 0.4).cos() + 0.14 * (1.3 * x - z).sin();
+    hill + waves * rising(1.5, 5.0, distance)
+}
+
+fn on_land(angle: f32, distance: f32) -> Vec3 {
+    let (sin, cos) = angle.sin_cos();
+    let [x, z] = [distance * sin, distance * cos];
+    Vec3::new(x, height([x, z]), z)
+}
+
+/// How much of a place is path, 0..1: it winds down from the church.
+fn on_path(place: Vec3) -> f32 {
+    let distance = place.x.hypot(place.z);
+    let middle = 0.35 + 0.5 * (0.55 * distance).sin();
+    let away = place.x.atan2(place.z) - middle;
+    let across = distance * (away - TAU * (away / TAU).round()).abs();
+    (1.0 - rising(0.15, 0.42, across)) * rising(0.9, 1.2, distance)
+}
+
+fn add_land(mesh: &mut Mesh, triangles: usize) {
+    let first = mesh.positions.len();
+    mesh.add_grid(Cells::of_about(triangles, 2.2), LAND, |uv| {
+        let angle = uv.x * TAU;
+        let ragged = 1.0 + 0.05 * (5.0 * angle).sin() + 0.03 * (13.0 * angle + 1.0).sin();
+        on_land(angle, RADIUS * ragged * uv.y)
+    });
+    mesh.tint(first, |place| {
+        let meadow = (0.9 * place.x + 0.4).sin() * (0.7 * place.z).cos();
+        let green = mixed([0.56, 0.66, 0.36], [0.76, 0.76, 0.44], 0.5 + 0.5 * meadow);
+        let fields = rising(5.0, 6.0, place.x - 0.4 * place.z);
+        let sown = mixed(green, [0.84, 0.74, 0.44], 0.8 * fields);
+        mixed(sown, [0.88, 0.80, 0.66], on_path(place))
+    });
+}
+
+/// A flat piece; corners as they are read, from the upper left one by rows.
+fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
+    let [a, b, c, d] = corners;
+    mesh.add_grid(Cells { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
+        let (above, below) = (a + (b - a) * x, c + (d - c) * x);
+        above + (below - above) * y
+    });
+}
+
+/// Walls with gables at two sides, a roof that reaches beyond them, windows. `size` is
+/// half the width, the height of the walls, and half the length.
+fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u32; 2]) {
+    let turn = Quat::from_rotation_y(turn);
+    let placed = |x: f32, y: f32, z: f32| at + turn * Vec3::new(x, y, z);
+    let [w, h, l] = size.to_array();
+    let (foot, ridge) = (-0.8, h + 1.05 * w);
+    // Half a turn makes the other side of each.
+    for side in [1.0, -1.0] {
+        let on = |x: f32, y: f32, z: f32| placed(side * x, y, side * z);
+        add_flat(mesh, [on(w, h, l), on(w, h, -l), on(w, foot, l), on(w, foot, -l)], wall);
+        add_flat(mesh, [on(-w, h, l), on(w, h, l), on(-w, foot, l), on(w, foot, l)], wall);
+        // The gable's upper edge is a point.
+        let top = on(0.0, ridge, l);
+        add_flat(mesh, [top, top, on(-w, h, l), on(w, h, l)], wall);
+        let (out, low, end) = (w + 0.12, h - 0.126, l + 0.12);
+        let (eave, top) = ([on(out, low, end), on(out, low, -end)], ridge + 0.02);
+        add_flat(mesh, [on(0.0, top, end), on(0.0, top, -end), eave[0], eave[1]], roof);
+        let pane = |x: f32, y: f32, half: f32, high: f32| {
+            let z = l + 0.012;
+            let [left, right] = [x - half, x + half];
+            [on(left, y + high, z), on(right, y + high, z), on(left, y, z), on(right, y, z)]
+        };
+        add_flat(mesh, pane(-0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h), DARK);
+        add_flat(mesh, pane(0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h), DARK);
+        add_flat(mesh, pane(0.0, h + 0.2 * w, 0.11 * w, 0.25 * w), DARK);
+        for along in [-0.55, 0.0, 0.55] {
+            let (z, x) = (along * l, w + 0.012);
+            let [near, far] = [z + 0.11 * l, z - 0.11 * l];
+            let [low, high] = [0.4 * h, 0.72 * h];
+            let corners = [on(x, high, near), on(x, high, far), on(x, low, near), on(x, low, far)];
+            add_flat(mesh, corners, DARK);
+        }
+    }
+    let chimney = [0.3 * w, ridge - 0.35 * w, 0.4 * l];
+    add_tower(mesh, &|place| at + turn * (place + Vec3::from(chimney)), [0.09, 0.5 * w], wall);
+}
+
+/// Four walls and a lid; half its width, and its height.
+fn add_tower(
+    mesh: &mut Mesh,
+    placed: &dyn Fn(Vec3) -> Vec3,
+    [half, high]: [f32; 2],
+    material: u32,
+) {
+    for quarter in 0..4 {
+        let turn = Quat::from_rotation_y(quarter as f32 * TAU / 4.0);
+        let on = |x: f32, y: f32| placed(turn * Vec3::new(x, y, half));
+        add_flat(mesh, [on(-half, high), on(half, high), on(-half, 0.0), on(half, 0.0)], material);
+    }
+    let lid = |x: f32, z: f32| placed(Vec3::new(x * half, high, z * half));
+    add_flat(mesh, [lid(-1.0, -1.0), lid(1.0, -1.0), lid(-1.0, 1.0), lid(1.0, 1.0)], material);
+}
+
+fn add_church(mesh: &mut Mesh) {
+    let at = on_land(0.0, 0.0);
+    add_house(mesh, at, 0.5, Vec3::new(0.62, 1.25, 1.2), [WALLS[0], ROOFS[1]]);
+    let turn = Quat::from_rotation_y(0.5);
+    let tower = |place: Vec3| at + turn * (place + Vec3::new(0.0, -0.5, -1.3));
+    add_tower(mesh, &tower, [0.42, 3.6], WALLS[0]);
+    for quarter in 0..4 {
+        let side = Quat::from_rotation_y(quarter as f32 * TAU / 4.0);
+        let on = |x: f32, y: f32, z: f32| tower(side * Vec3::new(x, y, z));
+        let top = on(0.0, 5.2, 0.0);
+        add_flat(mesh, [top, top, on(-0.5, 3.58, 0.5), on(0.5, 3.58, 0.5)], ROOFS[1]);
+        let sound = [[-0.13, 3.2], [0.13, 3.2], [-0.13, 2.75], [0.13, 2.75]];
+        add_flat(mesh, sound.map(|[x, y]| on(x, y, 0.432)), DARK);
+    }
+}
+
+/// A round tree, or a slim one.
+fn add_tree(mesh: &mut Mesh, triangles: usize, at: Vec3, height: f32, slim: bool) {
+    let first = mesh.positions.len();
+    let wide = if slim { 0.17 } else { 0.42 } * height;
+    let middle = at + Vec3::Y * (if slim { 0.75 } else { 0.8 } * height);
+    let tall = if slim { 0.72 } else { 0.46 } * height;
+    let phase = at.x * 3.0 + at.z;
+    mesh.add_grid(Cells::of_about(triangles * 9 / 10, 1.6), LEAVES, |uv| {
+        let ball = on_ball(uv);
+        let lumps =
+            (4.0 * ball.x + phase).sin() * (4.5 * ball.y).cos() * (4.0 * ball.z - phase).sin();
+        let size = 1.0 + 0.16 * lumps;
+        // A slim one is a flame.
+        let taper = if slim { 1.0 - 0.45 * ball.y } else { 1.0 };
+        middle + ball * Vec3::new(wide * taper, tall, wide * taper) * size
+    });
+    let own = 0.5 + 0.5 * (7.0 * phase).sin();
+    let leaf = match slim {
+        true => [0.30, 0.44, 0.34],
+        false => mixed([0.38, 0.52, 0.26], [0.62, 0.62, 0.28], own),
+    };
+    mesh.tint(first, |place| {
+        let light = rising(middle.y - tall, middle.y + tall, place.y);
+        mixed(leaf.map(|value| 0.85 * value), leaf, light)
+    });
+    let trunk = turned(&[[0.0, 0.6], [0.05, 0.5], [0.055, 0.2], [0.09, -0.1], [0.0, -0.1]]);
+    let size = Vec3::new(height, height, height);
+    mesh.add_grid(Cells::of_about(triangles / 10, 1.5), TRUNK, |uv| at + trunk(uv) * size);
+}

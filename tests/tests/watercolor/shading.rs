@@ -1,0 +1,229 @@
+//! Both backends see and shade the same.
+
+use glam::{Vec2, Vec3};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use render::camera::Camera;
+use render::field::Field;
+use render::gpu::GpuError;
+use render::mesh::{Material, Mesh, Texture};
+use render::surface::{NOTHING, PackedMesh, RASTER, Visible, position_at};
+use render::watercolor::{Light, Models, OnCpu, OnGpu, Shading, Tones, Toon};
+use suite::adapter::device;
+
+use super::seen::{inside_them, random_triangles};
+
+/// A checked texture, uneven in width and height.
+fn checks() -> Texture {
+    let texel = |x: u32, y: u32| match (x / 2 + y) % 2 {
+        0 => u32::from_le_bytes([240, 200, 40 * y as u8, 255]),
+        _ => u32::from_le_bytes([20 * x as u8, 90, 160, 255]),
+    };
+    let texels = (0..5).flat_map(|y| (0..7).map(move |x| texel(x, y))).collect();
+    Texture { width: 7, height: 5, texels }
+}
+
+/// A textured ball and a knot with colours of its own, in one mesh.
+fn two() -> Mesh {
+    let mut mesh = Mesh::torus_knot(3000);
+    for (colour, i) in mesh.colours.iter_mut().zip(0u8..=255) {
+        *colour = [0.5 + f32::from(i) / 512.0, 1.0, 0.7];
+    }
+    mesh.materials.push(Material { colour: [0.9, 0.8, 1.0], texture: Some(checks()) });
+    let ball = Mesh::sphere(800);
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(&ball.positions);
+    mesh.normals.extend(&ball.normals);
+    mesh.texture_coordinates
+        .extend(ball.texture_coordinates.iter().map(|[u, v]| [3.0 * u - 1.0, 2.0 * v]));
+    mesh.colours.extend(&ball.colours);
+    mesh.triangles.extend(ball.triangles.iter().map(|triangle| render::mesh::Triangle {
+        corners: triangle.corners.map(|at| at + first),
+        material: 1,
+    }));
+    mesh
+}
+
+fn seen<B: Models>(backend: &mut B, mesh: &Mesh, camera: &Camera, size: (usize, usize)) -> Visible {
+    let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
+    let visible = backend.seen(&mut model, camera, size.0, size.1).unwrap();
+    backend.visible_field(&visible).unwrap()
+}
+
+fn shaded<B: Shading>(
+    backend: &mut B,
+    mesh: &Mesh,
+    camera: &Camera,
+    (width, height): (usize, usize),
+    toon: &Toon,
+) -> Field<[f32; 4]> {
+    let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
+    let samples = toon.samples;
+    let visible = backend.seen(&mut model, camera, width * samples, height * samples).unwrap();
+    let colour = backend.toon(&model, &visible, camera, toon).unwrap();
+    backend.colour_field(&colour).unwrap()
+}
+
+#[test]
+fn the_raster_shader_is_valid_and_bound_as_it_says() {
+    let module = naga::front::wgsl::parse_str(RASTER.source).unwrap();
+    let valid = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
+    assert!(valid.is_ok(), "{valid:?}");
+    assert_eq!(module.global_variables.len(), RASTER.buffers + 1);
+    for layout in RASTER.structs.iter().chain([&RASTER.parameters]) {
+        let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(layout.name);
+        let ty = module.types.iter().map(|(_, ty)| ty).find(of_name).unwrap();
+        let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{ty:?}") };
+        let found: Vec<_> =
+            members.iter().map(|m| (m.name.as_deref().unwrap(), m.offset as usize)).collect();
+        assert_eq!((*span as usize, &found[..]), (layout.bytes, layout.fields));
+    }
+}
+
+#[test]
+fn the_device_sees_what_the_processor_sees() {
+    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let knot = two();
+    let around = Camera::framing(knot.bounds(), 20.0, 30.0, 35.0);
+    let cases = [
+        (&random_triangles(200, 1), inside_them(), (97, 61)),
+        (&knot, around, (160, 120)),
+        (&knot, around, (203, 90)),
+        (&Mesh::sphere(25_000), around, (250, 250)),
+    ];
+    for (mesh, camera, size) in cases {
+        let on_cpu = seen(&mut OnCpu, mesh, &camera, size);
+        let found = seen(&mut on_gpu, mesh, &camera, size);
+        let (mut differ, mut shown) = (0, 0);
+        for (a, b) in on_cpu.values().iter().zip(found.values()) {
+            if a.triangle != b.triangle {
+                differ += 1;
+            } else if a.triangle != NOTHING {
+                shown += 1;
+                // A device need not move the weights along with the vertices, which a
+                // triangle of a few pixels feels; the place is the same all the same.
+                let off = position_at(mesh, *a).distance(position_at(mesh, *b));
+                assert!(off < 6e-3, "{size:?}: {off} off: {a:?} {b:?}");
+                assert!((a.depth - b.depth).abs() < 5e-4, "{size:?}: {a:?} {b:?}");
+            } else {
+                assert_eq!(a, b);
+            }
+        }
+        let all = size.0 * size.1;
+        assert!(differ * 500 <= all && shown * 10 > all, "{size:?}: {differ} {shown} of {all}");
+    }
+}
+
+#[test]
+fn the_device_shades_as_the_processor_does() {
+    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let mesh = two();
+    let camera = Camera::framing(mesh.bounds(), 200.0, 30.0, 35.0);
+    for (samples, light) in
+        [(1, Light::with_camera(315.0, 40.0)), (2, Light::WithModel(Vec3::new(1.0, 2.0, 0.5)))]
+    {
+        let toon = Toon { samples, light, tones: Tones::steps(3, 0.6), ..Toon::default() };
+        let a = shaded(&mut OnCpu, &mesh, &camera, (131, 99), &toon);
+        let b = shaded(&mut on_gpu, &mesh, &camera, (131, 99), &toon);
+        let differ = a.values().iter().zip(b.values()).filter(|(a, b)| {
+            assert!(b.iter().all(|value| (0.0..=1.0).contains(value)), "{b:?}");
+            a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.01)
+        });
+        let (differ, all) = (differ.count(), a.values().len());
+        assert!(differ * 200 < all, "{samples} samples: {differ} of {all} pixels differ");
+    }
+}
+
+#[test]
+fn without_strength_surfaces_keep_their_colours() {
+    let mut mesh = two();
+    let camera = Camera::framing(mesh.bounds(), 50.0, 20.0, 35.0);
+    mesh.colours.fill([1.0; 3]);
+    mesh.materials[1] = Material::plain([0.1, 0.6, 0.3]);
+    let toon = Toon { strength: 0.0, ..Toon::default() };
+    let picture = shaded(&mut OnCpu, &mesh, &camera, (120, 90), &toon);
+    let wanted = [[1.0, 1.0, 1.0, 0.0], [0.25, 0.47, 0.62, 1.0], [0.1, 0.6, 0.3, 1.0]];
+    let mut counts = [0; 3];
+    for pixel in picture.values() {
+        let near = |wanted: &[f32; 4]| wanted.iter().zip(pixel).all(|(a, b)| (a - b).abs() < 1e-6);
+        counts[wanted.iter().position(near).unwrap_or_else(|| panic!("{pixel:?}"))] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 50), "{counts:?}");
+}
+
+#[test]
+fn shade_is_dense_paint_and_light_is_thin() {
+    // A wall seen straight on, whose normal is turned to and from the light.
+    let wall = |cosine: f32| {
+        let mut mesh = Mesh::default();
+        mesh.materials.push(Material::plain([0.6, 0.5, 1.0]));
+        let cells = render::mesh::Cells { columns: 3, rows: 2 };
+        mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(x, -y, 0.0));
+        mesh.normals.fill([(1.0 - cosine * cosine).sqrt(), 0.0, cosine]);
+        mesh
+    };
+    let shade = |cosine: f32, strength: f32| {
+        let mesh = wall(cosine);
+        let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
+        let toon = Toon {
+            light: Light::WithModel(Vec3::Z),
+            tones: Tones::from_greys(&[0.0, 1.0]).unwrap(),
+            strength,
+            samples: 1,
+        };
+        shaded(&mut OnCpu, &mesh, &camera, (20, 20), &toon)[(10, 10)]
+    };
+    let near = |found: [f32; 4], wanted: [f32; 3]| {
+        let off = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off < 1e-3 && found[3] == 1.0, "{found:?} {wanted:?}");
+    };
+    // d = 1 + 2 (0.5 - grey): 2 in the dark, which is the square; 1; 0.
+    near(shade(0.0, 2.0), [0.36, 0.25, 1.0]);
+    near(shade(0.5, 2.0), [0.6, 0.5, 1.0]);
+    near(shade(1.0, 2.0), [0.6 * 1.4, 0.5 * 1.5, 1.0]);
+    near(shade(-0.7, 2.0), [0.36, 0.25, 1.0]);
+    // Never less than no paint.
+    near(shade(1.0, 9.0), [0.6 * 1.4, 0.5 * 1.5, 1.0]);
+}
+
+#[test]
+fn both_sides_of_a_surface_are_lit_from_where_they_are_seen() {
+    let mut mesh = Mesh::default();
+    mesh.materials.push(Material::plain([0.5; 3]));
+    mesh.add_grid(render::mesh::Cells { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
+        Vec3::new(x, -y, 0.0)
+    });
+    let toon = Toon { light: Light::with_camera(0.0, 90.0), ..Toon::default() };
+    let middle = |azimuth: f32| {
+        let camera = Camera::framing(mesh.bounds(), azimuth, 0.0, 30.0);
+        shaded(&mut OnCpu, &mesh, &camera, (20, 20), &toon)[(10, 10)]
+    };
+    assert_eq!(middle(0.0), middle(180.0));
+    assert!(middle(0.0)[0] > 0.5, "{:?}", middle(0.0));
+}
+
+#[test]
+fn samples_soften_silhouettes_only() {
+    let mesh = Mesh::sphere(3000);
+    let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
+    let toon = Toon { samples: 2, strength: 0.0, ..Toon::default() };
+    let picture = shaded(&mut OnCpu, &mesh, &camera, (60, 60), &toon);
+    let shares = picture.values().iter().map(|pixel| (pixel[3] * 4.0).round() as usize);
+    let mut counts = [0; 5];
+    shares.for_each(|share| counts[share] += 1);
+    assert!(counts[1..4].iter().all(|&count| count > 4) && counts[4] > 1500, "{counts:?}");
+    let area: f32 = picture.values().iter().map(|pixel| pixel[3]).sum();
+    let sharp = shaded(&mut OnCpu, &mesh, &camera, (60, 60), &Toon { samples: 1, ..toon });
+    let jagged: f32 = sharp.values().iter().map(|pixel| pixel[3]).sum();
+    assert!((area / jagged - 1.0).abs() < 0.02, "{area} {jagged}");
+}
+
+#[test]
+fn a_picture_that_no_device_draws_is_refused() {
+    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let mut model = on_gpu.model(PackedMesh::new(&Mesh::sphere(100))).unwrap();
+    for (width, height) in [(1 << 20, 4), (0, 4)] {
+        let error = on_gpu.seen(&mut model, &inside_them(), width, height).unwrap_err();
+        assert!(matches!(error, GpuError::Refused { .. }), "{error}");
+    }
+    assert!(on_gpu.seen(&mut model, &inside_them(), 8, 4).is_ok());
+}
