@@ -7,9 +7,9 @@ use crate::gpu::GpuError;
 /// Keeps pictures. Both backends take the same steps in the same order.
 pub trait Backend {
     /// Encoded sRGB and coverage of every pixel.
-    type Colour;
+    type Colour: std::fmt::Debug;
     /// A number for every pixel.
-    type Grey;
+    type Grey: std::fmt::Debug;
 
     /// For people: `cpu`, or the adapter.
     fn name(&self) -> String;

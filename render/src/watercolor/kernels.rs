@@ -8,6 +8,7 @@ use crate::gpu::Kernel;
 pub fn kernels() -> Vec<&'static Kernel> {
     vec![
         &toon::TOON,
+        &coherence::DEPTHS,
         &coherence::GATHER_SPLATS,
         &coherence::ANCHOR_TEXTURES,
         &density::DENSITY,

@@ -41,6 +41,8 @@ pub mod coherence;
 
 mod pipeline;
 
+mod model_painter;
+
 mod glaze;
 
 mod kernels;
@@ -52,6 +54,7 @@ pub use dry_brush::{DryBrush, DryBrushReach};
 pub use edges::Edges;
 pub use glaze::{GlazeError, Glazes, thickness};
 pub use kernels::kernels;
+pub use model_painter::{ModelPainter, ModelPainterError, Moment, MovingBackend};
 pub use models::{CpuModel, GpuModel, Models};
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};

@@ -13,9 +13,9 @@ use crate::surface::{PackedMesh, RASTER, Rasteriser, Seen, Sides, View, Visible}
 /// Keeps meshes, and tells what a camera sees of them.
 pub trait Models: Backend {
     /// A mesh, ready to be drawn again and again.
-    type Model;
+    type Model: std::fmt::Debug;
     /// What every pixel shows, as [`Seen`].
-    type Visible;
+    type Visible: std::fmt::Debug;
 
     /// Takes a mesh in.
     ///

@@ -7,6 +7,8 @@
 
 mod sight;
 
+mod depths;
+
 mod random;
 
 mod hierarchy;
@@ -27,6 +29,8 @@ mod popping;
 
 pub(super) use anchored::ANCHOR_TEXTURES;
 pub use anchored::Anchoring;
+pub(super) use depths::DEPTHS;
+pub use depths::Depths;
 pub use features::Features;
 pub use hierarchy::Hierarchy;
 pub use octaves::{FeatureNoise, SPREAD};
