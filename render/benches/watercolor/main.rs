@@ -4,6 +4,8 @@
 
 mod effects;
 
+mod segmentation;
+
 fn main() {
     divan::main();
 }

@@ -15,10 +15,24 @@ mod on_cpu;
 
 mod on_gpu;
 
+mod segmentation;
+
+mod octagon;
+
+mod morphology;
+
+mod photograph_door;
+
 mod kernels;
 
 pub use backend::Backend;
 pub use kernels::kernels;
+pub use morphology::Morphology;
+pub use octagon::{Brush, Extreme};
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
+pub use photograph_door::{
+    AbstractedPhotograph, PhotographDoorError, PhotographSettings, from_photograph,
+};
+pub use segmentation::{Segmentation, SegmentationError, SegmentationSettings, segment};
 pub use wash::{Controls, Wash};

@@ -39,7 +39,6 @@ impl Plane {
     }
 
     /// Its memory.
-    #[expect(dead_code, reason = "kernels take it")]
     pub(super) fn buffer(&self) -> &Buffer {
         &self.buffer
     }
