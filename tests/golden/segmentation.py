@@ -293,7 +293,7 @@ def segmentation():
         " numbers, in pixels where 2.",
         "package": f"opencv-python-headless {cv2.__version__}, scikit-learn"
         f" {sklearn.__version__}, colour-science {colour.__version__}",
-        "tolerance": 1e-3,
+        "tolerance": 5e-4,
         "settings": SETTINGS,
         "cases": {"modes": modes(), "pictures": pictures()},
     }

@@ -18,8 +18,8 @@ fn photograph() -> Photograph {
         _ => Rgba([0, 0, 0, 0]),
     });
     let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
-    Photograph::from_bytes("made.png", bytes.get_ref()).unwrap()
+    picture.write_to(&mut bytes, ImageFormat::Png).expect("memory takes it");
+    Photograph::from_bytes("made.png", bytes.get_ref()).expect("it was just written")
 }
 
 fn settings(smoothing_radius_px: u32) -> PhotographSettings {
