@@ -100,6 +100,32 @@ def lab():
     }
 
 
+def to_luv(xyz, white):
+    """Luv by colour, and written out."""
+    xyz, white = np.asarray(xyz, float) / 100, np.asarray(white, float) / 100
+    got = colour.XYZ_to_Luv(xyz, colour.XYZ_to_xy(white)) if sum(xyz) > 0 else np.zeros(3)
+    share = [4 * xyz[0], 9 * xyz[1]] / (xyz @ [1, 15, 3]) if sum(xyz) > 0 else np.zeros(2)
+    white_share = [4 * white[0], 9 * white[1]] / (white @ [1, 15, 3])
+    L = 116 * np.cbrt(xyz[1]) - 16 if xyz[1] > 216 / 24389 else 24389 / 27 * xyz[1]
+    near(got, [L, *(13 * L * (share - white_share))], 1e-11)
+    return got
+
+
+def luv():
+    cases = []
+    for light, key in LAB_WHITES:
+        white = white_of(light, key)
+        for value in [*LAB_XYZ, white]:
+            got = plain(to_luv(value, white))
+            cases.append({"white": white, "XYZ": value, "Luv": got})
+    return {
+        "method": "CIE 1976 Luv, XYZ and white on the scale where the white has Y = 100;"
+        " XYZ of zero is Luv of zero.",
+        "tolerance": 1e-9,
+        "cases": cases,
+    }
+
+
 PAIRS = [
     ((50, 10, 10), (50, 10, 10)),
     ((0, 0, 0), (100, 0, 0)),

@@ -13,9 +13,10 @@ import pathlib
 import sys
 
 import tables
-from colours import adaptation, difference, lab, rgb, sharma
+from colours import adaptation, difference, lab, luv, rgb, sharma
 from common import rounded
 from films import km
+from segmentation import segmentation
 from spectral import blackbody, daylight, metamerism, resampling, xyz
 
 COMMAND = "python tests/golden/generate.py"
@@ -27,6 +28,7 @@ GOLDEN = {
     "xyz.json": (xyz, 10),
     "sprague.json": (resampling, 12),
     "lab.json": (lab, 10),
+    "luv.json": (luv, 10),
     "difference.json": (difference, 10),
     "sharma.json": (sharma, 10),
     "daylight.json": (daylight, 10),
@@ -35,6 +37,7 @@ GOLDEN = {
     "rgb.json": (rgb, 11),
     "metamerism.json": (metamerism, 9),
     "km.json": (km, None),
+    "segmentation.json": (segmentation, 6),
 }
 
 

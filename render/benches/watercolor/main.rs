@@ -6,6 +6,8 @@ mod coherence;
 
 mod effects;
 
+mod segmentation;
+
 mod shading;
 
 fn main() {

@@ -90,6 +90,34 @@ impl Photograph {
     /// If the canvas has no cell.
     #[must_use]
     pub fn on_canvas(&self, width: usize, height: usize, framing: Framing) -> Picture {
+        self.resampled(width, height, framing, |[r, g, b, _]| [r, g, b].map(|value| value as f32))
+    }
+
+    /// The same in encoded sRGB, with how opaque it is in 0..1; the colour is that of
+    /// the opaque part, and white where there is none.
+    ///
+    /// # Panics
+    /// If the canvas has no cell.
+    #[must_use]
+    pub fn with_opacity(&self, width: usize, height: usize, framing: Framing) -> Field<[f32; 4]> {
+        self.resampled(width, height, framing, |[r, g, b, opacity]| {
+            let opacity = opacity.clamp(0.0, 1.0);
+            // What is not opaque shows white.
+            let own = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
+            let colour = if opacity > 0.0 { [r, g, b].map(own) } else { [1.0; 3] };
+            let [r, g, b] = Rgb(colour).encoded().0.map(|value| value as f32);
+            [r, g, b, opacity as f32]
+        })
+    }
+
+    /// `cell` of linear light over white and opacity, for all cells.
+    fn resampled<T: Clone + Default + Send>(
+        &self,
+        width: usize,
+        height: usize,
+        framing: Framing,
+        cell: impl Fn([f64; 4]) -> T + Sync,
+    ) -> Field<T> {
         assert!(width > 0 && height > 0, "a canvas of {width} x {height} cells");
         let (source_width, source_height) = self.size();
         let mut scale = [source_width as f64 / width as f64, source_height as f64 / height as f64];
@@ -101,10 +129,10 @@ impl Photograph {
         let linear = Linear::of(self.image.color());
         let stride = source_width * linear.pixel_bytes;
         let bytes = self.image.as_bytes();
-        let mut picture = Field::filled(width, height, [0.0; 3]);
+        let mut picture = Field::filled(width, height, T::default());
         picture.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-            let mut source = vec![[0.0; 3]; source_width];
-            let mut sums = vec![[0.0_f64; 3]; width];
+            let mut source = vec![[0.0; 4]; source_width];
+            let mut sums = vec![[0.0_f64; 4]; width];
             for (line, weight) in rows.of(y) {
                 linear.row(&bytes[line * stride..][..stride], &mut source);
                 for (x, sum) in sums.iter_mut().enumerate() {
@@ -115,8 +143,8 @@ impl Photograph {
                     }
                 }
             }
-            for (cell, sum) in row.iter_mut().zip(sums) {
-                *cell = sum.map(|value| value as f32);
+            for (found, sum) in row.iter_mut().zip(sums) {
+                *found = cell(sum);
             }
         });
         picture
@@ -172,7 +200,8 @@ impl Linear {
         }
     }
 
-    fn row(&self, bytes: &[u8], row: &mut [[f64; 3]]) {
+    /// Light over white, and opacity.
+    fn row(&self, bytes: &[u8], row: &mut [[f64; 4]]) {
         let last = (self.decoded.len() - 1) as f64;
         for (pixel, bytes) in row.iter_mut().zip(bytes.chunks_exact(self.pixel_bytes)) {
             let sample = |channel: usize| match self.sample_bytes {
@@ -188,7 +217,8 @@ impl Linear {
                 4 => sample(3) as f64 / last,
                 _ => 1.0,
             };
-            *pixel = colour.map(|value| opacity * value + (1.0 - opacity));
+            let [r, g, b] = colour.map(|value| opacity * value + (1.0 - opacity));
+            *pixel = [r, g, b, opacity];
         }
     }
 }

@@ -1,6 +1,6 @@
 //! All kernels of watercolor, in one list.
 
-use super::{coherence, colour_mask, density, dry_brush, edges, sheet, toon, wobble};
+use super::{coherence, colour_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
 use crate::gpu::Kernel;
 
 /// Every kernel that watercolor on a device runs.
@@ -8,6 +8,7 @@ use crate::gpu::Kernel;
 pub fn kernels() -> Vec<&'static Kernel> {
     vec![
         &toon::TOON,
+        &morphology::CROSSING,
         &coherence::DEPTHS,
         &coherence::GATHER_SPLATS,
         &coherence::ANCHOR_TEXTURES,

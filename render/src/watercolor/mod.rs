@@ -17,6 +17,14 @@ mod on_cpu;
 
 mod on_gpu;
 
+mod segmentation;
+
+mod octagon;
+
+mod morphology;
+
+mod photograph_door;
+
 mod models;
 
 mod tones;
@@ -56,9 +64,15 @@ pub use glaze::{GlazeError, Glazes, thickness};
 pub use kernels::kernels;
 pub use model_painter::{ModelPainter, ModelPainterError, Moment, MovingBackend};
 pub use models::{CpuModel, GpuModel, Models};
+pub use morphology::Morphology;
+pub use octagon::{Brush, Extreme};
 pub use on_cpu::OnCpu;
 pub use on_gpu::{OnGpu, Plane};
+pub use photograph_door::{
+    AbstractedPhotograph, PhotographDoorError, PhotographSettings, from_photograph,
+};
 pub use pipeline::{Stage, WashOn, Watcher, Watercolor, paint};
+pub use segmentation::{Segmentation, SegmentationError, SegmentationSettings, segment};
 pub use settings::{
     AbstractionSettings, CoherenceMethod, CoherenceSettings, DispersionSettings, DryBrushSettings,
     EdgeSettings, FlowSettings, PaperSettings, Preset, Settings, SettingsError, ToonSettings,

@@ -26,9 +26,9 @@ pub struct Lch {
 }
 
 /// (6/29)^3: below it the cube root gives way to a straight line.
-const TOE: f64 = 216.0 / 24389.0;
+pub(super) const TOE: f64 = 216.0 / 24389.0;
 /// (29/3)^3, the slope of L* in the toe.
-const KAPPA: f64 = 24389.0 / 27.0;
+pub(super) const KAPPA: f64 = 24389.0 / 27.0;
 
 impl Lab {
     /// CIELAB of `xyz` seen under `white` (ISO/CIE 11664-4, equations 1 to 6).

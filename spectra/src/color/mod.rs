@@ -10,6 +10,8 @@ mod xyz;
 
 mod lab;
 
+mod luv;
+
 mod adaptation;
 
 mod rgb;
@@ -24,6 +26,7 @@ pub use difference::{
     delta_e_ciede2000, delta_e_cmc,
 };
 pub use lab::{Lab, Lch};
+pub use luv::Luv;
 pub use matrix::Matrix3;
 pub use metamerism::{MetamerismError, corrected_to_match, metamerism_index};
 pub use rgb::{Rgb, RgbSpace};

@@ -1,7 +1,7 @@
 //! XYZ, xyY, Lab and LCh.
 
 use serde::Deserialize;
-use spectra::color::{Lab, Lch, Xyz};
+use spectra::color::{Lab, Lch, Luv, Xyz};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
@@ -88,5 +88,23 @@ fn chromaticity_from_xyz_and_back() {
         assert_near(&told, &got, &case.xyy.unwrap_or_else(of_white), golden.tolerance);
         let back = Xyz::from(xyy).to_array();
         assert_near(format!("back to {told}"), &back, &case.xyz, golden.tolerance);
+    }
+}
+
+#[derive(Deserialize)]
+struct InLuv {
+    white: [f64; 3],
+    #[serde(rename = "XYZ")]
+    xyz: [f64; 3],
+    #[serde(rename = "Luv")]
+    luv: [f64; 3],
+}
+
+#[test]
+fn luv_from_xyz() {
+    let golden: Golden<Vec<InLuv>> = read("luv");
+    for case in &golden.cases {
+        let luv = Luv::from_xyz(case.xyz.into(), case.white.into()).to_array();
+        assert_near(format!("XYZ {:?}", case.xyz), &luv, &case.luv, golden.tolerance);
     }
 }

@@ -1,0 +1,58 @@
+//! Abstraction of a picture of 1000 x 1000: mean shift, and the brush after it.
+
+use divan::Bencher;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::watercolor::{Morphology, OnCpu, SegmentationSettings, segment};
+
+/// Shaded discs, one over the other, with noise: as busy as a photograph.
+fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut number = |from: f32, to: f32| random.random_range(from..to);
+    let discs: Vec<([f32; 3], [f32; 3])> = (0..150)
+        .map(|_| {
+            let place =
+                [number(0.0, width as f32), number(0.0, height as f32), number(15.0, 110.0)];
+            (place, [number(0.1, 0.9), number(0.1, 0.9), number(0.1, 0.9)])
+        })
+        .collect();
+    let mut picture = Field::filled(width, height, [1.0; 4]);
+    for y in 0..height {
+        for x in 0..width {
+            let mut colour = [0.6, 0.55, 0.5];
+            for ([disc_x, disc_y, radius], own) in &discs {
+                let away = (x as f32 - disc_x).hypot(y as f32 - disc_y);
+                let cover = ((radius - away) / 3.0).clamp(0.0, 1.0);
+                for (colour, own) in colour.iter_mut().zip(own) {
+                    *colour += cover * (own - 0.1 * away / radius - *colour);
+                }
+            }
+            let [r, g, b] = colour.map(|value| value + number(-0.03, 0.03));
+            picture[(x, y)] = [r, g, b, 1.0];
+        }
+    }
+    picture
+}
+
+/// 1 megapixel, radii of 10 px and 8 in CIELUV.
+#[divan::bench(sample_count = 5)]
+fn mean_shift(bencher: Bencher<'_, '_>) {
+    let picture = picture(1000, 1000);
+    let settings = SegmentationSettings::default();
+    bencher.bench_local(|| segment(&picture, &settings).unwrap());
+}
+
+/// 1 megapixel opened and closed, by radius.
+#[divan::bench(args = [3, 7, 20, 60], sample_count = 20)]
+fn smoothing(bencher: Bencher<'_, '_>, radius_px: u32) {
+    let picture = picture(1000, 1000);
+    bencher.bench_local(|| OnCpu.smoothed(&picture, radius_px).unwrap());
+}
+
+/// 750 x 570 opened and closed, by radius.
+#[divan::bench(args = [3, 5], sample_count = 20)]
+fn smoothing_750(bencher: Bencher<'_, '_>, radius_px: u32) {
+    let picture = picture(750, 570);
+    bencher.bench_local(|| OnCpu.smoothed(&picture, radius_px).unwrap());
+}

@@ -1,0 +1,76 @@
+//! From photographs to a wash.
+
+use std::io::Cursor;
+
+use image::{ImageFormat, Rgba, RgbaImage};
+use render::photograph::Photograph;
+use render::watercolor::{
+    OnCpu, OnGpu, PhotographDoorError, PhotographSettings, SegmentationSettings, from_photograph,
+};
+use suite::adapter::device;
+
+/// Opaque red with a grey speck, half clear blue, and nothing.
+fn photograph() -> Photograph {
+    let picture = RgbaImage::from_fn(90, 60, |x, y| match x {
+        10..=11 if (30..32).contains(&y) => Rgba([90, 90, 90, 255]),
+        0..30 => Rgba([200, 40, 30, 255]),
+        30..60 => Rgba([30, 60, 180, 128]),
+        _ => Rgba([0, 0, 0, 0]),
+    });
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Png).expect("memory takes it");
+    Photograph::from_bytes("made.png", bytes.get_ref()).expect("it was just written")
+}
+
+fn settings(smoothing_radius_px: u32) -> PhotographSettings {
+    let segmentation =
+        SegmentationSettings { spatial_radius_px: 4.0, range_radius: 8.0, least_region_px: 2 };
+    PhotographSettings { segmentation, smoothing_radius_px }
+}
+
+#[test]
+fn photographs_become_flat_with_their_opacity() {
+    let found = from_photograph(&mut OnCpu, &photograph(), 90, &settings(3)).unwrap();
+    assert_eq!((found.original.width(), found.original.height()), (90, 60));
+    assert_eq!(found.regions, 4);
+    let near = |found: [f32; 4], wanted: [f32; 4]| {
+        found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-5)
+    };
+    let bytes = |rgba: [u8; 4]| rgba.map(|byte| f32::from(byte) / 255.0);
+    for stage in [&found.original, &found.segmented, &found.smoothed] {
+        assert!(near(stage[(5, 5)], bytes([200, 40, 30, 255])), "{:?}", stage[(5, 5)]);
+        assert!(near(stage[(45, 5)], bytes([30, 60, 180, 128])), "{:?}", stage[(45, 5)]);
+        assert_eq!(stage[(80, 5)], [1.0, 1.0, 1.0, 0.0]);
+    }
+    assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
+    assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
+    assert_eq!(found.clone().into_wash().colour, found.smoothed);
+}
+
+#[test]
+fn the_width_is_as_asked_and_the_shape_kept() {
+    let found = from_photograph(&mut OnCpu, &photograph(), 33, &settings(0)).unwrap();
+    assert_eq!((found.smoothed.width(), found.smoothed.height()), (33, 22));
+    assert_eq!(found.smoothed, found.segmented);
+}
+
+#[test]
+fn backends_open_the_same_door() {
+    let Some(mut gpu) = device().map(OnGpu::new) else { return };
+    let here = from_photograph(&mut OnCpu, &photograph(), 60, &settings(2)).unwrap();
+    assert!(from_photograph(&mut gpu, &photograph(), 60, &settings(2)).unwrap() == here);
+}
+
+#[test]
+fn what_cannot_be_is_told() {
+    let told =
+        |width, settings| from_photograph(&mut OnCpu, &photograph(), width, &settings).unwrap_err();
+    assert!(matches!(told(0, settings(1)), PhotographDoorError::NoWidth));
+    let large = told(90, settings(500));
+    assert!(matches!(large, PhotographDoorError::Smoothing { found: 500 }), "{large}");
+    let mut flat = settings(1);
+    flat.segmentation.range_radius = -1.0;
+    let error = told(90, flat);
+    assert_eq!(error.to_string(), "a range radius is a number above 0, found `-1`");
+    assert!(error.hint().contains("flatter"));
+}

@@ -1,0 +1,11 @@
+//! Segmentation and morphology, and the door of photographs.
+
+mod known;
+
+mod segmentation;
+
+mod quality;
+
+mod morphology;
+
+mod door;

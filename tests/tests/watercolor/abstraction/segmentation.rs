@@ -1,0 +1,163 @@
+//! Regions of small pictures.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use render::field::Field;
+use render::watercolor::{SegmentationError, SegmentationSettings, segment};
+
+fn settings(least_region_px: u32) -> SegmentationSettings {
+    SegmentationSettings { spatial_radius_px: 5.0, range_radius: 10.0, least_region_px }
+}
+
+/// Dark on the left, light on the right, with noise of some 4 in L*.
+fn step() -> Field<[f32; 4]> {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut picture = Field::filled(60, 40, [1.0; 4]);
+    for (i, pixel) in picture.values_mut().iter_mut().enumerate() {
+        let base = if i % 60 < 23 { 0.35 } else { 0.65 };
+        let value = base + random.random_range(-0.04..0.04f32);
+        *pixel = [value, value, value, 1.0];
+    }
+    picture
+}
+
+/// Seven colours in many small squares and noise without order.
+fn wild() -> Field<[f32; 4]> {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let tones: Vec<[f32; 3]> = (0..7).map(|_| std::array::from_fn(|_| random.random())).collect();
+    let squares: Vec<usize> = (0..20 * 15).map(|_| random.random_range(0..7)).collect();
+    let mut picture = Field::filled(97, 71, [1.0; 4]);
+    for y in 0..71 {
+        for x in 0..97 {
+            let [r, g, b] = tones[squares[y / 5 * 20 + x / 5]];
+            let noise = random.random_range(-0.1..0.1f32);
+            picture[(x, y)] = [r + noise, g - noise, b + noise, 1.0];
+        }
+    }
+    picture
+}
+
+/// Pixels of each label that hang together by rows and columns with its first.
+fn reached(labels: &Field<u32>, count: usize) -> Vec<usize> {
+    let (width, height) = (labels.width(), labels.height());
+    let mut seen = vec![false; width * height];
+    let mut sizes = vec![0; count];
+    let mut begun = vec![false; count];
+    for start in 0..width * height {
+        let label = labels.values()[start] as usize;
+        if std::mem::replace(&mut begun[label], true) {
+            continue;
+        }
+        let mut waiting = vec![start];
+        seen[start] = true;
+        while let Some(pixel) = waiting.pop() {
+            sizes[label] += 1;
+            let (x, y) = (pixel % width, pixel / width);
+            let beside = [
+                (x > 0).then(|| pixel - 1),
+                (x + 1 < width).then_some(pixel + 1),
+                (y > 0).then(|| pixel - width),
+                (y + 1 < height).then_some(pixel + width),
+            ];
+            for next in beside.into_iter().flatten() {
+                if labels.values()[next] as usize == label && !seen[next] {
+                    seen[next] = true;
+                    waiting.push(next);
+                }
+            }
+        }
+    }
+    sizes
+}
+
+#[test]
+fn a_constant_picture_is_one_region_unchanged() {
+    let picture = Field::filled(30, 20, [0.25, 0.5, 0.75, 1.0]);
+    let found = segment(&picture, &settings(10)).unwrap();
+    assert_eq!(found.colours.len(), 1);
+    assert_eq!(found.flat(), picture);
+}
+
+#[test]
+fn a_step_stays_and_noise_goes() {
+    let found = segment(&step(), &settings(10)).unwrap();
+    assert_eq!(found.colours.len(), 2);
+    for y in 0..40 {
+        for x in 0..60 {
+            assert_eq!(found.labels[(x, y)], u32::from(x >= 23), "{x} {y}");
+        }
+    }
+    for (colour, wanted) in found.colours.iter().zip([0.35, 0.65]) {
+        assert!((colour[0] - wanted).abs() < 0.005 && colour[3] == 1.0, "{colour:?}");
+    }
+}
+
+#[test]
+fn regions_hang_together_and_none_is_too_small() {
+    let picture = wild();
+    for least in [1, 12, 60] {
+        let found = segment(&picture, &settings(least)).unwrap();
+        let count = found.colours.len();
+        assert!(count > 3, "{count} regions");
+        let mut sizes = vec![0; count];
+        found.labels.values().iter().for_each(|&label| sizes[label as usize] += 1);
+        assert!(sizes.iter().all(|&size| size >= least as usize), "{least}: {sizes:?}");
+        assert_eq!(reached(&found.labels, count), sizes);
+        let mut next = 0;
+        for &label in found.labels.values() {
+            assert!(label <= next, "{label} before {next}");
+            next = next.max(label + 1);
+        }
+    }
+}
+
+#[test]
+fn threads_do_not_count() {
+    let picture = wild();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| segment(&picture, &settings(12)).unwrap())
+    };
+    assert_eq!(with(1), with(2));
+}
+
+#[test]
+fn bare_paper_stays_bare() {
+    let mut picture = Field::filled(40, 40, [1.0, 1.0, 1.0, 0.0]);
+    for y in 10..30 {
+        for x in 10..30 {
+            picture[(x, y)] = [0.97, 0.97, 0.97, 1.0];
+        }
+    }
+    let found = segment(&picture, &settings(10)).unwrap();
+    let coverages: Vec<f32> = found.colours.iter().map(|colour| colour[3]).collect();
+    assert_eq!(coverages, [0.0, 1.0]);
+    assert_eq!(found.labels[(20, 20)], 1);
+}
+
+#[test]
+fn pictures_of_few_pixels_and_odd_numbers_are_taken() {
+    for (width, height) in [(0, 0), (1, 1), (1, 9), (9, 1), (2, 3)] {
+        let found = segment(&Field::filled(width, height, [0.5; 4]), &settings(4)).unwrap();
+        assert_eq!(found.colours.len(), usize::from(width > 0));
+    }
+    let odd = [f32::NAN, f32::INFINITY, -1.0, 7.0];
+    let values = (0..64).map(|i| [odd[i % 4], 0.5, odd[i / 4 % 4], 1.0]).collect();
+    let found = segment(&Field::from_values(8, 8, values), &settings(4)).unwrap();
+    assert_eq!(found.labels.values().len(), 64);
+}
+
+#[test]
+fn settings_out_of_range_are_told() {
+    let picture = Field::filled(3, 3, [0.5; 4]);
+    let with = |spatial_radius_px: f32, range_radius: f32| {
+        let settings = SegmentationSettings { spatial_radius_px, range_radius, least_region_px: 1 };
+        segment(&picture, &settings).unwrap_err()
+    };
+    assert_eq!(with(0.5, 8.0), SegmentationError::SpatialRadius { found: 0.5 });
+    assert_eq!(with(300.0, 8.0), SegmentationError::SpatialRadius { found: 300.0 });
+    assert_eq!(with(5.0, 0.0), SegmentationError::RangeRadius { found: 0.0 });
+    assert!(matches!(with(5.0, f32::NAN), SegmentationError::RangeRadius { .. }));
+    assert!(matches!(with(f32::NAN, 5.0), SegmentationError::SpatialRadius { .. }));
+    assert!(with(0.5, 8.0).hint().contains("width"));
+}
