@@ -10,8 +10,11 @@ use calibrate::library::{LibraryError, RecipeError};
 use calibrate::matching::MatchError;
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
+use render::camera::CameraPathError;
+use render::export::{FrameError, SequenceError};
 use render::gpu::GpuError;
 use render::light::LightFailure;
+use render::mesh::MeshError;
 use render::paint::EngineError;
 use render::paint::easel::EaselError;
 use render::paint::file::PaintingFileError;
@@ -19,6 +22,7 @@ use render::paint::ground::GroundError;
 use render::paint::painting::PaintingError;
 use render::paint::strokes::{BeginningError, StrokesError};
 use render::photograph::{PhotographError, SeparationError};
+use render::watercolor::{GlazeError, PaperTextureError, PhotographDoorError, SettingsError};
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
 use spectra::swatch_file::SwatchFileError;
@@ -158,7 +162,33 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<SeparationError>() {
         return Some(error.hint().to_owned());
     }
-    None
+    watercolor_hint(cause)
+}
+
+/// Hints of watercolor.
+fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
+    if let Some(error) = cause.downcast_ref::<SettingsError>() {
+        return Some(error.hint());
+    }
+    if let Some(error) = cause.downcast_ref::<PaperTextureError>() {
+        return Some(error.hint());
+    }
+    if let Some(error) = cause.downcast_ref::<GlazeError>() {
+        return Some(error.hint().to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<PhotographDoorError>() {
+        return Some(error.hint().to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<MeshError>() {
+        return Some(error.hint().to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<CameraPathError>() {
+        return Some(error.hint().to_owned());
+    }
+    if let Some(error) = cause.downcast_ref::<SequenceError>() {
+        return error.hint().map(str::to_owned);
+    }
+    cause.downcast_ref::<FrameError>()?.hint().map(str::to_owned)
 }
 
 fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
@@ -195,6 +225,10 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<GroundError>()
         || cause.is::<PhotographError>()
         || cause.is::<SeparationError>()
+        || cause.is::<SettingsError>()
+        || cause.is::<PaperTextureError>()
+        || cause.is::<MeshError>()
+        || cause.is::<CameraPathError>()
         || faulty_lamp;
     data.then_some(1)
 }

@@ -23,6 +23,7 @@ mod ground;
 mod targets;
 
 mod costs;
+
 mod surface;
 
 mod output;
@@ -30,6 +31,8 @@ mod output;
 mod engine;
 
 mod pictures;
+
+mod palette;
 
 mod progress;
 

@@ -72,6 +72,16 @@ impl Exports {
             || self.output.is_some()
     }
 
+    /// An option that only a painting can fulfil, if one was given.
+    pub(crate) fn of_paint(&self) -> Option<&'static str> {
+        let options = [
+            ("--spectral", self.spectral.is_some()),
+            ("--pigment-maps", self.pigment_maps.is_some()),
+            ("--output", self.output.is_some()),
+        ];
+        options.into_iter().find(|(_, given)| *given).map(|(option, _)| option)
+    }
+
     /// Checks, before the slow part, that all can be written.
     pub(crate) fn open(self, inputs: &[PathBuf]) -> anyhow::Result<OpenExports> {
         let wanted = |path: &Option<PathBuf>, endings: &[&str]| -> anyhow::Result<_> {
@@ -107,6 +117,24 @@ impl Exports {
 }
 
 impl OpenExports {
+    /// Whether any file was asked for.
+    pub(crate) fn any(&self) -> bool {
+        self.options.any()
+    }
+
+    /// Writes the picture alone, which is linear sRGB.
+    pub(crate) fn write_picture(
+        self,
+        picture: &Field<[f32; 4]>,
+        cell_mm: f64,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<()> {
+        match self.picture {
+            Some(output) => write_picture(output, self.options.bits, picture, cell_mm, console),
+            None => Ok(()),
+        }
+    }
+
     /// Computes and writes them.
     pub(crate) fn write(
         self,
@@ -115,13 +143,7 @@ impl OpenExports {
     ) -> anyhow::Result<()> {
         let cell_mm = painting.cell_mm();
         if let Some(output) = self.picture {
-            let path = self.options.picture.unwrap_or_default();
-            let picture = painting.picture()?;
-            let (bytes, remark) = picture_file(&path, self.options.bits, &picture, cell_mm)?;
-            if let Some(remark) = remark {
-                console.remark(remark)?;
-            }
-            output.write(bytes)?;
+            write_picture(output, self.options.bits, &painting.picture()?, cell_mm, console)?;
         }
         if self.spectral.is_none() && self.options.pigment_maps.is_none() && self.painting.is_none()
         {
@@ -149,6 +171,20 @@ impl OpenExports {
         }
         Ok(())
     }
+}
+
+fn write_picture(
+    output: Output,
+    bits: Bits,
+    picture: &Field<[f32; 4]>,
+    cell_mm: f64,
+    console: &mut Console<'_>,
+) -> anyhow::Result<()> {
+    let (bytes, remark) = picture_file(output.path(), bits, picture, cell_mm)?;
+    if let Some(remark) = remark {
+        console.remark(remark)?;
+    }
+    output.write(bytes)
 }
 
 /// The picture in the format that its name says, and a remark on what that

@@ -23,6 +23,7 @@ mod library;
 mod plan_report;
 
 mod plan;
+
 mod report;
 
 mod demo;
@@ -34,6 +35,8 @@ mod paint_photograph;
 mod paint;
 
 mod relight;
+
+mod watercolor;
 
 mod gpu;
 
@@ -56,6 +59,7 @@ pub(crate) enum Verb {
     Demo(demo::Demo),
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
+    Watercolor(Box<watercolor::Watercolor>),
     Gpu(gpu::Gpu),
 }
 
@@ -74,6 +78,7 @@ impl Verb {
             Self::Demo(verb) => verb.run(console),
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),
+            Self::Watercolor(verb) => verb.run(console),
             Self::Gpu(verb) => verb.run(console),
         }
     }

@@ -21,6 +21,7 @@ use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::Refusal;
 use crate::output::Output;
+use crate::palette::palette;
 use crate::pictures::Exports;
 use crate::progress::{Progress, Waiting};
 
@@ -243,7 +244,7 @@ impl PhotographOptions {
             let toned = black_compensated(&seen, library.saunderson.floor() as f32);
             choose_palette(&toned, materials, film, &settings)?.slots
         } else {
-            named(&self.palette, library)?
+            palette(&self.palette, library)?
         };
         let separation =
             Separation::new(film(Materials { slots: &slots, ..materials }), &settings)?;
@@ -252,28 +253,6 @@ impl PhotographOptions {
         drop(waiting);
         Ok(Start { canvas, names, separation, target })
     }
-}
-
-/// The pigments of a palette, each once.
-fn named(names: &[String], library: &PigmentLibrary) -> anyhow::Result<Slots> {
-    let mut slots = Slots::default();
-    if names.len() > slots.len() {
-        return Err(Refusal::usage(
-            format!("a palette has at most 8 pigments, found `{}`", names.len()),
-            "leave --palette out to have the best eight chosen",
-        ));
-    }
-    for (place, name) in names.iter().enumerate() {
-        let index = library.find(name)?;
-        if slots.contains(&Some(index)) {
-            return Err(Refusal::usage(
-                format!("--palette takes each pigment once, found `{name}` again"),
-                "leave the second out",
-            ));
-        }
-        slots[place] = Some(index);
-    }
-    Ok(slots)
 }
 
 fn tell(

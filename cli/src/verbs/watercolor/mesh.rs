@@ -1,0 +1,116 @@
+//! A mesh, from one camera or many.
+
+use render::camera::Camera;
+use render::export::frame_of;
+use render::field::Field;
+use render::mesh::Mesh;
+use render::watercolor::{
+    Controls, ModelPainter, Moment, MovingBackend as Backend, Textures, TexturesOn, Wash,
+};
+
+use super::moving::Wish;
+use super::sheets::{encoded, linear};
+use super::{Glazing, Made, Work};
+use crate::console::Console;
+use crate::failure::Refusal;
+
+/// Samples along each side of a pixel of a single picture.
+const STILL_SAMPLES: usize = 2;
+
+pub(super) fn paint<B: Backend>(
+    backend: &mut B,
+    work: Work,
+    mesh: Mesh,
+    cameras: &[Camera],
+    size: (usize, usize),
+    console: &mut Console<'_>,
+) -> anyhow::Result<Made> {
+    let Work { title, settings, mut glazing, sheets, moving } = work;
+    if sheets.masked() {
+        return Err(Refusal::usage(
+            "masks are laid over photographs, and this is a mesh",
+            "leave --dry-brush-mask and --density-mask out; --set dry_brush.colour=#rrggbb chooses by colour",
+        ));
+    }
+    let (width, height) = size;
+    let mut wish = Wish::default().and(&env!("CARGO_PKG_VERSION")).and(&settings).and(&cameras);
+    if moving.is_some() {
+        wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
+    }
+    let settings = settings.for_size(width, height);
+    let samples = if moving.is_some() { 1 } else { STILL_SAMPLES };
+    let mut painter = ModelPainter::new(backend, mesh, settings, size, samples)?;
+    let Some(first) = cameras.first() else {
+        return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
+    };
+    let mut stages = Vec::new();
+    if sheets.watched() {
+        let flat = painter.flat(backend, first)?;
+        stages.push(("surface".to_owned(), backend.colour_field(&flat)?));
+        painter.frame(
+            backend,
+            first,
+            Some(&mut |backend, stage, colour| {
+                stages.push((stage.name().to_owned(), backend.colour_field(colour)?));
+                Ok(())
+            }),
+        )?;
+        sheets.write_stages(&stages)?;
+    }
+    if sheets.exports.any() {
+        match &mut glazing {
+            None => {
+                let colour = painter.frame(backend, first, None)?;
+                let picture = linear(&backend.colour_field(&colour)?);
+                let cell_mm = painter.textures().paper.texture.px_mm;
+                sheets.exports.write_picture(&picture, cell_mm, console)?;
+            }
+            Some(glazing) => {
+                let (wash, textures) = at_rest(backend, &mut painter, first)?;
+                let mut painting =
+                    glazing.painting(&title, &wash, &textures, painter.settings())?;
+                sheets.exports.write(&mut painting, console)?;
+            }
+        }
+    }
+    let backend_name = backend.name();
+    let mut frames = None;
+    if let Some(moving) = moving {
+        let found = moving.make(wish, (cameras.len(), width, height), console, |index| {
+            let camera = &cameras[index];
+            let picture: Field<[f32; 4]> = match &mut glazing {
+                None => {
+                    let colour = painter.frame(backend, camera, None)?;
+                    backend.colour_field(&colour)?
+                }
+                Some(glazing) => {
+                    let (wash, textures) = at_rest(backend, &mut painter, camera)?;
+                    let settings = painter.settings();
+                    encoded(&glazing.painting("frame", &wash, &textures, settings)?.picture()?)
+                }
+            };
+            Ok(frame_of(&picture))
+        })?;
+        frames = Some((cameras.len(), found));
+    }
+    let pigments = glazing.iter().flat_map(Glazing::names).map(str::to_owned).collect();
+    Ok(Made { size, backend: backend_name, regions: None, frames, pigments })
+}
+
+/// What a camera sees, with the processor.
+fn at_rest<B: Backend>(
+    backend: &mut B,
+    painter: &mut ModelPainter<B>,
+    camera: &Camera,
+) -> anyhow::Result<(Wash, Textures)> {
+    let Moment { colour, noise } = painter.moment(backend, camera)?;
+    let TexturesOn { flow, dispersion, paper } = painter.textures();
+    let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
+    let textures = Textures {
+        flow: backend.grey_field(flow)?,
+        dispersion: backend.grey_field(dispersion)?,
+        paper: paper.texture.clone(),
+    };
+    let colour = backend.colour_field(&colour)?;
+    Ok((Wash { colour, controls: Controls::default() }, textures))
+}

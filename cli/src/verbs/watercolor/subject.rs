@@ -1,0 +1,141 @@
+//! What is painted: a photograph, or a mesh and from where it is seen.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use render::camera::{Camera, CameraPath, Framing};
+use render::mesh::{Mesh, Shape};
+use render::photograph::Photograph;
+
+use crate::failure::Refusal;
+
+/// Triangles of a shape that is made here.
+const TRIANGLES: usize = 60_000;
+/// Width of a picture of a mesh.
+const WIDTH: usize = 1000;
+/// The longer side of a photograph that nobody gave a width.
+const LONGEST: usize = 1600;
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Subject")]
+pub(super) struct SubjectOptions {
+    /// Width of the picture in pixels [default: a photograph's own, its longer side at most 1600;
+    /// of a mesh 1000]
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(16..=16384))]
+    width: Option<u64>,
+    /// Height of the picture of a mesh in pixels [default: three quarters of the width]
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(16..=16384))]
+    height: Option<u64>,
+    /// From where a mesh is seen, all of it in the picture: degrees around it and above the
+    /// horizon, and the angle of view, as `30,20,30`; or a file of keyframes (.toml)
+    #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
+    camera: Option<String>,
+    /// Turn around a mesh in so many pictures
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    turntable: Option<u64>,
+}
+
+/// What is painted.
+pub(super) enum Subject {
+    /// A photograph, and the width of its picture.
+    Photograph(Photograph, usize),
+    /// A mesh, and all cameras.
+    Mesh(Box<Mesh>, Vec<Camera>, (usize, usize)),
+}
+
+impl SubjectOptions {
+    /// Reads it; the files it was read from.
+    pub(super) fn subject(&self, path: &Path) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
+        let text = path.to_string_lossy();
+        if let Some(name) = text.strip_prefix("shape:") {
+            let Some(shape) = Shape::named(name) else {
+                let names = Shape::ALL.map(Shape::name).join(", ");
+                return Err(Refusal::usage(
+                    format!("there is no shape `{name}`"),
+                    format!("shapes are {names}"),
+                ));
+            };
+            return self.mesh(shape.mesh(TRIANGLES), Vec::new());
+        }
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        if let Some("obj" | "gltf" | "glb" | "ply") = ending.as_deref() {
+            return self.mesh(Mesh::open(path)?, vec![path.to_owned()]);
+        }
+        for (option, given) in [
+            ("--camera", self.camera.is_some()),
+            ("--turntable", self.turntable.is_some()),
+            ("--height", self.height.is_some()),
+        ] {
+            if given {
+                return Err(Refusal::usage(
+                    format!("{option} is for meshes, and {text} is none"),
+                    "meshes end in .obj, .gltf, .glb or .ply; shape:village is one too",
+                ));
+            }
+        }
+        let photograph = Photograph::open(path)?;
+        let (width, height) = photograph.size();
+        let fitting = (LONGEST as f64 / width.max(height) as f64).min(1.0) * width as f64;
+        let width = self.width.map_or(fitting.round().max(1.0) as usize, |width| width as usize);
+        Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
+    }
+
+    fn mesh(
+        &self,
+        mesh: Mesh,
+        mut inputs: Vec<PathBuf>,
+    ) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
+        let width = self.width.map_or(WIDTH, |width| width as usize);
+        let height = self.height.map_or(width * 3 / 4, |height| height as usize).max(1);
+        let bounds = mesh.bounds();
+        let aspect = width as f32 / height as f32;
+        let file = self.camera.as_deref().filter(|text| text.ends_with(".toml"));
+        let cameras = match (file, self.turntable) {
+            (Some(path), None) => {
+                inputs.push(path.into());
+                CameraPath::open(Path::new(path))?.cameras(bounds)
+            }
+            (Some(path), Some(_)) => {
+                return Err(Refusal::usage(
+                    format!("--turntable moves the camera, and {path} does so too"),
+                    "leave one of both out",
+                ));
+            }
+            (None, turntable) => {
+                let framing = self.framing(aspect)?;
+                match turntable {
+                    Some(frames) => framing.turntable(bounds, frames as usize),
+                    None => vec![framing.camera(bounds)],
+                }
+            }
+        };
+        Ok((Subject::Mesh(Box::new(mesh), cameras, (width, height)), inputs))
+    }
+
+    fn framing(&self, aspect: f32) -> anyhow::Result<Framing> {
+        let usual = Framing { aspect, ..Framing::default() };
+        let Some(text) = &self.camera else { return Ok(usual) };
+        let refused = || {
+            Refusal::usage(
+                format!(
+                    "--camera takes degrees around the mesh, above the horizon (-90 to 90) and of view (1 to 170), or a .toml file, found `{text}`"
+                ),
+                "--camera 30,20 is usual",
+            )
+        };
+        let numbers: Result<Vec<f32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+        let (azimuth_deg, elevation_deg, field_of_view_deg) =
+            match numbers.map_err(|_| refused())?[..] {
+                [azimuth, elevation] => (azimuth, elevation, usual.field_of_view_deg),
+                [azimuth, elevation, field] => (azimuth, elevation, field),
+                _ => return Err(refused()),
+            };
+        let fits = azimuth_deg.is_finite()
+            && (-90.0..=90.0).contains(&elevation_deg)
+            && (1.0..=170.0).contains(&field_of_view_deg);
+        if !fits {
+            return Err(refused());
+        }
+        Ok(Framing { azimuth_deg, elevation_deg, field_of_view_deg, aspect })
+    }
+}
