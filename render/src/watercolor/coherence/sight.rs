@@ -151,7 +151,7 @@ mod tests {
     fn places_from_depth_are_those_of_the_mesh_and_slopes_are_those_of_the_picture() {
         let mesh = Mesh::sphere(500);
         let camera = Camera::framing(mesh.bounds(), 40.0, 25.0, 30.0);
-        let view = Sight::new(&camera, 90, 60);
+        let sight = Sight::new(&camera, 90, 60);
         let visible = visible(&mesh, &camera, 90, 60);
         let mut slopes = 0;
         for y in 0..59 {
@@ -161,8 +161,8 @@ mod tests {
                     continue;
                 }
                 let place = position_at(&mesh, seen);
-                assert!(place.distance(view.place((x, y), seen.depth)) < 1e-3, "{x} {y}");
-                let at = view.project(place).unwrap();
+                assert!(place.distance(sight.place((x, y), seen.depth)) < 1e-3, "{x} {y}");
+                let at = sight.project(place).unwrap();
                 assert!((at.x - x as f32 - 0.5).abs() < 0.05, "{x}: {at:?}");
                 assert!((at.y - y as f32 - 0.5).abs() < 0.05, "{y}: {at:?}");
                 let corners = mesh.triangles[seen.triangle as usize].corners;
