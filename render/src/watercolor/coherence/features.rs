@@ -305,6 +305,29 @@ mod tests {
     }
 
     #[test]
+    fn unequal_parts_have_their_share_of_features() {
+        // Two small triangles beside one of fifteen times their area.
+        let mut mesh = Mesh::sphere(20);
+        mesh.triangles.truncate(3);
+        let triangle = |x: f32, size: f32| [[x, 0.0, 0.0], [x + size, 0.0, 0.0], [x, size, 0.0]];
+        let corners = [triangle(-4.0, 1.0), triangle(-2.0, 1.0), triangle(1.0, 15f32.sqrt())];
+        mesh.positions = corners.concat();
+        for (triangle, first) in mesh.triangles.iter_mut().zip([0, 3, 6]) {
+            triangle.corners = [first, first + 1, first + 2];
+        }
+        let hierarchy = Arc::new(Hierarchy::new(&mesh));
+        let strewn: Vec<Features> =
+            (0..3000).map(|seed| Features::new(Arc::clone(&hierarchy), seed)).collect();
+        for priority in [0.1, 0.5, 1.5] {
+            let all = strewn.iter().flat_map(|features| &features.of_patches);
+            let small = all.filter(|own| own.place.x < 0.0 && own.priority < priority).count();
+            let mean = small as f32 / strewn.len() as f32;
+            // The two small ones together have an area of 1.
+            assert!((mean / priority - 1.0).abs() < 0.15, "{priority}: {mean}");
+        }
+    }
+
+    #[test]
     fn the_density_on_the_screen_does_not_depend_on_distance_or_triangles() {
         let noise = FeatureNoise { largest_px: 16.0, octaves: 2, persistence: 0.5, coverage: 4.0 };
         let mut densities = Vec::new();
