@@ -27,8 +27,8 @@ pub struct DryBrushReach {
 }
 
 /// Flow from which on a wash is not thin, and how far below it is altogether.
-const THIN: f32 = 0.5;
-const THINNER: f32 = 0.2;
+const THIN: f32 = 0.35;
+const THINNER: f32 = 0.15;
 
 impl DryBrushReach {
     /// What stays of the paint at `height`. A mask lowers the threshold: 0 leaves

@@ -47,10 +47,15 @@ impl Wobble for OnCpu {
             return Ok(colour);
         }
         let mut wobbled = Field::filled(width, height, [0.0; 4]);
-        wobbled.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-            let row = Row { colour: &colour, heights, px_per_slope, y, out };
-            pulp::Arch::new().dispatch(row);
-        });
+        wobbled.values_mut().par_chunks_mut(width).enumerate().for_each_init(
+            || vec![0.0; width + 2],
+            |here, (y, out)| {
+                here[1..=width].copy_from_slice(heights.row(y, 0, width));
+                (here[0], here[width + 1]) = (here[1], here[width]);
+                let row = Row { colour: &colour, heights, here, px_per_slope, y, out };
+                pulp::Arch::new().dispatch(row);
+            },
+        );
         Ok(wobbled)
     }
 }
@@ -58,43 +63,48 @@ impl Wobble for OnCpu {
 struct Row<'a> {
     colour: &'a Field<[f32; 4]>,
     heights: &'a Field<f32>,
+    /// Heights of the row, its ends repeated.
+    here: &'a [f32],
     px_per_slope: f32,
     y: usize,
     out: &'a mut [[f32; 4]],
 }
+
+/// Pixels whose places are found before their colours are fetched.
+const BLOCK: usize = 64;
 
 impl pulp::WithSimd for Row<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { colour, heights, px_per_slope, y, out } = self;
+        let Self { colour, heights, here, px_per_slope, y, out } = self;
         let (width, height) = (colour.width(), colour.height());
         let (end, bottom) = ((width - 1) as f32, (height - 1) as f32);
-        let here = heights.row(y, 0, width);
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
         let values = colour.values();
-        for (x, out) in out.iter_mut().enumerate() {
-            let slope_x = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
-            let slope_y = below[x] - above[x];
-            let from_x = multiply_add::<S>(px_per_slope, slope_x, x as f32);
-            let from_y = multiply_add::<S>(px_per_slope, slope_y, y as f32);
-            let from_x = lesser(greater(from_x, 0.0), end);
-            let from_y = lesser(greater(from_y, 0.0), bottom);
-            let (left, top) = (from_x as i32 as usize, from_y as i32 as usize);
-            let (share_x, share_y) = (from_x - left as f32, from_y - top as f32);
-            let (right, low) = ((left + 1).min(width - 1), (top + 1).min(height - 1));
-            let (upper, lower) = (&values[top * width..][..width], &values[low * width..][..width]);
-            *out = mixed::<S>(
-                [upper[left], upper[right], lower[left], lower[right]],
-                [
-                    (1.0 - share_x) * (1.0 - share_y),
-                    share_x * (1.0 - share_y),
-                    (1.0 - share_x) * share_y,
-                    share_x * share_y,
-                ],
-            );
+        let (mut corners, mut shares) = ([[0_i32; 2]; BLOCK], [[0.0_f32; 2]; BLOCK]);
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            let (first, count) = (block * BLOCK, out.len());
+            let (left, right) = (&here[first..][..count], &here[first + 2..][..count]);
+            let (above, below) = (&above[first..][..count], &below[first..][..count]);
+            for i in 0..count {
+                let x = multiply_add::<S>(px_per_slope, right[i] - left[i], (first + i) as f32);
+                let y = multiply_add::<S>(px_per_slope, below[i] - above[i], y as f32);
+                let (x, y) = (lesser(greater(x, 0.0), end), lesser(greater(y, 0.0), bottom));
+                corners[i % BLOCK] = [x as i32, y as i32];
+                shares[i % BLOCK] = [x - (x as i32) as f32, y - (y as i32) as f32];
+            }
+            for ((out, [x, y]), [a, b]) in out.iter_mut().zip(corners).zip(shares) {
+                let (x, y) = (x as usize, y as usize);
+                let corner = y * width + x;
+                let right = usize::from(x + 1 < width);
+                let down = if y + 1 < height { width } else { 0 };
+                let colours = [corner, corner + right, corner + down, corner + down + right];
+                let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];
+                *out = mixed::<S>(colours.map(|i| values[i]), shares);
+            }
         }
     }
 }

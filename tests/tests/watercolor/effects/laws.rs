@@ -183,7 +183,7 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let patches = DryBrushReach { patches: 1.0, ..reach(0.6) };
     let thick = OnCpu.dry_brushed(paint.clone(), &heights, &flow, patches, None).unwrap();
     assert_eq!(thick, paint, "a wash that is not thin");
-    let thin = Field::filled(200, 100, 0.2);
+    let thin = Field::filled(200, 100, 0.1);
     let all = OnCpu.dry_brushed(paint.clone(), &heights, &thin, patches, None).unwrap();
     let whole = OnCpu.dry_brushed(paint, &heights, &flow, reach(0.6), None).unwrap();
     assert_eq!(all, whole, "a thin wash");
