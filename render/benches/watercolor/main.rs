@@ -6,6 +6,8 @@ mod coherence;
 
 mod effects;
 
+mod frame;
+
 mod segmentation;
 
 mod shading;
