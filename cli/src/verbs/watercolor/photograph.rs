@@ -72,13 +72,15 @@ pub(super) fn paint<B: Watercolor + Morphology>(
 
 /// What stands in pixels of this picture, as segmentation takes it.
 fn abstraction(settings: &AbstractionSettings) -> PhotographSettings {
-    let AbstractionSettings { spatial_px, range_luv, least_region_px, brush_px } = *settings;
+    let AbstractionSettings { spatial_px, range_luv, tone_luv, least_region_px, brush_px } =
+        *settings;
     let most = PhotographSettings::MOST_SMOOTHING_PX as f32;
     PhotographSettings {
         segmentation: SegmentationSettings {
             spatial_radius_px: spatial_px.clamp(1.0, SegmentationSettings::MOST_SPATIAL_PX),
             range_radius: range_luv,
             least_region_px: least_region_px.round() as u32,
+            tone_step: tone_luv,
         },
         smoothing_radius_px: (brush_px / 2.0).round().min(most) as u32,
     }

@@ -104,8 +104,8 @@ impl SubjectOptions {
             (None, turntable) => {
                 let framing = self.framing(aspect)?;
                 match turntable {
-                    Some(frames) => framing.turntable(bounds, frames as usize),
-                    None => vec![framing.camera(bounds)],
+                    Some(frames) => framing.closest_turntable(&mesh.positions, frames as usize),
+                    None => vec![framing.closest(&mesh.positions)],
                 }
             }
         };

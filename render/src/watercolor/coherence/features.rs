@@ -144,7 +144,8 @@ impl Features {
     #[must_use]
     pub fn splats(&self, sight: &Sight, noise: FeatureNoise) -> Vec<Splat> {
         let octaves = Octaves::new(noise);
-        let look = Look { features: self, sight, end: octaves.end(), octaves };
+        let forward = (sight.camera.target - sight.camera.eye).normalize_or_zero();
+        let look = Look { features: self, sight, forward, end: octaves.end(), octaves };
         let pieces = self.pieces.par_iter().map(|&piece| {
             let mut splats = Vec::new();
             look.go_through(piece, &mut splats);
@@ -164,6 +165,7 @@ impl Features {
 struct Look<'a> {
     features: &'a Features,
     sight: &'a Sight,
+    forward: Vec3,
     octaves: Octaves,
     end: f32,
 }
@@ -173,23 +175,23 @@ impl Look<'_> {
     /// out of the picture.
     fn needed(&self, middle: Vec3, radius: f32) -> Option<f32> {
         let sight = self.sight;
-        let eye = sight.camera.eye;
-        let forward = (sight.camera.target - eye).normalize_or_zero();
-        let along = (middle - eye).dot(forward);
+        let to = middle - sight.camera.eye;
+        let (along, towards) = (to.dot(self.forward), to.length() + radius);
         if along + radius < sight.camera.near || along - radius > sight.camera.far {
             return None;
         }
         let nearest = (along - radius).max(sight.camera.near);
-        if let Some(at) = sight.project(middle).filter(|_| along - radius > sight.camera.near) {
+        if along - radius > sight.camera.near
+            && let Some(at) = sight.project(middle)
+        {
             // A place off the axis moves by more than the radius seen from the front.
-            let farthest = (middle.distance(eye) + radius) / nearest;
-            let margin = sight.focal_px * radius * farthest / nearest + self.octaves.largest_px();
+            let margin =
+                sight.focal_px * radius * towards / (nearest * nearest) + self.octaves.largest_px();
             let inside = |at: f32, size: usize| at > -margin && at < size as f32 + margin;
             if !inside(at.x, sight.width) || !inside(at.y, sight.height) {
                 return None;
             }
         }
-        let towards = middle.distance(eye) + radius;
         Some(self.end * sight.focal_px * sight.focal_px * towards / nearest.powi(3))
     }
 

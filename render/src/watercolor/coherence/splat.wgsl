@@ -44,13 +44,23 @@ fn gather_splats(
     let end = batch[square + 1u];
     var sum = 0.0;
     for (var i = batch[square]; i < end; i++) {
-        let splat = splats[batch[now.lists + i]];
-        let right = f32(at.x) + 0.5 - splat.x;
-        let down = f32(at.y) + 0.5 - splat.y;
-        let t = max(1.0 - length(vec2(right, down) * splat.narrowness), 0.0);
-        let off = abs(splat.depth + splat.slope_y * down + splat.slope_x * right - depth);
-        let share = clamp(2.0 - off * splat.tightness, 0.0, 1.0);
-        sum += splat.amplitude * share * (t * t * t * (t * (6.0 * t - 15.0) + 10.0));
+        // Read bit by bit: most features of a list miss most of its rows.
+        let index = batch[now.lists + i];
+        let narrowness = splats[index].narrowness;
+        let down = f32(at.y) + 0.5 - splats[index].y;
+        if abs(down) * narrowness >= 1.0 {
+            continue;
+        }
+        let right = f32(at.x) + 0.5 - splats[index].x;
+        let t = max(1.0 - length(vec2(right, down) * narrowness), 0.0);
+        if t <= 0.0 {
+            continue;
+        }
+        let slopes = splats[index].slope_y * down + splats[index].slope_x * right;
+        let off = abs(splats[index].depth + slopes - depth);
+        let share = clamp(2.0 - off * splats[index].tightness, 0.0, 1.0);
+        let bump = t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+        sum += splats[index].amplitude * share * bump;
     }
     sums[pixel] = clamp(0.5 + sum, 0.0, 1.0);
 }

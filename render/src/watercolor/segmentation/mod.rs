@@ -17,6 +17,8 @@ mod region_graph;
 
 mod pruning;
 
+mod tones;
+
 mod segment;
 
 pub use segment::{Segmentation, SegmentationError, SegmentationSettings, segment};

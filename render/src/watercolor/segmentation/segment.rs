@@ -8,6 +8,7 @@ use super::mean_shift::{Bandwidth, MOST_LANES};
 use super::pruning::{join_alike, join_small};
 use super::region_graph::RegionGraph;
 use super::regions::linked;
+use super::tones::cut;
 use crate::field::Field;
 
 /// How coarse regions are.
@@ -22,6 +23,9 @@ pub struct SegmentationSettings {
     pub range_radius: f32,
     /// Smaller regions join a neighbour.
     pub least_region_px: u32,
+    /// Regions whose colour runs farther than this, in CIELUV, are cut into steps about
+    /// as large; with 0 never.
+    pub tone_step: f32,
 }
 
 impl SegmentationSettings {
@@ -30,9 +34,9 @@ impl SegmentationSettings {
 }
 
 impl Default for SegmentationSettings {
-    /// 10 px, 8 in CIELUV, 60 px: for a photograph of about 1 megapixel.
+    /// 10 px, 8 in CIELUV, 60 px: for a photograph of about 1 megapixel. Nothing is cut.
     fn default() -> Self {
-        Self { spatial_radius_px: 10.0, range_radius: 8.0, least_region_px: 60 }
+        Self { spatial_radius_px: 10.0, range_radius: 8.0, least_region_px: 60, tone_step: 0.0 }
     }
 }
 
@@ -60,7 +64,7 @@ impl Segmentation {
 ///
 /// Pixels whose modes are near are linked; regions that are too small join a neighbour;
 /// then neighbours whose mean modes are within the range radius become one, the nearest
-/// first.
+/// first. Smooth gradients are then cut into steps, if that is asked for.
 ///
 /// Bare paper (coverage below 1/2) is taken as white, and is never in a region with
 /// paint, unless one of them is too small. The same picture gives the same regions,
@@ -85,7 +89,13 @@ pub fn segment(
     let mut graph = RegionGraph::new(&labels, count, &modes, painted);
     join_small(&mut graph, settings.least_region_px);
     join_alike(&mut graph, bandwidth.range.into());
-    let count = graph.relabel(&mut labels);
+    let mut count = graph.relabel(&mut labels);
+    if settings.tone_step > 0.0 {
+        (labels, count) = cut(&labels, count, &modes, settings.tone_step);
+        let mut graph = RegionGraph::new(&labels, count, &modes, painted);
+        join_small(&mut graph, settings.least_region_px);
+        count = graph.relabel(&mut labels);
+    }
     let colours = means(picture, &labels, count);
     Ok(Segmentation { labels, colours })
 }
@@ -116,6 +126,10 @@ impl SegmentationSettings {
         if !(1.0..=Self::MOST_SPATIAL_PX).contains(&spatial_px) {
             return Err(SegmentationError::SpatialRadius { found: spatial_px });
         }
+        let step = self.tone_step;
+        if !(step >= 0.0 && step.is_finite()) {
+            return Err(SegmentationError::ToneStep { found: step });
+        }
         if !(range > 0.0 && range.is_finite()) {
             return Err(SegmentationError::RangeRadius { found: range });
         }
@@ -141,6 +155,12 @@ pub enum SegmentationError {
         /// What it was.
         found: f32,
     },
+    /// Of the steps in colour.
+    #[error("a step of tone is a number of 0 and up, found `{found}`")]
+    ToneStep {
+        /// What it was.
+        found: f32,
+    },
 }
 
 impl SegmentationError {
@@ -150,6 +170,7 @@ impl SegmentationError {
         match self {
             Self::SpatialRadius { .. } => "about a hundredth of the picture's width does well",
             Self::RangeRadius { .. } => "8 keeps what the eye sees apart; more is flatter",
+            Self::ToneStep { .. } => "25 lays a round form in a few washes; 0 cuts nothing",
         }
     }
 }

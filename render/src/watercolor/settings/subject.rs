@@ -12,6 +12,8 @@ pub struct AbstractionSettings {
     pub spatial_px: f32,
     /// Radius in CIELUV, 1..=100: colours up to it merge.
     pub range_luv: f32,
+    /// Gradients are laid in steps of about this, in CIELUV, 0..=200; 0 is in one.
+    pub tone_luv: f32,
     /// Regions of less than this are merged into a neighbour, in px of area,
     /// 0..=1e6.
     pub least_region_px: f32,
@@ -68,7 +70,13 @@ pub struct CoherenceSettings {
 
 impl Default for AbstractionSettings {
     fn default() -> Self {
-        Self { spatial_px: 8.0, range_luv: 8.0, least_region_px: 40.0, brush_px: 5.0 }
+        Self {
+            spatial_px: 8.0,
+            range_luv: 8.0,
+            tone_luv: 25.0,
+            least_region_px: 40.0,
+            brush_px: 5.0,
+        }
     }
 }
 
@@ -102,6 +110,7 @@ impl AbstractionSettings {
         vec![
             Figure::new("abstraction.spatial_px", self.spatial_px, [1.0, 128.0]),
             Figure::new("abstraction.range_luv", self.range_luv, [1.0, 100.0]),
+            Figure::new("abstraction.tone_luv", self.tone_luv, [0.0, 200.0]),
             Figure::new("abstraction.least_region_px", self.least_region_px, [0.0, 1e6]),
             Figure::new("abstraction.brush_px", self.brush_px, [0.0, 128.0]),
         ]

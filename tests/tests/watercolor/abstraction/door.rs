@@ -23,8 +23,12 @@ fn photograph() -> Photograph {
 }
 
 fn settings(smoothing_radius_px: u32) -> PhotographSettings {
-    let segmentation =
-        SegmentationSettings { spatial_radius_px: 4.0, range_radius: 8.0, least_region_px: 2 };
+    let segmentation = SegmentationSettings {
+        spatial_radius_px: 4.0,
+        range_radius: 8.0,
+        least_region_px: 2,
+        tone_step: 0.0,
+    };
     PhotographSettings { segmentation, smoothing_radius_px }
 }
 

@@ -151,7 +151,12 @@ fn pictures_of_few_pixels_and_odd_numbers_are_taken() {
 fn settings_out_of_range_are_told() {
     let picture = Field::filled(3, 3, [0.5; 4]);
     let with = |spatial_radius_px: f32, range_radius: f32| {
-        let settings = SegmentationSettings { spatial_radius_px, range_radius, least_region_px: 1 };
+        let settings = SegmentationSettings {
+            spatial_radius_px,
+            range_radius,
+            least_region_px: 1,
+            tone_step: 0.0,
+        };
         segment(&picture, &settings).unwrap_err()
     };
     assert_eq!(with(0.5, 8.0), SegmentationError::SpatialRadius { found: 0.5 });

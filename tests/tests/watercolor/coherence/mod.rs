@@ -47,12 +47,12 @@ impl Subject {
 
     fn of_features(&self, bare: &Bare, noise: FeatureNoise) -> Field<f32> {
         let splats = self.features.splats(&bare.sight, noise);
-        OnCpu.splatted(&bare.depth, &splats).unwrap()
+        OnCpu.splatted(&bare.depth, &splats).expect("the processor always can")
     }
 
     fn of_particles(&self, bare: &Bare, particles: &Particles, wave_px: f32) -> Field<f32> {
         let anchors = particles.anchors(&bare.sight, waves(wave_px));
-        OnCpu.anchored(&bare.depth, &self.pigment, &anchors).unwrap()
+        OnCpu.anchored(&bare.depth, &self.pigment, &anchors).expect("the processor always can")
     }
 }
 
