@@ -1,5 +1,6 @@
 //! Meshes to watercolors, picture after picture.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::coherence::{
@@ -9,7 +10,7 @@ use super::coherence::{
 use super::pipeline::{WashOn, Watcher, Watercolor, paint};
 use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
 use super::textures::{PaperTextureError, Textures, TexturesOn};
-use super::tones::Tones;
+use super::tones::{Tones, TonesError};
 use super::toon::{Light, Shading, Toon};
 use crate::camera::Camera;
 use crate::gpu::GpuError;
@@ -60,7 +61,7 @@ impl<B: MovingBackend> ModelPainter<B> {
     /// pixel is the mean of `samples` x `samples`.
     ///
     /// # Errors
-    /// [`ModelPainterError`] if there is no such paper, or the device has no room.
+    /// [`ModelPainterError`] if there is no such paper or greys, or the device has no room.
     pub fn new(
         backend: &mut B,
         mut mesh: Mesh,
@@ -72,7 +73,10 @@ impl<B: MovingBackend> ModelPainter<B> {
         mesh.normals = mesh.smoothed_normals(toon.smoothing_rounds as usize);
         let toon = Toon {
             light: Light::with_camera(toon.light_azimuth_deg, toon.light_elevation_deg),
-            tones: Tones::steps(toon.levels as usize, toon.softness),
+            tones: match &toon.greys {
+                Some(path) => Tones::open(Path::new(path))?,
+                None => Tones::steps(toon.levels as usize, toon.softness),
+            },
             strength: toon.strength,
             samples: samples.max(1),
         };
@@ -222,6 +226,9 @@ pub enum ModelPainterError {
     /// No such paper.
     #[error(transparent)]
     Paper(#[from] PaperTextureError),
+    /// No such greys.
+    #[error(transparent)]
+    Tones(#[from] TonesError),
     /// The device.
     #[error(transparent)]
     Gpu(#[from] GpuError),

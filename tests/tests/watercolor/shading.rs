@@ -2,12 +2,14 @@
 
 use glam::{Vec2, Vec3};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use render::camera::Camera;
+use render::camera::{Camera, Framing};
 use render::field::Field;
 use render::gpu::GpuError;
 use render::mesh::{Material, Mesh, Texture};
 use render::surface::{NOTHING, PackedMesh, RASTER, Visible, position_at};
-use render::watercolor::{Light, Models, OnCpu, OnGpu, Shading, Tones, Toon};
+use render::watercolor::{
+    Light, ModelPainter, Models, OnCpu, OnGpu, Settings, Shading, Tones, Toon,
+};
 use suite::adapter::device;
 
 use super::seen::{inside_them, random_triangles};
@@ -226,4 +228,35 @@ fn a_picture_that_no_device_draws_is_refused() {
         assert!(matches!(error, GpuError::Refused { .. }), "{error}");
     }
     assert!(on_gpu.seen(&mut model, &inside_them(), 8, 4).is_ok());
+}
+
+#[test]
+fn greys_of_a_picture_take_the_place_of_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("greys.png");
+    let greys = image::GrayImage::from_fn(2, 1, |x, _| image::Luma([x as u8 * 255]));
+    greys.save(&path).unwrap();
+    let mut settings = Settings::default().for_size(64, 64);
+    settings.toon.levels = 1;
+    let framing = Framing::default();
+    let shaded = |settings: &Settings| {
+        let mesh = Mesh::sphere(500);
+        let camera = framing.closest(&mesh.positions);
+        let backend = &mut OnCpu::default();
+        let mut painter = ModelPainter::new(backend, mesh, settings.clone(), (64, 64), 1).unwrap();
+        painter.moment(backend, &camera).unwrap().colour
+    };
+    let of = |field: &Field<[f32; 4]>| {
+        let seen = field.values().iter().filter(|colour| colour[3] == 1.0);
+        let greens = seen.map(|colour| colour[1]);
+        greens.fold([1.0f32, 0.0], |[low, high], value| [low.min(value), high.max(value)])
+    };
+    let [low, high] = of(&shaded(&settings));
+    assert!(high - low < 1e-6, "one step is one colour: {low} {high}");
+    settings.toon.greys = Some(path.display().to_string());
+    let [low, high] = of(&shaded(&settings));
+    assert!(high - low > 0.2, "a ramp is none: {low} {high}");
+    settings.toon.greys = Some("no/such.png".to_owned());
+    let painter = ModelPainter::new(&mut OnCpu::default(), Mesh::sphere(500), settings, (8, 8), 1);
+    assert!(painter.unwrap_err().to_string().contains("no/such.png"));
 }

@@ -14,8 +14,8 @@ use super::{Glazing, Made, Work};
 use crate::console::Console;
 use crate::failure::Refusal;
 
-/// Samples along each side of a pixel of a single picture.
-const STILL_SAMPLES: usize = 2;
+/// Samples along each side of a pixel: silhouettes are smooth.
+const SAMPLES: usize = 2;
 
 pub(super) fn paint<B: Backend>(
     backend: &mut B,
@@ -38,8 +38,7 @@ pub(super) fn paint<B: Backend>(
         wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
     }
     let settings = settings.for_size(width, height);
-    let samples = if moving.is_some() { 1 } else { STILL_SAMPLES };
-    let mut painter = ModelPainter::new(backend, mesh, settings, size, samples)?;
+    let mut painter = ModelPainter::new(backend, mesh, settings, size, SAMPLES)?;
     let Some(first) = cameras.first() else {
         return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
     };

@@ -25,6 +25,10 @@ pub struct AbstractionSettings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ToonSettings {
+    /// A picture (PNG or JPEG) whose middle row is the greys from shade to light,
+    /// instead of steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub greys: Option<String>,
     /// Steps from shade to light, 1..=16; 1 is flat colour.
     pub levels: u32,
     /// How much density changes from shade to light, 0..=5.
@@ -83,6 +87,7 @@ impl Default for AbstractionSettings {
 impl Default for ToonSettings {
     fn default() -> Self {
         Self {
+            greys: None,
             levels: 4,
             strength: 1.6,
             softness: 0.15,

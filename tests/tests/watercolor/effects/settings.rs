@@ -30,6 +30,7 @@ fn presets_are_read_and_tell_of_every_key() {
     // All keys there are, those without a usual value among them.
     let mut settings = Settings::default();
     settings.paper.scan = Some("x".to_owned());
+    settings.toon.greys = Some("x".to_owned());
     settings.dry_brush.colour = Some("x".to_owned());
     let all = keys(&toml::to_string(&settings).unwrap());
     let all: BTreeSet<String> = all.into_iter().map(|(key, _)| key).collect();
