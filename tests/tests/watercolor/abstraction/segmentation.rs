@@ -6,7 +6,12 @@ use render::field::Field;
 use render::watercolor::{SegmentationError, SegmentationSettings, segment};
 
 fn settings(least_region_px: u32) -> SegmentationSettings {
-    SegmentationSettings { spatial_radius_px: 5.0, range_radius: 10.0, least_region_px }
+    SegmentationSettings {
+        spatial_radius_px: 5.0,
+        range_radius: 10.0,
+        least_region_px,
+        tone_step: 0.0,
+    }
 }
 
 /// Dark on the left, light on the right, with noise of some 4 in L*.
