@@ -62,7 +62,7 @@ pub enum CoherenceMethod {
 pub struct CoherenceSettings {
     /// What noise holds on to.
     pub method: CoherenceMethod,
-    /// How many particles an object has, 1..=64.
+    /// How many particles an object has, 1..=256.
     pub particles: u32,
     /// Octaves of the infinite zoom, and of features, 1..=8.
     pub octaves: u32,
@@ -146,7 +146,7 @@ impl CoherenceSettings {
     pub(super) fn figures(&self) -> Vec<Figure> {
         let features = self.features_per_place;
         vec![
-            Figure::new("coherence.particles", self.particles, [1.0, 64.0]),
+            Figure::new("coherence.particles", self.particles, [1.0, 256.0]),
             Figure::new("coherence.octaves", self.octaves, [1.0, 8.0]),
             Figure::new("coherence.feature_px", self.feature_px, [1.0, 256.0]),
             Figure::new("coherence.features_per_place", features, [0.1, 64.0]),
