@@ -24,6 +24,7 @@ use render::paint::strokes::{BeginningError, StrokesError};
 use render::photograph::{PhotographError, SeparationError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
+    TonesError,
 };
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
@@ -179,6 +180,9 @@ fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> 
     if let Some(error) = paper {
         return Some(error.hint());
     }
+    if let Some(error) = cause.downcast_ref::<TonesError>() {
+        return Some(error.hint().to_owned());
+    }
     if let Some(error) = cause.downcast_ref::<GlazeError>() {
         return Some(error.hint().to_owned());
     }
@@ -233,6 +237,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SeparationError>()
         || cause.is::<SettingsError>()
         || cause.is::<PaperTextureError>()
+        || cause.is::<TonesError>()
         || cause.is::<GlazeError>()
         || matches!(cause.downcast_ref(), Some(ModelPainterError::Paper(_)))
         || cause.is::<MeshError>()

@@ -47,7 +47,7 @@ fn on_gpu(bencher: Bencher<'_, '_>, triangles: usize, method: CoherenceMethod) {
 
 #[divan::bench(args = [25_000, 160_000], sample_count = 60)]
 fn still_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu::default(), triangles, CoherenceMethod::Static);
+    frames(bencher, OnCpu, triangles, CoherenceMethod::Static);
 }
 
 #[divan::bench(args = [25_000, 160_000], sample_count = 20)]
@@ -57,7 +57,7 @@ fn still_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
 
 #[divan::bench(args = [60_000], sample_count = 60)]
 fn features_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu::default(), triangles, CoherenceMethod::Features);
+    frames(bencher, OnCpu, triangles, CoherenceMethod::Features);
 }
 
 #[divan::bench(args = [60_000], sample_count = 20)]
@@ -67,7 +67,7 @@ fn features_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
 
 #[divan::bench(args = [60_000], sample_count = 60)]
 fn particles_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu::default(), triangles, CoherenceMethod::Particles);
+    frames(bencher, OnCpu, triangles, CoherenceMethod::Particles);
 }
 
 #[divan::bench(args = [60_000], sample_count = 20)]

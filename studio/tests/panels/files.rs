@@ -277,7 +277,7 @@ fn exports_are_those_of_the_engine() {
         assert!(std::fs::read(&path).unwrap() == wanted, "{name} differs");
     }
     ask(&mut window, FileRequest::Export);
-    ["Pigment maps, a folder of PNG", "Choose a name"].map(|label| click(&mut window, label));
+    ["Pigment maps, a folder of PNG", "Choose a name"].iter().for_each(|l| click(&mut window, l));
     type_name(&mut window, "f");
     click(&mut window, "Save");
     let maps = folder.path().join("f.maps");

@@ -242,7 +242,7 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     let shaded = |settings: &Settings| {
         let mesh = Mesh::sphere(500);
         let camera = framing.closest(&mesh.positions);
-        let backend = &mut OnCpu::default();
+        let backend = &mut OnCpu;
         let mut painter = ModelPainter::new(backend, mesh, settings.clone(), (64, 64), 1).unwrap();
         painter.moment(backend, &camera).unwrap().colour
     };
@@ -257,6 +257,6 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     let [low, high] = of(&shaded(&settings));
     assert!(high - low > 0.2, "a ramp is none: {low} {high}");
     settings.toon.greys = Some("no/such.png".to_owned());
-    let painter = ModelPainter::new(&mut OnCpu::default(), Mesh::sphere(500), settings, (8, 8), 1);
+    let painter = ModelPainter::new(&mut OnCpu, Mesh::sphere(500), settings, (8, 8), 1);
     assert!(painter.unwrap_err().to_string().contains("no/such.png"));
 }

@@ -32,12 +32,16 @@ impl LookOptions {
             let text = std::fs::read_to_string(path).map_err(|error| {
                 SettingsError::Unreadable { name: name.clone(), reason: error.to_string() }
             })?;
-            let before = settings.paper.scan.take();
+            let before = settings.clone();
+            (settings.paper.scan, settings.toon.greys) = (None, None);
             settings = settings.changed(&name, &text)?;
-            // A scan stands beside the file that names it.
+            // Pictures stand beside the file that names them.
             let folder = path.parent().unwrap_or(Path::new(""));
-            let named = settings.paper.scan.map(|scan| folder.join(scan).display().to_string());
-            settings.paper.scan = named.or(before);
+            let beside = |named: Option<String>, before: Option<String>| {
+                named.map(|file| folder.join(file).display().to_string()).or(before)
+            };
+            settings.paper.scan = beside(settings.paper.scan, before.paper.scan);
+            settings.toon.greys = beside(settings.toon.greys, before.toon.greys);
             inputs.push(path.clone());
         }
         for change in &self.set {
@@ -50,7 +54,8 @@ impl LookOptions {
             let text = format!("{} = {}", key.trim(), as_toml(value.trim()));
             settings = settings.changed(&format!("--set {change}"), &text)?;
         }
-        inputs.extend(settings.paper.scan.as_ref().map(PathBuf::from));
+        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
+        inputs.extend(pictures.map(PathBuf::from));
         Ok((settings, inputs))
     }
 }

@@ -30,8 +30,9 @@ pub(super) fn paint<B: Backend>(
     let mut wish = Wish::default().and(&env!("CARGO_PKG_VERSION")).and(&settings).and(&cameras);
     if moving.is_some() {
         wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
-        // Settings have the name of a scan alone.
+        // Settings have the names of pictures alone.
         wish = wish.and(&settings.paper.scan.as_ref().map(std::fs::read));
+        wish = wish.and(&settings.toon.greys.as_ref().map(std::fs::read));
     }
     let settings = settings.for_size(width, height);
     let mut painter = ModelPainter::new(backend, mesh, settings, size, SAMPLES)?;

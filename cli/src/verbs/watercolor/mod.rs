@@ -125,7 +125,7 @@ impl Watercolor {
         let work = Work { title, settings, glazing, sheets, moving };
         let made = match self.backend.device()? {
             Some(device) => work.done(&mut OnGpu::new(device), subject, console)?,
-            None => work.done(&mut OnCpu::default(), subject, console)?,
+            None => work.done(&mut OnCpu, subject, console)?,
         };
         tell(&made, self.json, console)
     }

@@ -125,7 +125,7 @@ fn opened(path: impl AsRef<Path>) -> RgbImage {
 /// The mean difference of two pictures of one size, in levels of 255, and the largest.
 #[track_caller]
 fn difference(one: &RgbImage, other: &RgbImage) -> (f64, u8) {
-    assert_eq!(one.dimensions(), other.dimensions());
+    assert_eq!(one.dimensions(), other.dimensions(), "sizes");
     let pairs = one.as_raw().iter().zip(other.as_raw());
     let (sum, most) = pairs
         .map(|(a, b)| a.abs_diff(*b))
