@@ -4,12 +4,12 @@
 use std::path::Path;
 
 use glam::{Mat3, Mat4, Vec3};
-use gltf::mesh::Mode;
+use gltf::mesh::{Mode, Semantic};
 use spectra::color::Rgb;
 
 use super::error::MeshError;
 use super::gltf_values::{COLOURS, COORDINATES, CORNERS, NORMALS, PLACES, check, path_of, slice};
-use super::part::{PLAIN, Part};
+use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
 /// Reads both forms of glTF; `bytes` say themselves which it is.
@@ -37,8 +37,8 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         reader.add_material(&material)?;
     }
     // For those without a material.
-    reader.mesh.materials.push(PLAIN);
-    reader.coordinates.push(0);
+    reader.mesh.materials.extend([PLAIN, PAINTED]);
+    reader.coordinates.extend([0, 0]);
     let mut met = vec![false; document.nodes().len()];
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let mut waiting: Vec<_> = match scene {
@@ -136,14 +136,16 @@ impl Reader<'_> {
         {
             return Ok(());
         }
-        let material = primitive.material().index().unwrap_or(self.coordinates.len() - 1);
+        let painted = primitive.get(&Semantic::Colors(0)).is_some();
+        let without = self.coordinates.len() - 2 + usize::from(painted);
+        let material = primitive.material().index().unwrap_or(without);
         let set = self.coordinates[material];
         for (semantic, accessor) in primitive.attributes() {
             let kind = match semantic {
-                gltf::Semantic::Positions => &PLACES,
-                gltf::Semantic::Normals => &NORMALS,
-                gltf::Semantic::TexCoords(found) if found == set => &COORDINATES,
-                gltf::Semantic::Colors(0) => &COLOURS,
+                Semantic::Positions => &PLACES,
+                Semantic::Normals => &NORMALS,
+                Semantic::TexCoords(found) if found == set => &COORDINATES,
+                Semantic::Colors(0) => &COLOURS,
                 _ => continue,
             };
             check(&accessor, kind, &self.buffers)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::error::MeshError;
 use super::obj_lines::{check_mtl, check_obj};
-use super::part::{PLAIN, Part};
+use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
 /// Colours of materials and vertices are taken as encoded. Vertices of a group of
@@ -66,6 +66,8 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         mesh.materials.push(painted(name, folder, material)?);
     }
     let plain = mesh.materials.len() as u32;
+    // All vertices of a file have colours, or none.
+    let coloured = models.iter().any(|model| !model.mesh.vertex_color.is_empty());
     for model in models {
         let tobj::Mesh { positions, normals, texcoords, vertex_color, indices, .. } = model.mesh;
         let count = positions.len() / 3;
@@ -86,7 +88,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         mesh.add(part);
     }
     if mesh.triangles.iter().any(|triangle| triangle.material == plain) {
-        mesh.materials.push(PLAIN);
+        mesh.materials.push(if coloured { PAINTED } else { PLAIN });
     }
     Ok(mesh)
 }

@@ -18,6 +18,9 @@ pub(super) struct Part {
 /// What a model without materials is made of: light paper.
 pub(super) const PLAIN: Material = Material { colour: [0.8, 0.8, 0.8], texture: None };
 
+/// The same where its vertices have colours, which are not darkened besides.
+pub(super) const PAINTED: Material = Material { colour: [1.0; 3], texture: None };
+
 impl Mesh {
     /// Adds a part; what it lacks is filled in, normals with zeros.
     pub(super) fn add(&mut self, part: Part) {

@@ -9,7 +9,7 @@ use ply_rs_bw::ply::{
 };
 
 use super::error::MeshError;
-use super::part::{PLAIN, Part};
+use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
 /// Reads a PLY file; other elements than vertices and faces are passed over.
@@ -80,9 +80,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
         }
     }
     let mut mesh = Mesh::default();
-    // What is painted by its vertices is not darkened besides.
-    let colour = if part.colours.is_empty() { PLAIN.colour } else { [1.0; 3] };
-    mesh.materials.push(crate::mesh::Material::plain(colour));
+    mesh.materials.push(if part.colours.is_empty() { PLAIN } else { PAINTED });
     mesh.add(part);
     mesh
 }

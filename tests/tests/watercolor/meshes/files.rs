@@ -70,7 +70,7 @@ fn obj_with_colours_of_vertices_and_nothing_else() {
     let mesh = opened(&[("a.OBJ", obj)]).unwrap();
     assert_eq!(mesh.colours, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 3]);
-    assert_eq!(mesh.materials.len(), 1);
+    assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
     // A place may be divided by a fourth number.
     let mesh = opened(&[("a.obj", b"v 0 0 0\nv 2 0 0 2\nv 0 1 0\nf 1 2 3\n")]).unwrap();
     assert_eq!(mesh.positions[1], [1.0, 0.0, 0.0]);
