@@ -22,7 +22,9 @@ use render::paint::ground::GroundError;
 use render::paint::painting::PaintingError;
 use render::paint::strokes::{BeginningError, StrokesError};
 use render::photograph::{PhotographError, SeparationError};
-use render::watercolor::{GlazeError, PaperTextureError, PhotographDoorError, SettingsError};
+use render::watercolor::{
+    GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
+};
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
 use spectra::swatch_file::SwatchFileError;
@@ -153,7 +155,7 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<EngineError>() {
         return Some(error.hint().to_owned());
     }
-    if cause.is::<GpuError>() {
+    if cause.is::<GpuError>() || matches!(cause.downcast_ref(), Some(ModelPainterError::Gpu(_))) {
         return Some("paint on the processor: --backend cpu".to_owned());
     }
     if let Some(error) = cause.downcast_ref::<PhotographError>() {
@@ -170,7 +172,11 @@ fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> 
     if let Some(error) = cause.downcast_ref::<SettingsError>() {
         return Some(error.hint());
     }
-    if let Some(error) = cause.downcast_ref::<PaperTextureError>() {
+    let paper = match cause.downcast_ref() {
+        Some(ModelPainterError::Paper(error)) => Some(error),
+        _ => cause.downcast_ref::<PaperTextureError>(),
+    };
+    if let Some(error) = paper {
         return Some(error.hint());
     }
     if let Some(error) = cause.downcast_ref::<GlazeError>() {
@@ -227,6 +233,8 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SeparationError>()
         || cause.is::<SettingsError>()
         || cause.is::<PaperTextureError>()
+        || cause.is::<GlazeError>()
+        || matches!(cause.downcast_ref(), Some(ModelPainterError::Paper(_)))
         || cause.is::<MeshError>()
         || cause.is::<CameraPathError>()
         || faulty_lamp;

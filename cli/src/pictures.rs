@@ -122,6 +122,12 @@ impl OpenExports {
         self.options.any()
     }
 
+    /// Whether `other` would be one of its files.
+    pub(crate) fn writes(&self, other: &Output) -> bool {
+        let all = [&self.picture, &self.spectral, &self.painting];
+        all.into_iter().flatten().any(|output| output.is_same_as(other))
+    }
+
     /// Writes the picture alone, which is linear sRGB.
     pub(crate) fn write_picture(
         self,

@@ -2,18 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use clap::Args;
-use render::watercolor::{Preset, Settings};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use render::watercolor::{Preset, Settings, SettingsError};
 
 use crate::failure::Refusal;
-use crate::input::unreadable;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Look")]
 pub(super) struct LookOptions {
-    /// Settings that come with impasto: portrait, landscape or sketch [default: those between]
-    #[arg(long, value_name = "NAME")]
+    /// Settings that come with impasto [default: those between]
+    #[arg(long, value_name = "NAME", value_parser = preset_names())]
     preset: Option<Preset>,
     /// Settings from a file (TOML); what it leaves out stays as the preset has it
     #[arg(long, value_name = "FILE")]
@@ -29,9 +28,12 @@ impl LookOptions {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
         let mut inputs = Vec::new();
         if let Some(path) = &self.settings {
-            let text = std::fs::read_to_string(path).with_context(|| unreadable(path))?;
+            let name = path.display().to_string();
+            let text = std::fs::read_to_string(path).map_err(|error| {
+                SettingsError::Unreadable { name: name.clone(), reason: error.to_string() }
+            })?;
             let before = settings.paper.scan.take();
-            settings = settings.changed(&path.display().to_string(), &text)?;
+            settings = settings.changed(&name, &text)?;
             // A scan stands beside the file that names it.
             let folder = path.parent().unwrap_or(Path::new(""));
             let named = settings.paper.scan.map(|scan| folder.join(scan).display().to_string());
@@ -53,9 +55,20 @@ impl LookOptions {
     }
 }
 
-/// A value as TOML has it: words need no quotes here.
+/// Presets by name; others are refused with these.
+pub(super) fn preset_names() -> impl TypedValueParser<Value = Preset> {
+    let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
+    names.try_map(|name| name.parse::<Preset>())
+}
+
+/// A value as TOML has it: words need no quotes here, and `.5` is a number.
 fn as_toml(value: &str) -> String {
-    let bare = value.parse::<f64>().is_ok() || ["true", "false"].contains(&value);
-    let quoted = value.starts_with(['"', '\'']);
-    if bare || quoted { value.to_owned() } else { format!("{value:?}") }
+    if let Ok(whole) = value.parse::<i64>() {
+        return whole.to_string();
+    }
+    if let Ok(number) = value.parse::<f64>() {
+        return format!("{number:?}").to_lowercase();
+    }
+    let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'']);
+    if bare { value.to_owned() } else { format!("{value:?}") }
 }

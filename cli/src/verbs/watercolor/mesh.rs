@@ -26,16 +26,12 @@ pub(super) fn paint<B: Backend>(
     console: &mut Console<'_>,
 ) -> anyhow::Result<Made> {
     let Work { title, settings, mut glazing, sheets, moving } = work;
-    if sheets.masked() {
-        return Err(Refusal::usage(
-            "masks are laid over photographs, and this is a mesh",
-            "leave --dry-brush-mask and --density-mask out; --set dry_brush.colour=#rrggbb chooses by colour",
-        ));
-    }
     let (width, height) = size;
     let mut wish = Wish::default().and(&env!("CARGO_PKG_VERSION")).and(&settings).and(&cameras);
     if moving.is_some() {
         wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
+        // Settings have the name of a scan alone.
+        wish = wish.and(&settings.paper.scan.as_ref().map(std::fs::read));
     }
     let settings = settings.for_size(width, height);
     let samples = if moving.is_some() { 1 } else { STILL_SAMPLES };
@@ -43,6 +39,8 @@ pub(super) fn paint<B: Backend>(
     let Some(first) = cameras.first() else {
         return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
     };
+    let shots = (cameras.len(), width, height);
+    let shooting = moving.map(|moving| moving.begin(wish, shots)).transpose()?;
     let mut stages = Vec::new();
     if sheets.watched() {
         let flat = painter.flat(backend, first)?;
@@ -75,8 +73,13 @@ pub(super) fn paint<B: Backend>(
     }
     let backend_name = backend.name();
     let mut frames = None;
-    if let Some(moving) = moving {
-        let found = moving.make(wish, (cameras.len(), width, height), console, |index| {
+    if let Some(shooting) = shooting {
+        if let Some(glazing) = &mut glazing {
+            // By the first camera, whichever frames are still to be made.
+            let (wash, _) = at_rest(backend, &mut painter, first)?;
+            glazing.choose(&wash)?;
+        }
+        let found = shooting.make(console, |index| {
             let camera = &cameras[index];
             let picture: Field<[f32; 4]> = match &mut glazing {
                 None => {

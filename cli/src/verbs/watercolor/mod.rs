@@ -23,7 +23,7 @@ use serde_json::json;
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::Refusal;
-use look::LookOptions;
+use look::{LookOptions, preset_names};
 use moving::{Moving, MovingOptions};
 use pigments::{Glazing, PigmentOptions};
 use sheets::{OpenSheets, SheetOptions};
@@ -43,7 +43,7 @@ pub(crate) struct Watercolor {
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,
     /// Print a preset's settings, each with its meaning, and do nothing else
-    #[arg(long, value_name = "NAME", conflicts_with = "subject")]
+    #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
     show_preset: Option<Preset>,
     #[command(flatten)]
     backend: BackendOption,
@@ -109,15 +109,23 @@ impl Watercolor {
                 "add --turntable 60, or --camera path.toml with keyframes",
             ));
         }
-        let sheets = self.sheets.open(&inputs, self.pigments.input().is_some())?;
-        let moving = self.moving.open(&inputs)?;
+        if self.sheets.masked() && matches!(subject, Subject::Mesh(..)) {
+            return Err(Refusal::usage(
+                "masks are laid over photographs, and this is a mesh",
+                "leave --dry-brush-mask and --density-mask out; --set dry_brush.colour=#rrggbb chooses by colour",
+            ));
+        }
+        self.sheets.check(self.pigments.input().is_some())?;
         let glazing = self.pigments.glazing(&settings, console)?;
+        let moving = self.moving.open(&inputs)?;
+        // The last of these, as it makes folders.
+        let sheets = self.sheets.open(inputs, moving.as_ref().and_then(Moving::animation))?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let title = title.unwrap_or_default();
         let work = Work { title, settings, glazing, sheets, moving };
         let made = match self.backend.device()? {
             Some(device) => work.done(&mut OnGpu::new(device), subject, console)?,
-            None => work.done(&mut OnCpu::default(), subject, console)?,
+            None => work.done(&mut OnCpu, subject, console)?,
         };
         tell(&made, self.json, console)
     }

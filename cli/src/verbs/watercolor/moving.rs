@@ -41,6 +41,14 @@ pub(super) struct Moving {
     rate: FrameRate,
 }
 
+/// Frames on their way.
+pub(super) struct Shooting {
+    moving: Moving,
+    sequence: Sequence,
+    /// How many, their width and their height.
+    shots: (usize, usize, usize),
+}
+
 impl MovingOptions {
     /// Whether many pictures are wanted.
     pub(super) fn any(&self) -> bool {
@@ -94,18 +102,35 @@ impl std::fmt::Write for Wish {
 }
 
 impl Moving {
+    /// The file of all frames.
+    pub(super) fn animation(&self) -> Option<&Output> {
+        self.animation.as_ref().map(|(output, _)| output)
+    }
+
+    /// Looks which frames are there already, before the slow part; those of another wish
+    /// go.
+    pub(super) fn begin(
+        self,
+        wish: Wish,
+        shots: (usize, usize, usize),
+    ) -> anyhow::Result<Shooting> {
+        let digest = wish.0.finalize();
+        let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        let (frames, width, height) = shots;
+        let sequence = Sequence::open(&self.frames, Shots { settings, frames, width, height })?;
+        Ok(Shooting { moving: self, sequence, shots })
+    }
+}
+
+impl Shooting {
     /// Makes the frames that are not there yet by `picture`, then the animation; how
     /// many there were already.
     pub(super) fn make(
         self,
-        wish: Wish,
-        (frames, width, height): (usize, usize, usize),
         console: &Console<'_>,
         mut picture: impl FnMut(usize) -> anyhow::Result<Frame>,
     ) -> anyhow::Result<usize> {
-        let digest = wish.0.finalize();
-        let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        let mut sequence = Sequence::open(&self.frames, Shots { settings, frames, width, height })?;
+        let Self { moving, mut sequence, shots: (frames, width, height) } = self;
         let remaining = sequence.remaining().to_vec();
         let bar = Progress::new(remaining.len(), "painting", console.screen.progress);
         for &index in &remaining {
@@ -113,10 +138,10 @@ impl Moving {
             bar.step();
         }
         bar.done();
-        if let Some((output, format)) = self.animation {
+        if let Some((output, format)) = moving.animation {
             let bytes = match format {
-                Format::Gif => gif(&sequence, (width, height), self.rate)?,
-                Format::Apng => apng(&sequence, (width, height), self.rate, frames)?,
+                Format::Gif => gif(&sequence, (width, height), moving.rate)?,
+                Format::Apng => apng(&sequence, (width, height), moving.rate, frames)?,
             };
             output.write(bytes)?;
         }

@@ -98,7 +98,13 @@ impl Glazing {
         textures: &Textures,
         settings: &Settings,
     ) -> anyhow::Result<Document> {
-        let Self { library, slots, paper, light, lighting, glazes } = self;
+        let lighting = self.lighting.clone();
+        Ok(self.choose(wash)?.painted(title, wash, textures, settings, lighting)?)
+    }
+
+    /// Chooses the pigments by this wash, if that was not done before.
+    pub(super) fn choose(&mut self, wash: &Wash) -> anyhow::Result<&Glazes> {
+        let Self { library, slots, paper, light, glazes, .. } = self;
         if glazes.is_none() {
             let slots = match slots {
                 Some(slots) => *slots,
@@ -106,13 +112,12 @@ impl Glazing {
             };
             *glazes = Some(Glazes::new(library, &slots, paper.clone(), light)?);
         }
-        let found = glazes.as_ref().expect("just found");
-        Ok(found.painted(title, wash, textures, settings, lighting.clone())?)
+        Ok(glazes.as_ref().expect("just found"))
     }
 
     /// What makes its pictures, beside the wash.
     pub(super) fn wish(&self) -> impl std::fmt::Debug {
-        (&self.library, self.slots, &self.paper, &self.lighting)
+        (&self.library, self.slots, &self.paper, &self.lighting, &self.light)
     }
 
     /// The pigments in use.

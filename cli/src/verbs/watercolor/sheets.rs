@@ -39,6 +39,7 @@ pub(super) struct OpenSheets {
     stages: Option<PathBuf>,
     dry_brush_mask: Option<PathBuf>,
     density_mask: Option<PathBuf>,
+    inputs: Vec<PathBuf>,
 }
 
 impl SheetOptions {
@@ -51,20 +52,45 @@ impl SheetOptions {
         self.dry_brush_mask.iter().chain(&self.density_mask).cloned()
     }
 
-    pub(super) fn open(self, inputs: &[PathBuf], pigments: bool) -> anyhow::Result<OpenSheets> {
-        if let Some(option) = self.exports.of_paint().filter(|_| !pigments) {
-            return Err(Refusal::usage(
+    /// Whether there is a mask.
+    pub(super) fn masked(&self) -> bool {
+        self.dry_brush_mask.is_some() || self.density_mask.is_some()
+    }
+
+    /// Checks that a picture with or without `pigments` can be all that is wanted.
+    pub(super) fn check(&self, pigments: bool) -> anyhow::Result<()> {
+        match self.exports.of_paint().filter(|_| !pigments) {
+            None => Ok(()),
+            Some(option) => Err(Refusal::usage(
                 format!("{option} tells of pigments, and this picture has none"),
                 "add --pigments LIBRARY",
+            )),
+        }
+    }
+
+    /// Checks that all can be written, beside an animation and over no input.
+    pub(super) fn open(
+        self,
+        inputs: Vec<PathBuf>,
+        animation: Option<&Output>,
+    ) -> anyhow::Result<OpenSheets> {
+        let Self { exports, stages, dry_brush_mask, density_mask } = self;
+        let exports = exports.open(&inputs)?;
+        if let Some(animation) = animation.filter(|animation| exports.writes(animation)) {
+            return Err(Refusal::usage(
+                format!(
+                    "{}: the picture and the animation would be this file",
+                    animation.path().display()
+                ),
+                "give each a name of its own",
             ));
         }
-        if let Some(folder) = &self.stages {
+        if let Some(folder) = &stages {
             let cannot = || format!("{}: this folder cannot be made", folder.display());
             std::fs::create_dir_all(folder).with_context(cannot)?;
-            Output::open(&stage_path(folder, 1, "stage"), inputs)?;
+            Output::open(&stage_path(folder, 1, "stage"), &inputs)?;
         }
-        let Self { exports, stages, dry_brush_mask, density_mask } = self;
-        Ok(OpenSheets { exports: exports.open(inputs)?, stages, dry_brush_mask, density_mask })
+        Ok(OpenSheets { exports, stages, dry_brush_mask, density_mask, inputs })
     }
 }
 
@@ -76,11 +102,6 @@ impl OpenSheets {
     /// Whether anybody looks at the stages.
     pub(super) fn watched(&self) -> bool {
         self.stages.is_some()
-    }
-
-    /// Whether there is a mask.
-    pub(super) fn masked(&self) -> bool {
-        self.dry_brush_mask.is_some() || self.density_mask.is_some()
     }
 
     /// The masks, for a picture of this size.
@@ -101,8 +122,12 @@ impl OpenSheets {
     /// Writes the stages, numbered in their order.
     pub(super) fn write_stages(&self, stages: &[NamedStage]) -> anyhow::Result<()> {
         let Some(folder) = &self.stages else { return Ok(()) };
-        for (number, (name, picture)) in (1..).zip(stages) {
-            let output = Output::open(&stage_path(folder, number, name), &[])?;
+        let path = |(number, (name, _)): (usize, &NamedStage)| stage_path(folder, number, name);
+        let open = |path: PathBuf| Output::open(&path, &self.inputs);
+        // All of them first: nothing is written where one cannot be.
+        let outputs: Vec<Output> =
+            (1..).zip(stages).map(path).map(open).collect::<anyhow::Result<_>>()?;
+        for (output, (_, picture)) in outputs.into_iter().zip(stages) {
             output.write(frame_png(&frame_of(&on_white(picture)))?)?;
         }
         Ok(())

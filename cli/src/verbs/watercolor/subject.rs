@@ -11,6 +11,10 @@ use crate::failure::Refusal;
 
 /// Triangles of a shape that is made here.
 const TRIANGLES: usize = 60_000;
+/// The fewest pixels that a side is asked to have.
+const LEAST: u64 = 16;
+/// The most pixels along a side.
+const MOST: u64 = 16_384;
 /// Width of a picture of a mesh.
 const WIDTH: usize = 1000;
 /// The longer side of a photograph that nobody gave a width.
@@ -21,10 +25,10 @@ const LONGEST: usize = 1600;
 pub(super) struct SubjectOptions {
     /// Width of the picture in pixels [default: a photograph's own, its longer side at most 1600;
     /// of a mesh 1000]
-    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(16..=16384))]
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     width: Option<u64>,
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
-    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(16..=16384))]
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
     /// From where a mesh is seen, all of it in the picture: degrees around it and above the
     /// horizon, and the angle of view, as `30,20,30`; or a file of keyframes (.toml)
@@ -74,9 +78,24 @@ impl SubjectOptions {
             }
         }
         let photograph = Photograph::open(path)?;
-        let (width, height) = photograph.size();
-        let fitting = (LONGEST as f64 / width.max(height) as f64).min(1.0) * width as f64;
+        let (own_width, height) = photograph.size();
+        let fitting = (LONGEST as f64 / own_width.max(height) as f64).min(1.0) * own_width as f64;
         let width = self.width.map_or(fitting.round().max(1.0) as usize, |width| width as usize);
+        let rows = (width as f64 * height as f64 / own_width as f64).round();
+        if self.width.is_none() && width.max(height) < LEAST as usize {
+            return Err(Refusal::usage(
+                format!("{text}: {width} x {height} pixels are too few for a picture"),
+                format!("give --width {LEAST} or more"),
+            ));
+        }
+        if rows > MOST as f64 {
+            return Err(Refusal::usage(
+                format!(
+                    "{text}: a picture has {MOST} pixels a side at most, and this has {rows} rows"
+                ),
+                "give a smaller --width",
+            ));
+        }
         Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
     }
 

@@ -1,1 +1,0 @@
-//! `impasto watercolor`.

@@ -1,0 +1,125 @@
+//! Calibrated pigments instead of the paper's colour model.
+
+use suite::program::{Run, impasto, repository};
+
+use super::{Folder, decoded, difference, mean, opened, painted, picture};
+
+const PALETTE: &str = "Vermilion,Chrome Yellow,Prussian Blue";
+
+fn library() -> String {
+    repository("measurements/van-gogh-oils.pigments.json")
+}
+
+#[track_caller]
+fn relit(painting: &str, options: &[&str]) -> Run {
+    let run = impasto(&[&["relight", painting, "--backend", "cpu"], options].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    run
+}
+
+#[test]
+fn a_painting_of_glazes_is_kept_and_relit() {
+    let folder = Folder::new();
+    let (photo, library) = (folder.photograph(), library());
+    let (out, painting, maps) =
+        (folder.file("out.png"), folder.file("out.exr"), folder.file("maps"));
+    let options = [
+        ["--pigments", &library],
+        ["--palette", PALETTE],
+        ["--picture", &out],
+        ["--output", &painting],
+        ["--pigment-maps", &maps],
+    ];
+    let run = painted(&photo, &[&options.concat()[..], &["--json"]].concat());
+    let told = run.json();
+    assert_eq!(told["pigments"].as_array().unwrap().len(), 3, "{told}");
+    assert_eq!(told["pigments"][0], "Vermilion");
+    let made = opened(&out);
+    let ([r, _, b], [far_r, _, far_b]) = (mean(&made, 4, 40), mean(&made, 120, 156));
+    assert!(r > b + 30.0 && far_b > far_r, "{r} {b}, {far_r} {far_b}");
+
+    let names = folder.names("maps");
+    for pigment in ["vermilion", "chrome-yellow", "prussian-blue", "thickness"] {
+        let name = format!("painting.{pigment}.png");
+        assert!(names.contains(&name), "{name} is none of {names:?}");
+    }
+    let amount = |pigment: &str, left: u32, right: u32| {
+        let map = image::open(format!("{maps}/painting.{pigment}.png")).unwrap().into_luma16();
+        let inside = map.enumerate_pixels().filter(|(x, ..)| (left..right).contains(x));
+        inside.map(|(.., pixel)| u64::from(pixel.0[0])).sum::<u64>()
+    };
+    assert!(amount("vermilion", 4, 40) > 2 * amount("vermilion", 120, 156));
+    assert!(amount("prussian-blue", 120, 156) > 2 * amount("prussian-blue", 4, 40));
+
+    let [same, lamp] = ["D65", "A"].map(|light| {
+        let again = folder.file(&format!("{light}.png"));
+        relit(&painting, &["--illuminant", light, "--picture", &again]);
+        opened(again)
+    });
+    assert_eq!(difference(&made, &same).1, 0, "another picture under the same light");
+    assert!(difference(&made, &lamp).0 > 1.0, "an incandescent lamp changes nothing");
+}
+
+#[test]
+fn pigments_are_chosen_and_paper_and_light_are_given() {
+    let folder = Folder::new();
+    let (photo, library) = (folder.photograph(), library());
+    let out = folder.file("out.png");
+    let with = |options: &[&str]| {
+        let all =
+            [&["--pigments", &library, "--width", "48", "--picture", &out, "--json"], options];
+        let told = painted(&photo, &all.concat()).json();
+        (opened(&out), told["pigments"].as_array().unwrap().len())
+    };
+    let (chosen, count) = with(&[]);
+    assert!((3..=8).contains(&count), "{count}");
+    let sum = |picture: &_| mean(picture, 0, 48).iter().sum::<f64>();
+    let palette: &[&str] = &["--palette", PALETTE];
+    let [white, grey] = ["0.95", "0.3"].map(|over| with(&[palette, &["--over", over]].concat()).0);
+    assert!(sum(&white) > sum(&grey) + 60.0, "{} {}", sum(&white), sum(&grey));
+    let [red, blue] = ["paper.colour=#c06060", "paper.colour=#6060c0"].map(|set| {
+        let [r, _, b] = mean(&with(&[palette, &["--set", set]].concat()).0, 0, 48);
+        r / b
+    });
+    assert!(red > 1.5 * blue, "the paper's colour shows through: {red} {blue}");
+    let lamp = with(&[palette, &["--over", "0.95", "--illuminant", "A"]].concat()).0;
+    assert!(difference(&white, &lamp).0 > 1.0, "a lamp changes nothing");
+    let plain = decoded(&picture(&folder, &photo, &["--width", "48"]));
+    assert!(difference(&plain, &chosen).0 > 1.0, "pigments are of no account");
+    assert!(difference(&plain, &chosen).0 < 60.0, "pigments give another picture");
+}
+
+#[test]
+fn a_mesh_turns_in_the_pigments_of_its_first_frame() {
+    let folder = Folder::new();
+    let (mesh, library, frames) = (folder.pyramid(), library(), folder.file("frames"));
+    let options = ["--pigments", &library, "--width", "32", "--turntable", "3"];
+    let more = ["--frames", &frames, "--json"];
+    let turn = || painted(&mesh, &[&options[..], &more].concat()).json();
+    let frame = |n: usize| std::fs::read(format!("{frames}/frame-000{n}.png")).unwrap();
+    let first = turn();
+    assert_eq!(first["frames_found"], 0);
+    assert!(first["pigments"].as_array().unwrap().len() > 2, "{first}");
+    let before = [1, 2, 3].map(frame);
+    std::fs::remove_file(format!("{frames}/frame-0002.png")).unwrap();
+    let again = turn();
+    assert_eq!((&again["frames_found"], &again["pigments"]), (&2.into(), &first["pigments"]));
+    assert!([1, 2, 3].map(frame) == before, "the frame that was missing has other pigments");
+    assert_eq!(turn()["pigments"], first["pigments"], "pigments of frames that are all there");
+
+    let still = folder.file("still.exr");
+    painted(&mesh, &[&options[..4], &["--output", &still, "--palette", PALETTE]].concat());
+    let told = relit(&still, &["--json"]).json();
+    assert_eq!(told["canvas"], serde_json::json!([32, 24]));
+}
+
+#[test]
+fn where_nothing_is_seen_there_is_bare_paper() {
+    let folder = Folder::new();
+    let (mesh, library, out) = (folder.pyramid(), library(), folder.file("out.png"));
+    let path = "frames = 1\n[[keyframe]]\neye = [0.0, 1.0, 8.0]\ntarget = [0.0, 1.0, 99.0]\n";
+    let away = folder.write("away.toml", path);
+    let options = ["--pigments", &library, "--width", "32", "--camera", &away, "--picture", &out];
+    painted(&mesh, &options);
+    assert!(opened(&out).pixels().all(|pixel| pixel.0.iter().all(|value| *value > 200)));
+}

@@ -1,0 +1,324 @@
+//! What is refused: each with its exit status, what is wrong, and a way out.
+
+use std::path::Path;
+
+use suite::program::{Run, impasto, repository};
+
+use super::{Folder, watercolor};
+
+#[track_caller]
+fn refused(run: &Run, status: u8, what: &str, hint: &str) {
+    let hint = format!("hint: {hint}");
+    assert_eq!(run.status, status, "{what}: {}", run.err);
+    assert!(run.err.contains(what), "no `{what}` in {}", run.err);
+    assert!(run.err.contains(&hint), "no `{hint}` in {}", run.err);
+    assert!(run.out.is_empty(), "{what}: {}", run.out);
+}
+
+/// A wish that the options themselves forbid.
+#[track_caller]
+fn misused(run: &Run, what: &str) {
+    assert_eq!(run.status, 2, "{what}: {}", run.err);
+    assert!(run.err.contains(what), "no `{what}` in {}", run.err);
+}
+
+#[test]
+fn without_a_file_to_write_nothing_is_done() {
+    let folder = Folder::new();
+    let photo = folder.photograph();
+    for options in [&[][..], &["--json"], &["--turntable", "4"], &["--preset", "sketch"]] {
+        let run = watercolor(&photo, options);
+        refused(&run, 2, "nothing would be written", "add --picture watercolor.png");
+    }
+    misused(&impasto(&["watercolor"]), "<SUBJECT>");
+    misused(&impasto(&["watercolor", &photo, "--show-preset", "sketch"]), "cannot be used with");
+}
+
+#[test]
+fn subjects_that_cannot_be_read() {
+    let folder = Folder::new();
+    let out = folder.file("out.png");
+    let text = folder.write("text.png", "no picture");
+    let stl = folder.write("model.stl", "solid");
+    let broken = folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    let photo = folder.photograph();
+    let none = |name: &str| folder.file(name);
+    for (subject, options, status, what, hint) in [
+        (&none("none.png"), &[][..], 1, "none.png", "check the path"),
+        (&none("none.obj"), &[], 1, "none.obj", "check the path"),
+        (&text, &[], 1, "text.png: no picture that can be read", "save it as PNG or JPEG"),
+        (&stl, &[], 1, "model.stl: no picture that can be read", "save it as PNG or JPEG"),
+        (&stl, &["--turntable", "4"], 2, "model.stl is none", "meshes end in .obj"),
+        (&broken, &[], 1, "broken.obj: line 4: no place `4`, there are 3", "mend that place"),
+        (
+            &"shape:cube".to_owned(),
+            &[],
+            2,
+            "there is no shape `cube`",
+            "shapes are still-life, village",
+        ),
+        (&photo, &["--turntable", "4"], 2, "--turntable is for meshes, and ", "meshes end in .obj"),
+        (&photo, &["--camera", "30,20"], 2, "--camera is for meshes", "meshes end in .obj"),
+        (&photo, &["--height", "64"], 2, "--height is for meshes", "meshes end in .obj"),
+    ] {
+        refused(
+            &watercolor(subject, &[&["--picture", &out], options].concat()),
+            status,
+            what,
+            hint,
+        );
+        assert!(!Path::new(&out).exists(), "{what}: something was written");
+    }
+    let dot = folder.file("dot.png");
+    image::RgbImage::new(15, 3).save(&dot).unwrap();
+    let run = watercolor(&dot, &["--picture", &out]);
+    refused(&run, 2, "dot.png: 15 x 3 pixels are too few", "give --width 16 or more");
+    let narrow = folder.file("narrow.png");
+    image::RgbImage::new(2, 200).save(&narrow).unwrap();
+    let run = watercolor(&narrow, &["--width", "16384", "--picture", &out]);
+    refused(&run, 2, "at most, and this has 1638400 rows", "give a smaller --width");
+    misused(&watercolor(&photo, &["--width", "15", "--picture", &out]), "16..=16384");
+}
+
+#[test]
+fn looks_that_are_none() {
+    let folder = Folder::new();
+    let (photo, out) = (folder.photograph(), folder.file("out.png"));
+    let file = |name: &str, text: &str| folder.write(name, text);
+    let key = file("key.toml", "[edges]\n# too much\nstronger = 1\n");
+    let range = file("range.toml", "\n[edges]\nstrength = 99\n");
+    let colour = file("colour.toml", "[paper]\ncolour = \"red\"\n");
+    let torn = file("torn.toml", "[paper\n");
+    let (none, scan) =
+        (folder.file("none.toml"), file("scan.toml", "[paper]\nscan = \"none.png\"\n"));
+    let preset = "start from a preset's file";
+    for (option, value, status, what, hint) in [
+        ("--settings", none.as_str(), 1, "none.toml: ", "presets are portrait, landscape, sketch"),
+        ("--settings", &key, 1, "key.toml, line 3: unknown field `stronger`", preset),
+        (
+            "--settings",
+            &range,
+            1,
+            "range.toml, line 3: edges.strength takes 0 to 10, found `99`",
+            "3 is usual",
+        ),
+        (
+            "--settings",
+            &colour,
+            1,
+            "colour.toml, line 2: paper.colour is written #rrggbb, found `red`",
+            "a warm white",
+        ),
+        ("--settings", &torn, 1, "torn.toml, line 1: ", preset),
+        ("--settings", &scan, 1, "none.png", "paper.scan names a PNG or JPEG"),
+        (
+            "--set",
+            "edges.strength",
+            2,
+            "--set takes KEY=VALUE, found `edges.strength`",
+            "--set edges.strength=2",
+        ),
+        (
+            "--set",
+            "edges.strength=99",
+            1,
+            "--set edges.strength=99, line 1: edges.strength takes 0 to 10",
+            "3 is usual",
+        ),
+        (
+            "--set",
+            "edges.strength=NaN",
+            1,
+            "edges.strength takes 0 to 10, found `NaN`",
+            "3 is usual",
+        ),
+        (
+            "--set",
+            "edges.stronger=1",
+            1,
+            "--set edges.stronger=1, line 1: unknown field `stronger`",
+            preset,
+        ),
+        ("--set", "edge.strength=1", 1, "unknown field `edge`", preset),
+        ("--set", "edges.strength=much", 1, "invalid type: string \"much\"", preset),
+        ("--set", "edges.strength=", 1, "invalid type: string \"\"", preset),
+        ("--set", "flow.seed=-1", 1, "--set flow.seed=-1, line 1: ", preset),
+        ("--set", "paper.kind=velvet", 1, "unknown variant `velvet`", preset),
+        (
+            "--set",
+            "dry_brush.colour=blue",
+            1,
+            "dry_brush.colour is written #rrggbb, found `blue`",
+            "a warm white",
+        ),
+        ("--set", "coherence.method=none", 1, "unknown variant `none`", preset),
+    ] {
+        refused(&watercolor(&photo, &["--picture", &out, option, value]), status, what, hint);
+        assert!(!Path::new(&out).exists(), "{what}: something was written");
+    }
+    let mesh = folder.pyramid();
+    let run = watercolor(&mesh, &["--picture", &out, "--settings", &scan]);
+    refused(&run, 1, "none.png", "paper.scan names a PNG or JPEG");
+    for option in ["--preset", "--show-preset"] {
+        let run = impasto(&["watercolor", option, "oil"]);
+        misused(&run, "[possible values: portrait, landscape, sketch]");
+    }
+}
+
+#[test]
+fn cameras_that_see_nothing() {
+    let folder = Folder::new();
+    let (mesh, out) = (folder.pyramid(), folder.file("out.png"));
+    let with =
+        |options: &[&str]| watercolor(&mesh, &[&["--picture", &out, "--camera"], options].concat());
+    for camera in
+        ["30", "30,91", "30,-91", "30,20,0", "30,20,171", "1,2,3,4", "a,b", "", "NaN,20", "inf,1"]
+    {
+        let what = format!("or a .toml file, found `{camera}`");
+        refused(&with(&[camera]), 2, &what, "--camera 30,20 is usual");
+    }
+    let keyframe = "[[keyframe]]\neye = [0.0, 0.0, 9.0]\ntarget = [0.0, 0.0, 0.0]\n";
+    let file = |name: &str, text: &str| folder.write(name, text);
+    let torn = file("torn.toml", "frames = 2\nframes = 3\n");
+    let empty = file("empty.toml", "frames = 2\n");
+    let none = file("none.toml", &format!("frames = 0\n{keyframe}"));
+    let shut = file("shut.toml", &format!("frames = 2\n{keyframe}field_of_view_deg = 0.0\n"));
+    let sound = file("sound.toml", &format!("frames = 2\n{keyframe}"));
+    let shape = "a path has `frames` and [[keyframe]] tables";
+    refused(&with(&[&folder.file("missing.toml")]), 1, "missing.toml: ", "check the path");
+    refused(&with(&[&torn]), 1, "torn.toml: line 2: ", shape);
+    refused(&with(&[&empty]), 1, "empty.toml: `keyframe`: 0, not 1 to", shape);
+    refused(&with(&[&none]), 1, "none.toml: `frames`: 0, not 1 to", shape);
+    refused(&with(&[&shut]), 1, "`keyframe 1: field_of_view_deg`: `0` is not", shape);
+    let both = with(&[&sound, "--turntable", "4"]);
+    refused(&both, 2, "--turntable moves the camera, and ", "leave one of both out");
+    assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn files_that_cannot_be_written() {
+    let folder = Folder::new();
+    let (photo, mesh, out) = (folder.photograph(), folder.pyramid(), folder.file("out.png"));
+    let [gif, mp4, jpg] = ["out.gif", "out.mp4", "out.jpg"].map(|name| folder.file(name));
+    let turn = ["--width", "32", "--turntable", "3"];
+    let turned = |options: &[&str]| watercolor(&mesh, &[&turn, options].concat());
+    let moves = "add --turntable 60";
+    refused(
+        &watercolor(&photo, &["--animation", &gif]),
+        2,
+        "--animation and --frames need a mesh",
+        moves,
+    );
+    refused(&watercolor(&mesh, &["--animation", &gif]), 2, "and a camera that moves", moves);
+    refused(&turned(&["--animation", &mp4]), 2, "an animation ends in .gif, .png or .apng", "try ");
+    refused(
+        &turned(&["--animation", &gif, "--rate", "0"]),
+        2,
+        "0.1 to 100 frames a second, found `0`",
+        "25 is usual",
+    );
+    refused(
+        &turned(&["--animation", &out, "--picture", &out]),
+        2,
+        "the picture and the animation would be this file",
+        "give each a name",
+    );
+    refused(&watercolor(&photo, &["--picture", &jpg]), 2, "this file ends in .png or .exr", "try ");
+    refused(
+        &watercolor(&photo, &["--picture", &photo]),
+        2,
+        "photo.png: is an input",
+        "give the output",
+    );
+    misused(
+        &watercolor(&photo, &["--picture", &folder.file("no/such.png")]),
+        "such.png: cannot be written",
+    );
+    misused(&turned(&["--animation", &folder.file("no/such.gif")]), "such.gif: cannot be written");
+    let taken = folder.write("taken", "a file");
+    misused(&turned(&["--frames", &taken]), "taken");
+    misused(&watercolor(&photo, &["--stages", &taken]), "taken: this folder cannot be made");
+    assert_eq!(folder.names("."), ["photo.png", "pyramid.obj", "taken"]);
+
+    // Masks, settings and stages are inputs too.
+    let mask = folder.mask();
+    let run = watercolor(&photo, &["--density-mask", &mask, "--picture", &mask]);
+    refused(&run, 2, "mask.png: is an input", "give the output");
+    let before = std::fs::read(&photo).unwrap();
+    std::fs::create_dir(folder.file("stages")).unwrap();
+    let inside = folder.write("stages/02-regions.png", &before);
+    let run = watercolor(&inside, &["--stages", &folder.file("stages")]);
+    refused(&run, 2, "02-regions.png: is an input", "give the output");
+    assert_eq!(folder.names("stages"), ["02-regions.png"], "no stage was written");
+    assert!(std::fs::read(&inside).unwrap() == before);
+
+    // Frames of nobody stay as they are, and so does everything else.
+    std::fs::create_dir(folder.file("theirs")).unwrap();
+    folder.write("theirs/frame-0002.png", "whose?");
+    let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
+    refused(&run, 2, "frame-0002.png: here already", "name an empty folder");
+    folder.write("theirs/animation.json", "{}");
+    let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
+    refused(&run, 2, "animation.json: missing field", "name an empty folder, or remove this one");
+    assert_eq!(folder.names("theirs"), ["animation.json", "frame-0002.png"]);
+    assert!(!Path::new(&out).exists(), "a picture was written beside");
+}
+
+#[test]
+fn masks_and_pigments_where_they_do_not_belong() {
+    let folder = Folder::new();
+    let (photo, mesh, mask) = (folder.photograph(), folder.pyramid(), folder.mask());
+    let (out, exr, stages) =
+        (folder.file("out.png"), folder.file("out.exr"), folder.file("stages"));
+    for option in ["--dry-brush-mask", "--density-mask"] {
+        let run = watercolor(&mesh, &["--picture", &out, "--stages", &stages, option, &mask]);
+        refused(
+            &run,
+            2,
+            "masks are laid over photographs, and this is a mesh",
+            "leave --dry-brush-mask",
+        );
+        let run = watercolor(&photo, &["--picture", &out, option, &folder.file("none.png")]);
+        refused(&run, 1, "none.png", "check the path");
+    }
+    let folder_of_maps = folder.file("maps");
+    for (option, value) in
+        [("--output", &exr), ("--spectral", &exr), ("--pigment-maps", &folder_of_maps)]
+    {
+        let run = watercolor(&photo, &["--stages", &stages, option, value]);
+        refused(&run, 2, &format!("{option} tells of pigments"), "add --pigments LIBRARY");
+    }
+    for (option, value) in [("--palette", "Vermilion"), ("--over", "0.9"), ("--illuminant", "A")] {
+        misused(&watercolor(&photo, &["--picture", &out, option, value]), "--pigments <LIBRARY>");
+    }
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let with = |options: &[&str]| {
+        watercolor(
+            &photo,
+            &[&["--picture", &out, "--stages", &stages, "--pigments", &library], options].concat(),
+        )
+    };
+    refused(&with(&["--palette", "Vermilion,Mauvein"]), 1, "`Mauvein`", "");
+    refused(
+        &with(&["--palette", "Vermilion,Vermilion"]),
+        2,
+        "once, found `Vermilion` again",
+        "leave the second out",
+    );
+    refused(&with(&["--over", "1.5"]), 2, "--over takes 0 to 1", "try --over 0.85");
+    refused(&with(&["--illuminant", "D66x"]), 2, "D66x", "");
+    let missing = folder.file("none.json");
+    misused(
+        &watercolor(&photo, &["--picture", &out, "--pigments", &missing]),
+        "none.json: cannot be read",
+    );
+    let text = folder.write("text.json", "{}");
+    let run = watercolor(&photo, &["--picture", &out, "--pigments", &text]);
+    assert!(run.status == 1 && run.err.contains("text.json"), "{}", run.err);
+    let left = folder.names(".");
+    assert_eq!(
+        left,
+        ["mask.png", "photo.png", "pyramid.obj", "text.json"],
+        "something was written"
+    );
+}
