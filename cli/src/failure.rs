@@ -24,7 +24,6 @@ use render::paint::strokes::{BeginningError, StrokesError};
 use render::photograph::{PhotographError, SeparationError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
-    TonesError,
 };
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
@@ -180,7 +179,7 @@ fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> 
     if let Some(error) = paper {
         return Some(error.hint());
     }
-    if let Some(error) = cause.downcast_ref::<TonesError>() {
+    if let Some(ModelPainterError::Tones(error)) = cause.downcast_ref() {
         return Some(error.hint().to_owned());
     }
     if let Some(error) = cause.downcast_ref::<GlazeError>() {
@@ -237,9 +236,11 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SeparationError>()
         || cause.is::<SettingsError>()
         || cause.is::<PaperTextureError>()
-        || cause.is::<TonesError>()
         || cause.is::<GlazeError>()
-        || matches!(cause.downcast_ref(), Some(ModelPainterError::Paper(_)))
+        || matches!(
+            cause.downcast_ref(),
+            Some(ModelPainterError::Paper(_) | ModelPainterError::Tones(_))
+        )
         || cause.is::<MeshError>()
         || cause.is::<CameraPathError>()
         || faulty_lamp;
