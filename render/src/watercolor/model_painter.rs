@@ -12,6 +12,7 @@ use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
 use super::textures::{PaperTextureError, Textures, TexturesOn};
 use super::tones::{Tones, TonesError};
 use super::toon::{Light, Shading, Toon};
+use super::wash::Controls;
 use crate::camera::Camera;
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
@@ -35,6 +36,7 @@ pub struct ModelPainter<B: MovingBackend> {
     settings: Settings,
     textures: TexturesOn<B>,
     noise: Noise<B>,
+    controls: Controls,
     width: usize,
     height: usize,
 }
@@ -83,7 +85,26 @@ impl<B: MovingBackend> ModelPainter<B> {
         let textures = Textures::new(width, height, &settings)?.on(backend)?;
         let noise = Noise::new(backend, &mesh, &settings)?;
         let model = backend.model(PackedMesh::new(&mesh))?;
-        Ok(Self { model, toon, settings, textures, noise, width, height })
+        let controls = Controls::default();
+        Ok(Self { model, toon, settings, textures, noise, controls, width, height })
+    }
+
+    /// Where effects are stronger or weaker, in the picture, from the next one on.
+    ///
+    /// # Panics
+    /// If they are of another size.
+    pub fn set_controls(&mut self, controls: Controls) {
+        for control in controls.dry_brush.iter().chain(&controls.density) {
+            let found = (control.width(), control.height());
+            assert_eq!(found, (self.width, self.height), "a control of the picture's size");
+        }
+        self.controls = controls;
+    }
+
+    /// Where effects are stronger or weaker.
+    #[must_use]
+    pub fn controls(&self) -> &Controls {
+        &self.controls
     }
 
     /// What paints it.
@@ -144,7 +165,10 @@ impl<B: MovingBackend> ModelPainter<B> {
         let TexturesOn { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] =
             noise.as_ref().map_or([flow, dispersion], |[flow, grain]| [flow, grain]);
-        let wash = WashOn { colour, dry_brush: None, density: None };
+        let mut grey =
+            |field: &Option<_>| field.as_ref().map(|field| backend.grey_of(field)).transpose();
+        let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
+        let wash = WashOn { colour, dry_brush, density };
         paint(backend, wash, flow, dispersion, paper, &self.settings, watcher)
     }
 }

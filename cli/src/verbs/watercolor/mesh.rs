@@ -5,7 +5,7 @@ use render::export::frame_of;
 use render::field::Field;
 use render::mesh::Mesh;
 use render::watercolor::{
-    Controls, ModelPainter, Moment, MovingBackend as Backend, Textures, TexturesOn, Wash,
+    ModelPainter, Moment, MovingBackend as Backend, Textures, TexturesOn, Wash,
 };
 
 use super::moving::Wish;
@@ -27,15 +27,18 @@ pub(super) fn paint<B: Backend>(
 ) -> anyhow::Result<Made> {
     let Work { title, settings, mut glazing, sheets, moving } = work;
     let (width, height) = size;
+    let controls = sheets.controls(width, height)?;
     let mut wish = Wish::default().and(&env!("CARGO_PKG_VERSION")).and(&settings).and(&cameras);
     if moving.is_some() {
         wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
         // Settings have the names of pictures alone.
         wish = wish.and(&settings.paper.scan.as_ref().map(std::fs::read));
         wish = wish.and(&settings.toon.greys.as_ref().map(std::fs::read));
+        wish = wish.and(&controls);
     }
     let settings = settings.for_size(width, height);
     let mut painter = ModelPainter::new(backend, mesh, settings, size, SAMPLES)?;
+    painter.set_controls(controls);
     let Some(first) = cameras.first() else {
         return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
     };
@@ -115,5 +118,5 @@ fn at_rest<B: Backend>(
         paper: paper.texture.clone(),
     };
     let colour = backend.colour_field(&colour)?;
-    Ok((Wash { colour, controls: Controls::default() }, textures))
+    Ok((Wash { colour, controls: painter.controls().clone() }, textures))
 }

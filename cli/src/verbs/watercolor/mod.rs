@@ -109,12 +109,6 @@ impl Watercolor {
                 "add --turntable 60, or --camera path.toml with keyframes",
             ));
         }
-        if self.sheets.masked() && matches!(subject, Subject::Mesh(..)) {
-            return Err(Refusal::usage(
-                "masks are laid over photographs, and this is a mesh",
-                "leave --dry-brush-mask and --density-mask out; --set dry_brush.colour=#rrggbb chooses by colour",
-            ));
-        }
         self.sheets.check(self.pigments.input().is_some())?;
         let glazing = self.pigments.glazing(&settings, console)?;
         let moving = self.moving.open(&inputs)?;

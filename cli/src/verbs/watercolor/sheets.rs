@@ -22,10 +22,10 @@ pub(super) struct SheetOptions {
     /// Write every stage on the way into this folder, as PNG
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     stages: Option<PathBuf>,
-    /// Where the brush is dry: a picture laid over a photograph, white where it is
+    /// Where the brush is dry: a mask laid over the picture, white where it is
     #[arg(long, value_name = "PICTURE", help_heading = "Look")]
     dry_brush_mask: Option<PathBuf>,
-    /// Where density changes: a picture laid over a photograph, white where it does
+    /// Where density changes: a mask laid over the picture, white where it does
     #[arg(long, value_name = "PICTURE", help_heading = "Look")]
     density_mask: Option<PathBuf>,
 }
@@ -50,11 +50,6 @@ impl SheetOptions {
     /// The masks.
     pub(super) fn inputs(&self) -> impl Iterator<Item = PathBuf> {
         self.dry_brush_mask.iter().chain(&self.density_mask).cloned()
-    }
-
-    /// Whether there is a mask.
-    pub(super) fn masked(&self) -> bool {
-        self.dry_brush_mask.is_some() || self.density_mask.is_some()
     }
 
     /// Checks that a picture with or without `pigments` can be all that is wanted.
