@@ -147,7 +147,10 @@ mod tests {
         assert_eq!(count, 4);
         let wanted: Vec<u32> = (0..80).map(|i| i / 20).collect();
         assert_eq!(found.values(), wanted);
-        assert_eq!(cut(&labels, 1, &row(&colours), 90.0).1, 1);
+        assert_eq!(
+            [60.0, 88.0, 90.0].map(|step| cut(&labels, 1, &row(&colours), step).1),
+            [2, 2, 1]
+        );
     }
 
     #[test]

@@ -13,6 +13,7 @@ use suite::adapter::device;
 fn photograph() -> Photograph {
     let picture = RgbaImage::from_fn(90, 60, |x, y| match x {
         10..=11 if (30..32).contains(&y) => Rgba([90, 90, 90, 255]),
+        20 if y == 50 => Rgba([203, 40, 30, 255]),
         0..30 => Rgba([200, 40, 30, 255]),
         30..60 => Rgba([30, 60, 180, 128]),
         _ => Rgba([0, 0, 0, 0]),
@@ -38,7 +39,7 @@ fn photographs_become_flat_with_their_opacity() {
     assert_eq!((found.original.width(), found.original.height()), (90, 60));
     assert_eq!(found.regions, 4);
     let near = |found: [f32; 4], wanted: [f32; 4]| {
-        found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-5)
+        found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 2e-5)
     };
     let bytes = |rgba: [u8; 4]| rgba.map(|byte| f32::from(byte) / 255.0);
     for stage in [&found.original, &found.segmented, &found.smoothed] {
@@ -46,6 +47,9 @@ fn photographs_become_flat_with_their_opacity() {
         assert!(near(stage[(45, 5)], bytes([30, 60, 180, 128])), "{:?}", stage[(45, 5)]);
         assert_eq!(stage[(80, 5)], [1.0, 1.0, 1.0, 0.0]);
     }
+    // One texel of the red is a little lighter: flattening spreads it over its region.
+    assert!(near(found.original[(20, 50)], bytes([203, 40, 30, 255])), "as it was read");
+    assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
     assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
     assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
     assert_eq!(found.clone().into_wash().colour, found.smoothed);
