@@ -12,7 +12,7 @@ use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
 use super::textures::{PaperTextureError, Textures, TexturesOn};
 use super::tones::{Tones, TonesError};
 use super::toon::{Light, Shading, Toon};
-use super::wash::Controls;
+use super::wash::{Controls, Wash};
 use crate::camera::Camera;
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
@@ -101,12 +101,6 @@ impl<B: MovingBackend> ModelPainter<B> {
         self.controls = controls;
     }
 
-    /// Where effects are stronger or weaker.
-    #[must_use]
-    pub fn controls(&self) -> &Controls {
-        &self.controls
-    }
-
     /// What paints it.
     #[must_use]
     pub fn settings(&self) -> &Settings {
@@ -138,6 +132,27 @@ impl<B: MovingBackend> ModelPainter<B> {
         let depth = backend.depths(&seen)?;
         let noise = noise.at(backend, &depth, &Sight::new(camera, *width, *height))?;
         Ok(Moment { colour, noise })
+    }
+
+    /// The same with the processor, for glazes: the wash, and the textures of the moment.
+    ///
+    /// # Errors
+    /// As [`super::Backend::colour_of`].
+    pub fn at_rest(
+        &mut self,
+        backend: &mut B,
+        camera: &Camera,
+    ) -> Result<(Wash, Textures), GpuError> {
+        let Moment { colour, noise } = self.moment(backend, camera)?;
+        let TexturesOn { flow, dispersion, paper } = &self.textures;
+        let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
+        let textures = Textures {
+            flow: backend.grey_field(flow)?,
+            dispersion: backend.grey_field(dispersion)?,
+            paper: paper.texture.clone(),
+        };
+        let colour = backend.colour_field(&colour)?;
+        Ok((Wash { colour, controls: self.controls.clone() }, textures))
     }
 
     /// The surface without light, as a stage of its own.

@@ -4,9 +4,7 @@ use render::camera::Camera;
 use render::export::frame_of;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::{
-    ModelPainter, Moment, MovingBackend as Backend, Textures, TexturesOn, Wash,
-};
+use render::watercolor::{ModelPainter, MovingBackend as Backend};
 
 use super::moving::Wish;
 use super::sheets::{encoded, linear};
@@ -67,7 +65,7 @@ pub(super) fn paint<B: Backend>(
                 sheets.exports.write_picture(&picture, cell_mm, console)?;
             }
             Some(glazing) => {
-                let (wash, textures) = at_rest(backend, &mut painter, first)?;
+                let (wash, textures) = painter.at_rest(backend, first)?;
                 let mut painting =
                     glazing.painting(&title, &wash, &textures, painter.settings())?;
                 sheets.exports.write(&mut painting, console)?;
@@ -79,7 +77,7 @@ pub(super) fn paint<B: Backend>(
     if let Some(shooting) = shooting {
         if let Some(glazing) = &mut glazing {
             // By the first camera, whichever frames are still to be made.
-            let (wash, _) = at_rest(backend, &mut painter, first)?;
+            let (wash, _) = painter.at_rest(backend, first)?;
             glazing.choose(&wash)?;
         }
         let found = shooting.make(console, |index| {
@@ -90,7 +88,7 @@ pub(super) fn paint<B: Backend>(
                     backend.colour_field(&colour)?
                 }
                 Some(glazing) => {
-                    let (wash, textures) = at_rest(backend, &mut painter, camera)?;
+                    let (wash, textures) = painter.at_rest(backend, camera)?;
                     let settings = painter.settings();
                     encoded(&glazing.painting("frame", &wash, &textures, settings)?.picture()?)
                 }
@@ -101,22 +99,4 @@ pub(super) fn paint<B: Backend>(
     }
     let pigments = glazing.iter().flat_map(Glazing::names).map(str::to_owned).collect();
     Ok(Made { size, backend: backend_name, regions: None, frames, pigments })
-}
-
-/// What a camera sees, with the processor.
-fn at_rest<B: Backend>(
-    backend: &mut B,
-    painter: &mut ModelPainter<B>,
-    camera: &Camera,
-) -> anyhow::Result<(Wash, Textures)> {
-    let Moment { colour, noise } = painter.moment(backend, camera)?;
-    let TexturesOn { flow, dispersion, paper } = painter.textures();
-    let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
-    let textures = Textures {
-        flow: backend.grey_field(flow)?,
-        dispersion: backend.grey_field(dispersion)?,
-        paper: paper.texture.clone(),
-    };
-    let colour = backend.colour_field(&colour)?;
-    Ok((Wash { colour, controls: painter.controls().clone() }, textures))
 }
