@@ -9,17 +9,17 @@ use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError};
-use crate::digits::rounded;
-use crate::evaluate::{Viewing, delta_e};
 use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, Refined, Refinement, Smoothness, fit_finite,
     root_mean_square,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 use crate::measurement::MeasurementError;
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
+use pigment::digits::rounded;
+use pigment::evaluate::{Viewing, delta_e};
+use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 
 /// Every film of `set` that lies on a backing of known reflectance, by name.
 ///

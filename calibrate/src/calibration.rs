@@ -2,18 +2,18 @@
 
 use spectra::optics::Surface;
 
-use crate::digits::rounded;
-use crate::evaluate::Viewing;
 use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, RefinedState, Refinement, Unidentified,
     Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations, unidentified,
 };
-use crate::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
+use pigment::digits::rounded;
+use pigment::evaluate::Viewing;
+use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 
 /// A library, and what its making showed.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,19 +1,20 @@
 //! A library held against measurements: what it predicts of each sample, and
 //! what it would predict of mixtures it had not seen.
 
+use pigment::palette::{MeasuredSample, Palette, Recipe};
 use spectra::optics::Surface;
 use spectra::{Ends, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::absolute::{calibrate_absolute, films};
 use crate::calibration::{CalibrationError, calibrate};
-use crate::evaluate::{Summary, Viewing};
 use crate::fit::FitSettings;
-use crate::library::{AmountKind, PigmentLibrary};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
 use crate::scores::Scores;
 use crate::swatch::{Swatch, SwatchSet};
 use crate::validation::{Validation, ValidationPlan, validate, validate_absolute};
+use pigment::evaluate::{Summary, Viewing};
+use pigment::library::{AmountKind, PigmentLibrary};
 
 /// One film, measured and predicted.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +58,23 @@ impl Comparison {
     /// errors are of.
     pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
         self.films.iter().filter(|film| !film.unsure)
+    }
+
+    /// The films whose pigments `palette` can mix, without those that the fit
+    /// excluded. None for absolute amounts, whose films do not hide.
+    #[must_use]
+    pub fn measured_samples(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
+        if palette.library().amounts == AmountKind::Absolute {
+            return Vec::new();
+        }
+        let known = |recipe: &Recipe| recipe.iter().all(|(p, _)| palette.paints().contains(p));
+        let films = self.films.iter().filter(|film| !film.excluded && known(&film.recipe));
+        let sample = |film: &ComparedFilm| MeasuredSample {
+            sample: film.sample.clone(),
+            recipe: film.recipe.clone(),
+            reflectance: film.measured.clone(),
+        };
+        films.map(sample).collect()
     }
 }
 

@@ -1,11 +1,11 @@
 //! What the data cannot tell, in words.
 
-use crate::evaluate::percentile;
 use crate::fit::{Condition, Unidentified, Unknown};
-use crate::library::SampleEvidence;
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, Door, Hiding, Observation};
 use crate::swatch::SwatchSet;
+use pigment::evaluate::percentile;
+use pigment::library::SampleEvidence;
 use spectra::optics::Surface;
 
 /// Every warning a fit should carry, in order of weight.

@@ -1,12 +1,15 @@
 //! From swatches of paint to a calibrated pigment library.
 //!
 //! In scope: reading measurements of mixtures, K/S of films that hide or not,
-//! fitting each pigment's K and S, what the data cannot tell, validation, the
-//! library file and what one does with several, mixing forward, quadrature in
-//! wavelength, and recipes for a colour. Out of scope: charts, and anything with
-//! a brush.
+//! fitting each pigment's K and S, what the data cannot tell, validation, and plans
+//! of what to measure. What one does with a library once there is one stands in
+//! the crate `pigment`, whose modules are here too.
 //!
 //! Files stand in an order of dependence; each uses only what stands above it.
+
+pub use pigment::{
+    curation, digits, evaluate, library, matching, mixture, palette, quadrature, smooth_reflectance,
+};
 
 pub mod measurement;
 
@@ -14,21 +17,7 @@ pub mod swatch;
 
 pub mod observation;
 
-pub mod digits;
-
-pub mod evaluate;
-
-pub mod mixture;
-
-mod least_squares;
-
-pub mod smooth_reflectance;
-
 pub mod fit;
-
-pub mod library;
-
-pub mod curation;
 
 mod scores;
 
@@ -42,12 +31,8 @@ pub mod validation;
 
 pub mod comparison;
 
+mod cards;
+
 pub mod plan;
-
-pub mod quadrature;
-
-pub mod palette;
-
-pub mod matching;
 
 pub mod synthetic;

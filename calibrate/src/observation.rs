@@ -5,21 +5,10 @@ use spectra::optics::{
     OverBacking, Surface, SurfaceError, absorption_over_scattering, film_over_two_backings,
 };
 
-use serde::{Deserialize, Serialize};
+pub use pigment::fit_settings::BelowSurface;
 
 use crate::measurement::MeasurementError;
 use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
-
-/// What to do with a reading below what the surface alone reflects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum BelowSurface {
-    /// Refuse, naming sample and wavelength: k1 is too high for this paint.
-    #[default]
-    Refuse,
-    /// Read it as [`BLACK`] below the surface.
-    Floor,
-}
 
 /// The internal reflectance that stands for black: K/S is about 500 there. A
 /// reading nearer to the surface's own reflection carries no more information,

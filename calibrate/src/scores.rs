@@ -2,9 +2,9 @@
 
 use spectra::TristimulusWeights;
 
-use crate::digits::rounded;
-use crate::evaluate::{Summary, delta_e};
-use crate::library::SampleEvidence;
+use pigment::digits::rounded;
+use pigment::evaluate::{Summary, delta_e};
+use pigment::library::SampleEvidence;
 
 /// The errors of a set of films.
 pub(crate) struct Scores {

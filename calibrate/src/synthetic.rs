@@ -9,8 +9,8 @@ use rand_distr::{Distribution, Exp1, StandardNormal};
 use spectra::Grid;
 use spectra::optics::{Specular, Surface, absorption_over_scattering};
 
-use crate::mixture::Mixture;
 use crate::observation::{BLACK, Hiding, Observation};
+use pigment::mixture::Mixture;
 
 /// Mixtures of made-up pigments, the first of them white with S = 1.
 #[derive(Debug, Clone, PartialEq)]

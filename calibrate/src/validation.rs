@@ -6,15 +6,15 @@ use spectra::optics::{Surface, UnevenFilm};
 
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, solve, without};
-use crate::evaluate::{Summary, Viewing};
 use crate::fit::{
     FitError, FitSettings, Problem, RefinedState, Refinement, fit_finite, unidentified,
 };
-use crate::library::SampleEvidence;
-use crate::mixture::Mixture;
 use crate::observation::{Observation, observations};
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
+use pigment::evaluate::{Summary, Viewing};
+use pigment::library::SampleEvidence;
+use pigment::mixture::Mixture;
 
 /// Errors of mixtures predicted without their own measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]

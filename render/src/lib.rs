@@ -1,44 +1,20 @@
-//! Painting with calibrated pigments: thick wet paint moved by a brush, drying
-//! layers, and their colour under any light.
+//! Painting techniques with calibrated pigments: photographs in strokes, and
+//! watercolor of photographs and models.
 //!
-//! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for
-//! Paint" (NPAR 2004). Amounts of paint are integers (see [`amount`]), so that
-//! nothing is ever lost and CPU and GPU agree bit for bit; light is computed in
-//! f32 at eight wavelengths chosen for the illuminant.
-//!
-//! Out of scope: fitting pigments (crate `calibrate`), reading instruments.
+//! Techniques never know each other. What they share stands in the crates
+//! `graphics` and `paint`, whose modules are here too, so that a program depends on
+//! `render` alone.
 
-pub mod amount;
+pub use graphics::{
+    camera, coherence, field, gpu, image, mesh, orientation, picture, surface, tile, tones,
+};
+pub use paint::{self, amount, composite, layer, light, optics, palette, separation, shade};
 
-mod noise;
-
-pub mod tile;
-
-pub mod field;
-
-pub mod layer;
-
-pub mod gpu;
-
-pub mod optics;
-
-pub mod palette;
-
-pub mod light;
-
-pub mod composite;
-
-pub mod shade;
-
-pub mod mesh;
-
-pub mod camera;
-
-pub mod surface;
-
-pub mod paint;
-
-pub mod export;
+/// Files for others, of pictures and of paintings.
+pub mod export {
+    pub use graphics::export::*;
+    pub use paint::export::*;
+}
 
 pub mod photograph;
 

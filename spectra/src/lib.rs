@@ -17,6 +17,8 @@ mod spectrum;
 
 mod samples;
 
+pub mod sheet;
+
 pub mod instrument;
 
 pub mod referencing;

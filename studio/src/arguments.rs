@@ -7,7 +7,7 @@ use clap::{Parser, ValueEnum};
 use render::gpu::BackendChoice;
 
 use crate::files::{Backend, FiguresLog, FileFailure, Home, Preferences};
-use crate::worker::{Pace, WorkerOptions};
+use session::{Pace, WorkerOptions};
 
 /// Paint by hand with calibrated pigments
 ///

@@ -1,8 +1,8 @@
 //! The interactive program: paint by hand with calibrated pigments.
 //!
 //! The window thread draws and listens; all paint is moved on the thread of
-//! [`worker`], which takes [`worker::Command`]s and answers with
-//! [`worker::Event`]s. Panels are functions from what the worker last told to
+//! the crate `session`, which takes [`session::Command`]s and answers with
+//! [`session::Event`]s. Panels are functions from what the worker last told to
 //! commands.
 //!
 //! Out of scope: measuring and fitting pigments (the program `impasto`).
@@ -10,8 +10,6 @@
 pub mod theme;
 
 pub mod chart;
-
-pub mod worker;
 
 pub mod matching;
 

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use calibrate::library::PigmentLibrary;
-use calibrate::matching::{MatchError, MatchRequest, Recipe, Target, Watch, recipes_watched};
+use pigment::library::PigmentLibrary;
+use pigment::matching::{MatchError, MatchRequest, Recipe, Target, Watch, recipes_watched};
 
 /// What is searched for.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,12 +112,12 @@ impl Drop for Matcher {
 mod tests {
     use std::time::{Duration, Instant};
 
-    use calibrate::evaluate::Viewing;
-    use calibrate::matching::{FilmKind, Sight, recipes};
+    use pigment::evaluate::Viewing;
+    use pigment::matching::{FilmKind, Sight, recipes};
     use spectra::color::Lab;
 
     use super::*;
-    use crate::worker::oils;
+    use session::oils;
 
     fn question(lightness: f64, at_most: usize) -> Question {
         let library = Arc::new(oils());

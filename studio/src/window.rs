@@ -13,7 +13,7 @@ use crate::arguments::Start;
 use crate::files::{FileFailure, Files};
 use crate::pen::{Pen, PenSettings};
 use crate::view;
-use crate::worker::fresh;
+use session::fresh;
 
 /// The smallest window in which everything is within reach, in points.
 const SMALLEST: [f32; 2] = [900.0, 600.0];

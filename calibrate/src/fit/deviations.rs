@@ -4,7 +4,7 @@ use super::curves::Curves;
 use super::forward::{Data, Forward};
 use super::objective::{Objective, RIDGE};
 use super::problem::Problem;
-use crate::evaluate::percentile;
+use pigment::evaluate::percentile;
 
 /// Standard deviations of K and S at the minimum of `objective`.
 ///

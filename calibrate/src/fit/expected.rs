@@ -9,7 +9,7 @@ use super::forward::Data;
 use super::noise::Noise;
 use super::objective::RIDGE;
 use super::problem::Problem;
-use crate::evaluate::Viewing;
+use pigment::evaluate::Viewing;
 
 /// How far a swatch's reflectance is expected to be off, as standard
 /// deviations in measured reflectance.

@@ -7,7 +7,7 @@ use super::curves::{Curves, Layout};
 use super::forward::{Data, Finite};
 use super::problem::FitError;
 use super::refined::{Refined, Refinement, refine};
-use crate::mixture::Mixture;
+use pigment::mixture::Mixture;
 
 /// Films of known amounts over known backings.
 #[derive(Debug, Clone)]
@@ -72,7 +72,7 @@ pub fn fit_finite(
     // Bounds and starts are set for amounts near 1, whatever the user's unit.
     let totals: Vec<f64> =
         problem.recipes.iter().map(|r| r.iter().map(|(_, amount)| amount).sum()).collect();
-    let unit = crate::evaluate::percentile(&totals, 50.0);
+    let unit = pigment::evaluate::percentile(&totals, 50.0);
     let recipes: Vec<Vec<(usize, f64)>> = problem
         .recipes
         .iter()

@@ -11,8 +11,6 @@
 //! and one for absolute amounts on a known backing, `finite`, which fits the
 //! finite layer equation itself.
 
-mod settings;
-
 mod problem;
 
 mod program;
@@ -49,9 +47,9 @@ pub use expected::ExpectedNoise;
 pub(crate) use expected::{Belief, PRIOR_INFORMATION, Slopes};
 pub use finite::{FiniteProblem, fit_finite};
 pub use identification::{Unidentified, Unknown, unidentified};
+pub use pigment::fit_settings::{FitSettings, Method, Smoothness};
 pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
 pub use refined::{Refined, RefinedState, Refinement, fit_refined};
-pub use settings::{FitSettings, Method, Smoothness};
 pub use weighted::fit_weighted;

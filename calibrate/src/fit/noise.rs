@@ -5,7 +5,7 @@
 
 use super::colour_term::ColourTerm;
 use super::expected::ExpectedNoise;
-use crate::evaluate::percentile;
+use pigment::evaluate::percentile;
 
 /// How noise spreads over samples and wavelengths.
 pub(super) struct Noise<'a> {

@@ -9,8 +9,8 @@ use super::forward::{Data, Forward};
 use super::noise::Noise;
 use super::objective::{ColourPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
-use super::settings::Smoothness;
 use super::weighted::weighted;
+use pigment::fit_settings::Smoothness;
 
 /// Knee of the spectral loss, in standard deviations.
 const KNEE: f64 = 3.0;
@@ -170,7 +170,7 @@ pub(super) fn refine<F: Forward>(
         .enumerate()
         .map(|(index, values)| term.difference(index, values))
         .collect();
-    let knee = 5.0 * crate::evaluate::percentile(&differences, 50.0).max(0.3);
+    let knee = 5.0 * pigment::evaluate::percentile(&differences, 50.0).max(0.3);
     objective.colour = Some(ColourPart { term: &term, strength: COLOUR_STRENGTH, knee });
     objective.descend(&mut unknowns, 12, 1e-5);
     objective.colour = None;

@@ -1,7 +1,8 @@
 //! What a column of a measurement file holds, by its header.
 
+use spectra::sheet::{Place, SheetError, wavelength_of_header};
+
 use super::error::MeasurementError;
-use super::sheet_error::{Place, SheetError};
 
 /// The meaning of one column.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +40,7 @@ pub(super) fn columns(
     // Pigment Red 254 is R254 to some.
     let plain = |header: &String| {
         let lower = header.trim().to_ascii_lowercase();
-        !lower.starts_with('r') && wavelength(&lower).is_some()
+        !lower.starts_with('r') && wavelength_of_header(&lower).is_some()
     };
     let letters = wanted == Wanted::Readings && !headers.iter().any(plain);
     let mut columns = Vec::with_capacity(headers.len());
@@ -117,7 +118,7 @@ fn column(name: &str, letters: bool) -> Option<Column> {
         "thickness_mm" => Some(Column::Thickness),
         "replicate" => Some(Column::Replicate),
         lower if NO_PIGMENTS.contains(&lower) => Some(Column::Passed),
-        _ => match wavelength(&lower) {
+        _ => match wavelength_of_header(&lower) {
             Some(nm) if lower.starts_with('r') => {
                 if letters && in_range(&nm) {
                     Some(Column::Wavelength(nm))
@@ -177,17 +178,6 @@ const NO_PIGMENTS: [&str; 36] = [
     "aperture",
     "filter",
 ];
-
-/// The number in `400`, `400nm`, `R400`, `SPEC_400` or `nm400`.
-pub(crate) fn wavelength(lower: &str) -> Option<f64> {
-    let bare =
-        ["spec_", "nm", "r"].iter().find_map(|prefix| lower.strip_prefix(prefix)).unwrap_or(lower);
-    let bare = bare.strip_suffix("nm").unwrap_or(bare).trim();
-    if !bare.starts_with(|c: char| c.is_ascii_digit()) {
-        return None;
-    }
-    bare.parse().ok()
-}
 
 #[cfg(test)]
 mod tests {

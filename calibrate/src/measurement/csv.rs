@@ -9,8 +9,8 @@ use super::column::{Column, Wanted, columns};
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
-use super::sheet_error::{Place, SheetError};
 use super::table::{Film, MeasurementTable, Reading};
+use spectra::sheet::{Place, SheetError};
 
 impl MeasurementTable {
     /// The readings in `bytes`, the content of `file`.

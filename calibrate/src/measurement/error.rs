@@ -2,7 +2,7 @@
 
 use spectra::instrument::MeasuredQuantity;
 
-use super::sheet_error::{Place, SheetError};
+use spectra::sheet::{Place, SheetError};
 
 /// Why readings cannot be used. Every variant says where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

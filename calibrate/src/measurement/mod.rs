@@ -19,16 +19,13 @@ mod records;
 
 mod scale;
 
-mod sheet_error;
-
 mod table;
 
 pub use column::names_a_pigment;
-pub(crate) use column::wavelength as wavelength_of_header;
 pub use csv::is_measurement_csv;
 pub use error::MeasurementError;
 pub use recipes::{Recipes, RecipesError};
 pub use records::RecordChoice;
 pub use scale::{Scale, ScaleChoice};
-pub use sheet_error::{Place, SheetError};
+pub use spectra::sheet::{Place, SheetError};
 pub use table::{Film, MeasurementTable, Reading};

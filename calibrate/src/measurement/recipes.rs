@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::column::{Column, Wanted};
 use super::csv::Sheet;
 use super::error::MeasurementError;
-use super::sheet_error::Place;
 use super::table::{Film, MeasurementTable, Reading};
+use spectra::sheet::Place;
 
 /// How many names an error lists.
 const NAMES: usize = 12;

@@ -8,8 +8,8 @@ use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
-use super::sheet_error::Place;
 use super::table::{Film, MeasurementTable, Reading};
+use spectra::sheet::Place;
 
 /// Wavelengths that a table of readings may have, in nm, as in a CSV.
 const BAND: RangeInclusive<f64> = 200.0..=2500.0;

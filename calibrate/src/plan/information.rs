@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 
 use super::palette::Palette;
 use super::recipe::Recipe;
-use crate::evaluate::percentile;
 use crate::fit::{Belief, ExpectedNoise, PRIOR_INFORMATION, Slopes};
-use crate::library::PigmentLibrary;
+use pigment::evaluate::percentile;
+use pigment::library::PigmentLibrary;
 
 /// The information that each recipe of a pool has on log K and log S of every
 /// paint, over a library's wavelengths.

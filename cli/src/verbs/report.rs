@@ -78,7 +78,7 @@ impl Report {
         if let Some(comparison) = &comparison {
             console.warnings(&reports::report::absences(comparison))?;
         }
-        let cards = measured.as_ref().map(|measured| Cards::of(&measured.set, &weights));
+        let cards = measured.as_ref().map(|measured| measured.set.cards(&weights));
         let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
         let page = self.page()?;
 

@@ -7,16 +7,16 @@
 
 use super::plan::Plan;
 use super::planned::{COVER, samples};
-use crate::amount::{mm_from_quanta, quanta_from_mm};
-use crate::field::Field;
-use crate::layer::Layer;
-use crate::paint::brush::{Head, HeadShape, Relief};
-use crate::paint::motion::Motion;
-use crate::paint::on_cpu::OnCpu;
-use crate::paint::painting::PaintingError;
-use crate::paint::pose::Sample;
-use crate::paint::stroke::{contacts, substeps};
-use crate::paint::{BrushId, Engine};
+use graphics::field::Field;
+use paint::amount::{mm_from_quanta, quanta_from_mm};
+use paint::brush::{Head, HeadShape, Relief};
+use paint::layer::Layer;
+use paint::motion::Motion;
+use paint::on_cpu::OnCpu;
+use paint::painting::PaintingError;
+use paint::pose::Sample;
+use paint::stroke::{contacts, substeps};
+use paint::{BrushId, Engine};
 
 /// The most times that a brush goes over one path.
 const MOST_PASSES: usize = 4;

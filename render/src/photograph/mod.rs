@@ -1,28 +1,9 @@
-//! From photographs to pigments, and to strokes.
+//! From photographs to strokes.
 //!
-//! [`Photograph`] reads a picture and brings it to a canvas; [`PaintFilm`] tells
-//! the colour of any film of a palette over a ground; [`Separation`] finds the film for
-//! a colour; [`plan_layer`] plans such films as strokes, coarse to fine; [`Painter`] paints them.
-
-mod source;
-
-mod film;
-
-mod nearest;
-
-mod mixtures;
-
-mod separation;
-
-mod errors;
-
-mod selection;
+//! [`plan_layer`] plans films of paint as strokes, coarse to fine, along the forms;
+//! [`Painter`] paints them.
 
 mod tones;
-
-mod blur;
-
-mod flow;
 
 mod plan;
 
@@ -34,13 +15,13 @@ mod laydown;
 
 mod painter;
 
-pub use errors::{ColourErrors, rebuilt};
-pub use film::{Materials, PaintFilm};
-pub use flow::Flow;
+pub use graphics::orientation::Flow;
+pub use graphics::picture::{Framing, MOST_PIXELS, Photograph, PhotographError, Picture};
+pub use paint::separation::{
+    ChosenPalette, ColourErrors, Materials, OUT_OF_GAMUT, PaintFilm, Separation, SeparationError,
+    SeparationSettings, choose_palette, rebuilt,
+};
 pub use painter::{LevelReport, Painted, Painter, PainterError};
 pub use plan::{Order, Plan, PlanError};
 pub use planned::{PlannedStroke, plan_layer};
-pub use selection::{ChosenPalette, choose_palette};
-pub use separation::{OUT_OF_GAMUT, Separation, SeparationError, SeparationSettings};
-pub use source::{Framing, MOST_PIXELS, Photograph, PhotographError, Picture};
 pub use tones::black_compensated;

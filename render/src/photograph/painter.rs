@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use super::blur::blurred;
-use super::errors::ColourErrors;
 use super::laydown::{Laydown, to_and_fro};
 use super::plan::Plan;
 use super::planned::{PlannedStroke, SIGHT, plan_layer};
-use super::separation::Separation;
-use super::source::Picture;
-use crate::field::Field;
-use crate::paint::brush::HeadShape;
-use crate::paint::easel::{Easel, ReplayError, ReplayReport};
-use crate::paint::painting::{Painting, PaintingError};
-use crate::paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, Strokes, Surface};
+use graphics::blurred;
+use graphics::field::Field;
+use graphics::picture::Picture;
+use paint::brush::HeadShape;
+use paint::easel::{Easel, ReplayError, ReplayReport};
+use paint::painting::{Painting, PaintingError};
+use paint::separation::ColourErrors;
+use paint::separation::Separation;
+use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, Strokes, Surface};
 
 /// Brushes below this width in mm are rounds, those from it on filberts.
 const ROUND_BELOW_MM: f64 = 3.0;

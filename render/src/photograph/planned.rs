@@ -11,15 +11,15 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use spectra::color::{Lab, RgbSpace};
 
-use super::blur::blurred;
-use super::flow::Flow;
 use super::plan::{Order, Plan};
-use super::separation::Separation;
-use super::source::Picture;
 use super::trace::{Ground, cell, distance, traced};
-use crate::field::Field;
-use crate::layer::SLOTS;
-use crate::paint::pose::Sample;
+use graphics::blurred;
+use graphics::field::Field;
+use graphics::orientation::Flow;
+use graphics::picture::Picture;
+use paint::layer::SLOTS;
+use paint::pose::Sample;
+use paint::separation::Separation;
 
 /// Width of the blur that a brush sees by, in its sizes.
 pub(super) const SIGHT: f64 = 0.2;

@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::source::Picture;
-use crate::field::Field;
+use graphics::field::Field;
+use graphics::picture::Picture;
 
 /// A photograph with its black raised to the luminance `black` and its white
 /// kept: black point compensation (ISO 18619:2015), so that its shadows keep
 /// their differences.
 ///
 /// Paint's surface alone reflects some 3 %, so no palette reaches a photograph's
-/// darkest tones. `black` is [`super::Separation::black`] or, before there is a
+/// darkest tones. `black` is [`Separation::black`] or, before there is a
 /// palette, the floor of the library's surface.
 #[must_use]
 pub fn black_compensated(picture: &Picture, black: f32) -> Picture {

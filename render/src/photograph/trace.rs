@@ -3,9 +3,9 @@
 //! Hertzmann 1998: a curved stroke grows until its colour suits the picture less
 //! than what is already there.
 
-use super::flow::Flow;
 use super::plan::Plan;
-use crate::field::Field;
+use graphics::field::Field;
+use graphics::orientation::Flow;
 
 /// What strokes of one level are traced on, in cells.
 pub(super) struct Ground<'a> {

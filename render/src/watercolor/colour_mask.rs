@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
-use super::backend::Backend;
-use super::on_cpu::OnCpu;
-use super::on_gpu::{OnGpu, Plane};
-use crate::field::Field;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::field::Field;
+use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::image::Backend;
+use graphics::image::OnCpu;
+use graphics::image::{OnGpu, Plane};
 
 /// A colour and what counts as like it.
 #[derive(Debug, Clone, Copy, PartialEq)]

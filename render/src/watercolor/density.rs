@@ -9,12 +9,12 @@
 use pulp::Simd;
 use rayon::prelude::*;
 
-use super::backend::Backend;
-use super::on_cpu::OnCpu;
-use super::on_gpu::{OnGpu, Plane};
-use crate::field::Field;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
-use crate::optics::{greater, lesser, multiply_add};
+use graphics::field::Field;
+use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::image::Backend;
+use graphics::image::OnCpu;
+use graphics::image::{OnGpu, Plane};
+use graphics::lanes::{greater, lesser, multiply_add};
 
 /// A texture that changes density.
 #[derive(Debug)]

@@ -1,7 +1,8 @@
 //! All kernels of watercolor, in one list.
 
-use super::{coherence, colour_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
-use crate::gpu::Kernel;
+use super::{colour_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
+use graphics::coherence;
+use graphics::gpu::Kernel;
 
 /// Every kernel that watercolor on a device runs.
 #[must_use]

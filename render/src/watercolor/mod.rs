@@ -11,12 +11,6 @@ mod settings;
 
 mod wash;
 
-mod backend;
-
-mod on_cpu;
-
-mod on_gpu;
-
 mod segmentation;
 
 mod octagon;
@@ -24,10 +18,6 @@ mod octagon;
 mod morphology;
 
 mod photograph_door;
-
-mod models;
-
-mod tones;
 
 mod toon;
 
@@ -45,8 +35,6 @@ mod dry_brush;
 
 mod sheet;
 
-pub mod coherence;
-
 mod pipeline;
 
 mod model_painter;
@@ -55,19 +43,18 @@ mod glaze;
 
 mod kernels;
 
-pub use backend::Backend;
 pub use colour_mask::{ColourMask, ColourRange};
 pub use density::{Density, DensityLayer};
 pub use dry_brush::{DryBrush, DryBrushReach};
 pub use edges::Edges;
 pub use glaze::{GlazeError, Glazes, thickness};
+pub use graphics::coherence;
+pub use graphics::image::{Backend, CpuModel, GpuModel, Models, OnCpu, OnGpu, Plane};
+pub use graphics::tones::{Tones, TonesError};
 pub use kernels::kernels;
 pub use model_painter::{ModelPainter, ModelPainterError, Moment, MovingBackend};
-pub use models::{CpuModel, GpuModel, Models};
 pub use morphology::Morphology;
 pub use octagon::{Brush, Extreme};
-pub use on_cpu::OnCpu;
-pub use on_gpu::{OnGpu, Plane};
 pub use photograph_door::{
     AbstractedPhotograph, PhotographDoorError, PhotographSettings, from_photograph,
 };
@@ -82,7 +69,6 @@ pub use sheet::{OnSheet, Sheet};
 pub use textures::{
     PaperOn, PaperTexture, PaperTextureError, Textures, TexturesOn, dispersion, turbulent_flow,
 };
-pub use tones::{Tones, TonesError};
 pub use toon::{Light, Shading, Toon};
 pub use wash::{Controls, Wash};
 pub use wobble::Wobble;

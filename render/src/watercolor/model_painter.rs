@@ -3,20 +3,20 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::coherence::{
-    AnchoredNoise, Anchoring, Depths, FeatureNoise, Features, Hierarchy, Particles, Sight,
-    Splatting, repeating_pigment,
-};
 use super::pipeline::{WashOn, Watcher, Watercolor, paint};
 use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
 use super::textures::{PaperTextureError, Textures, TexturesOn};
-use super::tones::{Tones, TonesError};
 use super::toon::{Light, Shading, Toon};
 use super::wash::{Controls, Wash};
-use crate::camera::Camera;
-use crate::gpu::GpuError;
-use crate::mesh::Mesh;
-use crate::surface::PackedMesh;
+use graphics::camera::Camera;
+use graphics::coherence::{
+    AnchoredNoise, Anchoring, Depths, FeatureNoise, Features, Hierarchy, Particles, Sight,
+    Splatting, repeating_pigment,
+};
+use graphics::gpu::GpuError;
+use graphics::mesh::Mesh;
+use graphics::surface::PackedMesh;
+use graphics::tones::{Tones, TonesError};
 
 /// Texels of a wave of the textures that follow particles.
 const WAVE_TEXELS: usize = 32;

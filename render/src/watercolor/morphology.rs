@@ -9,12 +9,12 @@
 //! so a pass needs a few comparisons a pixel, whatever the radius. What is outside the
 //! picture counts for nothing.
 
-use super::backend::Backend;
 use super::octagon::{Brush, Extreme, extreme};
-use super::on_cpu::OnCpu;
-use super::on_gpu::{OnGpu, Plane};
-use crate::field::Field;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::field::Field;
+use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::image::Backend;
+use graphics::image::OnCpu;
+use graphics::image::{OnGpu, Plane};
 
 /// Takes small details away. Least and greatest are exact: backends agree bit for bit.
 pub trait Morphology: Backend {

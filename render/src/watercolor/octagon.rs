@@ -3,7 +3,7 @@
 use pulp::Simd;
 use rayon::prelude::*;
 
-use crate::field::Field;
+use graphics::field::Field;
 
 /// Which of the pixels under a brush counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use super::morphology::Morphology;
 use super::segmentation::{SegmentationError, SegmentationSettings, segment};
 use super::wash::{Controls, Wash};
-use crate::field::Field;
-use crate::gpu::GpuError;
-use crate::photograph::{Framing, Photograph};
+use graphics::field::Field;
+use graphics::gpu::GpuError;
+use graphics::picture::{Framing, Photograph};
 
 /// How a photograph is abstracted.
 #[derive(Debug, Clone, Copy, PartialEq)]

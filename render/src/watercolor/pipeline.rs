@@ -5,7 +5,6 @@
 
 use spectra::color::Rgb;
 
-use super::backend::Backend;
 use super::colour_mask::{ColourMask, ColourRange};
 use super::density::{Density, DensityLayer};
 use super::dry_brush::{DryBrush, DryBrushReach};
@@ -15,7 +14,8 @@ use super::sheet::{OnSheet, Sheet};
 use super::textures::{PaperOn, PaperTexture};
 use super::wash::Wash;
 use super::wobble::Wobble;
-use crate::gpu::GpuError;
+use graphics::gpu::GpuError;
+use graphics::image::Backend;
 
 /// A backend that does all that watercolor needs.
 pub trait Watercolor: Wobble + Edges + Density + ColourMask + DryBrush + OnSheet {}

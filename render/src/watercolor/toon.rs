@@ -11,14 +11,14 @@ use std::sync::Arc;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::models::{CpuModel, GpuModel, Models};
-use super::on_cpu::OnCpu;
-use super::on_gpu::{OnGpu, Plane};
-use super::tones::{TONES, Tones};
-use crate::camera::Camera;
-use crate::field::Field;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
-use crate::surface::{Coating, NOTHING, PackedMesh, Seen, Vertex, Visible};
+use graphics::camera::Camera;
+use graphics::field::Field;
+use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::image::OnCpu;
+use graphics::image::{CpuModel, GpuModel, Models};
+use graphics::image::{OnGpu, Plane};
+use graphics::surface::{Coating, NOTHING, PackedMesh, Seen, Vertex, Visible};
+use graphics::tones::{TONES, Tones};
 
 /// How surfaces are lit.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! What both doors lead to: flat colours, ready for water.
 
-use crate::field::Field;
+use graphics::field::Field;
 
 /// Abstracted colour with what guides the effects.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,7 +19,7 @@ mod gamut;
 mod strength;
 
 use calibrate::library::AmountKind;
-use calibrate::palette::{MeasuredSample, Palette, measured_samples};
+use calibrate::palette::{MeasuredSample, Palette};
 
 pub(crate) use gamut::section as gamut;
 pub(crate) use graded::section as graded;
@@ -36,7 +36,7 @@ fn palette<'a>(subject: &'a Subject<'_>) -> Option<Palette<'a>> {
 
 fn measured(subject: &Subject<'_>, palette: &Palette<'_>) -> Vec<MeasuredSample> {
     let comparison = subject.comparison.as_ref();
-    comparison.map_or_else(Vec::new, |comparison| measured_samples(palette, comparison))
+    comparison.map_or_else(Vec::new, |comparison| comparison.measured_samples(palette))
 }
 
 /// What is called the lightening part of a tint.

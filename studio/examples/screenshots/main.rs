@@ -23,9 +23,9 @@ use egui_kittest::kittest::Queryable;
 use render::paint::document::Lighting;
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Surface};
+use session::{Command, PenSample};
 use studio::app::Tab;
 use studio::panels::Mode;
-use studio::worker::{Command, PenSample};
 
 use hand::{Hand, samples};
 use harness::{Window, has_adapter};

@@ -6,7 +6,7 @@ use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
 use render::paint::ground::{ColourPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{BrushSpec, Canvas};
-use studio::worker::{Command, Origin, bare, oils};
+use session::{Command, Origin, bare, oils};
 
 use crate::hand::{Hand, Place};
 

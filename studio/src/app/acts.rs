@@ -9,7 +9,7 @@ use super::side::Panels;
 use crate::panels::brushes::{wash, wipe};
 use crate::panels::layers::dry;
 use crate::panels::{Desk, FileRequest, Mode, Request};
-use crate::worker::Command;
+use session::Command;
 
 /// Degrees of one turn of view or brush by a key.
 const TURN_DEG: f64 = 15.0;

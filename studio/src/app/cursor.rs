@@ -11,7 +11,7 @@ use super::surfaces::Hover;
 use crate::panels::Mode;
 use crate::theme;
 use crate::view::HeadLook;
-use crate::worker::{EaselState, HeadOnCanvas};
+use session::{EaselState, HeadOnCanvas};
 
 /// Radius of the ring around the colour below the eyedropper, in points.
 const RING: f32 = 24.0;

@@ -8,7 +8,7 @@ use render::paint::strokes::Surface;
 use super::Studio;
 use super::side::Tab;
 use super::status::Message;
-use crate::worker::{EaselState, Event};
+use session::{EaselState, Event};
 
 impl Studio {
     /// Takes in what the worker told.

@@ -11,7 +11,7 @@ use crate::files::FrameFigures;
 use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
 use crate::theme;
-use crate::worker::Command;
+use session::Command;
 
 impl Studio {
     /// The window closes: what is being written is waited for, and what the painter

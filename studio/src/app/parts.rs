@@ -7,7 +7,7 @@ use eframe::egui::Context;
 
 use crate::files::{FiguresLog, Files};
 use crate::pen::Pen;
-use crate::worker::{Command, Worker, WorkerOptions};
+use session::{Command, Worker, WorkerOptions};
 
 /// A worker that has begun, and what wakes the window when there is one.
 #[derive(Debug)]

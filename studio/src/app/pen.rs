@@ -9,7 +9,7 @@ use super::Studio;
 use super::surfaces::Hover;
 use crate::panels::Mode;
 use crate::pen::{Device, PenEvent, Sight, View};
-use crate::worker::Command;
+use session::Command;
 
 /// The brush that the other end of a pen is, if the stand has it: it scrapes.
 const ERASER: &str = "knife";

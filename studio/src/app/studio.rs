@@ -20,7 +20,7 @@ use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
-use crate::worker::{Command, EaselState, Figures, HeadOnCanvas, Worker};
+use session::{Command, EaselState, Figures, HeadOnCanvas, Worker};
 
 /// The program's window: everything but the window system.
 #[derive(Debug)]

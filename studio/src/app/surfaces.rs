@@ -15,7 +15,7 @@ use crate::panels::tubes::{DraggedTube, squeeze};
 use crate::panels::{Desk, Mode, figures};
 use crate::theme;
 use crate::view::{Hand, Split, fill};
-use crate::worker::Command;
+use session::Command;
 
 /// The most that the tubes take beside the palette, in points.
 const SHELF: f32 = 640.0;

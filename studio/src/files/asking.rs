@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use calibrate::library::PigmentLibrary;
 use eframe::egui::Ui;
+use pigment::library::PigmentLibrary;
 use render::export::PictureFormat;
 use render::paint::strokes::Palette;
 
@@ -14,7 +14,7 @@ use super::notices::Notice;
 use super::revisions;
 use super::state::{Files, Reference, Then};
 use super::work::name;
-use crate::worker::{EaselState, Origin, bare, oils};
+use session::{EaselState, Origin, bare, oils};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };

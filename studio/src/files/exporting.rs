@@ -9,9 +9,9 @@ use render::light::Light;
 use render::paint::document::Document;
 use render::paint::scene::{picture, scene};
 
-use super::failure::FileFailure;
 use super::job::{Progress, Stopped};
-use super::whole;
+use session::FileFailure;
+use session::whole;
 
 /// What is to be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

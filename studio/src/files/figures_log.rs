@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::failure::FileFailure;
-use crate::worker::Figures;
+use session::Figures;
+use session::FileFailure;
 
 /// One line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use calibrate::library::PigmentLibrary;
+use pigment::library::PigmentLibrary;
 use render::paint::strokes::{Action, Strokes};
 
-use super::failure::FileFailure;
 use super::job::Stopped;
 use super::notices::Notice;
 use super::opened::Opened;
 use super::state::{Files, Opening, Reference, Replacement, Then};
 use super::work::{Done, WorkKind, name};
-use crate::worker::{Command, Origin, Pace, bare};
+use session::FileFailure;
+use session::{Command, Origin, Pace, bare};
 
 impl Files {
     /// Takes up the results of all jobs that ended.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use super::failure::FileFailure;
+use session::FileFailure;
 
 /// Why work has no result.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,23 +1,17 @@
 //! Files: opening, saving, exports, autosave, preferences; all but the shortest
 //! work on threads of its own.
 
-mod failure;
-
 mod age;
 
 mod request;
 
 mod job;
 
-mod whole;
-
 mod home;
 
 mod preferences;
 
 mod opened;
-
-mod session;
 
 mod revisions;
 
@@ -44,7 +38,6 @@ mod state;
 pub use age::{ago, size};
 pub use browser::{Answer, Browser, Entry, Filter, Wanted};
 pub use exporting::{Export, export};
-pub use failure::FileFailure;
 pub use figures_log::{FigureLine, FiguresLog, FrameFigures};
 pub use home::Home;
 pub use job::{Job, Progress, Stopped};
@@ -53,5 +46,5 @@ pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use request::FileRequest;
 pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
-pub use session::{LostSession, Session, SessionMeta};
+pub use session::{FileFailure, LostSession, Session, SessionMeta};
 pub use state::{Files, Reference};

@@ -8,10 +8,10 @@ use eframe::egui::{
 };
 
 use super::age::ago;
-use super::failure::FileFailure;
 use super::state::Files;
 use super::work::WorkKind;
-use crate::worker::Command;
+use session::Command;
+use session::FileFailure;
 
 /// How long a message that needs no answer stays.
 const STAYS: Duration = Duration::from_secs(5);

@@ -5,16 +5,16 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use calibrate::library::PigmentLibrary;
+use pigment::library::PigmentLibrary;
 use render::paint::document::Document;
 use render::paint::ground::GroundRelief;
 use render::paint::strokes::Strokes;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
-use super::failure::FileFailure;
 use super::job::{Progress, Stopped};
-use crate::worker::oils;
+use session::FileFailure;
+use session::oils;
 
 /// What a file was opened as.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::failure::FileFailure;
-use super::whole;
 use crate::pen::PenSettings;
+use session::FileFailure;
+use session::whole;
 
 /// Files of the list of recent ones.
 const MOST_RECENT: usize = 12;
@@ -174,7 +174,7 @@ impl Preferences {
         told.last_folder = told.last_folder.filter(|path| path.to_str().is_some());
         let value = serde_json::to_value(&told)
             .map_err(|error| FileFailure::told(&error, None::<String>))?;
-        whole::write(path, calibrate::library::to_text(&value).as_bytes())
+        whole::write(path, pigment::library::to_text(&value).as_bytes())
     }
 
     /// Puts `path` on top of the recent files.

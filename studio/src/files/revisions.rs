@@ -13,9 +13,9 @@ use render::light::Light;
 use render::paint::document::Document;
 use render::paint::scene::{picture, scene};
 
-use super::failure::FileFailure;
 use super::job::{Progress, Stopped};
-use super::whole;
+use session::FileFailure;
+use session::whole;
 
 /// The longer side of a thumbnail, in pixels.
 const LONGEST: u32 = 192;

@@ -8,15 +8,15 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Context, ViewportCommand};
 
 use super::asking::Dialog;
-use super::failure::FileFailure;
 use super::home::Home;
 use super::notices::Notice;
 use super::preferences::Preferences;
 use super::request::FileRequest;
 use super::revision_list::RevisionList;
-use super::session::{LostSession, Session};
 use super::work::{Purpose, Work};
-use crate::worker::{Command, EaselState, Event, Pace};
+use session::FileFailure;
+use session::{Command, EaselState, Event, Pace};
+use session::{LostSession, Session};
 
 /// What happens to the picture beside the canvas.
 #[derive(Debug, Clone, PartialEq, Eq)]

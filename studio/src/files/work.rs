@@ -9,14 +9,14 @@ use render::paint::document::Document;
 use render::paint::strokes::Strokes;
 
 use super::exporting::{self, Export};
-use super::failure::FileFailure;
 use super::job::{Job, Progress, Stopped};
 use super::opened::{self, Opened};
 use super::revisions::{self, Revision};
-use super::session::{LostSession, SessionMeta, now};
 use super::state::{Files, Then};
-use super::whole;
-use crate::worker::{Command, Snapshot};
+use session::FileFailure;
+use session::whole;
+use session::{Command, Snapshot};
+use session::{LostSession, SessionMeta, now};
 
 /// What a snapshot or a recording was asked for.
 #[derive(Debug)]

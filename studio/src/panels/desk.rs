@@ -4,7 +4,7 @@ use render::paint::strokes::Action;
 
 use super::tools::Tools;
 use crate::files::FileRequest;
-use crate::worker::{Command, EaselState};
+use session::{Command, EaselState};
 
 /// What a panel asks for.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Color32, FontId, Rect, Ui, vec2};
 
 use crate::theme;
-use crate::worker::Figures;
+use session::Figures;
 
 /// How the window kept up in the last second.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -6,7 +6,7 @@ use render::paint::strokes::Action;
 use super::Desk;
 use super::controls::{button, row, text};
 use crate::theme;
-use crate::worker::Command;
+use session::Command;
 
 const MIB: f64 = 1024.0 * 1024.0;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::worker::Picked;
+use session::Picked;
 
 /// What the pen does on a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -13,7 +13,7 @@ use super::settings::PenSettings;
 use super::sight::View;
 use super::stroke::{Stroke, held};
 use super::systems::Systems;
-use crate::worker::PenSample;
+use session::PenSample;
 
 /// A pen is near for so long after it told something. The window system tells
 /// what it does as a mouse's doing too, and that must not paint again.

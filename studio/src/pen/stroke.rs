@@ -10,7 +10,7 @@ use super::report::{Device, Hold};
 use super::settings::PenSettings;
 use super::sight::Sight;
 use super::speed::SpeedPressure;
-use crate::worker::PenSample;
+use session::PenSample;
 
 /// A pen that tells nothing for so long is still; the path through the samples
 /// lags one behind, and the still sample lets it catch up.

@@ -6,7 +6,7 @@ use eframe::egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2};
 use render::paint::strokes::Surface;
 
 use super::{Device, Hold, Pen, PenEvent, PenSettings, Report, Script, Sight, View, What};
-use crate::worker::PenSample;
+use session::PenSample;
 
 /// 4 points a mm; the palette to the right of 800.
 fn sights() -> [Sight; 2] {

@@ -9,7 +9,7 @@ use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2};
 use render::paint::document::Lighting;
 
 use super::transform::Placement;
-use crate::worker::HeadOnCanvas;
+use session::HeadOnCanvas;
 
 /// Share of the light that comes from all sides.
 const AMBIENT: f32 = 0.35;

@@ -10,7 +10,7 @@ use super::outline::Outline;
 use super::texture::{Half, Picture};
 use super::transform::{Placement, View};
 use crate::theme;
-use crate::worker::{HeadOnCanvas, TilePixels};
+use session::{HeadOnCanvas, TilePixels};
 
 /// Zoom of one notch of a wheel is `exp(50 points / this)`.
 const WHEEL_POINTS: f32 = 220.0;

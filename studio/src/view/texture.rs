@@ -8,7 +8,7 @@ use super::levels::{Levels, halved};
 use super::sheet::{Corner, Quad, Sheet, draw};
 use super::transform::Placement;
 use crate::theme;
-use crate::worker::TilePixels;
+use session::TilePixels;
 
 /// Cells of a level in one texture, each way; one more on every inner side lets
 /// neighbours blend.

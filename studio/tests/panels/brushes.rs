@@ -5,9 +5,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::paint::brush::HeadShape;
 use render::paint::strokes::{Action, BrushSpec, Load, Recipe};
+use session::{BrushState, Command};
 use studio::panels::brushes::Brushes;
 use studio::panels::{Mode, Request};
-use studio::worker::{BrushState, Command};
 
 use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
 

@@ -7,10 +7,10 @@ use eframe::egui::{Ui, Vec2, pos2, vec2};
 use egui_kittest::Harness;
 use image::RgbaImage;
 use render::tile;
+use session::TilePixels;
 use std::f64::consts::FRAC_PI_2;
 use studio::theme;
 use studio::view::{Hand, Outline, Split, SurfaceView, View};
-use studio::worker::TilePixels;
 
 /// Cells of the surfaces shown here: more than one chunk, and no round number.
 const CELLS: (usize, usize) = (700, 530);

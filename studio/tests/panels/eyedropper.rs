@@ -6,19 +6,19 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use calibrate::evaluate::Viewing;
-use calibrate::matching::{FilmKind, MatchRequest, Recipe, Sight, Target, recipes};
 use eframe::egui::{Key, OutputCommand, Role, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use pigment::evaluate::Viewing;
+use pigment::matching::{FilmKind, MatchRequest, Recipe, Sight, Target, recipes};
 use render::layer::SLOTS;
 use render::paint::document::Lighting;
 use render::paint::strokes::{Action, Surface};
+use session::{Command, EaselState, Picked, PickedLayer};
 use spectra::color::{Adaptation, Lab, RgbSpace};
 use spectra::{Illuminant, Observer};
 use studio::panels::Mode;
 use studio::panels::eyedropper::{Colour, Eyedropper};
 use studio::view::Outline;
-use studio::worker::{Command, EaselState, Picked, PickedLayer};
 
 use super::stage::{Stage, made_easel};
 

@@ -10,8 +10,8 @@ use eframe::egui::{Event as Input, Key, ViewportCommand, ViewportEvent, Viewport
 use render::export::{self, Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
 use render::paint::document::Document;
 use render::paint::strokes::{Action, Strokes};
+use session::{Command, Origin};
 use studio::files::{FileRequest, Preferences, Reference};
-use studio::worker::{Command, Origin};
 
 use bench::{
     Window, ask, change, click, opened, painted, picture, shows, type_name, until, window,

@@ -10,11 +10,11 @@ use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
 use render::gpu::{BackendChoice, choose};
 use render::paint::strokes::Surface;
+use session::{Command, WorkerOptions, bare, oils};
 use studio::app::{Begun, Parts, Studio};
 use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
 use studio::theme;
-use studio::worker::{Command, WorkerOptions, bare, oils};
 
 /// Longer than anything a test waits for.
 const PATIENCE: Duration = Duration::from_secs(60);

@@ -4,9 +4,9 @@ use eframe::egui::accesskit::Toggled;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::paint::strokes::Action;
+use session::{Command, EaselState};
 use studio::panels::Request;
 use studio::panels::history::History;
-use studio::worker::{Command, EaselState};
 
 use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
 

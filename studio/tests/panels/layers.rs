@@ -4,9 +4,9 @@ use eframe::egui::{accesskit::Role, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::paint::strokes::{Action, LayerName};
+use session::Command;
 use studio::panels::Request;
 use studio::panels::layers::Layers;
-use studio::worker::Command;
 
 use super::made::{Table, asks, click, easel, is_disabled, pick, picture, shown};
 

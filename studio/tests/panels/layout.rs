@@ -11,10 +11,10 @@ use egui_kittest::kittest::Queryable;
 use render::paint::document::Lighting;
 use render::paint::strokes::{Action, Load, Surface};
 use render::tile;
+use session::{Command, Event, TilePixels};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use studio::panels::Mode;
-use studio::worker::{Command, Event, TilePixels};
 
 /// A window on a painting that is only told of: a ramp of greys on the canvas, wood
 /// on the palette.

@@ -5,10 +5,10 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use render::optics::Gloss;
 use render::paint::document::Lighting;
 use render::paint::strokes::Action;
+use session::{Command, EaselState};
 use spectra::ColourTemperature;
 use studio::panels::FileRequest;
 use studio::panels::light::LightPanel;
-use studio::worker::{Command, EaselState};
 
 use super::stage::{Stage, made_easel};
 

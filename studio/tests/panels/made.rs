@@ -3,20 +3,20 @@
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use calibrate::evaluate::Viewing;
-use calibrate::library::PigmentLibrary;
-use calibrate::palette::{Cards, Palette, TINT_PARTS};
 use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use pigment::evaluate::Viewing;
+use pigment::library::PigmentLibrary;
+use pigment::palette::{Cards, Palette, TINT_PARTS};
 use render::layer::SLOTS;
 use render::light::Light;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium, Slots};
 use render::paint::strokes::BrushSpec;
+use session::{BrushState, EaselState, LayerState, Thumbnail};
 use studio::panels::{Desk, Request, Tools};
 use studio::theme;
-use studio::worker::{BrushState, EaselState, LayerState, Thumbnail};
 
 use super::harness::has_adapter;
 

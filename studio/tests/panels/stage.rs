@@ -7,9 +7,9 @@ use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::layer::SLOTS;
+use session::{BrushState, Command, EaselState};
 use studio::panels::{Desk, FileRequest, Request, Tools};
 use studio::theme;
-use studio::worker::{BrushState, Command, EaselState};
 
 use super::harness::has_adapter;
 use super::made::easel;

@@ -1,13 +1,13 @@
 //! Of tubes.
 
-use calibrate::palette::{Cards, Palette as Mixable};
 use eframe::egui::{Event, PointerButton, Pos2, accesskit::Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use pigment::palette::{Cards, Palette as Mixable};
 use render::paint::strokes::{Action, LayerName, Load, Palette, Recipe, Squeeze, Surface};
+use session::Command;
 use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
 use studio::panels::{FileRequest, Mode, Request};
-use studio::worker::Command;
 
 use super::made::{PIGMENTS, Table, asks, click, easel, is_disabled, pick, picture, shown};
 
@@ -180,7 +180,7 @@ fn the_card_of_a_tube_tells_its_figures() {
     let cards = Cards::standard(easel.library.grid);
     let palette = Mixable::new(&easel.library, &easel.light.viewing, cards).unwrap();
     let white = easel.slots[0].unwrap();
-    let powers = calibrate::palette::hiding_powers(&palette);
+    let powers = pigment::palette::hiding_powers(&palette);
     let power = powers.iter().find(|power| power.paint == white).unwrap();
     let mm = power.hides.thickness().unwrap() / easel.medium.scattering_per_mm;
     assert!((0.1..0.9).contains(&mm), "{mm} mm, told with two decimals");

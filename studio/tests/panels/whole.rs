@@ -7,9 +7,9 @@ use eframe::egui::{DroppedFile, Role};
 use egui_kittest::kittest::Queryable;
 use image::{Rgb, RgbImage};
 use render::paint::strokes::{Action, Load, Squeeze, Surface};
+use session::Command;
 use studio::app::Tab;
 use studio::panels::Mode;
-use studio::worker::Command;
 
 use super::harness::Window;
 

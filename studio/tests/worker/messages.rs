@@ -6,7 +6,7 @@ use render::gpu::BackendChoice;
 use render::paint::brush::HeadShape;
 use render::paint::document::Lighting;
 use render::paint::strokes::{Action, BrushSpec, LayerName, Surface};
-use studio::worker::{Command, Event, Origin};
+use session::{Command, Event, Origin};
 
 use super::pen::{load, wander};
 use super::window::{Window, small};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use render::gpu::BackendChoice;
 use render::paint::scene::Spectral;
 use render::paint::strokes::{Action, Surface};
-use studio::worker::{Command, Event, Picked};
+use session::{Command, Event, Picked};
 
 use super::pen::{load, wander};
 use super::window::Window;

@@ -6,7 +6,7 @@ use render::light::Light;
 use render::paint::document::{Document, Lighting};
 use render::paint::scene::{picture, scene};
 use render::paint::strokes::{Action, LayerName, Surface};
-use studio::worker::{Command, Snapshot};
+use session::{Command, Snapshot};
 
 use super::pen::{load, wander};
 use super::window::Window;
@@ -81,7 +81,7 @@ fn tiles_cover_every_change() {
         !window
             .told
             .iter()
-            .any(|event| matches!(event, studio::worker::Event::Message { failed: true, .. })),
+            .any(|event| matches!(event, session::Event::Message { failed: true, .. })),
         "nothing was refused"
     );
 }

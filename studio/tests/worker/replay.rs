@@ -6,14 +6,14 @@ use std::time::Instant;
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, Load, Strokes, Surface};
-use studio::worker::{Command, Event, Origin, Pace};
+use session::{Command, Event, Origin, Pace};
 
 use super::pen::{load, stroke, wander};
 use super::strokes::{assert_same, easel};
 use super::window::{Window, small};
 
 /// Strokes on both surfaces, and what else there is.
-fn script(actions: Vec<Action>) -> (Box<Strokes>, Box<calibrate::library::PigmentLibrary>) {
+fn script(actions: Vec<Action>) -> (Box<Strokes>, Box<pigment::library::PigmentLibrary>) {
     let Origin::Bare { mut script, library } = small() else { panic!("a bare canvas") };
     script.actions = actions;
     (script, library)

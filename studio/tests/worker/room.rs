@@ -2,7 +2,7 @@
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, Squeeze, Surface};
-use studio::worker::Command;
+use session::Command;
 
 use super::window::Window;
 

@@ -11,7 +11,7 @@ use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Surface};
-use studio::worker::{Command, Event, Origin, Snapshot};
+use session::{Command, Event, Origin, Snapshot};
 
 use super::pen::{load, stroke, wander};
 use super::window::{Window, small};
@@ -87,7 +87,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     window.ask(Command::PenDown { surface: Surface::Canvas, brush: "filbert".to_owned() });
     let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
-        let sample = |&sample| studio::worker::PenSample { sample, arrived };
+        let sample = |&sample| session::PenSample { sample, arrived };
         Command::PenMove(samples.iter().map(sample).collect())
     };
     window.ask(moves(&samples[..90]));

@@ -4,7 +4,7 @@ use calibrate::comparison::Comparable;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::Method;
 use calibrate::library::{AmountKind, Pigment, PigmentLibrary};
-use calibrate::palette::{Cards, MeasuredSample, Palette, measured_samples};
+use calibrate::palette::{MeasuredSample, Palette};
 use spectra::Grid;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, swatches};
@@ -85,11 +85,10 @@ impl Oils {
 
     pub(crate) fn palette(&self) -> Palette<'_> {
         let weights = self.viewing.weights(self.library.grid).unwrap();
-        Palette::new(&self.library, &self.viewing, Cards::of(&self.comparable.set, &weights))
-            .unwrap()
+        Palette::new(&self.library, &self.viewing, self.comparable.set.cards(&weights)).unwrap()
     }
 
     pub(crate) fn measured(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
-        measured_samples(palette, &self.comparable.with(&self.library, &self.viewing).unwrap())
+        self.comparable.with(&self.library, &self.viewing).unwrap().measured_samples(palette)
     }
 }

@@ -1,22 +1,24 @@
 //! Recipes of glazes, and the painting that they make.
 
-use calibrate::library::PigmentLibrary;
+use pigment::library::PigmentLibrary;
 use rayon::prelude::*;
 use spectra::color::Rgb;
 
 use super::thickness::thickness;
-use crate::amount::quanta_from_mm;
-use crate::field::Field;
-use crate::gpu::GpuError;
-use crate::layer::{Layer, SLOTS};
-use crate::light::Light;
-use crate::optics::Gloss;
-use crate::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
-use crate::photograph::{
-    Materials, PaintFilm, Picture, Separation, SeparationError, SeparationSettings, choose_palette,
-};
 use crate::watercolor::textures::PaperTexture;
-use crate::watercolor::{OnCpu, Settings, Textures, Wash, Wobble};
+use crate::watercolor::{Settings, Textures, Wash, Wobble};
+use graphics::field::Field;
+use graphics::gpu::GpuError;
+use graphics::image::OnCpu;
+use graphics::picture::Picture;
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use paint::layer::{Layer, SLOTS};
+use paint::light::Light;
+use paint::optics::Gloss;
+use paint::separation::{
+    Materials, PaintFilm, Separation, SeparationError, SeparationSettings, choose_palette,
+};
 
 /// Glazes run from next to nothing, which is the lightest, to what a heavy wash
 /// leaves when dry.

@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use crate::field::Field;
-use crate::gpu::GpuError;
 use crate::watercolor::density::excess;
 use crate::watercolor::pipeline::reach;
 use crate::watercolor::{
     Backend, ColourMask, ColourRange, Controls, Edges, OnCpu, Settings, Textures,
 };
+use graphics::field::Field;
+use graphics::gpu::GpuError;
 use spectra::color::Rgb;
 
 /// What a glaze's height is multiplied with, pixel by pixel: the product of all

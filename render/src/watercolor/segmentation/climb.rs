@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::luv::LuvPlanes;
 use super::mean_shift::{Bandwidth, Mode, step};
-use crate::field::Field;
+use graphics::field::Field;
 
 /// How near two paths must come in colour to be one, in range radii.
 pub(super) const MEETING: f32 = 0.05;

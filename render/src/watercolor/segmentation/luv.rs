@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
-use crate::field::Field;
+use graphics::field::Field;
 
 /// L* of cells outside the picture: farther than any radius from every colour.
 const NOWHERE: f32 = 1e6;

@@ -63,7 +63,7 @@ pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
 mod tests {
     use super::super::mean_shift::Mode;
     use super::*;
-    use crate::field::Field;
+    use graphics::field::Field;
 
     /// The labels of a row of regions, told as pixels and L*, after `joining`.
     fn joined(regions: &[(usize, f32)], joining: impl Fn(&mut RegionGraph)) -> Vec<u32> {

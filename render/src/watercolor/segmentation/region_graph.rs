@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::mean_shift::Mode;
 use super::regions::{Sets, numbered};
-use crate::field::Field;
+use graphics::field::Field;
 
 /// What a region is by its pixels.
 #[derive(Debug, Clone, Copy, Default)]

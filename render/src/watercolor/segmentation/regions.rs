@@ -1,7 +1,7 @@
 //! Pixels whose modes are near, joined.
 
 use super::mean_shift::{Bandwidth, Mode};
-use crate::field::Field;
+use graphics::field::Field;
 
 /// Sets that are joined two at a time, each told by its least member.
 pub(super) struct Sets {

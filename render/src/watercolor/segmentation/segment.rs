@@ -9,7 +9,7 @@ use super::pruning::{join_alike, join_small};
 use super::region_graph::RegionGraph;
 use super::regions::linked;
 use super::tones::cut;
-use crate::field::Field;
+use graphics::field::Field;
 
 /// How coarse regions are.
 #[derive(Debug, Clone, Copy, PartialEq)]

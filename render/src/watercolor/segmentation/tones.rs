@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::mean_shift::Mode;
 use super::regions::{Sets, numbered};
-use crate::field::Field;
+use graphics::field::Field;
 
 /// Rounds of the power iteration that finds an axis.
 const ROUNDS: usize = 24;

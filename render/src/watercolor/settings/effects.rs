@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
-use crate::paint::ground::Making;
+use paint::ground::Making;
 
 /// How much water is in the paint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -3,9 +3,9 @@
 use rand::RngExt;
 use rayon::prelude::*;
 
-use crate::field::Field;
-use crate::noise::random;
 use crate::watercolor::DispersionSettings;
+use graphics::field::Field;
+use graphics::noise::random;
 
 /// The standard deviation of the texture, before what little leaves 0..1 is cut.
 const SPREAD: f64 = 0.2;

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::field::Field;
-use crate::noise::{Hills, random};
 use crate::watercolor::FlowSettings;
+use graphics::field::Field;
+use graphics::noise::{Hills, random};
 
 /// The standard deviation of the texture, before what little leaves 0..1 is cut.
 const SPREAD: f64 = 0.2;

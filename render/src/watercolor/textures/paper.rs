@@ -5,11 +5,11 @@ use std::path::Path;
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
-use crate::amount::QUANTA_PER_CELL;
-use crate::field::Field;
-use crate::paint::ground::{GroundError, Making, Paper};
-use crate::photograph::{Framing, Photograph, PhotographError};
 use crate::watercolor::PaperSettings;
+use graphics::field::Field;
+use graphics::picture::{Framing, Photograph, PhotographError};
+use paint::amount::QUANTA_PER_CELL;
+use paint::ground::{GroundError, Making, Paper};
 
 /// The usual bump of cold-pressed paper in mm.
 const BUMP_MM: f64 = 1.3;

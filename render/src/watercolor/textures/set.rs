@@ -1,9 +1,10 @@
 //! All textures of a picture together.
 
 use super::{PaperTexture, PaperTextureError, dispersion, turbulent_flow};
-use crate::field::Field;
-use crate::gpu::GpuError;
-use crate::watercolor::{Backend, Settings};
+use crate::watercolor::Settings;
+use graphics::field::Field;
+use graphics::gpu::GpuError;
+use graphics::image::Backend;
 
 /// The textures of a picture that stands still.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::files::failure::FileFailure;
 use crate::files::job::{Progress, Stopped};
+use session::FileFailure;
 
 /// The most entries that are listed.
 const MOST: usize = 20_000;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::listing::{Entry, Filter, entries, home_folder};
-use crate::files::failure::FileFailure;
 use crate::files::job::{Job, Stopped};
+use session::FileFailure;
 
 /// What the browser is for.
 #[derive(Debug, Clone, PartialEq, Eq)]

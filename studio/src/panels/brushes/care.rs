@@ -3,7 +3,7 @@
 use render::paint::strokes::{Action, Load, Recipe};
 
 use crate::panels::{Desk, Mode};
-use crate::worker::BrushState;
+use session::BrushState;
 
 /// Loads the brush in hand with clear medium alone.
 pub fn load_medium(desk: &mut Desk<'_>) {

@@ -6,7 +6,7 @@ use render::paint::strokes::BrushSpec;
 use super::head;
 use crate::panels::controls::{millimetres, row, text};
 use crate::theme;
-use crate::worker::{BrushState, EaselState};
+use session::{BrushState, EaselState};
 
 /// Height of a row, in points.
 const HEIGHT: f32 = 34.0;

@@ -5,7 +5,7 @@ use render::paint::strokes::{Action, BrushSpec, Load};
 
 use super::care::{in_hand, like};
 use crate::panels::{Desk, Mode};
-use crate::worker::{BrushState, Command, EaselState};
+use session::{BrushState, Command, EaselState};
 
 /// Sizes of heads, in mm.
 pub(super) const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;

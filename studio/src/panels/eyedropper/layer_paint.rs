@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::few_parts;
+use pigment::library::{AmountKind, PigmentLibrary};
+use pigment::matching::few_parts;
 use render::layer::SLOTS;
 use render::paint::document::Medium;
 
-use crate::worker::PickedLayer;
+use session::PickedLayer;
 
 /// Less than this share of the pigments is a trace.
 const TRACE: f64 = 0.005;
@@ -130,7 +130,7 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::worker::oils;
+    use session::oils;
 
     fn layer(amounts: &[(usize, f64)], vehicle: f64) -> PickedLayer {
         let mut slots = [None; SLOTS];

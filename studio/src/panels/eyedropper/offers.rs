@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use calibrate::library::PigmentLibrary;
-use calibrate::matching::Recipe;
 use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
+use pigment::library::PigmentLibrary;
+use pigment::matching::Recipe;
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, Load, Palette, Recipe as Parts};
 use spectra::color::{Rgb, Xyz};
@@ -13,7 +13,7 @@ use super::super::desk::Desk;
 use super::swatch::swatch;
 use super::wanted::shown;
 use crate::view::Outline;
-use crate::worker::{Command, EaselState};
+use session::{Command, EaselState};
 
 /// The two colours beside each other, in points.
 const PATCH: Vec2 = vec2(72.0, 40.0);

@@ -1,7 +1,7 @@
 //! What lies at the place last picked.
 
-use calibrate::palette::Appearance;
 use eframe::egui::{Button, Grid, Ui, vec2};
+use pigment::palette::Appearance;
 use render::paint::strokes::Surface;
 
 use super::super::desk::Desk;
@@ -9,7 +9,7 @@ use super::layer_paint::LayerPaint;
 use super::swatch::swatch;
 use super::wanted::weights;
 use crate::chart::{Chart, Curve};
-use crate::worker::{Command, Picked};
+use session::{Command, Picked};
 
 /// Shows colour, spectrum and recipes of what was picked; gives whether recipes
 /// for it are wanted.

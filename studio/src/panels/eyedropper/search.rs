@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use calibrate::evaluate::Viewing;
-use calibrate::matching::{MatchRequest, Sight};
 use eframe::egui::{Button, DragValue, ProgressBar, Ui};
+use pigment::evaluate::Viewing;
+use pigment::matching::{MatchRequest, Sight};
 use spectra::{Observer, light_from_text};
 
 use super::super::desk::Desk;
 use super::offers::Offer;
 use super::wanted::{Wanted, shown, weights};
 use crate::matching::{Matcher, Question};
-use crate::worker::EaselState;
+use session::EaselState;
 
 /// Recipes shown.
 const BEST: usize = 3;

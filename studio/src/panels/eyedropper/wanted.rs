@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use calibrate::evaluate::{Viewing, lab};
-use calibrate::matching::{Sight, Target};
+use pigment::evaluate::{Viewing, lab};
+use pigment::matching::{Sight, Target};
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, TristimulusWeights};
 

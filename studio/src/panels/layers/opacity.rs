@@ -9,7 +9,7 @@ use render::paint::strokes::{Action, LayerName};
 use super::eye::eye;
 use crate::panels::Desk;
 use crate::panels::controls::slider;
-use crate::worker::Command;
+use session::Command;
 
 /// How long the slider shows what was asked for, until the worker tells of it, in
 /// seconds.

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::theme;
-use crate::worker::Thumbnail;
+use session::Thumbnail;
 
 /// Textures of the thumbnails that were shown last.
 #[derive(Clone, Default)]

@@ -16,7 +16,7 @@ use super::row::row;
 use super::white::White;
 use crate::files::FileRequest;
 use crate::theme;
-use crate::worker::Command;
+use session::Command;
 
 /// Side of the half sphere, in points.
 const DOME: f32 = 104.0;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{RichText, Ui, vec2};
 
-use calibrate::palette::Hides;
+use pigment::palette::Hides;
 
 use super::catalogue::Catalogue;
 use crate::chart::{Chart, Curve};
@@ -70,8 +70,8 @@ fn lines(catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) -> Vec<S
 mod tests {
     use std::sync::Arc;
 
-    use calibrate::library::PigmentLibrary;
-    use calibrate::palette::{Cards, Palette, hiding_powers};
+    use pigment::library::PigmentLibrary;
+    use pigment::palette::{Cards, Palette, hiding_powers};
     use render::light::Light;
 
     use super::*;

@@ -2,13 +2,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use calibrate::library::PigmentLibrary;
-use calibrate::palette::{
+use pigment::library::PigmentLibrary;
+use pigment::palette::{
     Appearance, Cards, Hides, Palette, TINT_PARTS, hiding_powers, tinting_strengths,
 };
 use render::light::Light;
 
-use crate::worker::EaselState;
+use session::EaselState;
 
 /// How one pigment looks.
 #[derive(Debug, Clone, PartialEq)]

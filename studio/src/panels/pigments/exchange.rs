@@ -7,7 +7,7 @@ use render::paint::strokes::{Action, LayerName};
 use super::catalogue::Catalogue;
 use super::list::PigmentList;
 use crate::panels::Desk;
-use crate::worker::EaselState;
+use session::EaselState;
 
 /// Which layers an exchange is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,11 +13,11 @@ use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::strokes::Strokes;
+use session::{Command, EaselState, Event, Origin, Snapshot, bare, oils};
 use studio::files::{FileRequest, Files, Home, Preferences};
 use studio::panels::revisions;
 use studio::panels::{Desk, Request, Tools};
 use studio::theme;
-use studio::worker::{Command, EaselState, Event, Origin, Snapshot, bare, oils};
 
 /// A painting of some strokes, by the engine.
 pub(super) fn painted(title: &str) -> Document {

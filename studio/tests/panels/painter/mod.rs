@@ -9,15 +9,15 @@ use egui_kittest::kittest::Queryable;
 use render::gpu::BackendChoice;
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
+use session::{
+    BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare, oils,
+};
 use studio::panels::brushes::Brushes;
 use studio::panels::history::History;
 use studio::panels::layers::Layers;
 use studio::panels::tubes::{Tubes, squeeze};
 use studio::panels::{Desk, Request, Tools};
 use studio::theme;
-use studio::worker::{
-    BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare, oils,
-};
 
 use super::harness::has_adapter;
 

@@ -1,0 +1,172 @@
+//! The greys that light is told in: a texture of one dimension.
+
+use std::path::Path;
+
+/// Greys between which a [`Tones`] is straight.
+pub const TONES: usize = 256;
+
+/// Grey by the cosine between light and surface, as toon shading has it (Lake,
+/// Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable
+/// real-time 3D animation", 2000): 0.5 leaves the colour of the surface, darker
+/// greys are denser paint, lighter ones thinner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tones {
+    greys: Box<[f32; TONES]>,
+}
+
+impl Tones {
+    /// As many even steps from shade to light as `levels`, between greys 0 and 1
+    /// (one level is 0.5 throughout). Over a `softness` of 0..1 of its width a step
+    /// runs into the next.
+    #[must_use]
+    pub fn steps(levels: usize, softness: f32) -> Self {
+        let levels = levels.max(1) as f32;
+        Self::from_curve(|cosine| {
+            // The nearest edge between steps, and how far from it, in steps.
+            let at = cosine * levels;
+            let edge = at.round().clamp(1.0, (levels - 1.0).max(1.0));
+            let across = match softness > 0.0 {
+                true => ((at - edge) / softness + 0.5).clamp(0.0, 1.0),
+                false => f32::from(u8::from(at >= edge)),
+            };
+            let step = edge - 1.0 + across * across * (3.0 - 2.0 * across);
+            if levels > 1.0 { step / (levels - 1.0) } else { 0.5 }
+        })
+    }
+
+    /// Greys from shade to light, 0..1, at even cosines from 0 to 1.
+    ///
+    /// # Errors
+    /// [`TonesError::Empty`]; [`TonesError::OutOfRange`].
+    pub fn from_greys(greys: &[f32]) -> Result<Self, TonesError> {
+        if greys.is_empty() {
+            return Err(TonesError::Empty);
+        }
+        if let Some(index) = greys.iter().position(|grey| !(0.0..=1.0).contains(grey)) {
+            return Err(TonesError::OutOfRange { index, grey: greys[index] });
+        }
+        let last = greys.len() - 1;
+        Ok(Self::from_curve(|cosine| {
+            let at = cosine * last as f32;
+            let below = (at as usize).min(last);
+            let above = (below + 1).min(last);
+            greys[below] + (greys[above] - greys[below]) * (at - below as f32)
+        }))
+    }
+
+    /// The middle row of a picture, its shade at the left: any format of ours, the
+    /// mean of its channels as they are encoded.
+    ///
+    /// # Errors
+    /// [`TonesError::NoPicture`] with the path.
+    pub fn open(path: &Path) -> Result<Self, TonesError> {
+        let rejected =
+            |reason: String| TonesError::NoPicture { name: path.display().to_string(), reason };
+        let reader = image::ImageReader::open(path).map_err(|error| rejected(error.to_string()))?;
+        let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
+        let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
+        let y = picture.height() / 2;
+        let grey = |x: u32| {
+            let sum: f32 = picture.get_pixel(x, y).0.iter().map(|&value| f32::from(value)).sum();
+            sum / (3.0 * f32::from(u16::MAX))
+        };
+        Self::from_greys(&(0..picture.width()).map(grey).collect::<Vec<_>>())
+    }
+
+    fn from_curve(grey: impl Fn(f32) -> f32) -> Self {
+        let greys = std::array::from_fn(|i| grey(i as f32 / (TONES - 1) as f32));
+        Self { greys: Box::new(greys) }
+    }
+
+    /// The grey at a cosine; below 0 that of 0.
+    #[must_use]
+    #[inline]
+    pub fn grey(&self, cosine: f32) -> f32 {
+        let at = cosine.clamp(0.0, 1.0) * (TONES - 1) as f32;
+        let below = (at as usize).min(TONES - 2);
+        let [low, high] = [self.greys[below], self.greys[below + 1]];
+        low + (high - low) * (at - below as f32)
+    }
+
+    /// The greys at even cosines from 0 (shade) to 1 (light).
+    #[must_use]
+    pub fn greys(&self) -> &[f32; TONES] {
+        &self.greys
+    }
+}
+
+/// Why greys are none.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TonesError {
+    /// Not one.
+    #[error("no grey from shade to light")]
+    Empty,
+    /// Not between black and white.
+    #[error("grey {index} from the shade is not within 0 and 1: `{grey}`")]
+    OutOfRange {
+        /// From 0 on.
+        index: usize,
+        /// As found.
+        grey: f32,
+    },
+    /// A file that cannot be read as a picture.
+    #[error("{name}: {reason}")]
+    NoPicture {
+        /// The path.
+        name: String,
+        /// As the decoder tells it.
+        reason: String,
+    },
+}
+
+impl TonesError {
+    /// What can be done.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::OutOfRange { .. } => {
+                "give greys from 0 (black, dense paint) to 1 (white, thin paint)"
+            }
+            Self::NoPicture { .. } => {
+                "give a PNG or JPEG file whose middle row runs from shade to light"
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_flat_in_the_middle_and_rise_from_black_to_white() {
+        for levels in 2..7 {
+            let tones = Tones::steps(levels, 0.3);
+            for step in 0..levels {
+                let wanted = step as f32 / (levels - 1) as f32;
+                for inside in [0.3, 0.5, 0.7] {
+                    let found = tones.grey((step as f32 + inside) / levels as f32);
+                    assert!((found - wanted).abs() < 1e-4, "{levels} {step}: {found}");
+                }
+            }
+            assert!(tones.greys().is_sorted(), "{levels}");
+            assert_eq!((tones.grey(-1.0), tones.grey(2.0)), (0.0, 1.0));
+        }
+        assert!(Tones::steps(1, 0.5).greys().iter().all(|&grey| grey == 0.5));
+        let hard = Tones::steps(4, 0.0);
+        let greys = hard.greys().iter().map(|&grey| (grey * 3.0).fract());
+        assert!(greys.fold(0.0, f32::max) < 1e-5);
+    }
+
+    #[test]
+    fn greys_are_joined_by_straight_lines_and_bad_ones_refused() {
+        let tones = Tones::from_greys(&[0.2, 0.8, 0.4]).unwrap();
+        for (cosine, wanted) in [(0.0, 0.2), (0.25, 0.5), (0.5, 0.8), (0.75, 0.6), (1.0, 0.4)] {
+            assert!((tones.grey(cosine) - wanted).abs() < 5e-3, "{cosine}");
+        }
+        assert_eq!(Tones::from_greys(&[]), Err(TonesError::Empty));
+        let error = Tones::from_greys(&[0.5, f32::NAN]).unwrap_err();
+        assert!(matches!(error, TonesError::OutOfRange { index: 1, .. }), "{error}");
+        assert!(Tones::open(Path::new("no/such.png")).is_err());
+    }
+}

@@ -1,0 +1,134 @@
+//! How fast on a graphics device: sub-steps, light, and what a submission costs.
+//!
+//! Runs on the best adapter, software ones included; times nothing where there
+//! is none.
+
+#![expect(clippy::unwrap_used, reason = "a bench may panic")]
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use graphics::field::Field;
+use graphics::gpu::{BackendChoice, Device, choose};
+use graphics::tile::{Rect, TileSet};
+use paint::contact::{Contact, Touch};
+use paint::layer::{Cell, Layer, SLOTS};
+use paint::motion::Motion;
+use paint::on_gpu::OnGpu;
+use paint::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
+use paint::{BrushId, Engine, View};
+
+fn main() {
+    divan::main();
+}
+
+fn device() -> Option<Device> {
+    choose(BackendChoice::Gpu).ok().flatten()
+}
+
+/// Eight pigments everywhere.
+fn paint(width: usize, height: usize) -> Layer {
+    let mut layer = Layer::empty(width, height);
+    for i in 0..width * height {
+        let amount = |slot: usize| (i * 7919 + slot * 104_729) as u32 % 60_000;
+        layer.set_cell(i, Cell { pigments: std::array::from_fn(amount), vehicle: amount(8) });
+    }
+    layer
+}
+
+/// A canvas of `side` cells with wet paint, and a loaded head of 96 x 96.
+fn engine(side: usize) -> Option<(OnGpu, BrushId)> {
+    let mut engine = OnGpu::new(device()?, &Field::filled(side, side, 0)).unwrap();
+    let brush = engine.add_brush(96, 96).unwrap();
+    engine.set_wet(&paint(side, side)).unwrap();
+    engine.set_brush(brush, &paint(96, 96)).unwrap();
+    Some((engine, brush))
+}
+
+/// `count` sub-steps of a square footprint that moves to the right.
+fn contacts(side: usize, count: usize) -> Vec<Contact> {
+    let touch = |i: usize| {
+        let brush_cell = (i / side * 96 + i % side) as u32;
+        Touch::new(200_000, brush_cell, (200, 40), 256, 1)
+    };
+    let touches: Vec<_> = (0..side * side).map(touch).collect();
+    let rect = |step: usize| Rect { x: 10 + step % 128, y: 20, width: side, height: side };
+    (0..count).map(|step| Contact { rect: rect(step), touches: touches.clone() }).collect()
+}
+
+/// 256 sub-steps sent together, and waited for.
+#[divan::bench(args = [26, 88], sample_count = 10)]
+fn sub_steps(bencher: Bencher<'_, '_>, side: usize) {
+    let Some((mut engine, brush)) = engine(512) else { return };
+    let contacts = contacts(side, 256);
+    bencher.counter(ItemsCount::new(256_u32)).bench_local(|| {
+        engine.play(brush, &Motion::default(), &contacts).unwrap();
+        engine.finish().unwrap();
+    });
+}
+
+/// Sub-steps sent one by one, each waited for.
+#[divan::bench(args = [1, 26, 88], sample_count = 10)]
+fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
+    let Some((mut engine, brush)) = engine(512) else { return };
+    let contacts = contacts(side, 16);
+    bencher.counter(ItemsCount::new(16_u32)).bench_local(|| {
+        for contact in &contacts {
+            engine.play(brush, &Motion::default(), std::slice::from_ref(contact)).unwrap();
+            engine.finish().unwrap();
+        }
+    });
+}
+
+fn scene(dry: usize) -> Scene {
+    let per = |slot: usize, node: usize| 1e-7 * (1 + (slot * 3 + node * 5) % 11) as f32;
+    let table = std::array::from_fn(|slot| std::array::from_fn(|node| per(slot, node)));
+    let coat = Coat { absorption: table, scattering: table };
+    let gloss = Gloss { strength: 0.25, exponent: 60.0 };
+    Scene {
+        ground: [0.8; NODES],
+        dry: vec![coat; dry],
+        wet: Coat { absorption: [[2e-7; NODES]; SLOTS], ..coat },
+        surface: SceneSurface { k1: 0.03, k2: 0.5, floor: 0.03 },
+        rgb_from_nodes: [[0.125; 3]; NODES],
+        lamp: Lamp {
+            direction: [-0.45, -0.45, 0.771],
+            relief: 1.0,
+            ambient: 0.5,
+            wet: gloss,
+            dry: gloss,
+            ground: gloss,
+        },
+    }
+}
+
+/// Wet paint over what is baked, to linear light, 1024 x 1024.
+#[divan::bench(sample_count = 10)]
+fn one_layer(bencher: Bencher<'_, '_>) {
+    let Some((mut engine, _)) = engine(1024) else { return };
+    let all = TileSet::all(engine.bounds());
+    bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
+        engine.light(View::First, &scene(0), &TileSet::default(), &all).unwrap();
+        engine.finish().unwrap();
+    });
+}
+
+/// Two dry layers baked and the wet one shown, 1024 x 1024.
+#[divan::bench(sample_count = 10)]
+fn three_layers(bencher: Bencher<'_, '_>) {
+    let Some((mut engine, _)) = engine(1024) else { return };
+    for _ in 0..2 {
+        engine.push_dry(&paint(1024, 1024)).unwrap();
+    }
+    let all = TileSet::all(engine.bounds());
+    bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
+        engine.light(View::First, &scene(2), &all, &TileSet::default()).unwrap();
+        engine.finish().unwrap();
+    });
+}
+
+/// The picture back to the processor, 1024 x 1024.
+#[divan::bench(sample_count = 10)]
+fn readback(bencher: Bencher<'_, '_>) {
+    let Some((mut engine, _)) = engine(1024) else { return };
+    bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| engine.picture().unwrap());
+}

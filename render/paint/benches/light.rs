@@ -1,0 +1,125 @@
+//! How fast: light. Of a painting of three layers, and of mixing two paints.
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use graphics::field::Field;
+use paint::composite::lay_over;
+use paint::document::{Document, DryLayer, Ground, Lighting, Medium};
+use paint::layer::{Layer, SLOTS};
+use paint::light::{Light, Mixer};
+use paint::optics::{Gloss, NODES, Scene};
+use paint::scene::{picture, scene};
+use paint::shade::{Relief, shade_row};
+use pigment::evaluate::Viewing;
+use pigment::library::PigmentLibrary;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+fn main() {
+    divan::main();
+}
+
+const WIDTH: usize = 1024;
+
+fn library() -> PigmentLibrary {
+    let text = include_str!("../../../measurements/van-gogh-oils.pigments.json");
+    PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).expect("the library is sound")
+}
+
+/// Paint of eight pigments in every cell, up to 0.1 mm of each.
+fn layer(width: usize, height: usize, seed: u64) -> Layer {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut layer = Layer::empty(width, height);
+    for cell in layer.pigments.values_mut() {
+        *cell = std::array::from_fn(|_| random.random_range(0..1 << 21));
+    }
+    layer
+}
+
+/// A painting with its scene: two dry layers and a wet one.
+fn painting(width: usize, height: usize) -> (Document, Scene) {
+    let library = library();
+    let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
+    let slots = std::array::from_fn(Some);
+    let dry = |seed| DryLayer { slots, opacity: 1.0, paint: layer(width, height, seed) };
+    let document = Document {
+        title: String::new(),
+        cell_mm: 0.1,
+        ground: Ground {
+            name: String::new(),
+            height: Field::filled(width, height, 0),
+            reflectance: vec![0.9; library.grid.count()],
+            gloss: Gloss { strength: 0.0, exponent: 1.0 },
+        },
+        library,
+        medium: Medium::default(),
+        dry: vec![dry(1), dry(2)],
+        slots,
+        wet: layer(width, height, 3),
+        lighting: Lighting::default(),
+    };
+    let scene = scene(&document, &light);
+    (document, scene)
+}
+
+/// One layer of eight pigments at eight wavelengths over the ground, to internal
+/// reflectance; one core.
+#[divan::bench]
+fn one_layer(bencher: Bencher) {
+    let (document, scene) = painting(WIDTH, 4);
+    let cells = document.wet.pigments.values();
+    bencher
+        .counter(ItemsCount::new(cells.len()))
+        .with_inputs(|| vec![scene.ground; cells.len()])
+        .bench_local_refs(|internal| lay_over(&scene.wet, cells, internal));
+}
+
+/// The same to linear RGB without relief, in rows on as many threads.
+#[divan::bench(args = [1, 2])]
+fn one_layer_to_rgb(bencher: Bencher, threads: usize) {
+    let (document, mut scene) = painting(WIDTH, 256);
+    scene.lamp.relief = 0.0;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let level = vec![0; WIDTH + 2];
+    let relief = Relief { above: &level, here: &level, below: &level };
+    let cells = document.wet.pigments.values();
+    let mut out = vec![[0.0; 4]; cells.len()];
+    let row = |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
+        internal.fill(scene.ground);
+        lay_over(&scene.wet, cells, internal);
+        shade_row(&scene, &relief, internal, &[0; WIDTH], out);
+    };
+    bencher.counter(ItemsCount::new(cells.len())).bench_local(|| {
+        pool.install(|| {
+            let rows = cells.par_chunks(WIDTH).zip(out.par_chunks_mut(WIDTH));
+            rows.for_each_init(|| vec![scene.ground; WIDTH], row);
+        });
+    });
+}
+
+/// Three layers of 1024 x 1024 with relief and gloss, on all cores.
+#[divan::bench(sample_count = 20)]
+fn three_layers(bencher: Bencher) {
+    let (document, scene) = painting(WIDTH, WIDTH);
+    bencher.counter(ItemsCount::new(WIDTH * WIDTH)).bench_local(|| picture(&document, &scene));
+}
+
+/// Two paints mixed in many ratios, one core.
+#[divan::bench]
+fn mixer(bencher: Bencher) {
+    let library = library();
+    let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
+    let mixer = Mixer::new(&library, &light, &[(1, 1.0)], &[(15, 1.0)]).expect("two pigments");
+    let shares: Vec<f32> = (0..4096u16).map(|i| f32::from(i) / 4095.0).collect();
+    let mut out = vec![[0.0; 3]; shares.len()];
+    bencher
+        .counter(ItemsCount::new(shares.len()))
+        .bench_local(|| mixer.mix_into(divan::black_box(&shares), &mut out));
+}
+
+/// A light for a library: eight wavelengths fitted.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn light() -> Light {
+    Light::new(&library(), &Viewing::default()).expect("eight wavelengths of D65")
+}

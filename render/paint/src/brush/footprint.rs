@@ -1,0 +1,337 @@
+//! The facets near the canvas, cell by cell.
+
+use super::net::Point;
+use super::surface::Surface;
+use crate::contact::{Contact, Touch};
+use graphics::tile::Rect;
+
+/// Fractional bits of what runs along a row.
+const ONE: f32 = 65536.0;
+
+/// What is interpolated over a facet, in the order of [`Point`]'s last six, each
+/// in units of which 65536 are told as 1 but for the height.
+const HEIGHT: usize = 0;
+const X: usize = 1;
+const Y: usize = 2;
+const SPEED: usize = 3;
+const AROUND: usize = 4;
+const ALONG: usize = 5;
+
+/// Draws a surface into a contact. Its vertices are x and y in cells from an
+/// origin, then height in quanta, velocity in x and y in 1/256 cell a sub-step
+/// and speed weight, these three times 65536.
+#[derive(Debug, Clone)]
+pub(super) struct Footprint {
+    /// Whether there is hair, by facet; empty if there is everywhere.
+    hair: Vec<bool>,
+    /// How far the bristles of each column of the head's cells draw back, in quanta.
+    bristles: Vec<i32>,
+    facets: Vec<Facet>,
+    /// How many cells lie under each cell of the head.
+    sharers: Vec<u16>,
+    /// The cells of the head in a row.
+    width: u32,
+}
+
+/// A facet that is drawn: its corners and the first of its cells.
+#[derive(Debug, Clone, Copy)]
+struct Facet {
+    corners: [u32; 4],
+    cell: u32,
+}
+
+impl Footprint {
+    /// For a head of `bristles.len()` x `height` cells with hair on these facets.
+    pub(super) fn new(bristles: Vec<i32>, height: usize, hair: Vec<bool>) -> Self {
+        let width = bristles.len();
+        Self {
+            hair,
+            bristles,
+            facets: Vec::new(),
+            sharers: vec![0; width * height],
+            width: width as u32,
+        }
+    }
+
+    /// Fills `out` with what of `surface` is below `ceiling` (in quanta) and
+    /// over the cells of `bounds`, seen from the cell `origin`.
+    pub(super) fn draw(
+        &mut self,
+        surface: &Surface,
+        ceiling: f32,
+        origin: (i64, i64),
+        bounds: Rect,
+        out: &mut Contact,
+    ) {
+        let reach = self.choose(surface, ceiling);
+        out.rect = cells_within(reach, origin, bounds);
+        out.touches.resize(out.rect.width * out.rect.height, Touch::NONE);
+        if out.rect.is_empty() {
+            return;
+        }
+        let first = ((out.rect.x as i64 - origin.0) as f32, (out.rect.y as i64 - origin.1) as f32);
+        let (cells_around, cells_along) = surface.cells_of_facet();
+        let (around, along) = (cells_around as f32 * ONE, cells_along as f32 * ONE);
+        let most = (cells_around as i32 - 1, cells_along as i32 - 1);
+        for facet in &self.facets {
+            let corner = |i: usize, s: f32, t: f32| {
+                let v = &surface.vertices[facet.corners[i] as usize];
+                Corner {
+                    x: v[0] - first.0,
+                    y: v[1] - first.1,
+                    values: [v[2], v[3], v[4], v[5], s, t, 0.0, 0.0],
+                }
+            };
+            let corners = [
+                corner(0, 0.0, 0.0),
+                corner(1, around, 0.0),
+                corner(2, 0.0, along),
+                corner(3, around, along),
+            ];
+            let mut canvas = Canvas {
+                touches: &mut out.touches,
+                width: out.rect.width,
+                height: out.rect.height,
+                cell: facet.cell,
+                row: self.width,
+                most,
+                bristles: &self.bristles[facet.cell as usize % self.bristles.len()..],
+            };
+            canvas.triangle(&corners[0], &corners[1], &corners[2]);
+            canvas.triangle(&corners[3], &corners[2], &corners[1]);
+        }
+        self.count(&mut out.touches);
+    }
+
+    /// Collects the facets that look down from below the ceiling; how far they
+    /// reach: lowest x and y, highest x and y.
+    fn choose(&mut self, surface: &Surface, ceiling: f32) -> [f32; 4] {
+        self.facets.clear();
+        let (around, along) = surface.facets();
+        let (cells_around, cells_along) = surface.cells_of_facet();
+        let span = surface.facets_of_span();
+        let mut reach = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+        for row in 0..along {
+            for first in (0..around).step_by(span) {
+                if !surface.is_near(first, row) {
+                    continue;
+                }
+                for column in first..first + span {
+                    if self.hair.get(row * around + column) == Some(&false) {
+                        continue;
+                    }
+                    let next = if column + 1 < around { column + 1 } else { 0 };
+                    let corners = [
+                        row * around + column,
+                        row * around + next,
+                        (row + 1) * around + column,
+                        (row + 1) * around + next,
+                    ];
+                    let [a, b, c, d] = corners.map(|i| &surface.vertices[i]);
+                    let looks = (d[0] - a[0]) * (c[1] - b[1]) - (d[1] - a[1]) * (c[0] - b[0]);
+                    if looks <= 0.0 || a[2].min(b[2]).min(c[2]).min(d[2]) >= ceiling {
+                        continue;
+                    }
+                    for v in [a, b, c, d] {
+                        reach[0] = reach[0].min(v[0]);
+                        reach[1] = reach[1].min(v[1]);
+                        reach[2] = reach[2].max(v[0]);
+                        reach[3] = reach[3].max(v[1]);
+                    }
+                    self.facets.push(Facet {
+                        corners: corners.map(|i| i as u32),
+                        cell: (row * cells_along) as u32 * self.width
+                            + (column * cells_around) as u32,
+                    });
+                }
+            }
+        }
+        reach
+    }
+
+    /// Tells every touch how many share its cell of the head.
+    fn count(&mut self, touches: &mut [Touch]) {
+        let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
+        for touch in touches.iter().filter(touching) {
+            let sharers = &mut self.sharers[touch.brush_cell as usize];
+            *sharers = sharers.saturating_add(1);
+        }
+        for touch in touches.iter_mut() {
+            if touch.height != Touch::NONE.height {
+                touch.weights |= u32::from(self.sharers[touch.brush_cell as usize]) << 16;
+            }
+        }
+        for touch in touches.iter().filter(touching) {
+            self.sharers[touch.brush_cell as usize] = 0;
+        }
+    }
+}
+
+/// The cells of `bounds` whose middle may lie within `reach`.
+fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
+    if reach[0] > reach[2] {
+        return Rect::default();
+    }
+    let side = |low: f32, high: f32, origin: i64, start: usize, count: usize| {
+        let (start, end) = (start as i64, (start + count) as i64);
+        let low = (origin + (low - 0.5).ceil() as i64).clamp(start, end);
+        let high = (origin + (high - 0.5).ceil() as i64).clamp(start, end);
+        (low as usize, (high - low) as usize)
+    };
+    let (x, width) = side(reach[0], reach[2], origin.0, bounds.x, bounds.width);
+    let (y, height) = side(reach[1], reach[3], origin.1, bounds.y, bounds.height);
+    let rect = Rect { x, y, width, height };
+    if rect.is_empty() { Rect::default() } else { rect }
+}
+
+/// A corner of a facet, in cells from the contact's first.
+struct Corner {
+    x: f32,
+    y: f32,
+    values: Point,
+}
+
+/// What a facet is drawn on.
+struct Canvas<'a> {
+    touches: &'a mut [Touch],
+    width: usize,
+    height: usize,
+    /// The facet's first cell on the head, and the cells in a row of the head.
+    cell: u32,
+    row: u32,
+    /// The facet's last cell, around and along.
+    most: (i32, i32),
+    /// From the facet's first column on.
+    bristles: &'a [i32],
+}
+
+impl Canvas<'_> {
+    /// Draws a triangle whose corners turn from x to y; cells whose middle lies on
+    /// an edge belong to the triangle right of it or below it.
+    #[inline(always)]
+    fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
+        let (bx, by) = (b.x - a.x, b.y - a.y);
+        let (cx, cy) = (c.x - a.x, c.y - a.y);
+        let area = bx * cy - by * cx;
+        if area <= 0.0 {
+            return;
+        }
+        let top = first_middle(a.y.min(b.y).min(c.y), self.height);
+        let bottom = first_middle(a.y.max(b.y).max(c.y), self.height);
+        if top >= bottom {
+            return;
+        }
+        let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
+        let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
+        let step = whole(&right);
+        // Slopes of a sliver are hardly known; its heights are.
+        let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
+        let lowest = min(min(heights[0], heights[1]), heights[2]);
+        let highest = max(max(heights[0], heights[1]), heights[2]);
+        for y in top..bottom {
+            let middle = y as f32 + 0.5;
+            let (mut from, mut to) = (0.0_f32, self.width as f32);
+            for edge in &edges {
+                let x = edge.x + (middle - edge.y) * edge.slope;
+                from = if edge.side < 0.0 { max(from, x) } else { from };
+                to = if edge.side > 0.0 { min(to, x) } else { to };
+            }
+            let (start, end) = (first_middle(from, self.width), first_middle(to, self.width));
+            if start >= end {
+                continue;
+            }
+            let (x, y_off) = (start as f32 + 0.5 - a.x, middle - a.y);
+            let mut begin = a.values;
+            for i in 0..8 {
+                begin[i] += right[i] * x + down[i] * y_off;
+            }
+            begin[HEIGHT] = min(max(begin[HEIGHT], lowest), highest);
+            let row = &mut self.touches[y * self.width..][start..end];
+            let mut at = whole(&begin);
+            for touch in row {
+                let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
+                let height = at[HEIGHT] + self.bristles[around as usize];
+                if height < touch.height {
+                    let along = (at[ALONG] >> 16).max(0).min(self.most.1) as u32;
+                    touch.height = height;
+                    touch.brush_cell = self.cell + along * self.row + around;
+                    touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
+                    touch.weights = (at[SPEED] >> 16).clamp(0, 256) as u32;
+                }
+                for i in 0..8 {
+                    at[i] = at[i].wrapping_add(step[i]);
+                }
+            }
+        }
+    }
+}
+
+/// How the values change by one cell in x, and in y.
+#[inline(always)]
+fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Point, Point) {
+    let (mut right, mut down) = ([0.0; 8], [0.0; 8]);
+    for i in 0..8 {
+        let (to_b, to_c) = (b.values[i] - a.values[i], c.values[i] - a.values[i]);
+        right[i] = to_b * cy - to_c * by;
+        down[i] = to_c * bx - to_b * cx;
+    }
+    (right, down)
+}
+
+/// The line through two corners, the same bits whichever comes first.
+struct Edge {
+    x: f32,
+    y: f32,
+    slope: f32,
+    /// Below 0 on the left of the triangle, above 0 on its right.
+    side: f32,
+}
+
+impl Edge {
+    #[inline(always)]
+    fn new(from: &Corner, to: &Corner) -> Self {
+        let side = to.y - from.y;
+        let (upper, lower) = if side > 0.0 { (from, to) } else { (to, from) };
+        // Level edges bound no row; their slope is never used.
+        let slope = (lower.x - upper.x) / (lower.y - upper.y);
+        Self { x: upper.x, y: upper.y, slope, side }
+    }
+}
+
+/// The first cell, up to `end`, whose middle is at `place` or beyond.
+#[inline(always)]
+fn first_middle(place: f32, end: usize) -> usize {
+    let cells = min(max(place - 0.5, 0.0), end as f32);
+    let near = nearest(cells);
+    (near + i32::from((near as f32) < cells)) as usize
+}
+
+#[inline(always)]
+fn whole(values: &Point) -> [i32; 8] {
+    // A loop: `map` is not always seen through.
+    let mut wholes = [0; 8];
+    for i in 0..8 {
+        wholes[i] = nearest(values[i]);
+    }
+    wholes
+}
+
+/// The nearest whole number, of which 32 bits are kept. What `as` does about
+/// numbers out of range takes longer than the rest of a row.
+#[inline(always)]
+fn nearest(value: f32) -> i32 {
+    /// In f64 one unit of the last place is 1 here.
+    const UNIT: f64 = 6_755_399_441_055_744.0;
+    (f64::from(value) + UNIT).to_bits() as i32
+}
+
+/// `f32::max` without its care for what is not a number, which costs time.
+#[inline(always)]
+fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}

@@ -1,0 +1,318 @@
+//! A brush head: what bends, what is around it, and what it touches.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::footprint::Footprint;
+use super::grip::Grip;
+use super::mesh::HeadMesh;
+use super::net::{Net, Point, columns};
+use super::relief::{Relief, View};
+use super::shape::HeadShape;
+use super::spines::{Spines, sink};
+use super::surface::Surface;
+use super::vector::Vector;
+use crate::amount::QUANTA_PER_CELL;
+use crate::contact::Contact;
+use crate::pose::Pose;
+use graphics::tile::Rect;
+
+/// The sizes of heads there are, in mm.
+const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
+
+/// The widest head, in cells.
+const WIDEST: f64 = 2048.0;
+
+/// Heads narrower than this many cells count as so wide: finer ones could pass
+/// between the middles of cells.
+const NARROWEST: f32 = 1.5;
+
+/// How high over the highest relief nearby the head is still drawn, in mm:
+/// thicker wet paint is touched no higher.
+const HIGHEST_PAINT_MM: f64 = 2.0;
+
+/// A handle that moves farther than this many cells in a sub-step was lifted and
+/// put down again.
+const FARTHEST_DRAG: i64 = 64;
+
+/// The head of one brush. Its paint is a grid of cells, which lives in the
+/// engine; this knows where each cell is.
+#[derive(Debug, Clone)]
+pub struct Head {
+    shape: HeadShape,
+    size_mm: f64,
+    cell_mm: f64,
+    pub(super) spines: Spines,
+    net: Net,
+    surface: Surface,
+    footprint: Footprint,
+    /// The origin of coordinates, while the head touches.
+    origin: Option<(i64, i64)>,
+    /// The same while it hovers.
+    hovering: Option<(i64, i64)>,
+}
+
+impl Head {
+    /// A head `size_mm` wide, over cells that are `cell_mm` wide.
+    ///
+    /// # Errors
+    /// [`BrushError`] if the size is not 0.2 to 100 mm, or more than 2048 cells.
+    pub fn new(shape: HeadShape, size_mm: f64, cell_mm: f64) -> Result<Self, BrushError> {
+        if !SIZES_MM.contains(&size_mm) {
+            return Err(BrushError::Size { size_mm });
+        }
+        if !(cell_mm.is_finite() && cell_mm > 0.0) {
+            return Err(BrushError::Cell { cell_mm });
+        }
+        if size_mm / cell_mm > WIDEST {
+            return Err(BrushError::TooFine { size_mm, cell_mm });
+        }
+        let of = shape.proportions();
+        let width = ((size_mm / cell_mm) as f32).max(NARROWEST);
+        let spines = Spines::new(of, width);
+        let perimeter = if of.spines == 1 {
+            std::f32::consts::PI * width
+        } else {
+            2.0 * width * (1.0 + of.thickness)
+        };
+        let surface = Surface::new(columns(of.spines), perimeter, spines.length());
+        let (around, along) = cells(&surface);
+        let hair = if of.gaps { tufts(&surface, of.spines) } else { Vec::new() };
+        Ok(Self {
+            shape,
+            size_mm,
+            cell_mm,
+            net: Net::new(&spines),
+            spines,
+            footprint: Footprint::new(bristles(of.bristles, around, size_mm), along, hair),
+            surface,
+            origin: None,
+            hovering: None,
+        })
+    }
+
+    /// Its shape.
+    #[must_use]
+    pub fn shape(&self) -> HeadShape {
+        self.shape
+    }
+
+    /// Its width in mm.
+    #[must_use]
+    pub fn size_mm(&self) -> f64 {
+        self.size_mm
+    }
+
+    /// Width in mm of the cells it was made for.
+    #[must_use]
+    pub fn cell_mm(&self) -> f64 {
+        self.cell_mm
+    }
+
+    /// The cells of its paint: around it, which is along x of their grid, and
+    /// from the ferrule to the tip. About one to a cell of the canvas, but on no
+    /// head more than about a million.
+    #[must_use]
+    pub fn paint_grid(&self) -> (usize, usize) {
+        cells(&self.surface)
+    }
+
+    /// Takes the head off the canvas; it is straight again.
+    pub fn lift(&mut self) {
+        (self.origin, self.hovering) = (None, None);
+    }
+
+    /// Holds the head just above the canvas at `pose`, straight, whatever its
+    /// pressure: it touches nothing. Nothing of it is left in the stroke after it.
+    pub fn hover(&mut self, pose: &Pose, relief: &Relief) {
+        self.lift();
+        let held = Pose { pressure: 1.0, ..*pose };
+        let Some(grip) = Grip::new(&held, self.spines.of.rigid) else { return };
+        self.spines.stand(&grip, Vector::ZERO, &relief.seen_from(grip.origin));
+        self.net.follow(&self.spines, &grip);
+        self.net.rest();
+        self.hovering = Some(grip.origin);
+    }
+
+    /// The surface of the head as it is bent now; none while it is lifted. Made
+    /// in some 30 us.
+    #[must_use]
+    pub fn mesh(&self) -> Option<HeadMesh> {
+        let origin = self.origin.or(self.hovering)?;
+        Some(HeadMesh::of(&self.net, origin))
+    }
+
+    /// Sets the head down at `pose`, bent as its pressure bends it, without
+    /// dragging it; its tip falls behind `heading`, the way it will go, if that
+    /// is not (0, 0). At no pressure it stays lifted.
+    pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
+        self.lift();
+        let Some(grip) = Grip::new(pose, self.spines.of.rigid) else { return };
+        self.origin = Some(grip.origin);
+        let view = relief.seen_from(grip.origin);
+        let way = Vector::new(heading.0 as f32, heading.1 as f32, 0.0);
+        self.spines.hang(&grip, way, &view);
+        self.spines.lower(&grip, &view);
+        self.net.follow(&self.spines, &grip);
+        self.net.rest();
+    }
+
+    /// Moves the head to `pose`, and fills `out` with what it then touches of
+    /// the canvas `bounds`: an empty rectangle if nothing, as always at no
+    /// pressure and at poses that hold no numbers. Coming from no pressure it
+    /// comes down from above; coming from more than 64 cells away it is set down.
+    ///
+    /// The speed that lets paint change sides is that of the surface in space, so
+    /// that a head pressed down leaves paint too.
+    pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
+        out.rect = Rect::default();
+        out.touches.clear();
+        let Some(grip) = Grip::new(pose, self.spines.of.rigid) else {
+            self.lift();
+            return;
+        };
+        let view = relief.seen_from(grip.origin);
+        match self.origin {
+            None => {
+                self.spines.hang(&grip, Vector::ZERO, &view);
+                self.net.follow(&self.spines, &grip);
+                self.net.rest();
+            }
+            Some(origin) => {
+                let moved = (grip.origin.0 - origin.0, grip.origin.1 - origin.1);
+                if moved.0.abs().max(moved.1.abs()) > FARTHEST_DRAG {
+                    self.set_down(pose, (0.0, 0.0), relief);
+                } else {
+                    let moved = Vector::new(moved.0 as f32, moved.1 as f32, 0.0);
+                    self.spines.rebase(moved);
+                    self.net.rebase(moved);
+                }
+            }
+        }
+        self.origin = Some(grip.origin);
+        self.spines.advance(&grip, &view);
+        self.net.follow(&self.spines, &grip);
+        self.touch(&grip, &view, bounds, out);
+    }
+
+    fn touch(&mut self, grip: &Grip, view: &View<'_>, bounds: Rect, out: &mut Contact) {
+        let reach = self.spines.width + grip.pressure * self.spines.length();
+        let (lowest, highest) = view.range(grip.tip, reach);
+        let ceiling = highest + (HIGHEST_PAINT_MM / self.cell_mm) as f32;
+        let sink = sink(grip.pressure);
+        let plane = lowest == highest;
+        self.surface.evaluate(&self.net, ceiling, |vertex| {
+            let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
+            *vertex = finished(vertex, relief, sink);
+        });
+        let ceiling = ceiling * QUANTA_PER_CELL as f32;
+        self.footprint.draw(&self.surface, ceiling, grip.origin, bounds, out);
+    }
+}
+
+/// The cells of the head's paint, around and along.
+fn cells(surface: &Surface) -> (usize, usize) {
+    let (facets, cells) = (surface.facets(), surface.cells_of_facet());
+    (facets.0 * cells.0, facets.1 * cells.1)
+}
+
+/// A vertex as the footprint wants it: place, height in quanta, velocity and
+/// speed. Where the surface would be below the relief it is pressed up, so far
+/// that it stays less than `sink` cells below.
+#[inline(always)]
+fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
+    let &[x, y, z, _, dx, dy, dz, _] = vertex;
+    let below = (relief - z).max(0.0);
+    let height = if below > 0.0 { relief - sink * below / (below + sink) } else { z };
+    let speed = (dx * dx + dy * dy + dz * dz).sqrt();
+    let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
+    let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
+    [
+        x,
+        y,
+        height * QUANTA_PER_CELL as f32,
+        fixed(dx),
+        fixed(dy),
+        t * t * (3.0 - 2.0 * t) * (256.0 * 65536.0),
+        0.0,
+        0.0,
+    ]
+}
+
+/// How far the bristles of each column of cells draw back, in quanta: up to
+/// `most` cells, few of them far. They cling together in locks about 0.5 mm wide.
+/// Heads of one size are alike.
+fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
+    let mut random = ChaCha8Rng::seed_from_u64(size_mm.to_bits());
+    // Around the head is a little more than twice its width.
+    let locks = ((4.0 * size_mm) as usize).max(4);
+    let lock: Vec<f32> = (0..locks).map(|_| random.random::<f32>()).collect();
+    let bristle = |column: usize| {
+        let place = column as f32 * locks as f32 / columns as f32;
+        let (left, share) = (place as usize % locks, place.fract());
+        let smooth = share * share * (3.0 - 2.0 * share);
+        let high = lock[left] + (lock[(left + 1) % locks] - lock[left]) * smooth;
+        let hair = 0.7 * high * high + 0.3 * random.random::<f32>() * high;
+        (most * hair * QUANTA_PER_CELL as f32) as i32
+    };
+    (0..columns).map(bristle).collect()
+}
+
+/// Where a fan has hair: all of it near the ferrule, tufts around its spines
+/// near the tip; on a small fan, whose facets are no finer than its tufts, tufts
+/// around pairs of spines.
+fn tufts(surface: &Surface, spines: usize) -> Vec<bool> {
+    let (around, along) = surface.facets();
+    let in_span = surface.facets_of_span();
+    let hair = |i: usize| {
+        let (column, down) = (i % around, (i / around) as f32 / along as f32);
+        // Columns of the net stand on spines: a gap is between two of them.
+        let span = column / in_span;
+        if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {
+            return true;
+        }
+        if in_span < 3 {
+            return span.is_multiple_of(2) || down < 0.6;
+        }
+        let off = ((column % in_span) as f32 + 0.5) / in_span as f32 - 0.5;
+        off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
+    };
+    (0..around * along).map(hair).collect()
+}
+
+/// Why there is no such head.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BrushError {
+    /// Too small, too large, or not a number.
+    #[error("a head is 0.2 to 100 mm wide: `{size_mm}` mm")]
+    Size {
+        /// As it was given.
+        size_mm: f64,
+    },
+    /// Cells without width.
+    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    Cell {
+        /// As it was given.
+        cell_mm: f64,
+    },
+    /// More cells than a head may have.
+    #[error("a head is at most 2048 cells wide: `{size_mm}` mm over cells of {cell_mm} mm")]
+    TooFine {
+        /// Width of the head.
+        size_mm: f64,
+        /// Width of a cell.
+        cell_mm: f64,
+    },
+}
+
+impl BrushError {
+    /// The way out.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Size { .. } => "give the width of the head in mm, such as 6",
+            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
+            Self::TooFine { .. } => "take a smaller brush or larger cells",
+        }
+    }
+}

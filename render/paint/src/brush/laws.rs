@@ -1,0 +1,308 @@
+//! Laws of heads.
+
+use rand::{RngExt, SeedableRng};
+
+use super::{BrushError, Head, HeadShape, Relief};
+use crate::amount::QUANTA_PER_CELL;
+use crate::contact::Contact;
+use crate::contact::Touch;
+use crate::pose::Pose;
+use graphics::tile::Rect;
+
+const BOUNDS: Rect = Rect { x: 0, y: 0, width: 320, height: 240 };
+const POSE: Pose =
+    Pose { x: 160.4, y: 120.4, pressure: 0.5, tilt_x_deg: 0.0, tilt_y_deg: 0.0, twist_deg: 0.0 };
+
+fn head(shape: HeadShape) -> Head {
+    Head::new(shape, 4.0, 0.1).unwrap()
+}
+
+fn plane() -> Relief {
+    Relief::flat(BOUNDS.width, BOUNDS.height, 0.1)
+}
+
+fn nothing() -> Contact {
+    Contact { rect: Rect::default(), touches: Vec::new() }
+}
+
+/// What a head touches that is set down.
+fn set_down(shape: HeadShape, pose: Pose) -> Contact {
+    let (mut head, mut contact) = (head(shape), nothing());
+    head.set_down(&pose, (0.0, 0.0), &plane());
+    head.advance(&pose, &plane(), BOUNDS, &mut contact);
+    contact
+}
+
+/// The cells, with their touch, where the head is below a film of `mm`.
+fn under(contact: &Contact, mm: f64) -> Vec<(usize, usize, Touch)> {
+    let top = (mm / 0.1 * f64::from(QUANTA_PER_CELL)) as i32;
+    let cells = contact.touches.iter().enumerate().filter(|(_, touch)| touch.height <= top);
+    let rect = contact.rect;
+    cells.map(|(i, &t)| (rect.x + i % rect.width, rect.y + i / rect.width, t)).collect()
+}
+
+fn mean_x(cells: &[(usize, usize, Touch)]) -> f64 {
+    cells.iter().map(|cell| cell.0 as f64 + 0.5).sum::<f64>() / cells.len() as f64
+}
+
+#[test]
+fn every_shape_touches_when_pressed_and_never_at_no_pressure() {
+    for shape in HeadShape::ALL {
+        for (tilt_x_deg, twist_deg) in [(0.0, 0.0), (40.0, 0.0), (-30.0, 90.0), (90.0, 45.0)] {
+            for pressure in [0.2, 0.6, 1.0] {
+                let pose = Pose { pressure, tilt_x_deg, twist_deg, ..POSE };
+                let cells = under(&set_down(shape, pose), 0.05).len();
+                assert!(cells >= 3, "{shape}, {pose:?}: {cells}");
+            }
+            let lifted = Pose { pressure: 0.0, tilt_x_deg, twist_deg, ..POSE };
+            assert_eq!(set_down(shape, lifted), nothing(), "{shape}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_heads_touch_too() {
+    for shape in HeadShape::ALL {
+        for cell_mm in [0.1, 0.5] {
+            let (mut head, mut contact) = (Head::new(shape, 0.2, cell_mm).unwrap(), nothing());
+            let relief = Relief::flat(320, 240, cell_mm);
+            head.advance(&Pose { pressure: 1.0, ..POSE }, &relief, BOUNDS, &mut contact);
+            assert!(!under(&contact, 0.0).is_empty(), "{shape} over {cell_mm}");
+        }
+    }
+}
+
+#[test]
+fn pressure_widens_the_footprint() {
+    for shape in HeadShape::ALL {
+        let mut before = 0;
+        // A leaning knife may lie flat at any pressure.
+        let tilt_y_deg = if shape == HeadShape::Knife { 0.0 } else { 20.0 };
+        for step in 1..=10 {
+            let pose = Pose { pressure: f64::from(step) / 10.0, tilt_y_deg, ..POSE };
+            let cells = under(&set_down(shape, pose), 0.2).len();
+            assert!(cells * 20 >= before * 19, "{shape} at {step}: {cells} after {before}");
+            before = cells;
+        }
+        let light = Pose { pressure: 0.1, tilt_y_deg, ..POSE };
+        let cells = under(&set_down(shape, light), 0.2).len();
+        assert!(before > 2 * cells, "{shape}: {before} after {cells}");
+    }
+}
+
+#[test]
+fn the_tip_trails_behind_the_motion() {
+    for shape in HeadShape::ALL.into_iter().filter(|&shape| shape != HeadShape::Knife) {
+        for way in [1.0, -1.0] {
+            let (mut head, mut contact) = (head(shape), nothing());
+            // Set down as if it went the other way.
+            let pose = |step: f64| Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE };
+            head.set_down(&pose(0.0), (-way, 0.0), &plane());
+            for step in 0..=90 {
+                head.advance(&pose(f64::from(step)), &plane(), BOUNDS, &mut contact);
+            }
+            let behind = (160.0 - mean_x(&under(&contact, 0.1))) * way;
+            assert!(behind > 2.0, "{shape}, {way}: {behind}");
+        }
+    }
+}
+
+#[test]
+fn the_surface_moves_with_the_handle() {
+    let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
+    for step in 0..100 {
+        let pose = Pose { x: 60.0 + f64::from(step), twist_deg: 90.0, ..POSE };
+        head.advance(&pose, &plane(), BOUNDS, &mut contact);
+    }
+    for (x, y, touch) in under(&contact, 0.0) {
+        let (right, down) = touch.velocity();
+        assert!((right - 256).abs() < 8 && down.abs() < 8, "{x} {y}: {right} {down}");
+        assert_eq!(touch.speed(), 256);
+    }
+    // It stands still: nothing moves, nothing changes sides.
+    let rest = Pose { x: 159.0, twist_deg: 90.0, ..POSE };
+    for _ in 0..100 {
+        head.advance(&rest, &plane(), BOUNDS, &mut contact);
+    }
+    assert!(under(&contact, 0.0).iter().all(|cell| cell.2.speed() == 0));
+}
+
+#[test]
+fn a_leaning_head_touches_along_its_side() {
+    let upright = set_down(HeadShape::Round, Pose { pressure: 0.3, ..POSE });
+    let lying = set_down(HeadShape::Round, Pose { pressure: 0.3, tilt_x_deg: 75.0, ..POSE });
+    let length = |contact: &Contact| {
+        let cells = under(contact, 0.1);
+        let of = |x: fn(usize, usize) -> usize| cells.iter().map(|c| c.0).fold(0, x);
+        (of(usize::max) + 1).saturating_sub(cells.iter().map(|c| c.0).min().unwrap_or(0))
+    };
+    assert!(length(&lying) > 2 * length(&upright), "{} {}", length(&lying), length(&upright));
+}
+
+#[test]
+fn whole_cells_of_way_move_the_contact_and_nothing_else() {
+    let played = |right: i32, down: i32| {
+        let (mut head, mut contact) = (head(HeadShape::Filbert), nothing());
+        for step in 0..40 {
+            let t = f64::from(step);
+            let (x, y) = (70.3 + f64::from(right) + 0.83 * t, 90.7 + f64::from(down) + 0.4 * t);
+            let pose = Pose { x, y, tilt_x_deg: t, twist_deg: 2.0 * t, ..POSE };
+            head.advance(&pose, &plane(), BOUNDS, &mut contact);
+        }
+        contact
+    };
+    let here = played(0, 0);
+    assert!(!here.rect.is_empty());
+    for (right, down) in [(1, 0), (77, 13), (-8, -20)] {
+        let there = played(right, down);
+        let x = (here.rect.x as i32 + right) as usize;
+        let y = (here.rect.y as i32 + down) as usize;
+        assert_eq!(there.rect, Rect { x, y, ..here.rect });
+        assert!(there.touches == here.touches, "by {right}, {down}");
+    }
+}
+
+#[test]
+fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
+    for shape in HeadShape::ALL {
+        let pose = Pose { pressure: 0.8, tilt_y_deg: 15.0, ..POSE };
+        let whole = under(&set_down(shape, pose), 0.0);
+        let edge = mean_x(&whole) as usize;
+        let half = Rect { x: 0, y: 0, width: edge, height: 240 };
+        let (mut head, mut cut) = (head(shape), nothing());
+        head.set_down(&pose, (0.0, 0.0), &plane());
+        head.advance(&pose, &plane(), half, &mut cut);
+        assert!(cut.rect.x + cut.rect.width <= edge, "{shape}: {:?}", cut.rect);
+        let kept: Vec<_> = whole.into_iter().filter(|cell| cell.0 < edge).collect();
+        let found = under(&cut, 0.0);
+        assert_eq!(found.len(), kept.len(), "{shape}");
+        for (found, kept) in found.iter().zip(&kept) {
+            // Rounding of a sum that starts elsewhere, in quanta.
+            assert!((found.2.height - kept.2.height).abs() < 200, "{shape}: {found:?}, {kept:?}");
+        }
+        head.advance(&pose, &plane(), Rect { x: 4000, ..half }, &mut cut);
+        assert_eq!(cut, nothing(), "{shape}");
+    }
+}
+
+#[test]
+fn hair_is_uneven_across_a_flat_and_a_blade_is_not() {
+    let unevenness = |shape| {
+        let cells = under(&set_down(shape, POSE), 0.0);
+        let beside = cells.windows(2).filter(|w| w[0].1 == w[1].1 && w[0].0 + 1 == w[1].0);
+        let steps: Vec<f64> =
+            beside.map(|w| f64::from((w[0].2.height - w[1].2.height).abs())).collect();
+        steps.iter().sum::<f64>() / steps.len() as f64 / f64::from(QUANTA_PER_CELL)
+    };
+    let (flat, knife) = (unevenness(HeadShape::Flat), unevenness(HeadShape::Knife));
+    assert!(flat > 0.02 && flat > 2.0 * knife, "{flat} cells, {knife}");
+}
+
+#[test]
+fn sharers_are_those_that_name_the_same_cell() {
+    for shape in HeadShape::ALL {
+        let contact = set_down(shape, Pose { pressure: 0.9, twist_deg: 33.0, ..POSE });
+        let (width, height) = head(shape).paint_grid();
+        let mut count = vec![0; width * height];
+        let touches = || contact.touches.iter().filter(|t| t.height != Touch::NONE.height);
+        for touch in touches() {
+            count[touch.brush_cell as usize] += 1;
+        }
+        assert!(touches().count() > 20, "{shape}");
+        for touch in touches() {
+            assert_eq!(touch.sharers(), count[touch.brush_cell as usize], "{shape}");
+        }
+    }
+}
+
+#[test]
+fn a_round_leaves_no_hole_in_its_footprint() {
+    for twist in 0..30 {
+        let pose = Pose { pressure: 0.9, twist_deg: 3.7 * f64::from(twist), ..POSE };
+        let cells = under(&set_down(HeadShape::Round, pose), 0.5);
+        for y in 0..BOUNDS.height {
+            let row: Vec<usize> = cells.iter().filter(|c| c.1 == y).map(|c| c.0).collect();
+            let span = row.last().map_or(0, |last| last - row[0] + 1);
+            assert_eq!(row.len(), span, "row {y} at {pose:?}");
+        }
+    }
+}
+
+#[test]
+fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
+    let weave = |i: usize| {
+        if (i % 320 / 2 + i / 320 / 2).is_multiple_of(2) { 0 } else { QUANTA_PER_CELL as i32 }
+    };
+    let floor = graphics::field::Field::from_values(320, 240, (0..320 * 240).map(weave).collect());
+    let relief = Relief::from_floor(&floor, 0.1);
+    let touched = |pressure: f64| {
+        let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
+        let pose = Pose { pressure, ..POSE };
+        head.set_down(&pose, (0.0, 1.0), &relief);
+        head.advance(&pose, &relief, BOUNDS, &mut contact);
+        let cells = under(&contact, 10.0);
+        let of = |valley: bool| {
+            let side = cells.iter().filter(|c| (floor[(c.0, c.1)] == 0) == valley);
+            side.filter(|c| c.2.height <= floor[(c.0, c.1)]).count()
+        };
+        (of(true), of(false))
+    };
+    let (valleys, crests) = touched(0.35);
+    assert!(valleys == 0 && crests > 20, "{valleys} {crests}");
+    let (valleys, crests) = touched(1.0);
+    // Not all: bristles that draw back pass over valleys so deep.
+    assert!(valleys * 10 > crests * 6, "{valleys} {crests}");
+}
+
+#[test]
+fn heads_stay_finite_and_alike_in_hostile_hands() {
+    let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+    let odd = [f64::NAN, f64::INFINITY, -1e300, 1e300, 1e9, -90.0, 90.0, 0.0];
+    let mut floor = graphics::field::Field::filled(320, 240, 0);
+    for height in floor.values_mut() {
+        *height = random.random_range(0..QUANTA_PER_CELL as i32 * 30);
+    }
+    let relief = Relief::from_floor(&floor, 0.1);
+    for round in 0..1000 {
+        let shape = HeadShape::ALL[round % 8];
+        let (mut one, mut contact) = (Head::new(shape, 1.5, 0.1).unwrap(), nothing());
+        let (mut two, mut again) = (one.clone(), nothing());
+        for _ in 0..12 {
+            let mut number = |scale: f64, middle: f64| match random.random_range(0..12) {
+                0 => odd[random.random_range(0..odd.len())],
+                _ => middle + scale * (random.random::<f64>() - 0.5),
+            };
+            let pose = Pose {
+                x: number(100.0, 160.0),
+                y: number(100.0, 120.0),
+                pressure: number(1.2, 0.5),
+                tilt_x_deg: number(200.0, 0.0),
+                tilt_y_deg: number(200.0, 0.0),
+                twist_deg: number(1000.0, 0.0),
+            };
+            one.advance(&pose, &relief, BOUNDS, &mut contact);
+            two.advance(&pose, &relief, BOUNDS, &mut again);
+            assert!(contact == again, "round {round}: {pose:?}");
+            let nodes = one.spines.nodes.iter().flat_map(|node| [node.x, node.y, node.z]);
+            assert!(nodes.into_iter().all(f32::is_finite), "round {round}: {pose:?}");
+            assert_eq!(contact.touches.len(), contact.rect.width * contact.rect.height);
+            let (width, height) = one.paint_grid();
+            for touch in contact.touches.iter().filter(|t| t.height != Touch::NONE.height) {
+                assert!((touch.brush_cell as usize) < width * height, "round {round}");
+                // Nothing is pressed deeper than 2.5 cells below the relief.
+                assert!(touch.height > -3 * QUANTA_PER_CELL as i32, "{pose:?}: {touch:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn heads_that_cannot_be_are_refused() {
+    for size_mm in [0.0, 0.19, 100.1, f64::NAN, -1.0] {
+        let error = Head::new(HeadShape::Flat, size_mm, 0.1).unwrap_err();
+        assert!(matches!(error, BrushError::Size { .. }), "{error}");
+    }
+    assert!(matches!(Head::new(HeadShape::Mop, 1.0, 0.0), Err(BrushError::Cell { .. })));
+    assert!(matches!(Head::new(HeadShape::Mop, 90.0, 0.01), Err(BrushError::TooFine { .. })));
+    assert!(Head::new(HeadShape::Rigger, 100.0, 0.1).is_ok());
+}

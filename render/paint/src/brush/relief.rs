@@ -1,0 +1,191 @@
+//! The canvas as a head feels it: its height, coarsely.
+
+use crate::amount::QUANTA_PER_CELL;
+use graphics::field::Field;
+
+/// Cells of the canvas, along x and y, to one value of a relief.
+pub const BLOCK: usize = 8;
+
+/// Heights of ground and dry paint at one value for each block of 8 x 8 cells,
+/// in mm: the mean of the block and one standard deviation, which is near its
+/// crests, where hair rests. Over a plane it is the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relief {
+    cell_mm: f64,
+    heights_mm: Field<f32>,
+    /// The same, in cells.
+    heights: Field<f32>,
+}
+
+impl Relief {
+    /// That of `floor`, in quanta over the plane of the canvas, whose cells are
+    /// `cell_mm` wide.
+    ///
+    /// # Panics
+    /// If there is no cell.
+    #[must_use]
+    pub fn from_floor(floor: &Field<i32>, cell_mm: f64) -> Self {
+        assert!(!floor.bounds().is_empty(), "a canvas without cells");
+        let width = floor.width().div_ceil(BLOCK);
+        let height = floor.height().div_ceil(BLOCK);
+        let heights = Field::from_values(
+            width,
+            height,
+            (0..width * height).map(|i| crest(floor, i % width, i / width)).collect(),
+        );
+        let in_mm = heights.values().iter().map(|&h| (f64::from(h) * cell_mm) as f32).collect();
+        Self { cell_mm, heights_mm: Field::from_values(width, height, in_mm), heights }
+    }
+
+    /// A plane at height 0 under `width` x `height` cells.
+    #[must_use]
+    pub fn flat(width: usize, height: usize, cell_mm: f64) -> Self {
+        Self::from_floor(&Field::filled(width, height, 0), cell_mm)
+    }
+
+    /// Width of a cell of the canvas in mm.
+    #[must_use]
+    pub fn cell_mm(&self) -> f64 {
+        self.cell_mm
+    }
+
+    /// The heights in mm, a value for each block.
+    #[must_use]
+    pub fn heights_mm(&self) -> &Field<f32> {
+        &self.heights_mm
+    }
+
+    /// Heights as seen from the cell `origin`.
+    pub(super) fn seen_from(&self, origin: (i64, i64)) -> View<'_> {
+        let block = BLOCK as i64;
+        View {
+            heights: &self.heights,
+            first: (origin.0.div_euclid(block), origin.1.div_euclid(block)),
+            // A block's value stands at its middle.
+            shift: (
+                origin.0.rem_euclid(block) as f32 / block as f32 - 0.5,
+                origin.1.rem_euclid(block) as f32 / block as f32 - 0.5,
+            ),
+        }
+    }
+}
+
+/// Mean and a standard deviation over one block, in cells.
+fn crest(floor: &Field<i32>, column: usize, row: usize) -> f32 {
+    let (x, y) = (column * BLOCK, row * BLOCK);
+    let (width, height) = (BLOCK.min(floor.width() - x), BLOCK.min(floor.height() - y));
+    let cells = (y..y + height).flat_map(|y| floor.row(y, x, width));
+    let lowest = f64::from(floor[(x, y)]);
+    let (sum, squares) = cells.fold((0.0, 0.0), |(sum, squares), &quanta| {
+        let above = f64::from(quanta) - lowest;
+        (sum + above, squares + above * above)
+    });
+    let count = (width * height) as f64;
+    let mean = sum / count;
+    let deviation = (squares / count - mean * mean).max(0.0).sqrt();
+    ((lowest + mean + deviation) / f64::from(QUANTA_PER_CELL)) as f32
+}
+
+/// A relief in coordinates of a head: cells from an origin.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View<'a> {
+    heights: &'a Field<f32>,
+    first: (i64, i64),
+    shift: (f32, f32),
+}
+
+impl View<'_> {
+    /// The height at `(x, y)`, in cells; beyond the canvas that of its edge.
+    #[inline]
+    pub(super) fn height(&self, x: f32, y: f32) -> f32 {
+        let (x, y) =
+            (x * (1.0 / BLOCK as f32) + self.shift.0, y * (1.0 / BLOCK as f32) + self.shift.1);
+        let (column, row) = (floor_of(x), floor_of(y));
+        let (right, down) = (x - column as f32, y - row as f32);
+        let upper = self.between(column, row, right);
+        let lower = self.between(column, row + 1, right);
+        upper + (lower - upper) * down
+    }
+
+    fn between(&self, column: i32, row: i32, share: f32) -> f32 {
+        let row = clamped(self.first.1 + i64::from(row), self.heights.height());
+        let row = self.heights.row(row, 0, self.heights.width());
+        let left = row[clamped(self.first.0 + i64::from(column), row.len())];
+        let right = row[clamped(self.first.0 + i64::from(column) + 1, row.len())];
+        left + (right - left) * share
+    }
+
+    /// The lowest and the highest value that tell heights within `reach` cells of `(x, y)`.
+    pub(super) fn range(&self, (x, y): (f32, f32), reach: f32) -> (f32, f32) {
+        let block = |at: f32, shift: f32| i64::from(floor_of(at / BLOCK as f32 + shift));
+        let columns = block(x - reach, self.shift.0)..=block(x + reach, self.shift.0) + 1;
+        let rows = block(y - reach, self.shift.1)..=block(y + reach, self.shift.1) + 1;
+        let within = |range: std::ops::RangeInclusive<i64>, first: i64, count: usize| {
+            clamped(first + range.start(), count)..=clamped(first + range.end(), count)
+        };
+        let columns = within(columns, self.first.0, self.heights.width());
+        let mut found = (f32::INFINITY, f32::NEG_INFINITY);
+        for row in within(rows, self.first.1, self.heights.height()) {
+            let count = columns.end() - columns.start() + 1;
+            for &height in self.heights.row(row, *columns.start(), count) {
+                found = (found.0.min(height), found.1.max(height));
+            }
+        }
+        found
+    }
+}
+
+/// The whole number below; `f32::floor` is slow without SSE 4.1.
+#[inline]
+fn floor_of(value: f32) -> i32 {
+    let cut = value as i32;
+    cut - i32::from(value < cut as f32)
+}
+
+#[inline]
+fn clamped(index: i64, count: usize) -> usize {
+    index.clamp(0, count as i64 - 1) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const Q: i32 = QUANTA_PER_CELL as i32;
+
+    #[test]
+    fn a_plane_is_felt_as_it_is_also_beyond_its_edge() {
+        let relief = Relief::from_floor(&Field::filled(21, 13, 3 * Q), 0.1);
+        assert_eq!((relief.heights_mm().width(), relief.heights_mm().height()), (3, 2));
+        assert!((relief.heights_mm()[(1, 1)] - 0.3).abs() < 1e-6);
+        for origin in [(0, 0), (-500, 7), (9, 1_000_000_000)] {
+            assert_eq!(relief.seen_from(origin).height(3.3, -4.7), 3.0, "{origin:?}");
+            assert_eq!(relief.seen_from(origin).range((0.0, 0.0), 40.0), (3.0, 3.0), "{origin:?}");
+        }
+    }
+
+    #[test]
+    fn a_weave_is_felt_near_its_crests() {
+        let mut floor = Field::filled(8, 8, 0);
+        for (i, height) in floor.values_mut().iter_mut().enumerate() {
+            *height = if i % 2 == 0 { Q } else { 0 };
+        }
+        assert_eq!(Relief::from_floor(&floor, 0.1).heights_mm()[(0, 0)], 0.1);
+    }
+
+    #[test]
+    fn a_slope_is_felt_in_its_place() {
+        let mut floor = Field::filled(64, 8, 0);
+        for (i, height) in floor.values_mut().iter_mut().enumerate() {
+            *height = (i % 64 / 8) as i32 * 8 * Q;
+        }
+        let relief = Relief::from_floor(&floor, 0.1);
+        for x in [5.0_f32, 20.0, 31.5, 50.0] {
+            let here = relief.seen_from((0, 0)).height(x, 4.0);
+            assert!((here - (x - 4.0)).abs() < 1e-4, "{x}: {here}");
+            let moved = relief.seen_from((13, 2)).height(x - 13.0, 2.0);
+            assert!((moved - here).abs() < 1e-4, "{x}: {moved}, {here}");
+        }
+        assert_eq!(relief.seen_from((0, 0)).range((32.0, 4.0), 4.0), (24.0, 40.0));
+    }
+}

@@ -1,0 +1,233 @@
+//! Kubelka-Munk, layer upon layer: the internal reflectance of painted cells.
+//!
+//! The layer equations as printed in Baxter, Wendt and Lin 2004 (eq. 8 and 9)
+//! are misprinted; see `spectra::optics::Layer::new` for the form with decaying
+//! exponentials. With d = 1 that form over a backing g is, freed of differences
+//! of near values and of all divisions but one:
+//! ```text
+//! x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e)
+//! den   = (K + S) (1 - e) + (1 + e) x
+//! above = (K + S (1 - g)) (1 - e) + (1 + e) x      (den - n g)
+//! R = (n above + 4 e x^2 g) / (den above)
+//! ```
+
+use pulp::Simd;
+
+use crate::layer::SLOTS;
+use crate::optics::{Coat, NODES};
+use graphics::lanes::{decay, greater, lesser, multiply_add};
+
+/// Lays the paint of a row of cells, `pigments` in quanta by slot, over what has
+/// the internal reflectance `backing`, in place. Vehicle is clear.
+///
+/// Within 5e-7 of the same in f64 (tested) for K d and S d of 0 to 1e4 and backings of 0
+/// to 1; the result lies in 0..=1. Cells without paint keep their bits. Slots
+/// that are empty over the whole row cost nothing, and change nothing: a row may
+/// be cut anywhere.
+///
+/// # Panics
+/// If there is not one backing for each cell.
+pub fn lay_over(coat: &Coat, pigments: &[[u32; SLOTS]], backing: &mut [[f32; NODES]]) {
+    let found = pigments.len();
+    assert_eq!(found, backing.len(), "a backing for each cell, found {found} cells of paint");
+    let mut any = [0; SLOTS];
+    for amounts in pigments {
+        for (any, amount) in any.iter_mut().zip(amounts) {
+            *any |= amount;
+        }
+    }
+    let mut slots = [0; SLOTS];
+    let mut count = 0;
+    for (slot, any) in any.into_iter().enumerate() {
+        slots[count] = slot;
+        count += usize::from(any != 0);
+    }
+    if count > 0 {
+        pulp::Arch::new().dispatch(LayOver { coat, slots: &slots[..count], pigments, backing });
+    }
+}
+
+struct LayOver<'a> {
+    coat: &'a Coat,
+    slots: &'a [usize],
+    pigments: &'a [[u32; SLOTS]],
+    backing: &'a mut [[f32; NODES]],
+}
+
+impl pulp::WithSimd for LayOver<'_> {
+    type Output = ();
+
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "with iterators the compiler gives up on vectors: seven times slower"
+    )]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { coat, slots, pigments, backing } = self;
+        for (amounts, backing) in pigments.iter().zip(backing) {
+            let mut absorption = [0.0; NODES];
+            let mut scattering = [0.0; NODES];
+            for &slot in slots {
+                let slot = slot % SLOTS;
+                // A cell holds 2^31 at most, and i32 is quicker to convert.
+                let amount = amounts[slot].min(i32::MAX as u32) as i32 as f32;
+                for i in 0..NODES {
+                    let k = coat.absorption[slot][i];
+                    absorption[i] = multiply_add::<S>(amount, k, absorption[i]);
+                }
+                for i in 0..NODES {
+                    let s = coat.scattering[slot][i];
+                    scattering[i] = multiply_add::<S>(amount, s, scattering[i]);
+                }
+            }
+            for i in 0..NODES {
+                backing[i] = film::<S>(absorption[i], scattering[i], backing[i]);
+            }
+        }
+    }
+}
+
+/// Thinner films are computed as if alpha d were this; off by its square.
+const THINNEST: f32 = 1e-5;
+
+/// The reflectance of a film of unit thickness over `backing`.
+#[inline(always)]
+fn film<S: Simd>(absorption: f32, scattering: f32, backing: f32) -> f32 {
+    let (k, s, g) = (absorption, scattering, backing);
+    let x = greater((k * multiply_add::<S>(2.0, s, k)).sqrt(), THINNEST);
+    let (e, rest) = decay::<S>(2.0 * x);
+    let through = multiply_add::<S>(e, x, x);
+    let n = s * rest;
+    let den = multiply_add::<S>(k + s, rest, through);
+    let above = multiply_add::<S>(multiply_add::<S>(s, 1.0 - g, k), rest, through);
+    let lit = 4.0 * e * x * x * g;
+    let film = lesser(multiply_add::<S>(n, above, lit) / (den * above), 1.0);
+    if k + s > 0.0 { film } else { g }
+}
+
+#[cfg(test)]
+mod tests {
+    use spectra::optics::Layer;
+
+    use super::*;
+
+    /// K d or S d from nothing to 1e4.
+    const GRID: [f32; 15] =
+        [0.0, 1e-12, 1e-7, 1e-5, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 50.0, 300.0, 2000.0, 1e4];
+    const BACKINGS: [f32; 8] = [0.0, 1e-4, 0.03, 0.2, 0.5, 0.8, 0.97, 1.0];
+
+    /// A coat whose slots 0 and 1 bring K d and S d in even amounts of 1/16384.
+    fn coat(k: f32, s: f32) -> Coat {
+        let mut coat =
+            Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
+        coat.absorption[0] = [k / 16384.0; NODES];
+        coat.scattering[1] = [s / 16384.0; NODES];
+        coat
+    }
+
+    /// The film of K d = `k` and S d = `s` times `parts` / 16384 over `backing`.
+    fn over(k: f32, s: f32, parts: u32, backing: [f32; NODES]) -> [f32; NODES] {
+        let mut row = [backing];
+        lay_over(&coat(k, s), &[[parts, parts, 0, 0, 0, 0, 0, 0]], &mut row);
+        row[0]
+    }
+
+    #[test]
+    fn films_are_those_of_f64() {
+        let mut worst = (0.0, (0.0, 0.0, 0.0));
+        for k in GRID {
+            for s in GRID {
+                let found = over(k, s, 16384, BACKINGS);
+                let exact = Layer::new(f64::from(k), f64::from(s), 1.0);
+                for (found, backing) in found.into_iter().zip(BACKINGS) {
+                    assert!((0.0..=1.0).contains(&found), "{k} {s} over {backing}: {found}");
+                    let error = (f64::from(found) - exact.over(f64::from(backing))).abs();
+                    if error > worst.0 {
+                        worst = (error, (k, s, backing));
+                    }
+                }
+            }
+        }
+        // Measured 2.0e-7 with fused multiplication.
+        assert!(worst.0 < 5e-7, "{worst:?}");
+    }
+
+    #[test]
+    fn a_layer_cut_in_two_is_the_same_layer() {
+        for k in GRID {
+            for s in GRID {
+                let whole = over(k, s, 16384, BACKINGS);
+                for lower in [1, 4000, 8192] {
+                    let cut = over(k, s, 16384 - lower, over(k, s, lower, BACKINGS));
+                    for (whole, cut) in whole.into_iter().zip(cut) {
+                        assert!((whole - cut).abs() < 1e-6, "{k} {s} {lower}: {whole} {cut}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_the_backing_and_great_thickness_forgets_it() {
+        assert_eq!(over(1e4, 1e4, 0, BACKINGS), BACKINGS);
+        // Another cell of the row is painted: bits stay all the same.
+        let mut row = [BACKINGS, BACKINGS];
+        lay_over(&coat(1.0, 1.0), &[[0; SLOTS], [9, 9, 0, 0, 0, 0, 0, 0]], &mut row);
+        assert_eq!(row[0], BACKINGS);
+        assert_ne!(row[1], BACKINGS);
+        for (k, s) in [(1.0, 2000.0), (50.0, 1.0), (1e4, 1e4)] {
+            let seen = over(k, s, 16384, BACKINGS);
+            let hiding = spectra::optics::infinite_film(f64::from(k), f64::from(s));
+            for seen in seen {
+                assert!((f64::from(seen) - hiding).abs() < 1e-6, "{k} {s}: {seen} {hiding}");
+            }
+        }
+        // A full cell of the strongest paint there is.
+        for seen in over(2e-3 * 16384.0, 1e-3 * 16384.0, 1 << 31, BACKINGS) {
+            assert!((0.0..0.5).contains(&seen), "{seen}");
+        }
+    }
+
+    #[test]
+    fn reflectance_falls_with_absorption_and_grows_with_scattering_and_backing() {
+        for fixed in GRID {
+            for pair in GRID.windows(2) {
+                let [less, more] = [pair[0], pair[1]];
+                let (darker, lighter) =
+                    (over(more, fixed, 16384, BACKINGS), over(less, fixed, 16384, BACKINGS));
+                for (darker, lighter) in darker.into_iter().zip(lighter) {
+                    assert!(darker <= lighter + 2e-7, "K {pair:?}, S {fixed}: {darker} {lighter}");
+                }
+                // Without a backing, where scattering can only add.
+                let (darker, lighter) = (
+                    over(fixed, less, 16384, [0.0; NODES])[0],
+                    over(fixed, more, 16384, [0.0; NODES])[0],
+                );
+                assert!(darker <= lighter + 2e-7, "S {pair:?}, K {fixed}: {darker} {lighter}");
+            }
+            for pair in over(0.5, fixed, 16384, BACKINGS).windows(2) {
+                assert!(pair[0] <= pair[1] + 1e-7, "S {fixed}: {pair:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn slots_add_up_and_vehicle_is_clear() {
+        let mut all = coat(0.0, 0.0);
+        for slot in 0..SLOTS {
+            all.absorption[slot] = std::array::from_fn(|i| (slot + i) as f32 * 1e-5);
+            all.scattering[slot] = std::array::from_fn(|i| (slot * i + 1) as f32 * 1e-5);
+        }
+        let amounts: [u32; SLOTS] = [3000, 1, 70_000, 0, 12, 123_456, 9, 40_000];
+        let mut row = [BACKINGS; 3];
+        lay_over(&all, &[[0; SLOTS], amounts, [0; SLOTS]], &mut row);
+        for i in 0..NODES {
+            let sum = |table: &[[f32; NODES]; SLOTS]| -> f64 {
+                amounts.iter().zip(table).map(|(&a, row)| f64::from(a) * f64::from(row[i])).sum()
+            };
+            let exact = Layer::new(sum(&all.absorption), sum(&all.scattering), 1.0)
+                .over(f64::from(BACKINGS[i]));
+            assert!((f64::from(row[1][i]) - exact).abs() < 1e-6, "{i}: {} {exact}", row[1][i]);
+        }
+    }
+}

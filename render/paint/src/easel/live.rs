@@ -1,0 +1,156 @@
+//! Strokes as a pen tells them.
+
+use super::failure::EaselError;
+use super::label::label;
+use super::past::{Carried, Entry};
+use super::state::Easel;
+use crate::painting::{PaintingError, StrokeReport};
+use crate::pose::Sample;
+use crate::stroke::Path;
+use crate::strokes::{
+    Action, ActionPigments, At, Stroke, Surface, check_brush, check_sample, sample_as_written,
+};
+
+/// A stroke that is open.
+#[derive(Debug)]
+pub(super) struct Live {
+    on: Surface,
+    tool: usize,
+    /// Those that were taken.
+    samples: Vec<Sample>,
+    /// Where the brush came from, once the stroke is open in the painting: with
+    /// its first sample.
+    from: Option<Surface>,
+    lifted: bool,
+}
+
+impl Easel {
+    /// Sets a brush down on a surface; samples follow. What is open ends first.
+    ///
+    /// # Errors
+    /// [`EaselError`] if there is no such brush or surface, or if the device was
+    /// lost.
+    pub fn begin_stroke(&mut self, on: Surface, brush: &str) -> Result<(), EaselError> {
+        self.settle_all()?;
+        self.surface_mut(on)?;
+        check_brush(&At::default(), brush, self.stand.names().map(|(name, _)| name))?;
+        if let Some(tool) = self.stand.find(brush) {
+            let samples = Vec::new();
+            self.live = Some(Live { on, tool, samples, from: None, lifted: false });
+        }
+        Ok(())
+    }
+
+    /// Leads the brush on; [`Easel::advance`] paints. Samples are rounded to four
+    /// decimals, as a file has them. If one is refused those before it are
+    /// taken, and the stroke stays open.
+    ///
+    /// # Errors
+    /// [`EaselError`] for an impossible sample, counted from the first of the
+    /// stroke, where none is open or it was lifted, or if the device was lost.
+    pub fn extend(&mut self, samples: &[Sample]) -> Result<(), EaselError> {
+        let surfaces = self.surfaces();
+        for sample in samples {
+            let live = self.live.as_ref().filter(|live| !live.lifted);
+            let live = live.ok_or(EaselError::NoStroke)?;
+            let at = At::default().sample(live.samples.len());
+            let far_mm = surfaces.far_mm(&at, live.on)?;
+            let before = live.samples.last().map_or(0.0, |sample| sample.seconds);
+            let sample = sample_as_written(sample);
+            check_sample(&at, &sample, before, far_mm)?;
+            if live.from.is_none() {
+                // A stroke without a sample that could be painted was none.
+                let mut path = Path::new(self.canvas.cell_mm()).map_err(PaintingError::from)?;
+                path.push(&[sample]).map_err(PaintingError::from)?;
+                let opened = self.open();
+                self.followed(opened)?;
+            }
+            let on = live_surface(self.live.as_ref())?;
+            self.surface_mut(on)?.extend_stroke(&[sample])?;
+            self.live.iter_mut().for_each(|live| live.samples.push(sample));
+        }
+        Ok(())
+    }
+
+    /// Opens the stroke in its painting, and takes the brush there with the paint
+    /// on it.
+    fn open(&mut self) -> Result<(), EaselError> {
+        let live = self.live.as_ref().ok_or(EaselError::NoStroke)?;
+        let (on, tool) = (live.on, live.tool);
+        let from = self.stand.tools[tool].at;
+        if from == on {
+            let number = self.number(tool, on)?;
+            self.surface_mut(on)?.begin_stroke(number)?;
+        } else {
+            let (away, here) = (self.number(tool, from)?, self.number(tool, on)?);
+            let paint = self.surface_mut(from)?.hand_over(away)?;
+            self.surface_mut(on)?.begin_stroke_with(here, &paint)?;
+            self.stand.tools[tool].at = on;
+        }
+        self.live.iter_mut().for_each(|live| live.from = Some(from));
+        Ok(())
+    }
+
+    /// Paints on, at most `most_substeps` of the brush's way; gives how many
+    /// sub-steps wait, as far as known. The paint lags a sample behind, until the
+    /// stroke is lifted.
+    ///
+    /// # Errors
+    /// [`EaselError`] where no stroke is open, or if the device was lost.
+    pub fn advance(&mut self, most_substeps: usize) -> Result<usize, EaselError> {
+        let live = self.live.as_ref().ok_or(EaselError::NoStroke)?;
+        if live.from.is_none() {
+            return Ok(0);
+        }
+        let on = live.on;
+        let waiting = self.surface_mut(on)?.advance_stroke(most_substeps);
+        self.followed(waiting.map_err(EaselError::from))
+    }
+
+    /// Says that no more samples come: [`Easel::advance`] can paint all there is.
+    ///
+    /// # Errors
+    /// [`EaselError::NoStroke`] where no stroke is open.
+    pub fn lift(&mut self) -> Result<(), EaselError> {
+        let live = self.live.as_mut().ok_or(EaselError::NoStroke)?;
+        live.lifted = true;
+        if live.from.is_some() {
+            let on = live.on;
+            self.surface_mut(on)?.lift_stroke();
+        }
+        Ok(())
+    }
+
+    /// Surface and brush of the stroke that is open, if one is.
+    #[must_use]
+    pub fn open_stroke(&self) -> Option<(Surface, &str)> {
+        let live = self.live.as_ref()?;
+        Some((live.on, self.stand.tools[live.tool].name.as_str()))
+    }
+
+    /// Paints what is left and closes the stroke, as one action; nothing if it
+    /// had no sample.
+    ///
+    /// # Errors
+    /// [`EaselError`] where no stroke is open, or if the device was lost.
+    pub fn end_stroke(&mut self) -> Result<Option<StrokeReport>, EaselError> {
+        let live = self.live.take().ok_or(EaselError::NoStroke)?;
+        let Live { on, tool, samples, from: Some(from), .. } = live else { return Ok(None) };
+        let ended = self.surface_mut(on)?.end_stroke();
+        let report = self.followed(ended.map_err(EaselError::from))?;
+        let brush = self.stand.tools[tool].name.clone();
+        let action = Action::Stroke(Stroke { brush, on, samples });
+        let mut touched = [false; 2];
+        (touched[on as usize], touched[from as usize]) = (true, true);
+        let label = label(&action, &ActionPigments::None, self.canvas.library());
+        let carried = Some(Carried { tool, from, to: on });
+        self.past.add(Entry { label, on: touched, carried });
+        self.follow();
+        self.note_with(action, Some(tool));
+        Ok(Some(report))
+    }
+}
+
+fn live_surface(live: Option<&Live>) -> Result<Surface, EaselError> {
+    live.map(|live| live.on).ok_or(EaselError::NoStroke)
+}

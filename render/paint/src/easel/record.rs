@@ -1,0 +1,79 @@
+//! What was done, as a script.
+
+use crate::strokes::{
+    Action, BrushSpec, LONGEST_FILE, MOST_ACTIONS, MOST_NAMES, MOST_SAMPLES, Strokes, line,
+};
+
+/// Bytes of a file that are kept for all but its actions.
+const HEADER_BYTES: usize = 1 << 20;
+
+/// How much a recording may hold: as much as can be read again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    pub(super) actions: usize,
+    pub(super) samples: usize,
+    pub(super) bytes: usize,
+    pub(super) brushes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        let bytes = LONGEST_FILE - HEADER_BYTES;
+        Self { actions: MOST_ACTIONS, samples: MOST_SAMPLES, bytes, brushes: MOST_NAMES }
+    }
+}
+
+/// A script that grows.
+#[derive(Debug)]
+pub(super) struct Record {
+    pub(super) script: Strokes,
+    samples: usize,
+    bytes: usize,
+    pub(super) limits: Limits,
+    /// Why it holds no more.
+    pub(super) stopped: Option<String>,
+}
+
+impl Record {
+    /// Under a header, whose numbers are rounded, without brushes and actions.
+    pub(super) fn new(header: Strokes) -> Self {
+        Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
+    }
+
+    /// Adds an action done with a brush that has this name and head, if with one;
+    /// or stops, and holds what came before.
+    pub(super) fn add(&mut self, action: Action, brush: Option<(&str, &BrushSpec)>) {
+        if self.stopped.is_some() {
+            return;
+        }
+        let Ok(text) = line(&action) else { return self.stop("an action cannot be written") };
+        let samples = match &action {
+            Action::Stroke(stroke) => stroke.samples.len(),
+            _ => 0,
+        };
+        let new_name = brush.filter(|(name, _)| !self.script.brushes.contains_key(*name));
+        let most = self.limits;
+        // With comma, line break and indent.
+        let bytes = self.bytes + text.len() + 6;
+        if self.script.actions.len() >= most.actions {
+            self.stop(&format!("a recording holds {} actions", most.actions));
+        } else if self.samples + samples > most.samples {
+            self.stop(&format!("a recording holds {} samples", most.samples));
+        } else if bytes > most.bytes {
+            self.stop(&format!("a recording holds {} MiB", most.bytes >> 20));
+        } else if new_name.is_some() && self.script.brushes.len() >= most.brushes {
+            self.stop(&format!("a recording holds {} brushes", most.brushes));
+        } else {
+            if let Some((name, spec)) = new_name {
+                self.script.brushes.insert(name.to_owned(), spec.clone());
+            }
+            (self.samples, self.bytes) = (self.samples + samples, bytes);
+            self.script.actions.push(action);
+        }
+    }
+
+    /// Ends the recording, for a reason.
+    pub(super) fn stop(&mut self, reason: &str) {
+        self.stopped.get_or_insert_with(|| reason.to_owned());
+    }
+}

@@ -1,0 +1,173 @@
+//! How much of each paint lies where, for those who lay it down by other means:
+//! a printer, a plotter, a hand.
+
+use serde_json::json;
+
+use graphics::export::grey16;
+use graphics::export::{ExportError, check_cell, check_size};
+use graphics::field::Field;
+
+/// The paint of one pigment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PigmentMap {
+    /// The pigment, or `vehicle`.
+    pub name: String,
+    /// Height of its paint in mm, cell by cell.
+    pub height_mm: Field<f32>,
+}
+
+/// A file by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedFile {
+    /// Its name, without a folder.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// For each map a 16-bit grey PNG `STEM.PIGMENT.png`, for all together
+/// `STEM.thickness.png`; the scale in `STEM.maps.json`; and `STEM.recipe.csv`
+/// with what each pigment takes in all.
+///
+/// Every map has the same scale, so that they can be compared: 65535 is the
+/// thickest cell of all paint, in mm (`mm_at_65535`). Cells are `cell_mm` wide,
+/// which the PNGs tell in `pHYs`.
+///
+/// # Errors
+/// [`ExportError`] for maps of several sizes or without cells, cells without a
+/// size, and amounts below 0 or not finite.
+pub fn pigment_maps(
+    stem: &str,
+    maps: &[PigmentMap],
+    cell_mm: f64,
+) -> Result<Vec<NamedFile>, ExportError> {
+    check_cell(cell_mm)?;
+    let bounds = maps.first().map(|map| map.height_mm.bounds()).unwrap_or_default();
+    check_size(bounds.width, bounds.height)?;
+    for map in maps {
+        check_map(map, bounds.width, bounds.height)?;
+    }
+    let mut thickness = Field::filled(bounds.width, bounds.height, 0.0_f64);
+    for map in maps {
+        for (sum, &mm) in thickness.values_mut().iter_mut().zip(map.height_mm.values()) {
+            *sum += f64::from(mm);
+        }
+    }
+    let thickest = thickness.values().iter().copied().fold(0.0, f64::max);
+
+    let mut names = FileNames::default();
+    let mut files = Vec::new();
+    let mut listed = Vec::new();
+    let scaled =
+        |mm: f64| if thickest > 0.0 { (mm / thickest * 65535.0).round() as u16 } else { 0 };
+    let mut picture = |title: &str, name: String, values: Field<u16>| {
+        let scale = format!("{thickest} mm at 65535");
+        let bytes = grey16(&values, cell_mm, &[("Title", title), ("Description", &scale)])?;
+        files.push(NamedFile { name, bytes });
+        Ok::<_, ExportError>(())
+    };
+    for map in maps {
+        let name = format!("{stem}.{}.png", names.name(&map.name));
+        let values = map.height_mm.values().iter().map(|&mm| scaled(f64::from(mm))).collect();
+        let values = Field::from_values(bounds.width, bounds.height, values);
+        listed.push(json!({"pigment": map.name, "file": name}));
+        picture(&map.name, name, values)?;
+    }
+    let name = format!("{stem}.{}.png", names.name("thickness"));
+    let total = json!({"file": name});
+    let values = thickness.values().iter().map(|&mm| scaled(mm)).collect();
+    picture("thickness", name, Field::from_values(bounds.width, bounds.height, values))?;
+
+    let sidecar = json!({
+        "format": "impasto-pigment-maps",
+        "version": 1,
+        "cell_mm": cell_mm,
+        "width_mm": rounded(bounds.width as f64 * cell_mm),
+        "height_mm": rounded(bounds.height as f64 * cell_mm),
+        "mm_at_65535": thickest,
+        "maps": listed,
+        "thickness": total,
+    });
+    let sidecar = pigment::library::to_text(&sidecar);
+    files.push(NamedFile { name: format!("{stem}.maps.json"), bytes: sidecar.into_bytes() });
+    let recipe = recipe(maps, cell_mm);
+    files.push(NamedFile { name: format!("{stem}.recipe.csv"), bytes: recipe.into_bytes() });
+    Ok(files)
+}
+
+fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), ExportError> {
+    let PigmentMap { name, height_mm } = map;
+    if (height_mm.width(), height_mm.height()) != (width, height) {
+        return Err(ExportError::Differs { plane: name.clone(), width, height });
+    }
+    let Some(at) = height_mm.values().iter().position(|mm| !(mm.is_finite() && *mm >= 0.0)) else {
+        return Ok(());
+    };
+    let (x, y, found, what) = (at % width, at / width, height_mm.values()[at], name.clone());
+    Err(if found < 0.0 && found.is_finite() {
+        ExportError::Negative { what, x, y, found }
+    } else {
+        ExportError::NotFinite { what, x, y, found }
+    })
+}
+
+/// A row per pigment: what it takes in all, how thick it lies, and where.
+fn recipe(maps: &[PigmentMap], cell_mm: f64) -> String {
+    let sum_mm = |map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum();
+    let sums: Vec<f64> = maps.iter().map(sum_mm).collect();
+    let all: f64 = sums.iter().sum();
+    let mut table =
+        "pigment,volume_mm3,share,mean_height_mm,greatest_height_mm,covered_share\n".to_owned();
+    for (map, &sum) in maps.iter().zip(&sums) {
+        let values = map.height_mm.values();
+        let covered = values.iter().filter(|mm| **mm > 0.0).count();
+        let greatest = f64::from(values.iter().copied().fold(0.0, f32::max));
+        let figures = [
+            sum * cell_mm * cell_mm,
+            if all > 0.0 { sum / all } else { 0.0 },
+            sum / values.len() as f64,
+            greatest,
+            covered as f64 / values.len() as f64,
+        ];
+        table.push_str(&quoted(&map.name));
+        for figure in figures {
+            table.push_str(&format!(",{}", rounded(figure)));
+        }
+        table.push('\n');
+    }
+    table
+}
+
+fn rounded(value: f64) -> f64 {
+    pigment::digits::rounded(value)
+}
+
+/// A field of a CSV, in quotes where it must be (RFC 4180).
+fn quoted(text: &str) -> String {
+    if text.contains(['"', ',', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// Gives pigments names that every file system takes.
+#[derive(Default)]
+struct FileNames {
+    taken: Vec<String>,
+}
+
+impl FileNames {
+    fn name(&mut self, pigment: &str) -> String {
+        let plain: String = pigment
+            .chars()
+            .map(|l| if l.is_ascii_alphanumeric() { l.to_ascii_lowercase() } else { '-' })
+            .take(100)
+            .collect();
+        let numbered = (2..).map(|number| format!("{plain}-{number}"));
+        let mut names = std::iter::once(plain.clone()).chain(numbered);
+        let name = names.find(|name| !self.taken.contains(name)).unwrap_or(plain);
+        self.taken.push(name.clone());
+        name
+    }
+}

@@ -1,0 +1,215 @@
+//! What the file says of the painting in words and numbers: the JSON of the
+//! attribute `impasto`.
+
+use pigment::library::PigmentLibrary;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::channels::ChannelNames;
+use super::error::PaintingFileError;
+use super::parts::{WET, dry_part};
+use crate::document::{Document, Lighting, Medium, Slots};
+use crate::layer::SLOTS;
+use crate::optics::Gloss;
+
+/// The attribute's name.
+pub(super) const ATTRIBUTE: &str = "impasto";
+
+const FORMAT: &str = "impasto-painting";
+const VERSION: u64 = 1;
+
+/// Cells from a hair to a hand; outside, floats in mm would not hold quanta.
+const CELL_MM: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+
+/// The attribute's content.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FileHeader {
+    format: String,
+    version: u64,
+    pub(super) title: String,
+    pub(super) cell_mm: f64,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) ground: GroundHeader,
+    pub(super) medium: Medium,
+    pub(super) lighting: Lighting,
+    /// The wet layer, then the dry ones, lowest first.
+    pub(super) layers: Vec<LayerHeader>,
+    library: Value,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GroundHeader {
+    pub(super) name: String,
+    pub(super) reflectance: Vec<f64>,
+    pub(super) gloss: Gloss,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LayerHeader {
+    pub(super) part: String,
+    pub(super) opacity: f64,
+    pub(super) pigments: Vec<PigmentHeader>,
+}
+
+/// A slot in use.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PigmentHeader {
+    pub(super) slot: usize,
+    pub(super) name: String,
+    pub(super) channel: String,
+}
+
+impl FileHeader {
+    /// What is to be said of `document`.
+    pub(super) fn of(document: &Document) -> Result<Self, PaintingFileError> {
+        let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
+        let dry = document.dry.iter().enumerate();
+        let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
+        let layers = std::iter::once((WET.to_owned(), 1.0, &document.slots)).chain(dry);
+        let layers = layers.map(|(part, opacity, slots)| {
+            let pigments = pigments(&document.library, slots);
+            let pigments = pigments.ok_or_else(|| {
+                let count = document.library.pigments.len();
+                unwritable(format!("part `{part}` has a pigment beyond the library's {count}"))
+            })?;
+            Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments })
+        });
+        let library = serde_json::from_str(&document.library.to_json());
+        let header = Self {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            title: document.title.clone(),
+            cell_mm: document.cell_mm,
+            width: document.ground.height.width(),
+            height: document.ground.height.height(),
+            ground: GroundHeader {
+                name: document.ground.name.clone(),
+                reflectance: document.ground.reflectance.clone(),
+                gloss: document.ground.gloss,
+            },
+            medium: document.medium.clone(),
+            lighting: document.lighting.clone(),
+            layers: layers.collect::<Result<_, _>>()?,
+            library: library.map_err(|error| unwritable(error.to_string()))?,
+        };
+        // A number that is not finite has no JSON; reading it back says which.
+        match Self::from_json("", &header.to_json()?) {
+            Ok((back, library)) if back == header && library == document.library => Ok(header),
+            Ok(_) => Err(unwritable("its header does not come back as it was".to_owned())),
+            Err(PaintingFileError::Header { reason, .. }) => Err(unwritable(reason)),
+            Err(error) => Err(unwritable(error.to_string())),
+        }
+    }
+
+    /// As JSON in ASCII.
+    pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
+        let text = serde_json::to_string(self);
+        let text =
+            text.map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })?;
+        let mut ascii = String::with_capacity(text.len());
+        for letter in text.chars() {
+            if letter.is_ascii() {
+                ascii.push(letter);
+            } else {
+                for unit in letter.encode_utf16(&mut [0; 2]) {
+                    ascii.push_str(&format!("\\u{unit:04x}"));
+                }
+            }
+        }
+        Ok(ascii)
+    }
+
+    /// The header in `json` and the library that it holds.
+    pub(super) fn from_json(
+        file: &str,
+        json: &str,
+    ) -> Result<(Self, PigmentLibrary), PaintingFileError> {
+        let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
+        let value: Value = serde_json::from_str(json).map_err(|error| fault(error.to_string()))?;
+        if value["format"] != FORMAT {
+            let reason = format!("`format` must be \"{FORMAT}\", found `{}`", value["format"]);
+            return Err(PaintingFileError::Format { file: file.to_owned(), reason });
+        }
+        if value["version"] != VERSION {
+            let found = value["version"].to_string();
+            return Err(PaintingFileError::Version {
+                file: file.to_owned(),
+                found,
+                newest: VERSION,
+            });
+        }
+        let header: Self =
+            serde_json::from_value(value).map_err(|error| fault(error.to_string()))?;
+        let library =
+            PigmentLibrary::from_json(&format!("{file}: library"), &header.library.to_string())?;
+        header.check(&library).map_err(fault)?;
+        Ok((header, library))
+    }
+
+    fn check(&self, library: &PigmentLibrary) -> Result<(), String> {
+        if !CELL_MM.contains(&self.cell_mm) {
+            return Err(format!("cell_mm is 0.0001 to 100, found `{}`", self.cell_mm));
+        }
+        if self.width == 0 || self.height == 0 {
+            return Err(format!("a canvas has cells, found `{} x {}`", self.width, self.height));
+        }
+        let (found, wanted) = (self.ground.reflectance.len(), library.grid.count());
+        if found != wanted {
+            return Err(format!(
+                "the ground has `{found}` reflectances for the library's {wanted} wavelengths"
+            ));
+        }
+        for (index, layer) in self.layers.iter().enumerate() {
+            let wanted = index.checked_sub(1).map_or_else(|| WET.to_owned(), dry_part);
+            if layer.part != wanted {
+                return Err(format!("layer {index} is `{wanted}`, found `{}`", layer.part));
+            }
+            if !(0.0..=1e6).contains(&layer.opacity) {
+                let (part, found) = (&layer.part, layer.opacity);
+                return Err(format!("opacity of `{part}` is 0 to 1000000, found `{found}`"));
+            }
+            layer.slots(library)?;
+        }
+        if self.layers.is_empty() { Err("no layers".to_owned()) } else { Ok(()) }
+    }
+}
+
+impl LayerHeader {
+    /// The pigments by slot.
+    pub(super) fn slots(&self, library: &PigmentLibrary) -> Result<Slots, String> {
+        let mut slots = [None; SLOTS];
+        for PigmentHeader { slot, name, channel } in &self.pigments {
+            let part = &self.part;
+            let index = library.pigments.iter().position(|pigment| pigment.name == *name);
+            let index = index.ok_or_else(|| {
+                format!("channel `{channel}` of `{part}` names no pigment of the library: `{name}`")
+            })?;
+            match slots.get_mut(*slot) {
+                Some(place @ None) => *place = Some(index),
+                Some(_) => return Err(format!("slot of `{part}` named twice: `{slot}`")),
+                None => return Err(format!("slots of `{part}` are 0 to 7, found `{slot}`")),
+            }
+            if self.pigments.iter().filter(|other| other.channel == *channel).count() > 1 {
+                return Err(format!("channel of `{part}` named twice: `{channel}`"));
+            }
+        }
+        Ok(slots)
+    }
+}
+
+/// The slots in use with a channel for each; `None` for a pigment that the
+/// library has not.
+fn pigments(library: &PigmentLibrary, slots: &Slots) -> Option<Vec<PigmentHeader>> {
+    let mut names = ChannelNames::default();
+    let used = slots.iter().enumerate().filter_map(|(slot, pigment)| Some((slot, (*pigment)?)));
+    used.map(|(slot, index)| {
+        let name = &library.pigments.get(index)?.name;
+        Some(PigmentHeader { slot, name: name.clone(), channel: names.channel(name) })
+    })
+    .collect()
+}

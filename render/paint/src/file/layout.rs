@@ -1,0 +1,203 @@
+//! Whether the parts of a file are those that its header tells of, and where
+//! their channels are.
+
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{Compression, SampleType};
+use exr::meta::header::Header;
+
+use super::channels::{Channel, Content, of_ground, of_layer};
+use super::error::PaintingFileError;
+use super::header::FileHeader;
+use super::parts::BASE;
+use crate::layer::SLOTS;
+use graphics::tile::Rect;
+
+/// What a stored byte can become, at most: 1032 by ZIP, less by PIZ, and room
+/// for headers. A file that promises more is cut off or a trap.
+const EXPANSION: u64 = 1100;
+
+/// A part of the file, found sound.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct PartLayout {
+    pub(super) name: String,
+    /// The layer of the header that it holds; `None` for the ground.
+    pub(super) layer: Option<usize>,
+    pub(super) window: Rect,
+    /// How many channels the part has.
+    pub(super) channels: usize,
+    pub(super) planes: Vec<Plane>,
+}
+
+/// An amount, or the height, and which of the part's channels hold it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Plane {
+    pub(super) name: String,
+    /// [`SLOTS`] is the vehicle, or the height.
+    pub(super) slot: usize,
+    pub(super) channel: usize,
+    pub(super) rest: Option<usize>,
+}
+
+/// A part that does not fit, before the file's name is known.
+struct Fault<'a> {
+    file: &'a str,
+    part: &'a str,
+}
+
+impl Fault<'_> {
+    fn part(&self, reason: String) -> PaintingFileError {
+        let (file, part) = (self.file.to_owned(), self.part.to_owned());
+        PaintingFileError::Part { file, part, reason }
+    }
+
+    fn channel(&self, channel: String, reason: &str) -> PaintingFileError {
+        let (file, part, reason) = (self.file.to_owned(), self.part.to_owned(), reason.to_owned());
+        PaintingFileError::Channel { file, part, channel, reason }
+    }
+}
+
+/// The parts in the file's order, checked against `header`, before anything is
+/// allocated.
+pub(super) fn layout(
+    file: &str,
+    parts: &[Header],
+    header: &FileHeader,
+    file_bytes: usize,
+    limit: u64,
+) -> Result<Vec<PartLayout>, PaintingFileError> {
+    let cells = (header.width as u64).saturating_mul(header.height as u64);
+    let bytes = cells.saturating_mul(36 * header.layers.len() as u64 + 4);
+    if bytes > limit {
+        return Err(PaintingFileError::TooLarge { file: file.to_owned(), bytes, limit });
+    }
+    let found = parts.iter().map(|part| one(file, part, header)).collect::<Result<Vec<_>, _>>()?;
+    let wanted = header.layers.iter().map(|layer| layer.part.as_str());
+    for part in wanted.chain([BASE]) {
+        let fault = Fault { file, part };
+        match found.iter().filter(|found| found.name == part).count() {
+            1 => {}
+            0 => return Err(fault.part("is missing".to_owned())),
+            _ => return Err(fault.part("stands twice".to_owned())),
+        }
+    }
+    let stored = found.iter().map(|part| {
+        let cells = part.window.width as u64 * part.window.height as u64;
+        cells.saturating_mul(4 * part.channels as u64)
+    });
+    let stored = stored.fold(0, u64::saturating_add);
+    if stored > EXPANSION.saturating_mul(file_bytes as u64) {
+        return Err(PaintingFileError::Container {
+            file: file.to_owned(),
+            reason: format!("{file_bytes} bytes cannot hold the {stored} that its header tells of"),
+        });
+    }
+    Ok(found)
+}
+
+fn one(file: &str, part: &Header, header: &FileHeader) -> Result<PartLayout, PaintingFileError> {
+    let name = part.own_attributes.layer_name.as_ref();
+    let name = name.map_or_else(String::new, |name| name.chars().collect());
+    let fault = Fault { file, part: &name };
+    let layer = header.layers.iter().position(|layer| layer.part == name);
+    if layer.is_none() && name != BASE {
+        return Err(fault.part("is none that attribute `impasto` names".to_owned()));
+    }
+    if part.blocks != BlockDescription::ScanLines || part.deep {
+        return Err(fault.part("has tiles or is deep; scan lines are wanted".to_owned()));
+    }
+    use Compression::{PIZ, Uncompressed, ZIP1, ZIP16};
+    if ![Uncompressed, ZIP1, ZIP16, PIZ].contains(&part.compression) {
+        let found = part.compression;
+        return Err(fault.part(format!("must be stored plain, by ZIP or by PIZ, found `{found}`")));
+    }
+    let window = window(&fault, part, header, layer.is_none())?;
+    let wanted = match layer {
+        None => of_ground(true),
+        Some(layer) => of_layer(&header.layers[layer].pigments, [true; SLOTS + 1]),
+    };
+    let planes = planes(&fault, part, &wanted)?;
+    let channels = part.channels.list.len();
+    Ok(PartLayout { name, layer, window, channels, planes })
+}
+
+/// The cells that a part covers; the ground covers all.
+fn window(
+    fault: &Fault<'_>,
+    part: &Header,
+    header: &FileHeader,
+    whole: bool,
+) -> Result<Rect, PaintingFileError> {
+    let canvas = part.shared_attributes.display_window;
+    let (width, height) = (header.width, header.height);
+    let sizes = (canvas.size.width(), canvas.size.height());
+    if (canvas.position.x(), canvas.position.y()) != (0, 0) || sizes != (width, height) {
+        let found = format!("{} x {}", sizes.0, sizes.1);
+        return Err(fault.part(format!(
+            "has a display window of another size than the canvas of {width} x {height}, found \
+             `{found}`"
+        )));
+    }
+    let size = part.layer_size;
+    let place = part.own_attributes.layer_position;
+    let outside = || {
+        let (w, h, x, y) = (size.width(), size.height(), place.x(), place.y());
+        let wanted = if whole { "is not" } else { "leaves" };
+        fault.part(format!(
+            "{wanted} the canvas of {width} x {height}: data window `{w} x {h} at {x}, {y}`"
+        ))
+    };
+    let x = usize::try_from(place.x()).map_err(|_| outside())?;
+    let y = usize::try_from(place.y()).map_err(|_| outside())?;
+    let rect = Rect { x, y, width: size.width(), height: size.height() };
+    let all = Rect { x: 0, y: 0, width, height };
+    if rect.is_empty() || rect.intersection(all) != rect || (whole && rect != all) {
+        return Err(outside());
+    }
+    Ok(rect)
+}
+
+/// Every channel of the part, matched with what it may hold.
+fn planes(
+    fault: &Fault<'_>,
+    part: &Header,
+    wanted: &[Channel],
+) -> Result<Vec<Plane>, PaintingFileError> {
+    let names: Vec<String> =
+        part.channels.list.iter().map(|channel| channel.name.chars().collect()).collect();
+    for (index, (name, channel)) in names.iter().zip(&part.channels.list).enumerate() {
+        let wrong = |reason: &str| Err(fault.channel(name.clone(), reason));
+        if wanted.iter().all(|wanted| wanted.name != *name) {
+            return wrong("names no pigment of this layer");
+        }
+        if names[..index].contains(name) {
+            return wrong("stands twice");
+        }
+        if channel.sample_type != SampleType::F32 {
+            return wrong("must hold 32-bit floats; fewer bits lose paint");
+        }
+        if (channel.sampling.x(), channel.sampling.y()) != (1, 1) {
+            return wrong("must have a value for every cell");
+        }
+    }
+    let place = |name: &str| names.iter().position(|found| found == name);
+    let mut planes = Vec::new();
+    for Channel { name, content } in wanted {
+        let slot = match *content {
+            Content::Height => SLOTS,
+            Content::Amount(slot) => slot,
+            Content::Thickness => match place(name) {
+                Some(_) => continue,
+                None => return Err(fault.channel(name.clone(), "is missing")),
+            },
+            Content::HeightRest | Content::AmountRest(_) => continue,
+        };
+        let channel = place(name).ok_or_else(|| fault.channel(name.clone(), "is missing"))?;
+        let rest = wanted.iter().find(|other| match other.content {
+            Content::AmountRest(of) => of == slot,
+            content => content == Content::HeightRest,
+        });
+        let rest = rest.and_then(|rest| place(&rest.name));
+        planes.push(Plane { name: name.clone(), slot, channel, rest });
+    }
+    Ok(planes)
+}

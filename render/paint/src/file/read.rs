@@ -1,0 +1,277 @@
+//! A painting from the bytes of a file.
+
+use std::io::Cursor;
+
+use exr::block::UncompressedBlock;
+use exr::block::chunk::Chunk;
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::header::Header;
+use rayon::prelude::*;
+
+use super::error::PaintingFileError;
+use super::header::{ATTRIBUTE, FileHeader};
+use super::layout::{PartLayout, Plane, layout};
+use super::millimetres::Millimetres;
+use super::parts::BASE;
+use crate::amount::FULL;
+use crate::document::{Document, DryLayer, Ground};
+use crate::layer::{Cell, Layer};
+use graphics::field::Field;
+
+/// What [`read`] lets a painting take in memory, in bytes: 16 GiB, which is
+/// 4096 x 4096 cells with 28 layers (a layer takes 36 bytes a cell, the ground 4).
+pub const MEMORY_LIMIT: u64 = 16 << 30;
+
+/// Blocks that are read before they are expanded side by side.
+const BATCH: usize = 64;
+
+/// The painting in `bytes`, the content of `file`.
+///
+/// # Errors
+/// [`PaintingFileError`]: no OpenEXR, no painting, a newer version, parts or
+/// channels that are missing or that nobody names, sizes that disagree, values
+/// that are no amounts, a file that is cut off, or one that needs more than
+/// [`MEMORY_LIMIT`].
+pub fn read(file: &str, bytes: &[u8]) -> Result<Document, PaintingFileError> {
+    read_within(file, bytes, MEMORY_LIMIT)
+}
+
+/// As [`read`], within `limit` bytes of memory.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, PaintingFileError> {
+    let damaged = |error: exr::error::Error| PaintingFileError::Container {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    };
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(damaged)?;
+    let (header, library) = FileHeader::from_json(file, &json(file, reader.headers())?)?;
+    let parts = layout(file, reader.headers(), &header, bytes.len(), limit)?;
+
+    let (width, height) = (header.width, header.height);
+    let mut ground = Field::filled(width, height, 0);
+    let mut paints: Vec<_> = header.layers.iter().map(|_| Layer::empty(width, height)).collect();
+    let mut filled: Vec<_> = parts.iter().map(|part| vec![false; part.window.height]).collect();
+
+    let scale = Millimetres::new(header.cell_mm);
+    let meta = reader.meta_data().clone();
+    let mut chunks = reader.all_chunks(false).map_err(damaged)?;
+    loop {
+        let batch: Vec<Chunk> =
+            chunks.by_ref().take(BATCH).collect::<Result<_, _>>().map_err(damaged)?;
+        if batch.is_empty() {
+            break;
+        }
+        let rows: Vec<_> =
+            batch.into_par_iter().map(|chunk| rows(file, chunk, &meta, &parts, scale)).collect();
+        for rows in rows {
+            let Rows { part, y, values } = rows?;
+            let PartLayout { window, layer, name, .. } = &parts[part];
+            for (row, cells) in values.chunks(window.width).enumerate() {
+                let row = y + row;
+                if std::mem::replace(&mut filled[part][row], true) {
+                    let reason = format!("has row `{}` twice", window.y + row);
+                    let (file, part) = (file.to_owned(), name.clone());
+                    return Err(PaintingFileError::Part { file, part, reason });
+                }
+                let first = (window.y + row) * width + window.x;
+                match layer {
+                    None => {
+                        let row = &mut ground.values_mut()[first..][..window.width];
+                        for (height, cell) in row.iter_mut().zip(cells) {
+                            *height = cell.vehicle as i32;
+                        }
+                    }
+                    Some(layer) => {
+                        for (index, &cell) in (first..).zip(cells) {
+                            paints[*layer].set_cell(index, cell);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    for (part, rows) in parts.iter().zip(&filled) {
+        if let Some(row) = rows.iter().position(|filled| !filled) {
+            let reason = format!("lacks row `{}`", part.window.y + row);
+            let (file, part) = (file.to_owned(), part.name.clone());
+            return Err(PaintingFileError::Part { file, part, reason });
+        }
+    }
+    document(file, header, library, ground, paints)
+}
+
+/// The attribute `impasto` of part `base`, the first that has it.
+fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
+    let format = |reason: &str| PaintingFileError::Format {
+        file: file.to_owned(),
+        reason: reason.to_owned(),
+    };
+    let key = Text::from(ATTRIBUTE);
+    let base =
+        |part: &&Header| part.own_attributes.layer_name.as_ref().is_some_and(|name| name.eq(BASE));
+    let base = parts.iter().find(base).ok_or_else(|| format("part `base` is missing"))?;
+    match base.own_attributes.other.get(&key) {
+        Some(AttributeValue::Text(text)) => Ok(text.chars().collect()),
+        Some(_) => Err(format("attribute `impasto` of part `base` is no text")),
+        None => Err(format("attribute `impasto` of part `base` is missing")),
+    }
+}
+
+/// Some rows of a part. The ground's height stands in the cells' vehicle, as
+/// the same bits.
+struct Rows {
+    part: usize,
+    /// The first row, counted from the top of the part's window.
+    y: usize,
+    values: Vec<Cell>,
+}
+
+fn rows(
+    file: &str,
+    chunk: Chunk,
+    meta: &MetaData,
+    parts: &[PartLayout],
+    scale: Millimetres,
+) -> Result<Rows, PaintingFileError> {
+    let damaged = |reason: String| PaintingFileError::Container { file: file.to_owned(), reason };
+    let block = UncompressedBlock::decompress_chunk(chunk, meta, false);
+    let UncompressedBlock { index, data } = block.map_err(|error| damaged(error.to_string()))?;
+    let (part, y) = (index.layer, index.pixel_position.y());
+    let layout = &parts[part];
+    let (width, height) = (layout.window.width, index.pixel_size.height());
+    let line = width * size_of::<f32>();
+    let wanted = line * layout.channels * height;
+    if index.pixel_size.width() != width || data.len() != wanted {
+        let (part, found) = (&layout.name, data.len());
+        return Err(damaged(format!("block of part `{part}` with `{found}` bytes for {wanted}")));
+    }
+    let mut values = vec![Cell::default(); width * height];
+    let lines: Vec<&[u8]> = data.chunks(line).collect();
+    for ((row, cells), lines) in
+        (0..).zip(values.chunks_mut(width)).zip(lines.chunks(layout.channels))
+    {
+        let place = Place { file, part: layout, y: layout.window.y + y + row };
+        for plane in &layout.planes {
+            place.read(plane, lines, cells, scale)?;
+        }
+        if layout.layer.is_some() {
+            place.check_volumes(cells)?;
+        }
+    }
+    Ok(Rows { part, y, values })
+}
+
+/// A row of a part.
+struct Place<'a> {
+    file: &'a str,
+    part: &'a PartLayout,
+    /// On the canvas.
+    y: usize,
+}
+
+impl Place<'_> {
+    /// Puts what `plane` holds into `cells`.
+    fn read(
+        &self,
+        plane: &Plane,
+        lines: &[&[u8]],
+        cells: &mut [Cell],
+        scale: Millimetres,
+    ) -> Result<(), PaintingFileError> {
+        let rest = plane.rest.map(|rest| lines[rest]);
+        let (values, _) = lines[plane.channel].as_chunks::<4>();
+        for (x, (cell, &bytes)) in cells.iter_mut().zip(values).enumerate() {
+            let mm = f32::from_ne_bytes(bytes);
+            let rest = rest.map_or(0.0, |rest| f32::from_ne_bytes(rest.as_chunks().0[x]));
+            let quanta = scale.quanta(mm, rest);
+            let told = || match rest {
+                0.0 => mm.to_string(),
+                _ => format!("{mm} and {rest}"),
+            };
+            if self.part.layer.is_none() {
+                if quanta.is_nan() || quanta.abs() > f64::from(i32::MAX) {
+                    return Err(self.value(x, &plane.name, "a height is up to 1023 cells", told()));
+                }
+                cell.vehicle = (quanta as i32) as u32;
+                continue;
+            }
+            if quanta.is_nan() || mm < 0.0 || quanta < 0.0 || quanta > f64::from(FULL) {
+                let wanted = "an amount is 0 to 512 cell widths";
+                return Err(self.value(x, &plane.name, wanted, told()));
+            }
+            match cell.pigments.get_mut(plane.slot) {
+                Some(amount) => *amount = quanta as u32,
+                None => cell.vehicle = quanta as u32,
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses cells that hold more than a cell can.
+    fn check_volumes(&self, cells: &[Cell]) -> Result<(), PaintingFileError> {
+        for (x, cell) in cells.iter().enumerate() {
+            let volume: u64 =
+                cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q)).sum();
+            if volume > u64::from(FULL) {
+                let found = format!("{volume} quanta");
+                return Err(self.value(x, "thickness", "a cell holds 512 cell widths", found));
+            }
+        }
+        Ok(())
+    }
+
+    fn value(
+        &self,
+        x: usize,
+        channel: &str,
+        wanted: &'static str,
+        found: String,
+    ) -> PaintingFileError {
+        PaintingFileError::Value {
+            file: self.file.to_owned(),
+            part: self.part.name.clone(),
+            channel: channel.to_owned(),
+            x: (self.part.window.x + x) as u32,
+            y: self.y as u32,
+            wanted,
+            found,
+        }
+    }
+}
+
+fn document(
+    file: &str,
+    header: FileHeader,
+    library: pigment::library::PigmentLibrary,
+    height: Field<i32>,
+    paints: Vec<Layer>,
+) -> Result<Document, PaintingFileError> {
+    let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
+    let mut layers = header.layers.iter().zip(paints);
+    let layers = layers.by_ref().map(|(layer, paint)| {
+        let slots = layer.slots(&library).map_err(fault)?;
+        Ok(DryLayer { slots, opacity: layer.opacity, paint })
+    });
+    let mut layers = layers.collect::<Result<Vec<_>, PaintingFileError>>()?;
+    // The header was checked to name the wet layer first.
+    let wet = layers.remove(0);
+    Ok(Document {
+        title: header.title,
+        cell_mm: header.cell_mm,
+        ground: Ground {
+            name: header.ground.name,
+            height,
+            reflectance: header.ground.reflectance,
+            gloss: header.ground.gloss,
+        },
+        library,
+        medium: header.medium,
+        dry: layers,
+        slots: wet.slots,
+        wet: wet.paint,
+        lighting: header.lighting,
+    })
+}

@@ -1,0 +1,117 @@
+//! A painting as the bytes of a file.
+
+use std::io::Cursor;
+
+use exr::block::writer::ChunksWriter;
+use exr::math::Vec2;
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{
+    AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text,
+};
+use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
+use rayon::prelude::*;
+
+use super::error::PaintingFileError;
+use super::header::{ATTRIBUTE, FileHeader};
+use super::millimetres::Millimetres;
+use super::parts::{Part, parts};
+use crate::amount::FULL;
+use crate::document::{Document, Slots};
+use crate::layer::{Layer, SLOTS};
+
+/// Blocks that are compressed side by side.
+const BATCH: usize = 64;
+
+/// The bytes of a file that holds `document` whole; the same document gives the
+/// same bytes.
+///
+/// # Errors
+/// [`PaintingFileError::Unwritable`] if the document contradicts itself: layers
+/// of another size than the ground, paint in a slot without a pigment, pigments
+/// that the library has not, numbers that are not finite.
+pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
+    check(document)?;
+    let header = FileHeader::of(document)?;
+    let parts = parts(document, &header);
+    let json = header.to_json()?;
+    let headers = parts.iter().map(|part| {
+        let json = (part.name == super::parts::BASE).then_some(json.as_str());
+        exr_header(part, &header, json)
+    });
+    let scale = Millimetres::new(document.cell_mm);
+    let mut bytes = Vec::new();
+    exr::block::write(Cursor::new(&mut bytes), headers.collect(), true, |meta, writer| {
+        let indices: Vec<_> =
+            exr::block::enumerate_ordered_header_block_indices(&meta.headers).collect();
+        for batch in indices.chunks(BATCH) {
+            let chunks: Vec<_> = batch
+                .par_iter()
+                .map(|&(_, index)| parts[index.layer].block(index, scale))
+                .map(|block| block.compress_to_chunk(&meta.headers))
+                .collect::<Result<_, _>>()?;
+            for (&(index, _), chunk) in batch.iter().zip(chunks) {
+                writer.write_chunk(index, chunk)?;
+            }
+        }
+        Ok(())
+    })
+    .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })?;
+    Ok(bytes)
+}
+
+fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Header {
+    let channels = part.channels.iter();
+    let channels = channels
+        .map(|channel| ChannelDescription::new(channel.name.as_str(), SampleType::F32, true));
+    let window = part.window;
+    let mut own = LayerAttributes::named(part.name.as_str());
+    own.layer_position = Vec2(window.x as i32, window.y as i32);
+    own.horizontal_density = Some((25.4 / header.cell_mm) as f32);
+    // One attribute beyond the standard's: the crate keeps them in no order.
+    own.other.extend(json.map(|json| (Text::from(ATTRIBUTE), AttributeValue::Text(json.into()))));
+    let canvas = IntegerBounds::new((0, 0), (header.width, header.height));
+    Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())
+        .with_attributes(own)
+        .with_shared_attributes(ImageAttributes::new(canvas))
+        .with_encoding(Compression::PIZ, BlockDescription::ScanLines, LineOrder::Increasing)
+}
+
+fn check(document: &Document) -> Result<(), PaintingFileError> {
+    let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
+    let bounds = document.ground.height.bounds();
+    if bounds.width.max(bounds.height) > i32::MAX as usize / 4 {
+        return Err(unwritable(format!("a side has `{}` cells", bounds.width.max(bounds.height))));
+    }
+    let dry = document.dry.iter().enumerate();
+    let dry = dry.map(|(i, layer)| (super::parts::dry_part(i), &layer.slots, &layer.paint));
+    let wet = (super::parts::WET.to_owned(), &document.slots, &document.wet);
+    for (name, slots, paint) in std::iter::once(wet).chain(dry) {
+        let sizes = [paint.pigments.bounds(), paint.vehicle.bounds()];
+        if let Some(size) = sizes.into_iter().find(|size| *size != bounds) {
+            let (width, height) = (size.width, size.height);
+            let canvas = format!("{} x {}", bounds.width, bounds.height);
+            return Err(unwritable(format!(
+                "layer `{name}` has `{width} x {height}` cells, the canvas {canvas}"
+            )));
+        }
+        check_paint(slots, paint).map_err(|what| unwritable(format!("layer `{name}` {what}")))?;
+    }
+    Ok(())
+}
+
+fn check_paint(slots: &Slots, paint: &Layer) -> Result<(), String> {
+    for index in 0..paint.vehicle.values().len() {
+        let cell = paint.cell(index);
+        let (x, y) = (index % paint.width(), index / paint.width());
+        let amounts = cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q));
+        let volume: u64 = amounts.sum();
+        if volume > u64::from(FULL) {
+            return Err(format!("holds more than a cell can at x {x}, y {y}: `{volume}` quanta"));
+        }
+        let stray = (0..SLOTS).find(|&s| slots[s].is_none() && cell.pigments[s] > 0);
+        if let Some(slot) = stray {
+            return Err(format!("has paint of no pigment at x {x}, y {y}, slot `{slot}`"));
+        }
+    }
+    Ok(())
+}

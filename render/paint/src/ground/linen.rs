@@ -1,0 +1,156 @@
+//! Linen in plain weave.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{GroundError, within};
+use graphics::field::Field;
+use graphics::noise::{Hills, random};
+
+/// Primed linen: warp (along y) and weft (along x) over and under each other,
+/// threads unevenly spaced, with slubs; the priming has filled the gaps.
+///
+/// Canvases of painters have about 8 to 25 threads in a centimetre; primed, their
+/// relief is 0.1 to 0.2 mm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Linen {
+    /// The same seed, the same cloth.
+    pub seed: u64,
+    /// Threads in a centimetre, both ways.
+    pub threads_per_cm: f64,
+    /// From the gaps to the top of a usual thread, in mm.
+    pub relief_mm: f64,
+}
+
+impl Default for Linen {
+    fn default() -> Self {
+        Self { seed: 1, threads_per_cm: 14.0, relief_mm: 0.12 }
+    }
+}
+
+/// How far a thread swings up and down, as a share of the relief; the rest is its
+/// roundness.
+const SWING: f32 = 0.45;
+
+/// What the priming fills, as a share of the relief.
+const FILLED: f32 = 0.25;
+
+impl Linen {
+    /// Heights over `width` x `height` cells of `cell_mm`, in mm.
+    ///
+    /// # Errors
+    /// [`GroundError::Figure`].
+    pub fn heights_mm(
+        &self,
+        width: usize,
+        height: usize,
+        cell_mm: f64,
+    ) -> Result<Field<f32>, GroundError> {
+        let relief = within("relief_mm", " mm", self.relief_mm, [0.0, 2.0])? as f32;
+        let count = within("threads_per_cm", "", self.threads_per_cm, [2.0, 60.0])?;
+        let pitch = 10.0 / count / cell_mm;
+        let mut random = random(self.seed, 0);
+        let warp = Threads::new(width, height, pitch, &mut random);
+        let weft = Threads::new(height, width, pitch, &mut random);
+        let grain = Hills::new(&mut random);
+        let grain_step = (cell_mm / 0.25) as f32;
+        let mut heights = Field::filled(width, height, 0.0);
+        let fill = |(y, row): (usize, &mut [f32])| {
+            for (x, out) in row.iter_mut().enumerate() {
+                // Where a thread of the warp is up, the weft is down.
+                let top = warp.top(x, y, weft.swing[y]).max(weft.top(y, x, -warp.swing[x]));
+                let rough = 0.03 * grain.at(x as f32 * grain_step, y as f32 * grain_step);
+                let filled = soft_max(top, FILLED) + rough;
+                *out = (relief * (filled - FILLED) / (1.0 - FILLED)).max(0.0);
+            }
+        };
+        heights.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(fill);
+        Ok(heights)
+    }
+}
+
+/// The greater of two, rounded where they are near.
+fn soft_max(a: f32, b: f32) -> f32 {
+    let d = a - b;
+    0.5 * (a + b + (d * d + 0.02).sqrt())
+}
+
+/// The threads of one direction. `across` counts cells over the threads, `along`
+/// cells down their length.
+struct Threads {
+    /// By cell across: the thread whose middle is nearest.
+    nearest: Vec<usize>,
+    /// By cell across, how far threads of the other direction swing: 1 over the
+    /// middle of a thread of sign 1, -1 over one of sign -1.
+    swing: Vec<f32>,
+    threads: Vec<Thread>,
+}
+
+struct Thread {
+    /// By cell along: middle, in cells across, and half the width.
+    course: Vec<[f32; 2]>,
+    sign: f32,
+}
+
+impl Threads {
+    fn new(across: usize, along: usize, pitch: f64, random: &mut ChaCha8Rng) -> Self {
+        // Two threads beyond both edges, for the neighbours of those at the edge.
+        let mut middles = vec![-2.0 * pitch * random.random_range(0.8..1.0)];
+        while middles[middles.len() - 1] < across as f64 + 2.0 * pitch {
+            let step = pitch * random.random_range(0.82..1.18);
+            middles.push(middles[middles.len() - 1] + step);
+        }
+        let (wander, thickness) = (Hills::new(random), Hills::new(random));
+        let pitch = pitch as f32;
+        let thread = |(number, middle): (usize, &f64)| {
+            let row = number as f32 * 7.31;
+            let usual = 0.5 * random.random_range(0.92..1.1f32);
+            let course = (0..along).map(|cell| {
+                let place = cell as f32 / pitch;
+                let aside = 0.12 * wander.at(place / 9.0, row);
+                // Slubs: here and there a thread is thick over a dozen others.
+                let slub = (thickness.at(place / 14.0, row) - 0.45).max(0.0);
+                let width = usual + 0.05 * thickness.at(place / 3.0, row + 3.0) + 0.45 * slub;
+                [*middle as f32 + pitch * aside, pitch * width]
+            });
+            Thread { course: course.collect(), sign: if number % 2 == 0 { 1.0 } else { -1.0 } }
+        };
+        let threads: Vec<Thread> = middles.iter().enumerate().map(thread).collect();
+        let mut nearest = Vec::with_capacity(across);
+        let mut swing = Vec::with_capacity(across);
+        let mut index = 1;
+        for cell in 0..across {
+            let place = cell as f64;
+            while place > f64::midpoint(middles[index], middles[index + 1]) {
+                index += 1;
+            }
+            nearest.push(index);
+            // A cosine from the middle of one thread to that of the next.
+            let from = if place < middles[index] { index - 1 } else { index };
+            let share = (place - middles[from]) / (middles[from + 1] - middles[from]);
+            let sign = f64::from(threads[from].sign);
+            swing.push((sign * (std::f64::consts::PI * share).cos()) as f32);
+        }
+        Self { nearest, swing, threads }
+    }
+
+    /// The top of the threads at a cell, as a share of the relief, where `swing`
+    /// is 1 if threads of sign 1 are all the way up, -1 if they are down.
+    fn top(&self, across: usize, along: usize, swing: f32) -> f32 {
+        let nearest = self.nearest[across];
+        let mut top = 0.0f32;
+        for thread in &self.threads[nearest - 1..=nearest + 1] {
+            let [middle, half] = thread.course[along];
+            let aside = (across as f32 - middle) / half;
+            let round = 1.0 - aside * aside;
+            if round > 0.0 {
+                let lift = 0.5 * SWING * (1.0 + thread.sign * swing);
+                top = top.max(lift + (1.0 - SWING) * round.sqrt());
+            }
+        }
+        top
+    }
+}

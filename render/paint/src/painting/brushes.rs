@@ -1,0 +1,183 @@
+//! The brushes of a painting, and the paint on them.
+
+use super::failure::PaintingError;
+use super::state::Painting;
+use crate::amount::{FULL, mm_from_quanta, quanta_from_mm};
+use crate::brush::{Head, HeadShape};
+use crate::engine::BrushId;
+use crate::layer::{Cell, Layer, SLOTS};
+use crate::pose::Sample;
+
+/// A brush in hand.
+#[derive(Debug)]
+pub struct Brush {
+    pub(super) id: BrushId,
+    pub(super) head: Head,
+    pub(super) cells: (usize, usize),
+}
+
+/// The most that a cell of a head holds, as quanta: 64 cell widths, far more
+/// than clings to bristles, and little enough that no pile reaches [`FULL`].
+const CAPACITY: u32 = FULL / 16;
+
+impl Painting {
+    /// Takes a new, clean brush; its number, by which the other calls know it, is
+    /// the number of brushes before it.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a size that no brush has, or where the device has
+    /// no room.
+    pub fn add_brush(&mut self, shape: HeadShape, size_mm: f64) -> Result<usize, PaintingError> {
+        let head = Head::new(shape, size_mm, self.cell_mm)?;
+        let cells = head.paint_grid();
+        let id = self.engine.add_brush(cells.0, cells.1)?;
+        self.brushes.push(Brush { id, head, cells });
+        Ok(self.brushes.len() - 1)
+    }
+
+    /// Takes up paint from the palette: to every cell of the head `amount_mm` of
+    /// the mixture of `recipe` (parts by slot), of which the share `vehicle`
+    /// (0..1) is clear medium; with 1 the recipe may be empty. It joins what the
+    /// brush already holds.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for parts of slots that hold no pigment, for no parts,
+    /// and where the brush would hold more than it can.
+    ///
+    /// # Panics
+    /// If there is no such brush, as the calls below.
+    pub fn load(
+        &mut self,
+        brush: usize,
+        recipe: &[f64; SLOTS],
+        vehicle: f64,
+        amount_mm: f64,
+    ) -> Result<(), PaintingError> {
+        let fresh = self.mixture(recipe, vehicle, amount_mm)?;
+        let Brush { id, cells, .. } = self.brushes[brush];
+        let mut paint = self.engine.brush(id)?;
+        let cells = 0..cells.0 * cells.1;
+        let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
+        let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm);
+        if amount_mm > most_mm {
+            return Err(PaintingError::Overloaded { amount_mm, most_mm });
+        }
+        for index in cells {
+            paint.set_cell(index, paint.cell(index).plus(&fresh));
+        }
+        self.change_brush(brush, &paint)
+    }
+
+    /// The share of each slot and, last, of vehicle in a mixture.
+    pub(super) fn shares(
+        &self,
+        recipe: &[f64; SLOTS],
+        vehicle: f64,
+    ) -> Result<[f64; SLOTS + 1], PaintingError> {
+        if !(0.0..=1.0).contains(&vehicle) {
+            return Err(PaintingError::Share { what: "vehicle", value: vehicle });
+        }
+        let total: f64 = recipe.iter().sum();
+        let parts = total.is_finite() && recipe.iter().all(|&part| part >= 0.0);
+        if !(parts && (total > 0.0 || vehicle == 1.0)) {
+            return Err(PaintingError::NoMixture);
+        }
+        if let Some(slot) = (0..SLOTS).find(|&i| recipe[i] > 0.0 && self.state.slots[i].is_none()) {
+            return Err(PaintingError::EmptySlot { slot });
+        }
+        let mut shares = [0.0; SLOTS + 1];
+        // Clear vehicle alone needs no parts.
+        if total > 0.0 {
+            for (share, part) in shares.iter_mut().zip(recipe) {
+                *share = part / total * (1.0 - vehicle);
+            }
+        }
+        shares[SLOTS] = vehicle;
+        Ok(shares)
+    }
+
+    /// One cell's worth of a mixture.
+    fn mixture(
+        &self,
+        recipe: &[f64; SLOTS],
+        vehicle: f64,
+        amount_mm: f64,
+    ) -> Result<Cell, PaintingError> {
+        let shares = self.shares(recipe, vehicle)?;
+        if !(amount_mm >= 0.0 && amount_mm.is_finite()) {
+            return Err(PaintingError::Amount { value: amount_mm });
+        }
+        let [pigments @ .., vehicle] =
+            shares.map(|share| quanta_from_mm(amount_mm * share, self.cell_mm));
+        Ok(Cell { pigments, vehicle })
+    }
+
+    /// Wipes a brush on a rag: of its paint the share `kept` (0..1) stays.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a share outside 0..1.
+    pub fn wipe(&mut self, brush: usize, kept: f64) -> Result<(), PaintingError> {
+        let share = share_of_65536_parts("kept", kept)?;
+        let mut paint = self.engine.brush(self.brushes[brush].id)?;
+        for index in 0..paint.vehicle.values().len() {
+            paint.set_cell(index, paint.cell(index).share(share));
+        }
+        self.change_brush(brush, &paint)
+    }
+
+    /// Washes a brush: nothing stays.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn wash(&mut self, brush: usize) -> Result<(), PaintingError> {
+        let (width, height) = self.brushes[brush].cells;
+        self.change_brush(brush, &Layer::empty(width, height))
+    }
+
+    /// The paint on a brush.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
+        Ok(self.engine.brush(self.brushes[brush].id)?)
+    }
+
+    /// Puts `paint` on a brush in place of what it holds: paint that comes from
+    /// elsewhere, of this painting's palette. No action of its own, as loading and
+    /// washing; see [`Painting::begin_stroke_with`] for a part of a stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `paint` has not the cells of the head.
+    pub fn set_brush_paint(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
+        self.change_brush(brush, paint)
+    }
+
+    /// The head of a brush, as it is bent now.
+    #[must_use]
+    pub fn head(&self, brush: usize) -> &Head {
+        &self.brushes[brush].head
+    }
+
+    /// Holds a brush just above the canvas, as to draw its [`Painting::head`]
+    /// there. While a stroke with it is open nothing happens.
+    pub fn hover(&mut self, brush: usize, sample: &Sample) {
+        if !self.strokes_with(brush) {
+            self.brushes[brush].head.hover(&sample.pose(self.cell_mm), &self.relief);
+        }
+    }
+
+    fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
+        Ok(self.engine.set_brush(self.brushes[brush].id, paint)?)
+    }
+}
+
+/// A share of 0..1 as 65536 parts.
+pub(super) fn share_of_65536_parts(what: &'static str, value: f64) -> Result<u32, PaintingError> {
+    if !(0.0..=1.0).contains(&value) {
+        return Err(PaintingError::Share { what, value });
+    }
+    Ok((value * 65536.0).round() as u32)
+}

@@ -1,0 +1,221 @@
+//! Paint put down from a tube, and scraped away.
+
+use super::failure::PaintingError;
+use super::state::{HIGHEST, Painting};
+use crate::amount::QUANTA_PER_CELL;
+use crate::layer::{Cell, Layer, SLOTS};
+use crate::motion::press::CROWDED;
+use graphics::tile::Rect;
+
+/// The most that is squeezed out at once, in mm3: a litre.
+const MOST_MM3: f64 = 1e6;
+
+/// Height of a heap over its radius.
+const STEEPNESS: f64 = 2.0 / 3.0;
+
+/// No heap is higher than this many quanta, half of what a brush can still move:
+/// where cells are small, large heaps are flatter.
+const HIGHEST_HEAP: f64 = CROWDED as f64 / 2.0;
+
+/// The volume of a heap, over its height and the square of its radius.
+const FULLNESS: f64 = std::f64::consts::PI / 1.75;
+
+/// How high a heap is, its top 1, where the square of the distance from its
+/// middle is `square`, that of its edge 1: between an ellipsoid, which would have
+/// an upright edge, and a paraboloid.
+fn profile(square: f64) -> f64 {
+    let root = (1.0 - square).max(0.0).sqrt();
+    root * root.sqrt()
+}
+
+/// A heap of paint, in cells.
+#[derive(Debug, Clone, Copy)]
+struct Heap {
+    middle: (f64, f64),
+    radius: f64,
+}
+
+impl Heap {
+    /// One of `volume` quanta, no higher than `most` quanta.
+    fn new(middle: (f64, f64), volume: f64, most: f64) -> Self {
+        let quanta = f64::from(QUANTA_PER_CELL);
+        let natural = (volume / quanta / (FULLNESS * STEEPNESS)).cbrt();
+        let radius = if natural * STEEPNESS * quanta > most {
+            (volume / (FULLNESS * most)).sqrt()
+        } else {
+            natural
+        };
+        // Below that it could lie between the middles of cells.
+        Self { middle, radius: radius.max(1.0) }
+    }
+
+    /// Its height at the cell in this column and row, its top 1.
+    fn height(&self, x: i64, y: i64) -> f64 {
+        let (right, down) = (x as f64 + 0.5 - self.middle.0, y as f64 + 0.5 - self.middle.1);
+        profile((right * right + down * down) / (self.radius * self.radius))
+    }
+
+    /// Columns and rows that it reaches, on the canvas or not.
+    fn reach(&self) -> [std::ops::Range<i64>; 2] {
+        let (x, y) = self.middle;
+        [x, y].map(|at| (at - self.radius).floor() as i64..(at + self.radius).ceil() as i64)
+    }
+
+    /// What of `bounds` it reaches.
+    fn rect(&self, bounds: Rect) -> Rect {
+        let [columns, rows] = self.reach();
+        let cut = |range: std::ops::Range<i64>, end: usize| {
+            let end = end as i64;
+            (range.start.clamp(0, end) as usize, range.end.clamp(0, end) as usize)
+        };
+        let ((x, right), (y, bottom)) = (cut(columns, bounds.width), cut(rows, bounds.height));
+        Rect { x, y, width: right - x, height: bottom - y }
+    }
+
+    /// Gives every cell of the heap, on the canvas or not, its share of `totals`
+    /// quanta of each paint. What is rounded off in one cell goes to the next, so
+    /// that the totals are right to the quantum.
+    fn spread(&self, totals: [f64; SLOTS + 1], mut give: impl FnMut(i64, i64, Cell)) {
+        let [columns, rows] = self.reach();
+        let cells = || rows.clone().flat_map(|y| columns.clone().map(move |x| (x, y)));
+        let whole: f64 = cells().map(|(x, y)| self.height(x, y)).sum();
+        let (mut so_far, mut given) = (0.0, [0_u64; SLOTS + 1]);
+        for (x, y) in cells() {
+            let height = self.height(x, y);
+            if height == 0.0 {
+                continue;
+            }
+            so_far += height;
+            let mut cell = [0; SLOTS + 1];
+            for ((cell, given), total) in cell.iter_mut().zip(&mut given).zip(totals) {
+                let due = (total * (so_far / whole)).round() as u64;
+                *cell = due.saturating_sub(*given) as u32;
+                *given = due.max(*given);
+            }
+            let [pigments @ .., vehicle] = cell;
+            give(x, y, Cell { pigments, vehicle });
+        }
+    }
+}
+
+impl Painting {
+    /// Squeezes `volume_mm3` of the mixture of `recipe` (parts by slot), of which
+    /// the share `vehicle` (0..1) is clear medium, out over the place `x_mm`,
+    /// `y_mm`: a heap with a round top, a third as high as wide, or flatter where
+    /// columns of cells hold no more. All of it lies there to the quantum, but for
+    /// what falls beside the canvas.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a recipe as [`Painting::load`] refuses it, a volume
+    /// that is not above 0 and at most a litre, a place beside the canvas, and
+    /// where paint is piled too high already.
+    pub fn squeeze(
+        &mut self,
+        recipe: &[f64; SLOTS],
+        vehicle: f64,
+        x_mm: f64,
+        y_mm: f64,
+        volume_mm3: f64,
+    ) -> Result<(), PaintingError> {
+        let shares = self.shares(recipe, vehicle)?;
+        if !(volume_mm3 > 0.0 && volume_mm3 <= MOST_MM3) {
+            return Err(PaintingError::Volume { value: volume_mm3 });
+        }
+        let bounds = self.engine.bounds();
+        let off_canvas = || PaintingError::OffCanvas { x_mm, y_mm };
+        let middle = (x_mm / self.cell_mm, y_mm / self.cell_mm);
+        let inside = (0.0..=bounds.width as f64).contains(&middle.0)
+            && (0.0..=bounds.height as f64).contains(&middle.1);
+        if !inside {
+            return Err(off_canvas());
+        }
+        let quanta = volume_mm3 / self.cell_mm.powi(3) * f64::from(QUANTA_PER_CELL);
+        let natural = Heap::new(middle, quanta, HIGHEST_HEAP);
+        let room = f64::from(CROWDED) - f64::from(self.fullest(natural.rect(bounds))?);
+        let heap = Heap::new(middle, quanta, room.clamp(f64::from(QUANTA_PER_CELL), HIGHEST_HEAP));
+        let rect = heap.rect(bounds);
+        let mut paint = self.engine.wet_in(rect)?;
+        let mut too_high = false;
+        heap.spread(shares.map(|share| (share * quanta).round()), |x, y, more| {
+            let (x, y) = (x - rect.x as i64, y - rect.y as i64);
+            let (width, height) = (rect.width as i64, rect.height as i64);
+            if !((0..width).contains(&x) && (0..height).contains(&y)) {
+                return;
+            }
+            let index = (y * width + x) as usize;
+            let there = paint.cell(index);
+            let volume = |cell: &Cell| {
+                u64::from(cell.vehicle)
+                    + cell.pigments.iter().map(|&amount| u64::from(amount)).sum::<u64>()
+            };
+            if volume(&there) + volume(&more) > u64::from(HIGHEST) {
+                too_high = true;
+            } else {
+                paint.set_cell(index, there.plus(&more));
+            }
+        });
+        if too_high {
+            return Err(PaintingError::NoRoom { x_mm, y_mm });
+        }
+        self.acting(|painting| {
+            painting.history.touch(painting.engine.as_mut(), rect)?;
+            painting.views.touch(rect);
+            Ok(painting.engine.set_wet_in(rect, &paint)?)
+        })
+    }
+
+    /// The greatest height of wet paint in `rect`, in quanta.
+    fn fullest(&mut self, rect: Rect) -> Result<u32, PaintingError> {
+        let paint = self.engine.wet_in(rect)?;
+        let cells = 0..rect.width * rect.height;
+        Ok(cells.map(|index| paint.cell(index).volume()).max().unwrap_or(0))
+    }
+
+    /// Scrapes all wet paint off the canvas, down to what is dry. Whether there
+    /// was any.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn scrape(&mut self) -> Result<bool, PaintingError> {
+        let bounds = self.engine.bounds();
+        let painted = self.engine.painted()?;
+        if painted.is_empty() {
+            return Ok(false);
+        }
+        self.acting(|painting| {
+            for tile in painted.iter() {
+                painting.history.touch(painting.engine.as_mut(), tile.rect(bounds))?;
+                painting.views.touch_tile(tile);
+            }
+            let rect = painted.extent(bounds);
+            painting.engine.set_wet_in(rect, &Layer::empty(rect.width, rect.height))?;
+            Ok(true)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heap_is_a_third_as_high_as_wide_unless_that_is_too_high() {
+        let quanta = f64::from(QUANTA_PER_CELL);
+        for (volume, flat) in [(4e3, false), (3.2e4, false), (1e6, true)] {
+            let heap = Heap::new((300.0, 300.0), volume * quanta, HIGHEST_HEAP);
+            let mut totals = [0.0; SLOTS + 1];
+            totals[3] = (volume * quanta).round();
+            let (mut highest, mut sum) = (0, 0);
+            heap.spread(totals, |_, _, cell| {
+                highest = highest.max(cell.volume());
+                sum += u64::from(cell.volume());
+            });
+            assert_eq!(sum, totals[3] as u64, "{volume}");
+            let wanted = if flat { HIGHEST_HEAP } else { heap.radius * STEEPNESS * quanta };
+            assert!((f64::from(highest) / wanted - 1.0).abs() < 0.01, "{volume}: {highest}");
+        }
+        // Eight times the paint, twice the width.
+        let radius = |volume: f64| Heap::new((0.0, 0.0), volume * quanta, HIGHEST_HEAP).radius;
+        assert!((radius(8e3) / radius(1e3) - 2.0).abs() < 1e-9);
+    }
+}

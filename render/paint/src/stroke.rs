@@ -1,0 +1,289 @@
+//! From samples of a pen to sub-steps of at most one cell, and what a head
+//! touches in each.
+
+mod error;
+
+mod piece;
+
+mod path;
+
+pub use error::StrokeError;
+pub use path::Path;
+
+use super::brush::{Head, Relief};
+use super::contact::Contact;
+use super::pose::{Pose, Sample};
+use graphics::tile::Rect;
+
+/// The most sub-steps a stroke may take.
+pub const MOST_SUBSTEPS: u64 = 10_000_000;
+
+/// How far from the canvas's origin a sample may be, in cells.
+const FARTHEST: f64 = 1e9;
+
+/// Pressures of a dab, as shares of its sample's: down, and up again.
+const DAB: [f64; 8] = [0.0, 0.25, 0.5, 0.75, 1.0, 0.67, 0.33, 0.0];
+
+/// The poses of a stroke, each at most one cell from the last, the first at the
+/// first sample and the last at the last.
+///
+/// The path is smooth through the samples (centripetal Catmull-Rom, Yuksel,
+/// Schaefer and Keyser 2011); pressure, tilt and twist run straight between
+/// them, twist the shorter way. Poses are one cell of way apart, or nearer where
+/// the hand turns: 1/16 of pressure, 3 degrees. Time counts for nothing else: a
+/// brush at rest makes no sub-steps. Samples all at one place and pose are a
+/// dab: lowered, pressed and lifted there.
+///
+/// # Errors
+/// [`StrokeError`] if there is no sample, a number is none or out of its range,
+/// time runs backwards, a place is 1e9 cells away, or the way is longer than [`MOST_SUBSTEPS`].
+pub fn substeps(
+    samples: &[Sample],
+    cell_mm: f64,
+) -> Result<impl Iterator<Item = Pose> + use<>, StrokeError> {
+    if samples.is_empty() {
+        return Err(StrokeError::Empty);
+    }
+    let mut path = Path::new(cell_mm)?;
+    path.push(samples)?;
+    path.finish();
+    Ok(path)
+}
+
+/// What `head` touches along `poses`: set down at the first without dragging,
+/// then a contact for each. Poses that touch nothing give none. The head is
+/// lifted at the end.
+pub fn contacts(
+    head: &mut Head,
+    poses: impl Iterator<Item = Pose>,
+    relief: &Relief,
+    bounds: Rect,
+) -> impl Iterator<Item = Contact> {
+    let mut poses = poses.peekable();
+    let first = poses.next();
+    if let Some(first) = &first {
+        let next = poses.peek().unwrap_or(first);
+        head.set_down(first, (next.x - first.x, next.y - first.y), relief);
+    }
+    let mut poses = first.into_iter().chain(poses);
+    std::iter::from_fn(move || {
+        for pose in poses.by_ref() {
+            let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+            head.advance(&pose, relief, bounds, &mut contact);
+            if !contact.rect.is_empty() {
+                return Some(contact);
+            }
+        }
+        head.lift();
+        None
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::super::brush::HeadShape;
+    use super::*;
+
+    const SAMPLE: Sample = Sample {
+        seconds: 0.0,
+        x_mm: 5.0,
+        y_mm: 5.0,
+        pressure: 0.5,
+        tilt_x_deg: 0.0,
+        tilt_y_deg: 0.0,
+        twist_deg: 0.0,
+    };
+
+    fn poses(samples: &[Sample]) -> Vec<Pose> {
+        substeps(samples, 0.1).unwrap().collect()
+    }
+
+    fn at(seconds: f64, x_mm: f64, y_mm: f64) -> Sample {
+        Sample { seconds, x_mm, y_mm, ..SAMPLE }
+    }
+
+    #[test]
+    fn steps_are_at_most_one_cell_and_nearly_so_through_all_samples() {
+        let samples = [
+            at(0.0, 5.0, 5.0),
+            at(0.1, 5.02, 5.01),
+            at(0.2, 9.0, 5.0),
+            at(0.3, 9.0, 8.0),
+            at(0.3, 9.0, 8.0),
+            at(0.4, 2.0, 8.0),
+        ];
+        let poses = poses(&samples);
+        let steps = poses.windows(2).map(|w| (w[0].x - w[1].x).hypot(w[0].y - w[1].y));
+        let steps: Vec<f64> = steps.collect();
+        assert!(steps.iter().all(|&step| step <= 1.0), "{steps:?}");
+        let full = steps.iter().filter(|&&step| step > 0.85).count();
+        assert!(full + 8 >= steps.len(), "{full} of {}", steps.len());
+        for sample in samples {
+            let near = |p: &Pose| (p.x - 10.0 * sample.x_mm).hypot(p.y - 10.0 * sample.y_mm);
+            let nearest = poses.iter().map(near).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= 0.5, "{sample:?}: {nearest}");
+        }
+        assert_eq!((poses[0].x, poses[0].y), (50.0, 50.0));
+        assert_eq!(poses.last().map(|p| (p.x, p.y)), Some((20.0, 80.0)));
+    }
+
+    #[test]
+    fn two_samples_are_a_straight_line_and_the_hand_turns_evenly() {
+        let end =
+            Sample { pressure: 0.9, tilt_x_deg: 30.0, twist_deg: 350.0, ..at(1.0, 15.0, 5.0) };
+        for pose in poses(&[SAMPLE, end]) {
+            let share = (pose.x - 50.0) / 100.0;
+            assert!((pose.y - 50.0).abs() < 1e-9);
+            assert!((pose.pressure - 0.5 - 0.4 * share).abs() < 1e-9, "{pose:?}");
+            assert!((pose.tilt_x_deg - 30.0 * share).abs() < 1e-9, "{pose:?}");
+            // 350 degrees are 10 the other way.
+            let twist = if share < 1.0 { -10.0 * share } else { 350.0 };
+            assert!((pose.twist_deg - twist).abs() < 1e-9, "{pose:?}");
+        }
+    }
+
+    /// Samples with repeated places, rests and turns.
+    fn any_hand(random: &mut ChaCha8Rng) -> Vec<Sample> {
+        let count = random.random_range(1..12);
+        let still = random.random_range(0..4) == 0;
+        let (mut samples, mut sample): (Vec<Sample>, _) = (Vec::new(), SAMPLE);
+        for index in 0..count {
+            sample.seconds = 0.01 * f64::from(index);
+            if !still && random.random_range(0..3) > 0 {
+                sample.x_mm += random.random_range(-1.0..1.0);
+                sample.y_mm += random.random_range(-0.3..0.3);
+            }
+            if !still && random.random_range(0..3) == 0 {
+                sample.pressure = random.random_range(0.0..1.0);
+                sample.twist_deg += random.random_range(-200.0..200.0);
+            }
+            samples.push(sample);
+        }
+        samples
+    }
+
+    #[test]
+    fn poses_told_piece_by_piece_are_those_of_the_whole() {
+        let mut dabs = 0;
+        for seed in 0..300 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let samples = any_hand(random);
+            let whole = poses(&samples);
+            dabs += usize::from(whole.len() == DAB.len());
+            let mut path = Path::new(0.1).unwrap();
+            let (mut pieces, mut rest, mut lagged) = (Vec::new(), &samples[..], 0);
+            while !rest.is_empty() {
+                let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
+                path.push(now).unwrap();
+                rest = later;
+                let least = path.waiting();
+                let most = random.random_range(0..40);
+                let before = pieces.len();
+                pieces.extend(path.by_ref().take(most));
+                assert_eq!(least > 0 && most > 0, pieces.len() > before, "seed {seed}");
+                assert!(pieces.len() - before <= least, "seed {seed}: {least} at most");
+                let reached = path.reached();
+                assert!(reached <= path.samples(), "seed {seed}");
+                lagged = lagged.max(path.samples() - reached);
+            }
+            path.finish();
+            pieces.extend(path.by_ref());
+            assert_eq!(path.reached(), samples.len(), "seed {seed}");
+            assert!(pieces == whole, "seed {seed}: {} of {}", pieces.len(), whole.len());
+            assert!(lagged > 0, "seed {seed}: no path lagged behind");
+        }
+        assert!(dabs > 20, "{dabs} dabs");
+    }
+
+    #[test]
+    fn a_refused_sample_leaves_the_path_where_it_was() {
+        let good = [SAMPLE, at(0.1, 7.0, 5.0), at(0.2, 9.0, 6.0)];
+        let mut path = Path::new(0.1).unwrap();
+        path.push(&good[..2]).unwrap();
+        for bad in [
+            Sample { pressure: -0.1, ..good[2] },
+            Sample { y_mm: f64::NAN, ..good[2] },
+            Sample { seconds: 0.05, ..good[2] },
+            Sample { x_mm: 1.1e6, ..good[2] },
+        ] {
+            let error = path.push(&[bad]).unwrap_err();
+            let place = matches!(error, StrokeError::TooLong { .. })
+                || error.to_string().starts_with("sample 2: ");
+            assert!(place, "{error}");
+        }
+        path.push(&good[2..]).unwrap();
+        path.finish();
+        assert_eq!(path.collect::<Vec<_>>(), poses(&good));
+    }
+
+    #[test]
+    fn pressing_and_turning_on_the_spot_takes_steps_of_its_own() {
+        let end = Sample { pressure: 1.0, twist_deg: 90.0, ..SAMPLE };
+        let poses = poses(&[SAMPLE, end]);
+        assert!(poses.len() > 30, "{}", poses.len());
+        for pair in poses.windows(2) {
+            assert!(piece::turned(&pair[0], &pair[1]) <= 1.0 + 1e-9, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn one_sample_is_a_dab() {
+        for samples in [&[SAMPLE][..], &[SAMPLE, at(1.0, 5.0, 5.0)]] {
+            let pressures: Vec<f64> = poses(samples).iter().map(|pose| pose.pressure).collect();
+            assert_eq!(pressures.len(), DAB.len());
+            assert_eq!(pressures.iter().copied().fold(0.0, f64::max), 0.5);
+            assert_eq!((pressures[0], pressures[7]), (0.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn contacts_begin_at_rest_and_a_dab_moves() {
+        let relief = Relief::flat(300, 100, 0.1);
+        let bounds = Rect { x: 0, y: 0, width: 300, height: 100 };
+        let mut head = Head::new(HeadShape::Filbert, 3.0, 0.1).unwrap();
+        let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1).unwrap();
+        let stroke: Vec<Contact> = contacts(&mut head, line, &relief, bounds).collect();
+        assert!(stroke.len() > 150, "{}", stroke.len());
+        let fastest = |contact: &Contact| {
+            let pressed = contact.touches.iter().filter(|touch| touch.height < 0);
+            pressed.map(|touch| touch.velocity().0.abs()).max()
+        };
+        assert!(fastest(&stroke[0]) < Some(96), "{:?}", fastest(&stroke[0]));
+        assert!(fastest(&stroke[140]) > Some(240), "{:?}", fastest(&stroke[140]));
+        let dab = substeps(&[SAMPLE], 0.1).unwrap();
+        let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
+        assert_eq!(dab.len(), DAB.len() - 2);
+        let paints = |contact: &Contact| {
+            contact.touches.iter().any(|touch| touch.height < 0 && touch.speed() == 256)
+        };
+        assert!(dab.iter().any(paints));
+    }
+
+    #[test]
+    fn what_no_hand_does_is_refused_with_its_place() {
+        let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1).err().unwrap();
+        let error = refused(Sample { pressure: 1.5, ..SAMPLE });
+        assert_eq!(error.to_string(), "sample 1: pressure is from 0 to 1: `1.5`");
+        let error = refused(Sample { tilt_y_deg: -91.0, ..SAMPLE });
+        assert_eq!(error.to_string(), "sample 1: tilt_y_deg is from -90 to 90: `-91`");
+        let error = refused(Sample { x_mm: f64::NAN, ..SAMPLE });
+        assert_eq!(error.to_string(), "sample 1: x_mm is no number: `NaN`");
+        let error = refused(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
+        assert!(matches!(error, StrokeError::NoNumber { field: "twist_deg", .. }), "{error}");
+        let error = refused(Sample { seconds: -0.1, ..SAMPLE });
+        assert_eq!(error.to_string(), "sample 1: seconds fall, from 0 to `-0.1`");
+        for x_mm in [1e9, 1e300, -1e308] {
+            let error = refused(Sample { x_mm, ..SAMPLE });
+            assert!(matches!(error, StrokeError::Range { field: "x_mm", .. }), "{error}");
+        }
+        for x_mm in [1.1e6, -9e7] {
+            let error = refused(Sample { x_mm, ..SAMPLE });
+            assert!(matches!(error, StrokeError::TooLong { .. }), "{error}");
+        }
+        assert!(matches!(substeps(&[], 0.1).err(), Some(StrokeError::Empty)));
+        assert!(matches!(substeps(&[SAMPLE], 0.0).err(), Some(StrokeError::Cell { .. })));
+    }
+}

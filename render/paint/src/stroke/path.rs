@@ -1,0 +1,246 @@
+//! The smooth path through samples as they come, in even steps.
+
+use std::collections::VecDeque;
+
+use super::error::StrokeError;
+use super::piece::{Piece, distance, turned};
+use super::{DAB, FARTHEST, MOST_SUBSTEPS};
+use crate::pose::{Pose, Sample};
+
+/// The poses of a stroke, told piece by piece: they are to the bit those of
+/// [`substeps`](super::substeps) of all samples, however these are cut.
+///
+/// The curve to a sample bends with the one after it, so poses lag one sample
+/// behind until the path is finished; of samples all at one place and pose, a
+/// dab, there are none before.
+#[derive(Debug, Clone)]
+pub struct Path {
+    cell_mm: f64,
+    samples: usize,
+    seconds: f64,
+    /// The last samples, the newest last; three are enough to bend a piece.
+    recent: [Option<Pose>; 3],
+    /// Pieces whose curve is known and that were not yet walked to their end.
+    pieces: VecDeque<Piece>,
+    /// Sizes of all pieces whose curve is known.
+    length: f64,
+    first: Option<Pose>,
+    finished: bool,
+    /// Of [`DAB`], or of the last pose, what was given.
+    ended: usize,
+    /// Pieces walked to their end.
+    walked: usize,
+    /// Where in the first piece.
+    look: u64,
+    /// Sub-steps, as far as looked, since the last pose given.
+    since: f64,
+    /// A pose looked at, but not yet given.
+    next: Option<Pose>,
+}
+
+impl Path {
+    /// A path without samples over cells of `cell_mm`.
+    ///
+    /// # Errors
+    /// [`StrokeError::Cell`] for cells without width.
+    pub fn new(cell_mm: f64) -> Result<Self, StrokeError> {
+        if !(cell_mm.is_finite() && cell_mm > 0.0) {
+            return Err(StrokeError::Cell { cell_mm });
+        }
+        Ok(Self {
+            cell_mm,
+            samples: 0,
+            seconds: f64::NEG_INFINITY,
+            recent: [None; 3],
+            pieces: VecDeque::new(),
+            length: 0.0,
+            first: None,
+            finished: false,
+            ended: 0,
+            walked: 0,
+            look: 0,
+            since: 0.0,
+            next: None,
+        })
+    }
+
+    /// Leads the path on through `samples`. If one is refused the path ends at
+    /// the one before it, and can be led on from there.
+    ///
+    /// # Errors
+    /// [`StrokeError`] for a sample that no hand gives, and for a way that would
+    /// be longer than [`MOST_SUBSTEPS`]; samples are counted from the first of
+    /// the path.
+    ///
+    /// # Panics
+    /// If the path is finished.
+    pub fn push(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
+        assert!(!self.finished, "a path that is not finished, to be led on");
+        samples.iter().try_for_each(|sample| self.push_one(sample))
+    }
+
+    fn push_one(&mut self, sample: &Sample) -> Result<(), StrokeError> {
+        self.check(sample)?;
+        let pose = sample.pose(self.cell_mm);
+        let [before, from, to] = self.recent;
+        let known = from.zip(to).map(|(from, to)| Piece::new(before, from, to, Some(pose)));
+        let guessed = to.map(|to| Piece::new(from, to, pose, None));
+        let size = |piece: &Option<Piece>| piece.as_ref().map_or(0.0, Piece::size);
+        let substeps = self.length + size(&known) + size(&guessed);
+        if substeps > MOST_SUBSTEPS as f64 {
+            return Err(StrokeError::TooLong { substeps });
+        }
+        self.first = if self.samples == 0 { Some(pose) } else { self.first };
+        self.samples += 1;
+        self.seconds = sample.seconds;
+        self.recent = [from, to, Some(pose)];
+        self.add(known);
+        Ok(())
+    }
+
+    fn add(&mut self, piece: Option<Piece>) {
+        self.length += piece.as_ref().map_or(0.0, Piece::size);
+        self.pieces.extend(piece);
+    }
+
+    /// No more samples come: the way to the last one is known now.
+    pub fn finish(&mut self) {
+        let [before, from, to] = self.recent;
+        if !self.finished {
+            self.add(from.zip(to).map(|(from, to)| Piece::new(before, from, to, None)));
+        }
+        self.finished = true;
+    }
+
+    /// Whether [`Path::finish`] was called.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.finished
+    }
+
+    /// How many samples it has.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// How many of them the poses given have reached.
+    #[must_use]
+    pub fn reached(&self) -> usize {
+        match (self.finished && self.ended > 0, self.first) {
+            (true, _) => self.samples,
+            (false, None) if self.samples > 0 => self.walked + 1,
+            _ => 0,
+        }
+    }
+
+    /// How many poses can be given now, as far as known: at most so many, and at
+    /// least one unless it is 0.
+    pub fn waiting(&mut self) -> usize {
+        if self.peek().is_none() {
+            return 0;
+        }
+        if self.length == 0.0 {
+            return DAB.len() + 1 - self.ended;
+        }
+        let looked = match self.pieces.front() {
+            Some(piece) => piece.size() * self.look as f64 / piece.looks.max(1) as f64,
+            None => 0.0,
+        };
+        let sizes: f64 = self.pieces.iter().map(Piece::size).sum();
+        1 + (sizes - looked + self.since).max(0.0) as usize
+    }
+
+    /// The next pose, if it is known, without taking it.
+    pub fn peek(&mut self) -> Option<&Pose> {
+        if self.next.is_none() {
+            self.next = self.walk();
+        }
+        self.next.as_ref()
+    }
+
+    /// The first pose, taken, and the second, left, once both are known: where a
+    /// head is set down, and where it goes. For a path that gave none yet.
+    pub fn set_out(&mut self) -> Option<(Pose, Pose)> {
+        let first = self.next()?;
+        let second = self.peek().copied();
+        if second.is_none() {
+            self.next = Some(first);
+        }
+        second.map(|second| (first, second))
+    }
+
+    fn walk(&mut self) -> Option<Pose> {
+        if self.length == 0.0 {
+            return self.dab();
+        }
+        if let Some(first) = self.first.take() {
+            return Some(first);
+        }
+        while let Some(piece) = self.pieces.front() {
+            while self.look < piece.looks {
+                let (here, next) = (piece.pose(self.look), piece.pose(self.look + 1));
+                let part = distance((here.x, here.y), (next.x, next.y)).max(turned(&here, &next));
+                if self.since + part > 1.0 {
+                    self.since = 0.0;
+                    return Some(here);
+                }
+                self.since += part;
+                self.look += 1;
+            }
+            self.pieces.pop_front();
+            self.walked += 1;
+            self.look = 0;
+        }
+        if !self.finished || self.ended > 0 {
+            return None;
+        }
+        self.ended = 1;
+        self.recent[2]
+    }
+
+    fn dab(&mut self) -> Option<Pose> {
+        let last = self.recent[2].filter(|_| self.finished)?;
+        let share = DAB.get(self.ended)?;
+        self.ended += 1;
+        Some(Pose { pressure: share * last.pressure, ..last })
+    }
+
+    /// Refuses what no hand does.
+    fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
+        let (index, farthest) = (self.samples, FARTHEST * self.cell_mm);
+        let fields = [
+            ("seconds", sample.seconds, f64::INFINITY),
+            ("x_mm", sample.x_mm, farthest),
+            ("y_mm", sample.y_mm, farthest),
+            ("pressure", sample.pressure, 1.0),
+            ("tilt_x_deg", sample.tilt_x_deg, 90.0),
+            ("tilt_y_deg", sample.tilt_y_deg, 90.0),
+            ("twist_deg", sample.twist_deg, f64::INFINITY),
+        ];
+        for (field, found, highest) in fields {
+            if !found.is_finite() {
+                return Err(StrokeError::NoNumber { sample: index, field, found });
+            }
+            let lowest = if field == "pressure" { 0.0 } else { -highest };
+            if !(lowest..=highest).contains(&found) {
+                return Err(StrokeError::Range { sample: index, field, found, lowest, highest });
+            }
+        }
+        if sample.seconds < self.seconds {
+            let (found, before) = (sample.seconds, self.seconds);
+            return Err(StrokeError::Backwards { sample: index, found, before });
+        }
+        Ok(())
+    }
+}
+
+impl Iterator for Path {
+    type Item = Pose;
+
+    /// The next pose; none while it is not known, and after the last.
+    fn next(&mut self) -> Option<Pose> {
+        self.peek();
+        self.next.take()
+    }
+}

@@ -1,0 +1,97 @@
+//! The curve from one sample to the next.
+
+use crate::pose::Pose;
+
+/// What a sub-step may change at most besides one cell of way: pressure, and
+/// degrees of tilt and twist.
+const MOST_PRESSURE: f64 = 1.0 / 16.0;
+const MOST_DEGREES: f64 = 3.0;
+
+/// How finely a path is followed: this many times per sub-step it is looked
+/// whether the sub-step is full, so that none is shorter than 15/16.
+const LOOKS: f64 = 16.0;
+
+/// The path from one sample to the next.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    from: Pose,
+    to: Pose,
+    /// The curve's Bezier points, in cells.
+    points: [(f64, f64); 4],
+    /// Parts in which it is looked at.
+    pub(super) looks: u64,
+}
+
+impl Piece {
+    /// From the sample `from` to the next, `to`; the samples around them, where
+    /// there are any, decide how it bends.
+    pub(super) fn new(before: Option<Pose>, from: Pose, mut to: Pose, after: Option<Pose>) -> Self {
+        let turn = (to.twist_deg - from.twist_deg) % 360.0;
+        to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
+        let place = |pose: &Pose| (pose.x, pose.y);
+        let (b, c) = (place(&from), place(&to));
+        let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
+        let after = after.map_or_else(|| mirrored(b, c), |pose| place(&pose));
+        let points = [b, handle(before, b, c), handle(after, c, b), c];
+        let mut piece = Self { from, to, points, looks: 0 };
+        piece.looks = (piece.size() * LOOKS).ceil() as u64;
+        piece
+    }
+
+    /// An upper bound of its sub-steps.
+    pub(super) fn size(&self) -> f64 {
+        let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
+        // A Bezier curve of parameter 0..1 is nowhere faster than this.
+        let fastest = 3.0 * legs.fold(0.0, f64::max);
+        fastest.max(turned(&self.from, &self.to))
+    }
+
+    /// Where it is after `look` of its parts.
+    pub(super) fn pose(&self, look: u64) -> Pose {
+        let t = look as f64 / self.looks as f64;
+        let s = 1.0 - t;
+        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let on_curve = weights.iter().zip(&self.points);
+        let (x, y) = on_curve.fold((0.0, 0.0), |(x, y), (w, p)| (x + w * p.0, y + w * p.1));
+        let between = |a: f64, b: f64| a + (b - a) * t;
+        Pose {
+            x,
+            y,
+            pressure: between(self.from.pressure, self.to.pressure),
+            tilt_x_deg: between(self.from.tilt_x_deg, self.to.tilt_x_deg),
+            tilt_y_deg: between(self.from.tilt_y_deg, self.to.tilt_y_deg),
+            twist_deg: between(self.from.twist_deg, self.to.twist_deg),
+        }
+    }
+}
+
+/// Sub-steps that the hand's turning and pressing takes.
+pub(super) fn turned(a: &Pose, b: &Pose) -> f64 {
+    let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
+    let turned = tilted.max((a.twist_deg - b.twist_deg).abs());
+    (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / MOST_PRESSURE)
+}
+
+pub(super) fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
+    (a.0 - b.0).hypot(a.1 - b.1)
+}
+
+/// `a` on the other side of `b`.
+fn mirrored(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (2.0 * b.0 - a.0, 2.0 * b.1 - a.1)
+}
+
+/// The Bezier point next to `here` of the curve from `here` to `next` that came
+/// from `last`.
+fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
+    // Squares of knot distances are distances: that is centripetal.
+    let (d, e) = (distance(last, here), distance(here, next));
+    let (root_d, root_e) = (d.sqrt(), e.sqrt());
+    let whole = 3.0 * root_d * (root_d + root_e);
+    if whole == 0.0 {
+        return here;
+    }
+    let weight = 2.0 * d + 3.0 * root_d * root_e + e;
+    let along = |l: f64, h: f64, n: f64| (d * n - e * l + weight * h) / whole;
+    (along(last.0, here.0, next.0), along(last.1, here.1, next.1))
+}

@@ -1,0 +1,126 @@
+//! Whether what a script says can be done at all.
+
+use super::action::Action;
+use super::at::{At, Checked};
+use super::bounds::{Surfaces, check_brush, check_gloss, check_light, check_palette, check_size};
+use super::error::StrokesError;
+use super::limits::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
+use super::script::{Canvas, Strokes};
+use crate::document::Medium;
+
+impl Strokes {
+    /// Whether every number is in range and every brush declared. Pigments are
+    /// looked up by [`Strokes::resolve`].
+    ///
+    /// # Errors
+    /// [`StrokesError::Fault`] with action, sample and field.
+    pub fn check(&self) -> Result<(), StrokesError> {
+        Ok(self.check_values()?)
+    }
+
+    pub(super) fn check_values(&self) -> Checked {
+        self.check_header()?;
+        let mut samples = 0;
+        if self.actions.len() > MOST_ACTIONS {
+            let wanted = format!("at most {MOST_ACTIONS}");
+            return Err(At::default().fault("actions", &wanted, &self.actions.len(), None));
+        }
+        let surfaces = self.sides();
+        for (index, action) in self.actions.iter().enumerate() {
+            let at = At::action(index, action.kind());
+            if let Some(brush) = action.brush() {
+                check_brush(&at, brush, self.brushes.keys().map(String::as_str))?;
+            }
+            surfaces.check(&at, action)?;
+            if let Action::Stroke(stroke) = action {
+                samples += stroke.samples.len();
+            }
+            if samples > MOST_SAMPLES {
+                let wanted = format!("at most {MOST_SAMPLES} of all strokes so far");
+                let hint = Some("record fewer samples a second, or several scripts".to_owned());
+                return Err(at.fault("samples", &wanted, &samples, hint));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_header(&self) -> Checked {
+        let top = At::default();
+        check_canvas("canvas", &self.canvas)?;
+        if let Some(mixing) = &self.mixing {
+            check_canvas("mixing", mixing)?;
+            let cell_mm = self.canvas.cell_mm;
+            if mixing.cell_mm != cell_mm {
+                let hint = Some(format!("\"cell_mm\": {cell_mm}"));
+                let wanted = format!("that of the canvas, {cell_mm}");
+                return Err(top.fault("mixing.cell_mm", &wanted, &mixing.cell_mm, hint));
+            }
+        }
+        if let Some(start) = &self.start {
+            check_start(start)?;
+            let own = [("medium", self.medium.is_some()), ("lighting", self.lighting.is_some())];
+            if let Some((field, _)) = own.iter().find(|(_, given)| *given) {
+                let wanted = "left out with `start`: that painting has its own";
+                return Err(top.fault(
+                    field,
+                    wanted,
+                    &"both",
+                    Some(format!("leave `{field}` out")),
+                ));
+            }
+        }
+        if let Some(medium) = &self.medium {
+            check_medium(medium)?;
+        }
+        if let Some(lighting) = &self.lighting {
+            check_light(&top, "lighting.", lighting)?;
+        }
+        check_palette(&top, &self.palette)?;
+        for (name, brush) in &self.brushes {
+            check_size(&top, &format!("brushes.{name}.size_mm"), brush.size_mm)?;
+        }
+        Ok(())
+    }
+
+    /// The surfaces that its actions may name.
+    pub(crate) fn sides(&self) -> Surfaces {
+        Surfaces {
+            canvas_mm: self.canvas.greatest_side_mm(),
+            palette_mm: self.mixing.as_ref().map(Canvas::greatest_side_mm),
+        }
+    }
+}
+
+fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
+    let at = At::default();
+    at.range(&format!("{key}.cell_mm"), canvas.cell_mm, 0.001, 10.0)?;
+    for (field, side) in [("width_mm", canvas.width_mm), ("height_mm", canvas.height_mm)] {
+        at.range(&format!("{key}.{field}"), side, 0.001, 1e6)?;
+    }
+    let (width, height) = canvas.cells();
+    if (width as u64).saturating_mul(height as u64) > MOST_CELLS {
+        let wanted = format!("at most {MOST_CELLS} cells, which take 6 GB");
+        let least = (canvas.width_mm * canvas.height_mm / MOST_CELLS as f64).sqrt();
+        let hint = format!("\"cell_mm\": {:.3}", (least * 1000.0).ceil() / 1000.0 + 0.001);
+        return Err(at.fault(key, &wanted, &format!("{width} x {height}"), Some(hint)));
+    }
+    Ok(())
+}
+
+/// A painting is read from anywhere, as a library is, but nothing else is.
+fn check_start(path: &str) -> Checked {
+    let fits = (1..=1024).contains(&path.len())
+        && !path.contains(char::is_control)
+        && path.to_ascii_lowercase().ends_with(".exr");
+    if fits {
+        return Ok(());
+    }
+    let wanted = "the path of a painting, which ends in .exr";
+    Err(At::default().fault("start", wanted, &path, Some("save it with `impasto paint`".into())))
+}
+
+fn check_medium(medium: &Medium) -> Checked {
+    let at = At::default();
+    at.range("medium.scattering_per_mm", medium.scattering_per_mm, 1e-3, 1e6)?;
+    check_gloss(&at, "medium.", medium.wet, medium.dry)
+}

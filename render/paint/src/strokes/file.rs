@@ -1,0 +1,163 @@
+//! Scripts as JSON.
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::action::Action;
+use super::error::StrokesError;
+use super::limits::LONGEST_FILE;
+use super::script::{FormatVersion, Strokes};
+
+impl Strokes {
+    /// The script in `bytes`, the content of `file`.
+    ///
+    /// # Errors
+    /// [`StrokesError`]: too long, no UTF-8, no JSON, another format, a newer
+    /// version, unknown, missing or repeated keys, or values out of range
+    /// (see [`Strokes::check`]).
+    pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, StrokesError> {
+        let named = || file.to_owned();
+        if bytes.len() > LONGEST_FILE {
+            let (bytes, limit) = (bytes.len(), LONGEST_FILE);
+            return Err(StrokesError::TooLong { file: named(), bytes, limit });
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let (sound, rest) = bytes.split_at(error.valid_up_to());
+            let line = 1 + sound.iter().filter(|byte| **byte == b'\n').count();
+            StrokesError::Encoding { file: named(), line, byte: rest.first().copied().unwrap_or(0) }
+        })?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let script: Self =
+            serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
+        script.check_values().map_err(|fault| StrokesError::Value { file: named(), fault })?;
+        Ok(script)
+    }
+
+    /// All but the actions, its numbers rounded as a file has them.
+    ///
+    /// # Errors
+    /// [`StrokesError`] for values out of range, see [`Strokes::check`].
+    pub fn header_as_written(&self) -> Result<Self, StrokesError> {
+        Self::from_json(&self.title, self.header().to_json()?.as_bytes())
+    }
+
+    /// The script as JSON text, an action a line; the same script gives the same
+    /// bytes. Samples have four decimals (a tenth of a micrometre), all other
+    /// numbers six digits.
+    ///
+    /// # Errors
+    /// [`StrokesError`] for values out of range, see [`Strokes::check`].
+    pub fn to_json(&self) -> Result<String, StrokesError> {
+        self.check()?;
+        let unwritable = |error: serde_json::Error| StrokesError::Syntax {
+            file: self.title.clone(),
+            line: 0,
+            column: 0,
+            reason: error.to_string(),
+        };
+        // Without its actions, which are many: they are written one by one.
+        let head = serde_json::to_value(self.header()).map_err(unwritable)?;
+        let mut text = "{\n".to_owned();
+        for (key, value) in
+            head.as_object().into_iter().flatten().filter(|(key, _)| *key != "actions")
+        {
+            text.push_str(&format!("  \"{key}\": "));
+            write(value, &mut text);
+            text.push_str(",\n");
+        }
+        text.push_str("  \"actions\": [");
+        for (index, action) in self.actions.iter().enumerate() {
+            text.push_str(if index == 0 { "\n    " } else { ",\n    " });
+            text.push_str(&line(action).map_err(unwritable)?);
+        }
+        text.push_str(if self.actions.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
+        Ok(text)
+    }
+}
+
+/// An action as it stands in a file.
+pub(crate) fn line(action: &Action) -> Result<String, serde_json::Error> {
+    let mut text = String::new();
+    write(&serde_json::to_value(action)?, &mut text);
+    Ok(text)
+}
+
+/// A parser's error, told as another format or version where it is one.
+fn explained(file: &str, text: &str, error: &serde_json::Error) -> StrokesError {
+    #[derive(Deserialize)]
+    struct Kind {
+        #[serde(default)]
+        format: Value,
+        #[serde(default)]
+        version: Value,
+    }
+    let file = file.to_owned();
+    if error.is_data()
+        && let Ok(Kind { format, version }) = serde_json::from_str(text)
+    {
+        if format != "strokes" {
+            return StrokesError::Format { file, found: format.to_string() };
+        }
+        if version != FormatVersion::NUMBER {
+            let newest = FormatVersion::NUMBER;
+            return StrokesError::Version { file, found: version.to_string(), newest };
+        }
+    }
+    // The parser ends with the place, which is told already.
+    let reason = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let reason = reason.strip_suffix(&place).unwrap_or(&reason).to_owned();
+    StrokesError::Syntax { file, line: error.line(), column: error.column(), reason }
+}
+
+/// `value` on one line.
+fn write(value: &Value, text: &mut String) {
+    match value {
+        Value::Object(map) => {
+            text.push('{');
+            for (index, (key, item)) in map.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { ", " });
+                text.push_str(&Value::from(key.as_str()).to_string());
+                text.push_str(": ");
+                write(item, text);
+            }
+            text.push('}');
+        }
+        Value::Array(items) => {
+            text.push('[');
+            for (index, item) in items.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { ", " });
+                match item {
+                    // Samples are rounded already.
+                    Value::Array(row) => write_row(row, text),
+                    _ => write(item, text),
+                }
+            }
+            text.push(']');
+        }
+        Value::Number(number) => match number.as_f64() {
+            Some(value) if number.is_f64() => {
+                text.push_str(&plain(pigment::digits::rounded(value)));
+            }
+            _ => text.push_str(&number.to_string()),
+        },
+        _ => text.push_str(&value.to_string()),
+    }
+}
+
+fn write_row(row: &[Value], text: &mut String) {
+    text.push('[');
+    for (index, item) in row.iter().enumerate() {
+        text.push_str(if index == 0 { "" } else { "," });
+        match item.as_f64() {
+            Some(number) => text.push_str(&plain(number)),
+            None => write(item, text),
+        }
+    }
+    text.push(']');
+}
+
+/// A number without `.0` or a minus before 0.
+fn plain(number: f64) -> String {
+    if number == 0.0 { "0".to_owned() } else { number.to_string() }
+}

@@ -1,0 +1,270 @@
+//! What autosave keeps of a session, so that a killed program loses no more than
+//! the seconds since: a folder a session, in it one complete generation.
+//!
+//! A generation is written under a hidden name, brought to the disk, and renamed;
+//! only then the one before it goes. So at every moment the folder holds a
+//! complete generation once there was one, and whoever looks takes the newest.
+//! The file `lock` is locked as long as the program lives; the system unlocks it
+//! however the program ends.
+
+use std::fs::{File, TryLockError};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use render::paint::document::Document;
+use serde::{Deserialize, Serialize};
+
+use crate::failure::FileFailure;
+use crate::whole::sync_folder;
+
+const LOCK: &str = "lock";
+const PARTIAL: &str = ".partial";
+const CANVAS: &str = "canvas.exr";
+const PALETTE: &str = "palette.exr";
+const META: &str = "session.json";
+
+/// What a generation tells of itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SessionMeta {
+    /// What the painting is called.
+    pub title: String,
+    /// The file that it was opened from or saved as, if there is one.
+    pub path: Option<PathBuf>,
+    /// When it was kept, in seconds since 1970.
+    pub seconds: u64,
+}
+
+/// The session of this program.
+#[derive(Debug)]
+pub struct Session {
+    folder: PathBuf,
+    /// Locked while this lives.
+    _lock: File,
+    generation: u64,
+}
+
+/// The seconds since 1970.
+pub fn now() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
+}
+
+impl Session {
+    /// Begins a session in a new folder below `sessions`.
+    ///
+    /// # Errors
+    /// [`FileFailure`] if the folder cannot be made or locked.
+    pub fn begin(sessions: &Path) -> Result<Self, FileFailure> {
+        let cannot = |error: std::io::Error| FileFailure::io(sessions, "used for autosave", &error);
+        std::fs::create_dir_all(sessions).map_err(cannot)?;
+        let process = std::process::id();
+        for attempt in 0..1000 {
+            let name = format!("{}-{process}-{attempt}", now());
+            // Locked before it has its name, so that nobody takes it for a lost one.
+            let hidden = sessions.join(format!(".{name}"));
+            let folder = sessions.join(name);
+            if folder.exists() {
+                continue;
+            }
+            match std::fs::create_dir(&hidden) {
+                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => continue,
+                made => made.map_err(cannot)?,
+            }
+            let lock = File::create(hidden.join(LOCK)).map_err(cannot)?;
+            lock.try_lock().map_err(|error| cannot(error.into()))?;
+            std::fs::rename(&hidden, &folder).map_err(cannot)?;
+            return Ok(Self { folder, _lock: lock, generation: 0 });
+        }
+        Err(cannot(std::io::ErrorKind::AlreadyExists.into()))
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Writes a generation, and drops the ones before it.
+    ///
+    /// # Errors
+    /// [`FileFailure`]; the generation before stays.
+    pub fn keep(
+        &mut self,
+        canvas: &Document,
+        palette: &Document,
+        meta: &SessionMeta,
+    ) -> Result<(), FileFailure> {
+        let bytes = |document| {
+            render::paint::file::write(document)
+                .map_err(|error| FileFailure::told(&error, error.hint()))
+        };
+        let meta =
+            serde_json::to_vec(meta).map_err(|error| FileFailure::told(&error, None::<String>))?;
+        let files = [(CANVAS, bytes(canvas)?), (PALETTE, bytes(palette)?), (META, meta)];
+        self.keep_files(&files, &mut || Ok(()))
+            .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
+    }
+
+    /// The same of bytes; `before` is called before every change on the disk.
+    fn keep_files(
+        &mut self,
+        files: &[(&str, Vec<u8>)],
+        before: &mut dyn FnMut() -> std::io::Result<()>,
+    ) -> std::io::Result<()> {
+        let partial = self.folder.join(PARTIAL);
+        if partial.exists() {
+            before()?;
+            std::fs::remove_dir_all(&partial)?;
+        }
+        before()?;
+        std::fs::create_dir(&partial)?;
+        for (name, bytes) in files {
+            before()?;
+            let mut file = File::create(partial.join(name))?;
+            before()?;
+            file.write_all(bytes)?;
+            before()?;
+            file.sync_all()?;
+        }
+        sync_folder(&partial);
+        let earlier = generations(&self.folder)?;
+        self.generation = 1 + earlier.iter().copied().max().unwrap_or(self.generation);
+        before()?;
+        std::fs::rename(&partial, generation_folder(&self.folder, self.generation))?;
+        before()?;
+        sync_folder(&self.folder);
+        for number in earlier {
+            before()?;
+            std::fs::remove_dir_all(generation_folder(&self.folder, number))?;
+        }
+        Ok(())
+    }
+
+    /// Drops what was kept: the painting stands in a file of its own.
+    ///
+    /// # Errors
+    /// [`FileFailure`] if something cannot be removed.
+    pub fn clear(&mut self) -> Result<(), FileFailure> {
+        clear(&self.folder)
+            .map_err(|error| FileFailure::io(&self.folder, "cleared of autosaves", &error))
+    }
+
+    /// Ends the session and removes its folder.
+    pub fn end(self) {
+        remove(&self.folder);
+    }
+}
+
+/// What a program left that ended without a word. As long as this lives no
+/// other program finds it.
+#[derive(Debug)]
+pub struct LostSession {
+    folder: PathBuf,
+    _lock: File,
+    generation: u64,
+    /// What it tells of itself.
+    pub meta: SessionMeta,
+}
+
+impl LostSession {
+    /// Those below `sessions` whose program is dead, the newest first. Those in
+    /// which nothing was kept are removed.
+    ///
+    /// # Errors
+    /// [`FileFailure`] if the folder cannot be read.
+    pub fn all(sessions: &Path) -> Result<Vec<Self>, FileFailure> {
+        let entries = match std::fs::read_dir(sessions) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(FileFailure::io(sessions, "read", &error)),
+        };
+        let folders = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let mut folders: Vec<_> = folders
+            .filter(|folder| {
+                let name = folder.file_name().and_then(|name| name.to_str());
+                folder.is_dir() && name.is_some_and(|name| !name.starts_with('.'))
+            })
+            .collect();
+        folders.sort();
+        let mut found: Vec<Self> = folders.into_iter().filter_map(Self::claimed).collect();
+        found.sort_by_key(|lost| std::cmp::Reverse(lost.meta.seconds));
+        Ok(found)
+    }
+
+    /// The session in `folder`, if its program is dead and it kept something.
+    fn claimed(folder: PathBuf) -> Option<Self> {
+        let lock = File::options().read(true).write(true).open(folder.join(LOCK)).ok()?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock | TryLockError::Error(_)) => return None,
+        }
+        let mut numbers = generations(&folder).ok()?;
+        numbers.sort_unstable();
+        if numbers.is_empty() {
+            remove(&folder);
+            return None;
+        }
+        let told = |number: &u64| {
+            let bytes = std::fs::read(generation_folder(&folder, *number).join(META)).ok()?;
+            Some((*number, serde_json::from_slice(&bytes).ok()?))
+        };
+        let (generation, meta) = numbers.iter().rev().find_map(told)?;
+        Some(Self { folder, _lock: lock, generation, meta })
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The files of canvas and palette.
+    #[must_use]
+    pub fn files(&self) -> [PathBuf; 2] {
+        let folder = generation_folder(&self.folder, self.generation);
+        [CANVAS, PALETTE].map(|name| folder.join(name))
+    }
+
+    /// Throws it away.
+    pub fn discard(self) {
+        remove(&self.folder);
+    }
+}
+
+fn generation_folder(folder: &Path, number: u64) -> PathBuf {
+    folder.join(format!("generation-{number}"))
+}
+
+/// The numbers of the generations in `folder`, in order.
+fn generations(folder: &Path) -> std::io::Result<Vec<u64>> {
+    let mut numbers = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let name = entry?.file_name();
+        let number = name.to_str().and_then(|name| name.strip_prefix("generation-"));
+        numbers.extend(number.and_then(|number| number.parse::<u64>().ok()));
+    }
+    numbers.sort_unstable();
+    Ok(numbers)
+}
+
+/// Removes all generations, the newest first: what a crash leaves is then an
+/// older one or none, never half of one.
+fn clear(folder: &Path) -> std::io::Result<()> {
+    let gone = folder.join(PARTIAL);
+    for number in generations(folder)?.into_iter().rev() {
+        if gone.exists() {
+            std::fs::remove_dir_all(&gone)?;
+        }
+        std::fs::rename(generation_folder(folder, number), &gone)?;
+    }
+    if gone.exists() { std::fs::remove_dir_all(&gone) } else { Ok(()) }
+}
+
+/// Removes a session. The lock goes last: a folder without one is nobody's.
+fn remove(folder: &Path) {
+    let _ = clear(folder);
+    let _ = std::fs::remove_dir_all(folder);
+}
+
+#[cfg(test)]
+mod laws;
