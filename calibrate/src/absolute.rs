@@ -97,7 +97,7 @@ pub fn calibrate_absolute(
     let curve = |values: &[f64]| values.iter().map(|&v| rounded(v)).collect();
     let pigments = set.pigments.iter().enumerate().map(|(index, name)| Pigment {
         name: name.clone(),
-        colour_index: None,
+        color_index: None,
         absorption: curve(&fit.absorption[index]),
         scattering: curve(&fit.scattering[index]),
         absorption_sd: curve(&fit.absorption_sd[index]),

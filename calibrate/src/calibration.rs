@@ -101,7 +101,7 @@ impl Solution {
         let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
         Pigment {
             name: name.to_owned(),
-            colour_index: None,
+            color_index: None,
             absorption: rounded(&self.absorption[place]),
             scattering: rounded(&self.scattering[place]),
             absorption_sd: rounded(&self.deviations[0][place]),
@@ -172,7 +172,7 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
     let sample = &observations[*alone.expect("its masstone was found before")];
     Pigment {
         name: set.pigments[lone.pigment].clone(),
-        colour_index: None,
+        color_index: None,
         absorption: sample.ratio.iter().map(|&v| rounded(v)).collect(),
         scattering: vec![1.0; sample.ratio.len()],
         absorption_sd: Vec::new(),

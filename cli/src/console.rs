@@ -9,7 +9,7 @@ use spectra::color::Rgb;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Screen {
     /// Whether results may carry colour.
-    pub colours: bool,
+    pub colors: bool,
     /// Whether remarks go to a terminal, where a progress bar makes sense.
     pub progress: bool,
 }
@@ -54,11 +54,11 @@ impl Console<'_> {
 
     /// A patch of colour of six columns, where the terminal shows colours;
     /// otherwise nothing. The value in words must stand beside it.
-    pub(crate) fn patch(&self, colour: Rgb) -> String {
-        if !self.screen.colours {
+    pub(crate) fn patch(&self, color: Rgb) -> String {
+        if !self.screen.colors {
             return String::new();
         }
-        let [r, g, b] = colour.to_bytes();
+        let [r, g, b] = color.to_bytes();
         format!("\x1b[48;2;{r};{g};{b}m      \x1b[0m ")
     }
 }

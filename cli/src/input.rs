@@ -45,7 +45,7 @@ pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
 
 /// The weights for colours of spectra on `grid`; warns where much of the visible
 /// band is not measured.
-pub(crate) fn colour_weights(
+pub(crate) fn color_weights(
     viewing: &Viewing,
     grid: Grid,
     console: &mut Console<'_>,
@@ -99,8 +99,7 @@ pub(crate) fn library(path: &Path) -> anyhow::Result<PigmentLibrary> {
 
 /// The oils of Van Gogh's palette that ship with the program.
 pub(crate) fn built_in_library() -> PigmentLibrary {
-    const OILS: &str = include_str!("../../measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("van-gogh-oils.pigments.json", OILS).expect("a test reads it")
+    PigmentLibrary::van_gogh_oils()
 }
 
 pub(crate) fn unreadable(path: &Path) -> String {

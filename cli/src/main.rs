@@ -6,10 +6,10 @@ use std::process::ExitCode;
 use impasto::Screen;
 
 fn main() -> ExitCode {
-    let colours =
+    let colors =
         stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let mut out = std::io::BufWriter::new(stdout().lock());
-    let screen = Screen { colours, progress: stderr().is_terminal() };
+    let screen = Screen { colors, progress: stderr().is_terminal() };
     let code = impasto::run(std::env::args_os(), &mut out, &mut stderr(), screen);
     // A reader that closed the pipe has seen enough; a full disk has not.
     match out.flush() {

@@ -22,21 +22,21 @@ type Vector = [f64; 3];
 struct Ball {
     middle: Vector,
     radius: f64,
-    colour: Vector,
+    color: Vector,
     shine: f64,
 }
 
 /// The still life: what is a pear consists of three balls.
 fn balls() -> Vec<Ball> {
-    let ball = |middle, radius, colour, shine| Ball { middle, radius, colour, shine };
+    let ball = |middle, radius, color, shine| Ball { middle, radius, color, shine };
     let mut balls = vec![ball([1.55, 0.52, -0.35], 0.52, [0.16, 0.035, 0.09], 0.3)];
-    for (x, z, lean, colour) in
+    for (x, z, lean, color) in
         [(-0.85, 0.25, -0.18, [0.62, 0.52, 0.09]), (0.35, 0.75, 0.12, [0.66, 0.3, 0.07])]
     {
         for step in 0..24 {
             let t = f64::from(step) / 23.0;
             let radius = 0.78 - 0.48 * t * t * (3.0 - 2.0 * t);
-            balls.push(ball([x + lean * t, 0.78 + 1.2 * t, z], radius, colour, 0.12));
+            balls.push(ball([x + lean * t, 0.78 + 1.2 * t, z], radius, color, 0.12));
         }
         for step in 0..10 {
             let t = f64::from(step) / 9.0;
@@ -79,7 +79,7 @@ fn seen(balls: &[Ball], from: Vector, way: Vector) -> Option<(Vector, Vector, Ve
         let normal = unit(std::array::from_fn(|i| place[i] - ball.middle[i]));
         // Ripe on the side of the sun.
         let blush = (0.5 + 0.5 * normal[0]).powi(3);
-        let [red, green, blue] = ball.colour;
+        let [red, green, blue] = ball.color;
         return Some((place, normal, [red, green * (1.0 - 0.45 * blush), blue], ball.shine));
     }
     let place = along(from, way, table);
@@ -90,7 +90,7 @@ fn seen(balls: &[Ball], from: Vector, way: Vector) -> Option<(Vector, Vector, Ve
 }
 
 fn shaded(balls: &[Ball], from: Vector, way: Vector, random: &mut ChaCha8Rng) -> Vector {
-    let Some((place, normal, colour, shine)) = seen(balls, from, way) else {
+    let Some((place, normal, color, shine)) = seen(balls, from, way) else {
         // The wall, lighter towards the window.
         let light = 0.5 + 0.5 * (0.45 * way[0] - 1.4 * way[1]).sin();
         return [0.05 + 0.07 * light, 0.08 + 0.1 * light, 0.1 + 0.11 * light];
@@ -113,7 +113,7 @@ fn shaded(balls: &[Ball], from: Vector, way: Vector, random: &mut ChaCha8Rng) ->
     let room = 0.1 + 0.06 * normal[1];
     let table = 0.08 * (0.5 - 0.5 * normal[1]);
     let glow = [1.0, 0.85, 0.6].map(|warm| room + warm * table);
-    std::array::from_fn(|i| colour[i] * ([1.25, 1.15, 0.98][i] * light + glow[i]) + mirrored)
+    std::array::from_fn(|i| color[i] * ([1.25, 1.15, 0.98][i] * light + glow[i]) + mirrored)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -129,8 +129,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let right = (x as f64 + random.random_range(0.0..1.0)) / WIDTH as f64 - 0.5;
                 let down = (y as f64 + random.random_range(0.0..1.0)) / WIDTH as f64 - 0.375;
                 let way = unit([0.72 * right, -0.72 * down - 0.2, 1.0]);
-                let colour = shaded(&balls, eye, way, &mut random);
-                sum.iter_mut().zip(colour).for_each(|(sum, value)| *sum += value / RAYS as f64);
+                let color = shaded(&balls, eye, way, &mut random);
+                sum.iter_mut().zip(color).for_each(|(sum, value)| *sum += value / RAYS as f64);
             }
             let [red, green, blue] = sum.map(|value| value as f32);
             picture[(x, y)] = [red, green, blue, 1.0];

@@ -13,11 +13,11 @@ use plotters::prelude::{
     Polygon, RGBColor, Rectangle, SVGBackend, ShapeStyle, Text, TextStyle,
 };
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontFamily, IntoFont};
+use plotters::style::{Color as _, FontFamily, IntoFont};
 
 use crate::names::{Placed, placed};
 use crate::panel::{Chart, Frame, Mark, Panel, Point, Shown, Sign};
-use crate::style::{CURVE, Colour, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
+use crate::style::{CURVE, Color, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
 use crate::svg::{Anchor, estimated_width, opening, shortened};
 
 const FINE: f64 = 10.0;
@@ -55,8 +55,8 @@ fn drawn<T, E: std::fmt::Debug>(result: Result<T, E>) -> T {
     result.expect("memory takes any drawing")
 }
 
-fn rgb(colour: Colour) -> RGBColor {
-    let [r, g, b] = colour.0;
+fn rgb(color: Color) -> RGBColor {
+    let [r, g, b] = color.0;
     RGBColor(r, g, b)
 }
 
@@ -64,8 +64,8 @@ fn fine(px: f64) -> i32 {
     (px * FINE).round() as i32
 }
 
-fn stroke(colour: Colour, width: f64) -> ShapeStyle {
-    rgb(colour).stroke_width(fine(width) as u32)
+fn stroke(color: Color, width: f64) -> ShapeStyle {
+    rgb(color).stroke_width(fine(width) as u32)
 }
 
 struct Drawing<'a, 'b> {
@@ -118,36 +118,36 @@ impl Drawing<'_, '_> {
 
     fn mark(&self, axes: &mut Axes<'_, '_>, mark: &Mark) {
         match mark {
-            Mark::Line { points, colour, width } => {
-                let path = PathElement::new(self.shares(points), stroke(*colour, *width));
+            Mark::Line { points, color, width } => {
+                let path = PathElement::new(self.shares(points), stroke(*color, *width));
                 drawn(axes.draw_series([path]));
             }
-            Mark::Dashes { points, colour } => {
-                let style = stroke(*colour, CURVE);
+            Mark::Dashes { points, color } => {
+                let style = stroke(*color, CURVE);
                 let path = DashedPathElement::new(self.shares(points), fine(6.0), fine(4.0), style);
                 drawn(axes.draw_series([path]));
             }
-            Mark::Dots { points, colour, radius } => {
-                let style = rgb(*colour).filled();
+            Mark::Dots { points, color, radius } => {
+                let style = rgb(*color).filled();
                 let dots = self.shares(points).into_iter();
                 drawn(axes.draw_series(dots.map(|p| Circle::new(p, fine(*radius), style))));
             }
-            Mark::Area { points, colour, opacity } => {
-                let style = rgb(*colour).mix(*opacity).filled();
+            Mark::Area { points, color, opacity } => {
+                let style = rgb(*color).mix(*opacity).filled();
                 drawn(axes.draw_series([Polygon::new(self.shares(points), style)]));
             }
-            Mark::Bar { from, to, colour } => {
+            Mark::Bar { from, to, color } => {
                 let corners = [self.share(from), self.share(to)];
-                drawn(axes.draw_series([Rectangle::new(corners, rgb(*colour).filled())]));
+                drawn(axes.draw_series([Rectangle::new(corners, rgb(*color).filled())]));
             }
-            Mark::Names { names, around, colour } => {
+            Mark::Names { names, around, color } => {
                 let dots: Vec<Point> = around.iter().map(|at| self.px(at)).collect();
                 let points: Vec<(Point, &str)> =
                     names.iter().map(|(at, name)| (self.px(at), name.as_str())).collect();
                 for Placed { at, anchor, text } in
                     placed(&points, &dots, SMALL_TEXT, self.panel.frame)
                 {
-                    write(self.area, at, SMALL_TEXT, anchor, *colour, text);
+                    write(self.area, at, SMALL_TEXT, anchor, *color, text);
                 }
             }
         }
@@ -199,46 +199,46 @@ impl Drawing<'_, '_> {
             write(self.area, (x, middle), SMALL_TEXT, Anchor::Start, INK, &title);
             x += estimated_width(&title, SMALL_TEXT) + 18.0;
         }
-        for (sign, colour, name) in key {
-            self.sign(*sign, *colour, (x, middle));
+        for (sign, color, name) in key {
+            self.sign(*sign, *color, (x, middle));
             write(self.area, (x + 24.0, middle), SMALL_TEXT, Anchor::Start, INK, name);
             x += 24.0 + estimated_width(name, SMALL_TEXT) + 18.0;
         }
     }
 
-    fn sign(&self, sign: Sign, colour: Colour, at: Point) {
+    fn sign(&self, sign: Sign, color: Color, at: Point) {
         let (x, y) = at;
         let point = |dx: f64, dy: f64| (fine(x + dx), fine(y + dy));
         let path = vec![point(0.0, 0.0), point(18.0, 0.0)];
         match sign {
-            Sign::Line => drawn(self.area.draw(&PathElement::new(path, stroke(colour, CURVE)))),
+            Sign::Line => drawn(self.area.draw(&PathElement::new(path, stroke(color, CURVE)))),
             Sign::Dashes => {
-                let style = stroke(colour, CURVE);
+                let style = stroke(color, CURVE);
                 let dashes = DashedPathElement::new(path, fine(5.0), fine(3.0), style);
                 drawn(self.area.draw(&dashes));
             }
             Sign::Dots => {
                 for dx in [2.0, 9.0, 16.0] {
-                    let dot = Circle::new(point(dx, 0.0), fine(1.8), rgb(colour).filled());
+                    let dot = Circle::new(point(dx, 0.0), fine(1.8), rgb(color).filled());
                     drawn(self.area.draw(&dot));
                 }
             }
             Sign::Patch => {
                 let corners = [point(4.0, -5.0), point(16.0, 5.0)];
-                drawn(self.area.draw(&Rectangle::new(corners, rgb(colour).filled())));
+                drawn(self.area.draw(&Rectangle::new(corners, rgb(color).filled())));
             }
         }
     }
 }
 
 /// A line of text, `at` its middle height, in px.
-fn write(area: &Area<'_>, at: Point, size: f64, anchor: Anchor, colour: Colour, text: &str) {
+fn write(area: &Area<'_>, at: Point, size: f64, anchor: Anchor, color: Color, text: &str) {
     let pos = match anchor {
         Anchor::Start => HPos::Left,
         Anchor::Middle => HPos::Center,
         Anchor::End => HPos::Right,
     };
-    let style = style(size, colour).pos(Pos::new(pos, VPos::Center));
+    let style = style(size, color).pos(Pos::new(pos, VPos::Center));
     drawn(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
 }
 
@@ -250,10 +250,10 @@ fn write_upwards(area: &Area<'_>, at: Point, text: &str) {
     drawn(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
 }
 
-fn style(size: f64, colour: Colour) -> TextStyle<'static> {
+fn style(size: f64, color: Color) -> TextStyle<'static> {
     // The SVG backend divides sizes by 1.24.
     let font = (FontFamily::Name(FONTS), size * FINE * 1.24).into_font();
-    font.color(&rgb(colour))
+    font.color(&rgb(color))
 }
 
 /// The document with its own opening, and without what goes without saying.

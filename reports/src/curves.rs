@@ -78,22 +78,22 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
             data.push([name.as_str().into(), nm.into(), value.into(), Cell::from(sd)]);
             edges.extend(sd.map(|sd| (nm, value - sd, value + sd)));
         }
-        let colour = subject.masstone(index);
+        let color = subject.masstone(index);
         let points = library.grid.wavelengths_nm().zip(values.iter().copied()).collect();
         let mut marks = Vec::new();
         if !edges.is_empty() {
-            marks.push(Mark::band(&edges, colour.for_line()));
+            marks.push(Mark::band(&edges, color.for_line()));
         }
-        let colour = colour.for_line();
+        let color = color.for_line();
         marks.push(if subject.mark(index).is_none() {
-            Mark::Line { points, colour, width: CURVE }
+            Mark::Line { points, color, width: CURVE }
         } else {
-            Mark::Dashes { points, colour }
+            Mark::Dashes { points, color }
         });
         if let Some(mark) = subject.mark(index) {
             let corner = (x.low, 0.3 * y.high);
             let names = vec![(corner, mark.to_owned())];
-            marks.push(Mark::Names { names, around: Vec::new(), colour: FAINT });
+            marks.push(Mark::Names { names, around: Vec::new(), color: FAINT });
         }
         let patch = [subject.masstone(index)];
         let pigment = &library.pigments[index];

@@ -7,7 +7,7 @@ use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel, Sign};
 use crate::samples::worst_first;
-use crate::style::{Colour, INK, SERIES};
+use crate::style::{Color, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
@@ -24,7 +24,7 @@ struct Errors {
     what: &'static str,
     errors: Vec<f64>,
     summary: Summary,
-    colour: Colour,
+    color: Color,
 }
 
 fn histogram(subject: &Subject<'_>) -> Figure {
@@ -32,12 +32,12 @@ fn histogram(subject: &Subject<'_>) -> Figure {
     if let Some(comparison) = &subject.comparison {
         let errors = comparison.sure().map(|film| film.delta_e).collect();
         let summary = comparison.delta_e;
-        rows.push(Errors { what: "samples, fitted", errors, summary, colour: SERIES[0] });
+        rows.push(Errors { what: "samples, fitted", errors, summary, color: SERIES[0] });
     }
     if let Some(validation) = &subject.validation {
         let errors = validation.per_sample.iter().map(|sample| sample.delta_e).collect();
         let summary = validation.delta_e;
-        rows.push(Errors { what: "mixtures, left out", errors, summary, colour: SERIES[1] });
+        rows.push(Errors { what: "mixtures, left out", errors, summary, color: SERIES[1] });
     }
     let largest = rows.iter().map(|row| row.summary.max).fold(0.5, f64::max);
     let x = Axis::around("Colour error", "CIEDE2000", 0.0, largest, 10);
@@ -48,7 +48,7 @@ fn histogram(subject: &Subject<'_>) -> Figure {
     };
     let bins = (x.high / step).ceil() as usize;
     let panels = rows.into_iter().map(|row| {
-        let Errors { what, errors, summary, colour } = row;
+        let Errors { what, errors, summary, color } = row;
         let mut counts = vec![0_u32; bins];
         for error in &errors {
             counts[((error / step) as usize).min(bins - 1)] += 1;
@@ -59,13 +59,13 @@ fn histogram(subject: &Subject<'_>) -> Figure {
             if *count > 0 {
                 let gap = 0.08 * step;
                 let top = (to - gap, f64::from(*count));
-                marks.push(Mark::Bar { from: (from + gap, 0.0), to: top, colour });
+                marks.push(Mark::Bar { from: (from + gap, 0.0), to: top, color });
             }
         }
         let highest = f64::from(counts.iter().copied().max().unwrap_or(1));
         let y = Axis::around("Number of samples", "count", 0.0, highest.max(2.0), 4);
         for error in [summary.mean, summary.p90] {
-            marks.push(Mark::Dashes { points: vec![(error, 0.0), (error, y.high)], colour: INK });
+            marks.push(Mark::Dashes { points: vec![(error, 0.0), (error, y.high)], color: INK });
         }
         let Summary { mean, median, p90, max } = summary;
         let panel = Panel::new(x.clone(), y, marks)
@@ -113,8 +113,8 @@ fn table(subject: &Subject<'_>) -> Table {
         remarks.extend(needed(&film.sample).then_some("cannot be left out"));
         table.push([
             Cell::from(subject.sample(film)),
-            subject.colour(&film.measured).into(),
-            subject.colour(&film.predicted).into(),
+            subject.color(&film.measured).into(),
+            subject.color(&film.predicted).into(),
             film.delta_e.into(),
             left_out(&film.sample).into(),
             rms.into(),

@@ -1,7 +1,7 @@
 //! A figure: a drawing, its words and its numbers.
 
 use crate::panel::Chart;
-use crate::style::Colour;
+use crate::style::Color;
 use crate::svg::{Canvas, escaped};
 use crate::table::Table;
 
@@ -82,7 +82,7 @@ impl Figure {
     /// The colours of its strokes, dots, areas and words; not those of patches,
     /// which are `rect` elements and mean just the colour they have.
     #[must_use]
-    pub fn line_colours(&self) -> Vec<Colour> {
+    pub fn line_colors(&self) -> Vec<Color> {
         let mut found = Vec::new();
         let elements = self.svg.lines().filter(|line| line.starts_with('<'));
         for element in elements.filter(|line| !line.starts_with("<rect")) {
@@ -90,7 +90,7 @@ impl Figure {
                 let Some((_, rest)) = element.split_once(attribute) else { continue };
                 let byte = |at: usize| u8::from_str_radix(rest.get(at..at + 2)?, 16).ok();
                 if let (Some(r), Some(g), Some(b)) = (byte(0), byte(2), byte(4)) {
-                    found.push(Colour([r, g, b]));
+                    found.push(Color([r, g, b]));
                 }
             }
         }

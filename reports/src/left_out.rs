@@ -53,7 +53,7 @@ fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
         Column::quantity("left out", "CIEDE2000", 2),
     ]);
     let ends = vec![(x.low, y.low), (x.high, y.high)];
-    let mut marks = vec![Mark::Line { points: ends, colour: FAINT, width: HAIR }];
+    let mut marks = vec![Mark::Line { points: ends, color: FAINT, width: HAIR }];
     for (film, left_out) in pairs {
         let recipe = subject.recipe(&film.recipe);
         data.push([
@@ -62,8 +62,8 @@ fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
             film.delta_e.into(),
             (*left_out).into(),
         ]);
-        let colour = subject.colour(&film.measured).for_line();
-        marks.push(Mark::Dots { points: vec![(film.delta_e, *left_out)], colour, radius: 3.6 });
+        let color = subject.color(&film.measured).for_line();
+        marks.push(Mark::Dots { points: vec![(film.delta_e, *left_out)], color, radius: 3.6 });
     }
     let named = pairs.iter().take(NAMED + NAMED_SHORTLY).enumerate();
     let names = named.map(|(place, (film, left_out))| {
@@ -75,7 +75,7 @@ fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
     let dots = pairs.iter().map(|(film, left_out)| (film.delta_e, *left_out));
     let along = (0..=100).map(|i| x.low * (x.high / x.low).powf(f64::from(i) / 100.0));
     let dots = dots.chain(along.map(|error| (error, error)));
-    marks.push(Mark::Names { names: names.collect(), around: dots.collect(), colour: INK });
+    marks.push(Mark::Names { names: names.collect(), around: dots.collect(), color: INK });
     let panel = Panel::new(x, y, marks).with_key(Sign::Line, FAINT, "both alike");
     let words = Words {
         name: "left-out",

@@ -6,14 +6,14 @@ use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel, Point, Sign};
-use crate::style::{CURVE, Colour, DOT, FAINT, HAIR, INK, SERIES};
+use crate::style::{CURVE, Color, DOT, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
 /// As many wavelengths as `impasto quadrature` takes.
 const NODES: usize = 8;
 /// X, Y and Z.
-const CHANNELS: [(&str, Colour); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
+const CHANNELS: [(&str, Color); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("Light and wavelengths");
@@ -67,7 +67,7 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
     }
 
     let strong = Axis::linear("Power", "largest = 1", 0.0, 1.0, 4);
-    let line = Mark::Line { points: relative, colour: INK, width: CURVE };
+    let line = Mark::Line { points: relative, color: INK, width: CURVE };
     let illuminant = format!("Illuminant {}", subject.viewing.illuminant.name());
     let lamp = Panel::new(x.clone(), strong, vec![line]).titled(illuminant);
 
@@ -75,26 +75,26 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
     let response = Axis::around("Response", "peak of y = 1", 0.0, highest, 4);
     let mut observer = Panel::new(x.clone(), response, Vec::new())
         .titled(format!("Observer {}", subject.viewing.observer));
-    for (points, (name, colour)) in functions.into_iter().zip(CHANNELS) {
-        observer.marks.push(Mark::Line { points, colour, width: CURVE });
-        observer = observer.with_key(Sign::Line, colour, name.to_lowercase());
+    for (points, (name, color)) in functions.into_iter().zip(CHANNELS) {
+        observer.marks.push(Mark::Line { points, color, width: CURVE });
+        observer = observer.with_key(Sign::Line, color, name.to_lowercase());
     }
 
     let values = || chosen.rule.weights.iter().flatten().copied();
     let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
     let weight = Axis::linear("Weight", "white Y = 100", 1.2 * low, 1.05 * high, 4);
     let zero = vec![(x.low, 0.0), (x.high, 0.0)];
-    let mut marks = vec![Mark::Line { points: zero, colour: FAINT, width: HAIR }];
+    let mut marks = vec![Mark::Line { points: zero, color: FAINT, width: HAIR }];
     for (nm, weights) in chosen.rule.nodes_nm.iter().zip(&chosen.rule.weights) {
-        for (channel, (weight, (_, colour))) in weights.iter().zip(CHANNELS).enumerate() {
+        for (channel, (weight, (_, color))) in weights.iter().zip(CHANNELS).enumerate() {
             let at = nm + 2.6 * (channel as f64 - 1.0);
             let (from, to) = ((at - 1.2, 0.0), (at + 1.2, *weight));
-            marks.push(Mark::Bar { from, to, colour });
+            marks.push(Mark::Bar { from, to, color });
         }
     }
     let mut stems = Panel::new(x, weight, marks).titled("Eight chosen wavelengths");
-    for (name, colour) in CHANNELS {
-        stems = stems.with_key(Sign::Patch, colour, name);
+    for (name, color) in CHANNELS {
+        stems = stems.with_key(Sign::Patch, color, name);
     }
 
     let words = Words {
@@ -143,17 +143,17 @@ fn errors(subject: &Subject<'_>) -> Figure {
     let y =
         Axis::log("Colour error", "CIEDE2000", low, errors().map(|e| e.p95).fold(0.0, f64::max), 4);
     let mut panel = Panel::new(x, y, Vec::new());
-    for (method, colour) in QuadratureMethod::ALL.into_iter().zip([SERIES[1], SERIES[2], SERIES[0]])
+    for (method, color) in QuadratureMethod::ALL.into_iter().zip([SERIES[1], SERIES[2], SERIES[0]])
     {
         let of = |value: fn(&QuadratureTrial) -> f64| -> Vec<Point> {
             let trials = subject.quadratures.iter().filter(|trial| trial.method == method);
             trials.map(|trial| (trial.rule.nodes_nm.len() as f64, value(trial))).collect()
         };
         let mean = of(|trial| trial.error.mean);
-        panel.marks.push(Mark::Dashes { points: of(|trial| trial.error.p95), colour });
-        panel.marks.push(Mark::Dots { points: mean.clone(), colour, radius: 2.0 * DOT });
-        panel.marks.push(Mark::Line { points: mean, colour, width: CURVE });
-        panel = panel.with_key(Sign::Line, colour, format!("{}, mean", method.name()));
+        panel.marks.push(Mark::Dashes { points: of(|trial| trial.error.p95), color });
+        panel.marks.push(Mark::Dots { points: mean.clone(), color, radius: 2.0 * DOT });
+        panel.marks.push(Mark::Line { points: mean, color, width: CURVE });
+        panel = panel.with_key(Sign::Line, color, format!("{}, mean", method.name()));
     }
     let panel = panel.with_key(Sign::Dashes, INK, "95 % below");
     let words = Words {

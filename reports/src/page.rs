@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::figure::Figure;
-use crate::style::{Colour, RESERVED};
+use crate::style::{Color, RESERVED};
 use crate::subject::{Part, Section};
 use crate::svg::escaped;
 use crate::table::{Cell, Column, Table};
@@ -111,10 +111,10 @@ fn table_html(title: &str, table: &Table) -> String {
             let _ = match cell {
                 Cell::Words(words) => write!(out, "<td{class}>{}</td>", escaped(words)),
                 Cell::Number(number) => write!(out, "<td{class}>{number:.*}</td>", column.digits),
-                Cell::Patch(colour) => write!(
+                Cell::Patch(color) => write!(
                     out,
                     "<td class=\"c\"><i class=\"patch\" style=\"background:{hex}\"></i> <code>{hex}</code></td>",
-                    hex = colour.hex()
+                    hex = color.hex()
                 ),
                 Cell::Empty => write!(out, "<td{class}></td>"),
             };
@@ -127,18 +127,18 @@ fn table_html(title: &str, table: &Table) -> String {
 /// The style sheet; in the dark, strokes and words of figures are exchanged for
 /// lighter ones.
 fn style(sections: &[Section]) -> String {
-    let mut colours: Vec<Colour> =
-        sections.iter().flat_map(Section::figures).flat_map(Figure::line_colours).collect();
-    colours.sort_unstable();
-    colours.dedup();
+    let mut colors: Vec<Color> =
+        sections.iter().flat_map(Section::figures).flat_map(Figure::line_colors).collect();
+    colors.sort_unstable();
+    colors.dedup();
     let mut dark = String::new();
     for (reserved, instead) in RESERVED {
         let (from, to) = (reserved.hex(), instead.hex());
         dark +=
             &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
     }
-    for colour in colours.into_iter().filter(|c| RESERVED.iter().all(|(r, _)| r != c)) {
-        let (from, to) = (colour.hex(), colour.for_line_in_the_dark().hex());
+    for color in colors.into_iter().filter(|c| RESERVED.iter().all(|(r, _)| r != c)) {
+        let (from, to) = (color.hex(), color.for_line_in_the_dark().hex());
         dark += &format!(
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
         );

@@ -2,7 +2,7 @@
 //! panels are arranged.
 
 use crate::axis::Axis;
-use crate::style::{Colour, WIDTH};
+use crate::style::{Color, WIDTH};
 
 /// A point in the units of a panel's axes.
 pub type Point = (f64, f64);
@@ -15,7 +15,7 @@ pub enum Mark {
         /// Its points, from left to right.
         points: Vec<Point>,
         /// Its colour.
-        colour: Colour,
+        color: Color,
         /// Its width in px.
         width: f64,
     },
@@ -24,14 +24,14 @@ pub enum Mark {
         /// Its points.
         points: Vec<Point>,
         /// Its colour.
-        colour: Colour,
+        color: Color,
     },
     /// Readings.
     Dots {
         /// Where they are.
         points: Vec<Point>,
         /// Their colour.
-        colour: Colour,
+        color: Color,
         /// Their radius in px.
         radius: f64,
     },
@@ -40,7 +40,7 @@ pub enum Mark {
         /// Its outline.
         points: Vec<Point>,
         /// Its colour.
-        colour: Colour,
+        color: Color,
         /// From 0 to 1.
         opacity: f64,
     },
@@ -51,7 +51,7 @@ pub enum Mark {
         /// The other.
         to: Point,
         /// Its colour.
-        colour: Colour,
+        color: Color,
     },
     /// Names beside points, set so that they do not cover each other.
     Names {
@@ -60,17 +60,17 @@ pub enum Mark {
         /// Dots that no name may cover.
         around: Vec<Point>,
         /// Their colour.
-        colour: Colour,
+        color: Color,
     },
 }
 
 impl Mark {
     /// The band between two curves, `(x, low, high)` from left to right.
     #[must_use]
-    pub fn band(edges: &[(f64, f64, f64)], colour: Colour) -> Self {
+    pub fn band(edges: &[(f64, f64, f64)], color: Color) -> Self {
         let upper = edges.iter().map(|&(x, _, high)| (x, high));
         let lower = edges.iter().rev().map(|&(x, low, _)| (x, low));
-        Self::Area { points: upper.chain(lower).collect(), colour, opacity: crate::style::BAND }
+        Self::Area { points: upper.chain(lower).collect(), color, opacity: crate::style::BAND }
     }
 }
 
@@ -121,7 +121,7 @@ pub struct Panel {
     /// Above the frame, before the patches.
     pub note: String,
     /// Patches of colour above the frame, on its right.
-    pub patches: Vec<Colour>,
+    pub patches: Vec<Color>,
     /// The axis below.
     pub x: Axis,
     /// The axis on the left.
@@ -131,7 +131,7 @@ pub struct Panel {
     /// From back to front.
     pub marks: Vec<Mark>,
     /// What the marks are, above the frame behind the title.
-    pub key: Vec<(Sign, Colour, String)>,
+    pub key: Vec<(Sign, Color, String)>,
 }
 
 impl Panel {
@@ -167,15 +167,15 @@ impl Panel {
 
     /// The same with patches of colour behind the title.
     #[must_use]
-    pub fn with_patches(mut self, patches: impl Into<Vec<Colour>>) -> Self {
+    pub fn with_patches(mut self, patches: impl Into<Vec<Color>>) -> Self {
         self.patches = patches.into();
         self
     }
 
     /// The same with one more entry of its key.
     #[must_use]
-    pub fn with_key(mut self, sign: Sign, colour: Colour, name: impl Into<String>) -> Self {
-        self.key.push((sign, colour, name.into()));
+    pub fn with_key(mut self, sign: Sign, color: Color, name: impl Into<String>) -> Self {
+        self.key.push((sign, color, name.into()));
         self
     }
 }

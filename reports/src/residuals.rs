@@ -32,7 +32,7 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     };
 
     let x = Axis::wavelength(grid, 50);
-    let zero = Mark::Line { points: vec![(x.low, 0.0), (x.high, 0.0)], colour: FAINT, width: HAIR };
+    let zero = Mark::Line { points: vec![(x.low, 0.0), (x.high, 0.0)], color: FAINT, width: HAIR };
     let mut columns =
         vec![Column::words("sample or percentile"), Column::quantity("wavelength", "nm", 0)];
     columns.push(Column::quantity("fitted - measured reflectance", "1", 4));
@@ -43,8 +43,8 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
         for (nm, value) in &points {
             data.push([Cell::from(subject.sample(film)), (*nm).into(), (*value).into()]);
         }
-        let colour = subject.colour(&film.measured).for_line();
-        marks.push(Mark::Line { points, colour, width: 0.8 });
+        let color = subject.color(&film.measured).for_line();
+        marks.push(Mark::Line { points, color, width: 0.8 });
     }
     let all = bounds(&mut residuals.iter().flatten().copied());
     let curves = Panel::new(x.clone(), all, marks).titled("Every sample, in its measured colour");
@@ -63,12 +63,8 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
         Mark::band(&edges, SERIES[0])
     };
     let median = grid.wavelengths_nm().zip(percentiles.iter().map(|p| p[2])).collect();
-    let marks = vec![
-        zero,
-        band(0, 4),
-        band(1, 3),
-        Mark::Line { points: median, colour: INK, width: CURVE },
-    ];
+    let marks =
+        vec![zero, band(0, 4), band(1, 3), Mark::Line { points: median, color: INK, width: CURVE }];
     let y = bounds(&mut percentiles.iter().flatten().copied());
     let spread = Panel::new(x, y, marks)
         .with_key(Sign::Line, INK, "median")

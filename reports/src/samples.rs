@@ -55,11 +55,11 @@ fn figure(
         for ((nm, measured), fitted) in points(&film.measured).into_iter().zip(&film.predicted) {
             data.push([subject.sample(film).into(), nm.into(), measured.into(), (*fitted).into()]);
         }
-        let patches = [subject.colour(&film.measured), subject.colour(&film.predicted)];
-        let colour = patches[0].for_line();
+        let patches = [subject.color(&film.measured), subject.color(&film.predicted)];
+        let color = patches[0].for_line();
         let marks = vec![
-            Mark::Line { points: points(&film.predicted), colour, width: CURVE },
-            Mark::Dots { points: points(&film.measured), colour: colour.beside(), radius: DOT },
+            Mark::Line { points: points(&film.predicted), color, width: CURVE },
+            Mark::Dots { points: points(&film.measured), color: color.beside(), radius: DOT },
         ];
         let panel = Panel::new(x.clone(), y.clone(), marks)
             .titled(subject.sample(film))

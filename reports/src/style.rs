@@ -21,35 +21,35 @@ pub const FONTS: &str = "Ubuntu,system-ui,sans-serif";
 
 /// Text and frames. Reserved, as the next three: no data has exactly these
 /// colours, so that a page can exchange them for a dark screen.
-pub const INK: Colour = Colour([0x26, 0x29, 0x2C]);
+pub const INK: Color = Color([0x26, 0x29, 0x2C]);
 /// Tick labels and remarks. Reserved.
-pub const FAINT: Colour = Colour([0x5C, 0x64, 0x6B]);
+pub const FAINT: Color = Color([0x5C, 0x64, 0x6B]);
 /// Grid lines. Reserved.
-pub const GRID: Colour = Colour([0xDF, 0xE3, 0xE7]);
+pub const GRID: Color = Color([0xDF, 0xE3, 0xE7]);
 /// What a figure is drawn on. Reserved.
-pub const PAPER: Colour = Colour([0xFD, 0xFD, 0xFC]);
+pub const PAPER: Color = Color([0xFD, 0xFD, 0xFC]);
 /// The reserved colours, each with the one that takes its place in the dark.
-pub const RESERVED: [(Colour, Colour); 4] = [
-    (INK, Colour([0xE6, 0xE9, 0xEC])),
-    (FAINT, Colour([0xA9, 0xB1, 0xB9])),
-    (GRID, Colour([0x3A, 0x40, 0x47])),
-    (PAPER, Colour([0x1B, 0x1E, 0x22])),
+pub const RESERVED: [(Color, Color); 4] = [
+    (INK, Color([0xE6, 0xE9, 0xEC])),
+    (FAINT, Color([0xA9, 0xB1, 0xB9])),
+    (GRID, Color([0x3A, 0x40, 0x47])),
+    (PAPER, Color([0x1B, 0x1E, 0x22])),
 ];
 
 /// Colours for what is no pigment: told apart by people who see red and green
 /// alike (after Okabe and Ito 2008), dark enough for thin lines.
-pub const SERIES: [Colour; 4] = [
-    Colour([0x00, 0x64, 0xA8]),
-    Colour([0xC4, 0x4E, 0x00]),
-    Colour([0x00, 0x82, 0x62]),
-    Colour([0x9A, 0x4F, 0x86]),
+pub const SERIES: [Color; 4] = [
+    Color([0x00, 0x64, 0xA8]),
+    Color([0xC4, 0x4E, 0x00]),
+    Color([0x00, 0x82, 0x62]),
+    Color([0x9A, 0x4F, 0x86]),
 ];
 
 /// A colour of a figure, sRGB in 8 bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Colour(pub [u8; 3]);
+pub struct Color(pub [u8; 3]);
 
-impl Colour {
+impl Color {
     /// The colour that sRGB shows for `xyz` seen under `white`, as a patch.
     #[must_use]
     pub fn of(xyz: Xyz, white: Xyz) -> Self {
@@ -121,7 +121,7 @@ impl Colour {
     /// A step beside a reserved colour.
     fn unreserved(self) -> Self {
         let [r, g, b] = self.0;
-        let reserved = RESERVED.iter().any(|(colour, _)| *colour == self);
+        let reserved = RESERVED.iter().any(|(color, _)| *color == self);
         if reserved { Self([r, g, b - 1]) } else { self }
     }
 }
@@ -131,12 +131,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_data_has_a_reserved_colour() {
+    fn no_data_has_a_reserved_color() {
         let white = RgbSpace::Srgb.white();
         for (reserved, _) in RESERVED {
             let linear = Rgb(reserved.0.map(|v| f64::from(v) / 255.0)).linear();
             let xyz: Xyz = RgbSpace::Srgb.xyz_from_linear().apply(linear.0).into();
-            assert_ne!(Colour::of(xyz, white), reserved);
+            assert_ne!(Color::of(xyz, white), reserved);
         }
         let own = SERIES.iter().all(|c| RESERVED.iter().all(|(reserved, _)| reserved != c));
         assert!(own, "the series stand apart from ink and paper");
@@ -144,10 +144,10 @@ mod tests {
 
     #[test]
     fn lines_are_seen_on_paper_and_in_the_dark() {
-        for colour in [Colour([255; 3]), Colour([0; 3]), Colour([250, 230, 40])] {
-            assert!(colour.for_line().lab().lightness < 75.0, "{colour:?}");
-            let dark = colour.for_line().for_line_in_the_dark();
-            assert!(dark.lab().lightness > 50.0, "{colour:?} is {dark:?}");
+        for color in [Color([255; 3]), Color([0; 3]), Color([250, 230, 40])] {
+            assert!(color.for_line().lab().lightness < 75.0, "{color:?}");
+            let dark = color.for_line().for_line_in_the_dark();
+            assert!(dark.lab().lightness > 50.0, "{color:?} is {dark:?}");
         }
         assert_eq!(SERIES[0].for_line(), SERIES[0]);
     }

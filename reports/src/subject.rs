@@ -9,7 +9,7 @@ use calibrate::validation::Validation;
 use spectra::TristimulusWeights;
 
 use crate::figure::{Drawing, Figure, Words};
-use crate::style::Colour;
+use crate::style::Color;
 use crate::table::Table;
 
 /// A library, how it is looked at, and what its measurements say of it.
@@ -110,8 +110,8 @@ impl Subject<'_> {
 
     /// The colour of a reflectance on the library's grid, as a patch.
     #[must_use]
-    pub fn colour(&self, reflectance: &[f64]) -> Colour {
-        Colour::of(self.weights.xyz(reflectance), self.weights.white())
+    pub fn color(&self, reflectance: &[f64]) -> Color {
+        Color::of(self.weights.xyz(reflectance), self.weights.white())
     }
 
     /// The masstone of a pigment in a film that hides, as a patch.
@@ -119,9 +119,9 @@ impl Subject<'_> {
     /// # Panics
     /// If the library has no such pigment.
     #[must_use]
-    pub fn masstone(&self, pigment: usize) -> Colour {
+    pub fn masstone(&self, pigment: usize) -> Color {
         let mixture = self.library.mix(&[(pigment, 1.0)]).expect("one part makes a mixture");
-        self.colour(&mixture.hiding(self.library.saunderson))
+        self.color(&mixture.hiding(self.library.saunderson))
     }
 
     /// A pigment's name, marked where its K and S are no measurement.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::style::{Colour, FONTS};
+use crate::style::{Color, FONTS};
 
 /// `text` as the content or an attribute of an element.
 #[must_use]
@@ -51,7 +51,7 @@ impl Canvas {
     }
 
     /// A filled rectangle, `at` its upper left corner, in px.
-    pub fn rectangle(&mut self, at: (f64, f64), size: (f64, f64), fill: Colour) {
+    pub fn rectangle(&mut self, at: (f64, f64), size: (f64, f64), fill: Color) {
         let ((x, y), (width, height)) = (at, size);
         let fill = fill.hex();
         self.element(format_args!(
@@ -60,34 +60,34 @@ impl Canvas {
     }
 
     /// A straight line.
-    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), width: f64, colour: Colour) {
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), width: f64, color: Color) {
         let ((x1, y1), (x2, y2)) = (from, to);
-        let colour = colour.hex();
+        let color = color.hex();
         self.element(format_args!(
-            r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" stroke="{colour}" stroke-width="{width}"/>"#
+            r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" stroke="{color}" stroke-width="{width}"/>"#
         ));
     }
 
     /// A line of text, `at` its middle height.
-    pub fn text(&mut self, at: (f64, f64), size: f64, anchor: Anchor, colour: Colour, text: &str) {
+    pub fn text(&mut self, at: (f64, f64), size: f64, anchor: Anchor, color: Color, text: &str) {
         let (x, y) = (at.0, at.1 + 0.35 * size);
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (colour, text) = (colour.hex(), escaped(text));
+        let (color, text) = (color.hex(), escaped(text));
         self.element(format_args!(
-            r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{colour}">{text}</text>"#
+            r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{text}</text>"#
         ));
     }
 
     /// A line of text that reads upwards, `at` its foot and middle height.
-    pub fn text_upwards(&mut self, at: (f64, f64), size: f64, colour: Colour, text: &str) {
+    pub fn text_upwards(&mut self, at: (f64, f64), size: f64, color: Color, text: &str) {
         let (x, y) = (at.0 + 0.35 * size, at.1);
-        let (colour, text) = (colour.hex(), escaped(text));
+        let (color, text) = (color.hex(), escaped(text));
         self.element(format_args!(
-            r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" transform="rotate(-90 {x:.1} {y:.1})" fill="{colour}">{text}</text>"#
+            r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" transform="rotate(-90 {x:.1} {y:.1})" fill="{color}">{text}</text>"#
         ));
     }
 

@@ -2,7 +2,7 @@
 
 use calibrate::digits::rounded;
 
-use crate::style::Colour;
+use crate::style::Color;
 
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,7 +46,7 @@ pub enum Cell {
     /// A number in its column's unit.
     Number(f64),
     /// A colour: a patch on a page, `#RRGGBB` in a file.
-    Patch(Colour),
+    Patch(Color),
     /// Nothing known.
     Empty,
 }
@@ -69,9 +69,9 @@ impl From<f64> for Cell {
     }
 }
 
-impl From<Colour> for Cell {
-    fn from(colour: Colour) -> Self {
-        Self::Patch(colour)
+impl From<Color> for Cell {
+    fn from(color: Color) -> Self {
+        Self::Patch(color)
     }
 }
 
@@ -120,7 +120,7 @@ impl Table {
             let cells = row.iter().map(|cell| match cell {
                 Cell::Words(words) => words.clone(),
                 Cell::Number(number) => format!("{}", rounded(*number)),
-                Cell::Patch(colour) => colour.hex(),
+                Cell::Patch(color) => color.hex(),
                 Cell::Empty => String::new(),
             });
             writer.write_record(cells).expect("each row has every column");

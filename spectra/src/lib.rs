@@ -7,6 +7,10 @@
 //!
 //! Files stand in an order of dependence; each uses only what stands above it.
 
+pub mod hint;
+
+pub mod file;
+
 mod wavelength;
 
 mod grid;
@@ -41,14 +45,14 @@ pub mod color;
 
 mod integrate;
 
-mod colour_temperature;
+mod color_temperature;
 
 pub mod swatch_file;
 
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
-pub use colour_temperature::ColourTemperature;
+pub use color_temperature::ColorTemperature;
 pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};

@@ -21,7 +21,7 @@ pub struct Curve {
     /// Wavelength in nm, rising, and the value there.
     pub points: Vec<(f64, f64)>,
     /// As it is drawn: of a pigment, its own colour.
-    pub colour: Color32,
+    pub color: Color32,
 }
 
 impl Curve {
@@ -29,16 +29,16 @@ impl Curve {
     #[must_use]
     pub fn new(name: &str, grid: Grid, values: &[f64]) -> Self {
         let points = grid.wavelengths_nm().zip(values.iter().copied()).collect();
-        Self { name: name.to_owned(), points, colour: theme::TEXT }
+        Self { name: name.to_owned(), points, color: theme::TEXT }
     }
 
     /// The same curve in a colour. Those too dark to be seen on the chart are
     /// lifted.
     #[must_use]
-    pub fn coloured(mut self, [red, green, blue]: [u8; 3]) -> Self {
+    pub fn colored(mut self, [red, green, blue]: [u8; 3]) -> Self {
         let seen = red.max(green).max(blue) >= 96;
         let lift = |value: u8| if seen { value } else { value.saturating_add(96) };
-        self.colour = Color32::from_rgb(lift(red), lift(green), lift(blue));
+        self.color = Color32::from_rgb(lift(red), lift(green), lift(blue));
         self
     }
 
@@ -90,7 +90,7 @@ impl Chart<'_> {
         let inner = painter.with_clip_rect(axes.inner.expand(1.0));
         for curve in self.curves {
             let line = curve.points.iter().map(|&(nm, value)| axes.place(nm, value)).collect();
-            inner.line(line, Stroke::new(1.5, curve.colour));
+            inner.line(line, Stroke::new(1.5, curve.color));
         }
         let Some(pointer) = response.hover_pos() else { return response };
         let nm = axes.wavelength(pointer.x);
@@ -223,8 +223,8 @@ mod tests {
     }
 
     #[test]
-    fn dark_colours_are_lifted_off_the_ground() {
-        let drawn = |rgb| ramp().coloured(rgb).colour;
+    fn dark_colors_are_lifted_off_the_ground() {
+        let drawn = |rgb| ramp().colored(rgb).color;
         assert_eq!(drawn([10, 20, 30]), Color32::from_rgb(106, 116, 126));
         assert_eq!(drawn([200, 0, 30]), Color32::from_rgb(200, 0, 30));
     }

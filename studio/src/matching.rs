@@ -117,10 +117,10 @@ mod tests {
     use spectra::color::Lab;
 
     use super::*;
-    use session::oils;
+    use pigment::library::PigmentLibrary;
 
     fn question(lightness: f64, at_most: usize) -> Question {
-        let library = Arc::new(oils());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let sights = vec![Sight { viewing: Viewing::default(), weight: 1.0 }];
         let target = Target::from_lab("wanted", Lab { lightness, a: 4.0, b: 9.0 }, &sights);
         let request =
@@ -133,7 +133,7 @@ mod tests {
         let mut asked = question(60.0, 8);
         let library = Arc::make_mut(&mut asked.library);
         for copy in 0..2 {
-            let mut copies = oils().pigments;
+            let mut copies = PigmentLibrary::van_gogh_oils().pigments;
             for pigment in &mut copies {
                 pigment.name.push_str(&format!(" {copy}"));
             }

@@ -118,10 +118,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_colour_of_the_window_has_a_hue() {
+    fn no_color_of_the_window_has_a_hue() {
         // Every colour of the visuals, whichever field it stands in.
         let written = format!("{:?}", visuals());
-        let colours: Vec<[u8; 4]> = written
+        let colors: Vec<[u8; 4]> = written
             .match_indices("#")
             .filter_map(|(at, _)| {
                 let mut bytes = written[at + 1..].get(..11)?.split('_');
@@ -129,8 +129,8 @@ mod tests {
                 Some([byte()?, byte()?, byte()?, byte()?])
             })
             .collect();
-        assert!(colours.len() > 20, "{} colours found in {written}", colours.len());
-        for [red, green, blue, _] in colours {
+        assert!(colors.len() > 20, "{} colours found in {written}", colors.len());
+        for [red, green, blue, _] in colors {
             assert!(red == green && green == blue, "{red} {green} {blue} in {written}");
         }
     }

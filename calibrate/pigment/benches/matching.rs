@@ -15,8 +15,7 @@ fn main() {
 }
 
 fn oils() -> PigmentLibrary {
-    let text = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("oils", text).expect("the shipped library is sound")
+    PigmentLibrary::van_gogh_oils()
 }
 
 /// All 20 pigments, up to four, under the named lights.

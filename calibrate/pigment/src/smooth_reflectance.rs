@@ -161,13 +161,13 @@ impl Problem<'_> {
             (xyz, metric.apply(by_lab))
         };
         let cost = |z: &DVector<f64>| {
-            let colour: f64 = difference(z).1.iter().map(|d| d * d).sum();
+            let color: f64 = difference(z).1.iter().map(|d| d * d).sum();
             let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
-            0.5 * (colour + SMOOTH * steps)
+            0.5 * (color + SMOOTH * steps)
         };
         let build = |z: &DVector<f64>| {
             let mut equations = NormalEquations::zeros(z.len());
-            let (xyz, colour) = difference(z);
+            let (xyz, color) = difference(z);
             let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
             let columns: Vec<[f64; 3]> = (self.weights.weights().iter().zip(z.iter()))
                 .map(|(w, z)| {
@@ -177,7 +177,7 @@ impl Problem<'_> {
                 .collect();
             for channel in 0..3 {
                 let derivatives: Vec<f64> = columns.iter().map(|c| c[channel]).collect();
-                equations.add(colour[channel], &derivatives, 1.0);
+                equations.add(color[channel], &derivatives, 1.0);
             }
             for i in 1..z.len() {
                 let mut derivatives = vec![0.0; z.len()];
@@ -203,14 +203,14 @@ mod tests {
     use super::*;
     use crate::evaluate::Viewing;
 
-    fn recovered(surface: Surface, colours: impl Iterator<Item = Rgb>) -> Vec<(Rgb, Recovered)> {
+    fn recovered(surface: Surface, colors: impl Iterator<Item = Rgb>) -> Vec<(Rgb, Recovered)> {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let recover = |rgb: Rgb| {
             let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
             (rgb, smoothest_reflectance(&weights, surface, xyz))
         };
-        colours.map(recover).collect()
+        colors.map(recover).collect()
     }
 
     fn random() -> impl Iterator<Item = Rgb> {
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_surface_every_colour_of_srgb_is_met() {
+    fn without_a_surface_every_color_of_srgb_is_met() {
         for (rgb, found) in recovered(Surface::NONE, random()) {
             assert!(found.delta_e < 1e-6, "{}: {}", rgb.to_hex(), found.delta_e);
             assert!(found.internal.iter().all(|r| *r > 0.0 && *r < 1.0), "{:?}", found.internal);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn under_a_surface_most_colours_are_met_and_the_rest_come_near() {
+    fn under_a_surface_most_colors_are_met_and_the_rest_come_near() {
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();
         let found = recovered(surface, random());
         let (met, missed): (Vec<_>, Vec<_>) = found.iter().partition(|(_, f)| f.delta_e < 0.05);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn no_other_reflectance_of_the_colour_is_smoother() {
+    fn no_other_reflectance_of_the_color_is_smoother() {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();

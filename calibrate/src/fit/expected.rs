@@ -3,7 +3,7 @@
 use spectra::Grid;
 use spectra::optics::Surface;
 
-use super::colour_term::ColourTerm;
+use super::color_term::ColorTerm;
 use super::curves::{Curves, Layout};
 use super::forward::Data;
 use super::noise::Noise;
@@ -74,7 +74,7 @@ impl Slopes {
         };
         problem.reflectance = problem.predicted(&curves);
         let weights = Viewing::default().weights(belief.grid).expect("the method fits the grid");
-        let term = ColourTerm::new(&weights, &problem.reflectance);
+        let term = ColorTerm::new(&weights, &problem.reflectance);
         let precision = Noise::new(&term, &problem.reflectance, 0.0).precision(noise);
         let data = Data::hiding(&problem);
         let mut slopes = data.linear(&curves).slopes;

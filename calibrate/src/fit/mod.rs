@@ -23,7 +23,7 @@ mod curves;
 
 mod forward;
 
-mod colour_term;
+mod color_term;
 
 mod noise;
 

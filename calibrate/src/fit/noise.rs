@@ -3,7 +3,7 @@
 //! Part of the noise is even to the eye (a paint that was mixed a little
 //! otherwise), part is constant in reflectance (the instrument's).
 
-use super::colour_term::ColourTerm;
+use super::color_term::ColorTerm;
 use super::expected::ExpectedNoise;
 use pigment::evaluate::percentile;
 
@@ -22,7 +22,7 @@ pub(super) struct Noise<'a> {
 }
 
 impl<'a> Noise<'a> {
-    pub(super) fn new(term: &ColourTerm<'_>, target: &'a [Vec<f64>], reading_sd: f64) -> Self {
+    pub(super) fn new(term: &ColorTerm<'_>, target: &'a [Vec<f64>], reading_sd: f64) -> Self {
         let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
         let mut even = term.sensitivity(target);
         for (row, reflectances) in even.iter_mut().zip(target) {

@@ -1,7 +1,7 @@
 //! What the refinement minimises, and one step of Levenberg-Marquardt on it.
 
 use super::banded::{Banded, BandedCholesky};
-use super::colour_term::{ColourResidual, ColourTerm};
+use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
 use super::forward::{Data, Forward};
 
@@ -28,12 +28,12 @@ pub(super) struct Objective<'a, F> {
     pub(super) start: &'a [f64],
     /// As [`RIDGE`], for log S.
     pub(super) scattering_ridge: f64,
-    pub(super) colour: Option<ColourPart<'a>>,
+    pub(super) color: Option<ColorPart<'a>>,
 }
 
 /// The colour part of the cost.
-pub(super) struct ColourPart<'a> {
-    pub(super) term: &'a ColourTerm<'a>,
+pub(super) struct ColorPart<'a> {
+    pub(super) term: &'a ColorTerm<'a>,
     pub(super) strength: f64,
     pub(super) knee: f64,
 }
@@ -47,7 +47,7 @@ pub(super) struct Local {
     /// The Gauss-Newton matrix's diagonal, colour included.
     diagonal: Vec<f64>,
     /// By sample: the colour part's rows, with their weight.
-    colour: Vec<(ColourResidual, f64)>,
+    color: Vec<(ColorResidual, f64)>,
     slopes: Vec<Vec<f64>>,
 }
 
@@ -67,9 +67,9 @@ impl<F: Forward> Objective<'_, F> {
                 let residual = weight * (value.cbrt() - target.cbrt());
                 cost += robust(residual * residual, self.knee).0;
             }
-            if let Some(colour) = &self.colour {
-                let difference = colour.term.difference(index, row);
-                cost += colour.strength * robust(difference * difference, colour.knee).0;
+            if let Some(color) = &self.color {
+                let difference = color.term.difference(index, row);
+                cost += color.strength * robust(difference * difference, color.knee).0;
             }
         }
         cost
@@ -86,7 +86,7 @@ impl<F: Forward> Objective<'_, F> {
             gradient: vec![0.0; layout.len()],
             matrix: Banded::zeros(layout.len(), reach),
             diagonal: Vec::new(),
-            colour: Vec::new(),
+            color: Vec::new(),
             slopes: Vec::new(),
         };
         self.add_priors(unknowns, &mut local);
@@ -113,16 +113,16 @@ impl<F: Forward> Objective<'_, F> {
             }
         }
         local.diagonal = (0..layout.len()).map(|i| local.matrix.diagonal(i)).collect();
-        if let Some(colour) = &self.colour {
+        if let Some(color) = &self.color {
             for (index, values) in linear.values.iter().enumerate() {
-                let row = colour.term.linear(index, values);
+                let row = color.term.linear(index, values);
                 let squared: f64 = row.residual.iter().map(|v| v * v).sum();
-                let (cost, share) = robust(squared, colour.knee);
-                local.cost += colour.strength * cost;
-                local.colour.push((row, colour.strength * share));
+                let (cost, share) = robust(squared, color.knee);
+                local.cost += color.strength * cost;
+                local.color.push((row, color.strength * share));
             }
             local.slopes = linear.slopes;
-            self.add_colour(&mut local);
+            self.add_color(&mut local);
         }
         local
     }
@@ -209,12 +209,12 @@ impl<F: Forward> Objective<'_, F> {
             right[i] = 0.0;
         }
         let factor = matrix.clone().cholesky()?;
-        if self.colour.is_none() {
+        if self.color.is_none() {
             return Some(factor.solve(&right));
         }
         let product = |v: &[f64]| {
             let mut product = matrix.times(v);
-            self.add_colour_product(local, v, &mut product);
+            self.add_color_product(local, v, &mut product);
             for i in (0..v.len()).filter(|&i| held[i]) {
                 product[i] = v[i];
             }
@@ -271,9 +271,9 @@ impl<F: Forward> Objective<'_, F> {
         }
     }
 
-    fn add_colour(&self, local: &mut Local) {
+    fn add_color(&self, local: &mut Local) {
         let per = self.data.layout.per_wavelength();
-        for (index, (row, weight)) in local.colour.iter().enumerate() {
+        for (index, (row, weight)) in local.color.iter().enumerate() {
             let places = self.data.places(index);
             for (at, components) in row.slopes.iter().enumerate() {
                 let along: f64 = components.iter().zip(&row.residual).map(|(s, r)| s * r).sum();
@@ -287,9 +287,9 @@ impl<F: Forward> Objective<'_, F> {
         }
     }
 
-    fn add_colour_product(&self, local: &Local, vector: &[f64], product: &mut [f64]) {
+    fn add_color_product(&self, local: &Local, vector: &[f64], product: &mut [f64]) {
         let per = self.data.layout.per_wavelength();
-        for (index, (row, weight)) in local.colour.iter().enumerate() {
+        for (index, (row, weight)) in local.color.iter().enumerate() {
             let places = self.data.places(index);
             let slopes = local.slopes[index].chunks_exact(places.len());
             let mut moved = [0.0; 3];

@@ -2,12 +2,12 @@
 
 use spectra::TristimulusWeights;
 
-use super::colour_term::ColourTerm;
+use super::color_term::ColorTerm;
 use super::curves::Curves;
 use super::deviations::{deviations, share_of_scattering_known};
 use super::forward::{Data, Forward};
 use super::noise::Noise;
-use super::objective::{ColourPart, Objective, RIDGE};
+use super::objective::{ColorPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
 use super::weighted::weighted;
 use pigment::fit_settings::Smoothness;
@@ -16,7 +16,7 @@ use pigment::fit_settings::Smoothness;
 const KNEE: f64 = 3.0;
 /// One over the variance granted to each sample's colour: a standard deviation
 /// of 0.32 CIEDE2000, the repeatability of a good instrument.
-const COLOUR_STRENGTH: f64 = 10.0;
+const COLOR_STRENGTH: f64 = 10.0;
 
 /// Pull of log S towards a pigment's start where amounts are absolute: a
 /// standard deviation of 0.32.
@@ -118,7 +118,7 @@ pub(super) fn refine<F: Forward>(
 ) -> Refined {
     let smoothness = how.smoothness;
     let layout = data.layout;
-    let term = ColourTerm::new(weights, data.target);
+    let term = ColorTerm::new(weights, data.target);
     let noise = Noise::new(&term, data.target, data.reading_sd);
     let origin = layout.unknowns(start);
     let fixed = |lambda: f64| lambda * (10.0 / step_nm).powi(3);
@@ -140,7 +140,7 @@ pub(super) fn refine<F: Forward>(
         start: &origin,
         // One backing tells little of S, which then keeps the pigment's mean.
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
-        colour: None,
+        color: None,
     };
     settle(&mut objective, &noise, state.noise_ratio, &mut unknowns);
     let rounds = if !estimate {
@@ -171,9 +171,9 @@ pub(super) fn refine<F: Forward>(
         .map(|(index, values)| term.difference(index, values))
         .collect();
     let knee = 5.0 * pigment::evaluate::percentile(&differences, 50.0).max(0.3);
-    objective.colour = Some(ColourPart { term: &term, strength: COLOUR_STRENGTH, knee });
+    objective.color = Some(ColorPart { term: &term, strength: COLOR_STRENGTH, knee });
     objective.descend(&mut unknowns, 12, 1e-5);
-    objective.colour = None;
+    objective.color = None;
 
     let curves = layout.curves(&unknowns);
     let mut scattering_known = Vec::new();

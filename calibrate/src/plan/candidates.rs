@@ -35,12 +35,12 @@ pub fn candidates(palette: &Palette, least_share: f64) -> Vec<Recipe> {
     }
     if let Some(black) = palette.black {
         for parts in SHADES {
-            for paint in palette.colours() {
+            for paint in palette.colors() {
                 add(Purpose::Shade, &[(paint, parts), (black, 1)]);
             }
         }
     }
-    let pairs = palette.colours().flat_map(|a| palette.colours().map(move |b| (a, b)));
+    let pairs = palette.colors().flat_map(|a| palette.colors().map(move |b| (a, b)));
     for (a, b) in pairs.filter(|(a, b)| a < b) {
         for (of_a, of_b) in CROSSES {
             add(Purpose::Cross, &[(a, of_a), (b, of_b)]);

@@ -20,11 +20,11 @@ impl Palette {
     /// # Errors
     /// [`PlanError::Name`] for a name that a column of a measurement file
     /// cannot have, [`PlanError::Twice`] for one given twice,
-    /// [`PlanError::NoColour`] for a white alone.
-    pub fn new(colours: &[String], white: &str, black: Option<&str>) -> Result<Self, PlanError> {
+    /// [`PlanError::NoColor`] for a white alone.
+    pub fn new(colors: &[String], white: &str, black: Option<&str>) -> Result<Self, PlanError> {
         let special = |name: &&String| *name == white || Some(name.as_str()) == black;
         let mut names = vec![white.to_owned()];
-        names.extend(colours.iter().filter(|name| !special(name)).cloned());
+        names.extend(colors.iter().filter(|name| !special(name)).cloned());
         names.extend(black.map(str::to_owned));
         for (index, name) in names.iter().enumerate() {
             if !names_a_pigment(name) {
@@ -35,14 +35,14 @@ impl Palette {
             }
         }
         if names.len() < 2 {
-            return Err(PlanError::NoColour);
+            return Err(PlanError::NoColor);
         }
         let black = black.map(|_| names.len() - 1);
         Ok(Self { names, black })
     }
 
     /// The places of all but white and black.
-    pub fn colours(&self) -> impl Iterator<Item = usize> + Clone {
+    pub fn colors(&self) -> impl Iterator<Item = usize> + Clone {
         1..self.black.unwrap_or(self.names.len())
     }
 
@@ -71,7 +71,7 @@ pub enum PlanError {
     },
     /// Nothing beside the white.
     #[error("a plan needs a pigment beside the white")]
-    NoColour,
+    NoColor,
     /// A number of swatches that no plan has.
     #[error("{paints} paints are planned with {least} to {most} swatches, found `{swatches}`")]
     Swatches {
@@ -115,7 +115,7 @@ impl PlanError {
                 "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number".into()
             }
             Self::Twice { .. } => "remove one, or give the second paint another name".into(),
-            Self::NoColour => "name the pigments: impasto plan \"Cobalt Blue\" --white \"Titanium White\"".into(),
+            Self::NoColor => "name the pigments: impasto plan \"Cobalt Blue\" --white \"Titanium White\"".into(),
             Self::Swatches { least, most, swatches, .. } => {
                 if swatches < least {
                     format!("try --swatches {least} or more; K of every paint and S of all but the white are unknown")

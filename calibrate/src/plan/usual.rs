@@ -46,12 +46,12 @@ fn rounds(palette: &Palette, pool: &[Recipe]) -> Vec<usize> {
     let shade = |recipe: &Recipe| recipe.parts[0].1;
     let shades = pool.iter().filter(|r| r.purpose == Purpose::Shade && shade(r) <= 9);
     let strongest_shade = shades.map(shade).max();
-    let colours: Vec<usize> = palette.colours().collect();
+    let colors: Vec<usize> = palette.colors().collect();
     // A ring of two would be one pair twice.
-    let links = if colours.len() > 2 { colours.len() } else { colours.len().saturating_sub(1) };
+    let links = if colors.len() > 2 { colors.len() } else { colors.len().saturating_sub(1) };
     let ring: Vec<[usize; 2]> = (0..links)
         .map(|i| {
-            let mut pair = [colours[i], colours[(i + 1) % colours.len()]];
+            let mut pair = [colors[i], colors[(i + 1) % colors.len()]];
             pair.sort_unstable();
             pair
         })

@@ -69,10 +69,10 @@ pub(crate) struct Color {
 /// One spectrum with its colours, one for each light.
 struct Row {
     name: String,
-    colours: Vec<Colour>,
+    colors: Vec<SpectrumColor>,
 }
 
-struct Colour {
+struct SpectrumColor {
     xyz: Xyz,
     lab: Lab,
     rgb: Rgb,
@@ -102,12 +102,12 @@ impl Color {
         let spectra = named_spectra(&table);
         let row = |one: &NamedSpectrum| Row {
             name: one.name.clone(),
-            colours: weights
+            colors: weights
                 .iter()
                 .map(|weights| {
                     let xyz = weights.xyz(&one.reflectance);
                     let white = weights.white();
-                    Colour {
+                    SpectrumColor {
                         xyz,
                         lab: Lab::from_xyz(xyz, white),
                         rgb: space.encoded_from_xyz(xyz, white, adaptation),
@@ -165,7 +165,7 @@ fn entry(
     lights: &[Viewing],
     whites: &[Xyz],
 ) -> Value {
-    let Colour { xyz, lab, rgb } = &row.colours[light];
+    let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
     let mut entry = json!({
         "sample": row.name,
         "xyz": xyz.to_array(),
@@ -177,7 +177,7 @@ fn entry(
         entry["illuminant"] = json!(lights[light].illuminant.name());
     }
     if let Some(standard) = standard {
-        let of = standard.colours[light].lab;
+        let of = standard.colors[light].lab;
         entry["difference"] = json!({
             "from": standard.name,
             "ciede2000": delta_e_ciede2000(of, *lab),
@@ -193,7 +193,7 @@ fn entry(
 }
 
 fn metamerism(standard: &Row, row: &Row, light: usize, whites: &[Xyz]) -> Option<f64> {
-    let pair = |row: &Row| [row.colours[0].xyz, row.colours[light].xyz];
+    let pair = |row: &Row| [row.colors[0].xyz, row.colors[light].xyz];
     metamerism_index(pair(standard), pair(row), whites[light]).ok()
 }
 
@@ -215,13 +215,13 @@ fn print(
     }
     console.line(heading + "  display")?;
     for row in rows {
-        let Colour { xyz, lab, rgb } = &row.colours[light];
+        let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
         let mut line = format!("{:width$} ", row.name);
         for value in xyz.to_array().into_iter().chain(lab.to_array()) {
             line += &format!(" {value:7.2}");
         }
         if let Some(standard) = standard {
-            let of = standard.colours[light].lab;
+            let of = standard.colors[light].lab;
             line += &format!(
                 "  {:9.2} {:6.2} {:6.2}  {:6.2}",
                 delta_e_ciede2000(of, *lab),

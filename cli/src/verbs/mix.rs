@@ -10,7 +10,7 @@ use spectra::color::{Lab, RgbSpace};
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::ground::ground;
-use crate::input::{ViewingOptions, colour_weights, library, srgb};
+use crate::input::{ViewingOptions, color_weights, library, srgb};
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
@@ -82,7 +82,7 @@ impl Mix {
                 console.warnings(&[format!("{}: {notes}", pigment.name)])?;
             }
         }
-        let weights = colour_weights(&viewing, library.grid, console)?;
+        let weights = color_weights(&viewing, library.grid, console)?;
         let xyz = weights.xyz(&reflectance);
         let lab = Lab::from_xyz(xyz, weights.white());
         let rgb = srgb(xyz, weights.white());

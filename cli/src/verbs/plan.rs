@@ -144,9 +144,9 @@ impl Plan {
                 None => name.trim().to_owned(),
             })
         };
-        let colours = self.pigments.iter().map(full).collect::<anyhow::Result<Vec<_>>>()?;
+        let colors = self.pigments.iter().map(full).collect::<anyhow::Result<Vec<_>>>()?;
         let black = self.black.as_ref().map(full).transpose()?;
-        Ok(Palette::new(&colours, &full(&self.white)?, black.as_deref())?)
+        Ok(Palette::new(&colors, &full(&self.white)?, black.as_deref())?)
     }
 
     fn replicates(&self) -> anyhow::Result<usize> {

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, colour_weights, library};
+use crate::input::{ViewingOptions, color_weights, library};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -68,7 +68,7 @@ impl Quadrature {
         };
         let error = match &library {
             Some(library) if self.mixtures > 0 => {
-                let weights = colour_weights(&viewing, library.grid, console)?;
+                let weights = color_weights(&viewing, library.grid, console)?;
                 let mixtures = MixtureSet::random(library, &weights, self.mixtures, self.seed);
                 Some(rule.error(&mixtures))
             }

@@ -12,7 +12,7 @@ use crate::console::Console;
 use crate::costs::costs;
 use crate::failure::Refusal;
 use crate::ground::ground;
-use crate::input::{colour_weights, library, viewing};
+use crate::input::{color_weights, library, viewing};
 use crate::progress::Progress;
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
@@ -89,7 +89,7 @@ impl Match {
         let library = library(&self.library)?;
         let request = self.request(&library, &sights, console)?;
         for sight in &sights {
-            colour_weights(&sight.viewing, library.grid, console)?;
+            color_weights(&sight.viewing, library.grid, console)?;
         }
         let mut wanted: Vec<Target> = Vec::new();
         for text in &self.targets {

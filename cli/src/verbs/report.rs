@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, colour_weights, library};
+use crate::input::{ViewingOptions, color_weights, library};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
@@ -60,7 +60,7 @@ impl Report {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
-        let weights = colour_weights(&viewing, library.grid, console)?;
+        let weights = color_weights(&viewing, library.grid, console)?;
         let pair = match self.pair.as_slice() {
             [first, second] => Some((library.find(first)?, library.find(second)?)),
             _ => None,

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use render::export::{PigmentMap, pigment_maps, png8};
 use render::field::Field;
-use render::photograph::{ColourErrors, Picture, Separation, rebuilt};
+use render::photograph::{ColorErrors, Picture, Separation, rebuilt};
 use serde_json::json;
 
 use crate::console::Console;
@@ -22,7 +22,7 @@ pub(super) fn write(
     target: &Picture,
     names: &[String],
     cell_mm: f64,
-) -> anyhow::Result<ColourErrors> {
+) -> anyhow::Result<ColorErrors> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("{}: cannot be made", folder.display()))?;
     let heights = separation.separate(target);
@@ -36,7 +36,7 @@ pub(super) fn write(
         })
         .collect();
     let picture = rebuilt(separation.film(), &heights);
-    let errors = ColourErrors::between(separation, target, &picture);
+    let errors = ColorErrors::between(separation, target, &picture);
     let opaque = picture.values().iter().map(|&[red, green, blue]| [red, green, blue, 1.0]);
     let opaque = Field::from_values(width, height, opaque.collect());
     let mut files = pigment_maps(STEM, &maps, cell_mm)?;
@@ -52,7 +52,7 @@ pub(super) fn write(
 
 /// Says how far the separation is from the photograph.
 pub(super) fn tell(
-    errors: &ColourErrors,
+    errors: &ColorErrors,
     names: &[String],
     as_json: bool,
     console: &mut Console<'_>,
@@ -65,8 +65,8 @@ pub(super) fn tell(
 }
 
 /// Errors on a line.
-pub(super) fn in_words(errors: &ColourErrors) -> String {
-    let ColourErrors { mean, median, p95, max, out_of_gamut, .. } = errors;
+pub(super) fn in_words(errors: &ColorErrors) -> String {
+    let ColorErrors { mean, median, p95, max, out_of_gamut, .. } = errors;
     format!(
         "mean {mean:.2}, median {median:.2}, 95th percentile {p95:.2}, largest {max:.2}; {:.1} % out of gamut",
         100.0 * out_of_gamut

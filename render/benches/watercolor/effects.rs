@@ -18,8 +18,8 @@ fn wash() -> Wash {
         let shade = |step: usize| ((x * 7 + y * step) % 11) as f32 / 11.0;
         [shade(3), shade(5), shade(9), 1.0]
     };
-    let colour = Field::from_values(width, height, (0..width * height).map(patch).collect());
-    Wash { colour, controls: Controls::default() }
+    let color = Field::from_values(width, height, (0..width * height).map(patch).collect());
+    Wash { color, controls: Controls::default() }
 }
 
 fn settings() -> Settings {
@@ -49,9 +49,9 @@ fn all_on_gpu(bencher: Bencher<'_, '_>) {
     let TexturesOn { flow, dispersion, paper } = &textures;
     bencher.bench_local(|| {
         use render::watercolor::{Backend, WashOn};
-        let wash = WashOn { colour: there.colour.clone(), dry_brush: None, density: None };
+        let wash = WashOn { color: there.color.clone(), dry_brush: None, density: None };
         let painted = paint(&mut gpu, wash, flow, dispersion, paper, &settings, None).unwrap();
-        gpu.colour_field(&painted).unwrap()
+        gpu.color_field(&painted).unwrap()
     });
 }
 
@@ -59,14 +59,14 @@ fn all_on_gpu(bencher: Bencher<'_, '_>) {
 fn wobble(bencher: Bencher<'_, '_>) {
     let (wash, textures) = (wash(), textures(&mut OnCpu));
     bencher
-        .with_inputs(|| wash.colour.clone())
+        .with_inputs(|| wash.color.clone())
         .bench_local_values(|c| OnCpu.wobbled(c, &textures.paper.heights, 3.0).unwrap());
 }
 
 #[divan::bench]
 fn edges(bencher: Bencher<'_, '_>) {
     let wash = wash();
-    bencher.bench_local(|| OnCpu.edges(&wash.colour, 0.75).unwrap());
+    bencher.bench_local(|| OnCpu.edges(&wash.color, 0.75).unwrap());
 }
 
 #[divan::bench]
@@ -75,7 +75,7 @@ fn four_densities(bencher: Bencher<'_, '_>) {
     let layer = |texture| DensityLayer { texture, strength: 1.0, pivot: 0.5 };
     let greys = [&textures.flow, &textures.dispersion, &textures.paper.heights, &textures.flow];
     bencher
-        .with_inputs(|| wash.colour.clone())
+        .with_inputs(|| wash.color.clone())
         .bench_local_values(|c| OnCpu.densified(c, 0.8, &greys.map(layer), None).unwrap());
 }
 
@@ -85,16 +85,16 @@ fn dry_brush(bencher: Bencher<'_, '_>) {
     let reach = DryBrushReach { threshold: 0.4, softness: 0.1, patches: 1.0 };
     let (heights, flow) = (&textures.paper.heights, &textures.flow);
     bencher
-        .with_inputs(|| wash.colour.clone())
+        .with_inputs(|| wash.color.clone())
         .bench_local_values(|c| OnCpu.dry_brushed(c, heights, flow, reach, None).unwrap());
 }
 
 #[divan::bench]
 fn sheet(bencher: Bencher<'_, '_>) {
     let (wash, textures) = (wash(), textures(&mut OnCpu));
-    let sheet = Sheet { colour: [0.98; 3], relief: 0.1 };
+    let sheet = Sheet { color: [0.98; 3], relief: 0.1 };
     bencher
-        .with_inputs(|| wash.colour.clone())
+        .with_inputs(|| wash.color.clone())
         .bench_local_values(|c| OnCpu.on_sheet(c, &textures.paper.heights, sheet).unwrap());
 }
 

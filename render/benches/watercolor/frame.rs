@@ -34,8 +34,8 @@ fn frames<B: MovingBackend>(
     let mut around = cameras.iter().cycle();
     bencher.bench_local(|| {
         let camera = around.next().unwrap();
-        let colour = painter.frame(&mut backend, camera, None).unwrap();
-        backend.colour_field(&colour).unwrap()
+        let color = painter.frame(&mut backend, camera, None).unwrap();
+        backend.color_field(&color).unwrap()
     });
 }
 

@@ -20,15 +20,15 @@ fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
     let mut picture = Field::filled(width, height, [1.0; 4]);
     for y in 0..height {
         for x in 0..width {
-            let mut colour = [0.6, 0.55, 0.5];
+            let mut color = [0.6, 0.55, 0.5];
             for ([disc_x, disc_y, radius], own) in &discs {
                 let away = (x as f32 - disc_x).hypot(y as f32 - disc_y);
                 let cover = ((radius - away) / 3.0).clamp(0.0, 1.0);
-                for (colour, own) in colour.iter_mut().zip(own) {
-                    *colour += cover * (own - 0.1 * away / radius - *colour);
+                for (color, own) in color.iter_mut().zip(own) {
+                    *color += cover * (own - 0.1 * away / radius - *color);
                 }
             }
-            let [r, g, b] = colour.map(|value| value + number(-0.03, 0.03));
+            let [r, g, b] = color.map(|value| value + number(-0.03, 0.03));
             picture[(x, y)] = [r, g, b, 1.0];
         }
     }

@@ -63,7 +63,7 @@ fn toon_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
     let toon = Toon::default();
     frames(bencher, OnGpu::new(device), triangles, 1, |backend, model, visible, camera| {
-        let colour = backend.toon(model, &visible, camera, &toon).unwrap();
-        drop(divan::black_box(backend.colour_field(&colour).unwrap()));
+        let color = backend.toon(model, &visible, camera, &toon).unwrap();
+        drop(divan::black_box(backend.color_field(&color).unwrap()));
     });
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
-use render::paint::ground::{ColourPrimer, GroundRelief, GroundSpec, Linen, Primer};
+use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{Canvas, Strokes};
 
 use super::easel::{Easel, Place};
@@ -45,7 +45,7 @@ const EARTH: [(&str, &str); 8] = [
 /// The script.
 pub(crate) fn script() -> Strokes {
     let linen = Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06 };
-    let primer = Primer::Colour(ColourPrimer { rgb: "#d9b98a".to_owned() });
+    let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.2, ground };
     let mut easel = Easel::new("Wheat field with cypresses", canvas, &SKY, 1889);

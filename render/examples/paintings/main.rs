@@ -3,7 +3,7 @@
 
 mod easel;
 
-mod colour_study;
+mod color_study;
 
 mod glaze;
 
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "paintings".to_owned()));
     for (name, script) in [
-        ("colour-study", colour_study::script()),
+        ("colour-study", color_study::script()),
         ("glaze", glaze::script()),
         ("landscape", landscape::script()),
     ] {

@@ -104,8 +104,8 @@ impl Photograph {
             let opacity = opacity.clamp(0.0, 1.0);
             // What is not opaque shows white.
             let own = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
-            let colour = if opacity > 0.0 { [r, g, b].map(own) } else { [1.0; 3] };
-            let [r, g, b] = Rgb(colour).encoded().0.map(|value| value as f32);
+            let color = if opacity > 0.0 { [r, g, b].map(own) } else { [1.0; 3] };
+            let [r, g, b] = Rgb(color).encoded().0.map(|value| value as f32);
             [r, g, b, opacity as f32]
         })
     }
@@ -208,7 +208,7 @@ impl Linear {
                 1 => usize::from(bytes[channel]),
                 _ => usize::from(u16::from_ne_bytes([bytes[2 * channel], bytes[2 * channel + 1]])),
             };
-            let colour = match self.channels {
+            let color = match self.channels {
                 1 | 2 => [self.decoded[sample(0)]; 3],
                 _ => [0, 1, 2].map(|channel| self.decoded[sample(channel)]),
             };
@@ -217,7 +217,7 @@ impl Linear {
                 4 => sample(3) as f64 / last,
                 _ => 1.0,
             };
-            let [r, g, b] = colour.map(|value| opacity * value + (1.0 - opacity));
+            let [r, g, b] = color.map(|value| opacity * value + (1.0 - opacity));
             *pixel = [r, g, b, opacity];
         }
     }

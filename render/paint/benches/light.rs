@@ -23,8 +23,7 @@ fn main() {
 const WIDTH: usize = 1024;
 
 fn library() -> PigmentLibrary {
-    let text = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).expect("the library is sound")
+    PigmentLibrary::van_gogh_oils()
 }
 
 /// Paint of eight pigments in every cell, up to 0.1 mm of each.

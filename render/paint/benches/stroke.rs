@@ -52,8 +52,7 @@ fn paint(width: usize, height: usize, seed: usize) -> Layer {
 }
 
 fn oils() -> PigmentLibrary {
-    let text = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-    PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).expect("the library is sound")
+    PigmentLibrary::van_gogh_oils()
 }
 
 /// A painting on linen with wet paint all over, and `dry` layers below it.
@@ -134,7 +133,7 @@ fn relight(bencher: Bencher<'_, '_>, side: usize, mut lighting: impl FnMut() -> 
 }
 
 #[divan::bench(sample_count = 5)]
-fn replay_the_colour_study(bencher: Bencher<'_, '_>) {
+fn replay_the_color_study(bencher: Bencher<'_, '_>) {
     let text = include_str!("../../../paintings/colour-study.json");
     let script = Strokes::from_json("colour-study.json", text.as_bytes()).expect("it is sound");
     let library = oils();

@@ -46,7 +46,7 @@ pub fn shade_row(
     for row in [relief.above, relief.here, relief.below] {
         assert_eq!(row.len(), count + 2, "heights of {count} cells and one more at both ends");
     }
-    pulp::Arch::new().dispatch(Colour { scene, internal, out });
+    pulp::Arch::new().dispatch(Color { scene, internal, out });
     if scene.lamp.relief == 0.0 {
         return;
     }
@@ -68,13 +68,13 @@ pub fn shade_row(
 /// Cells shaded between two looks at their gloss; they stay in the nearest cache.
 const BLOCK: usize = 64;
 
-struct Colour<'a> {
+struct Color<'a> {
     scene: &'a Scene,
     internal: &'a [[f32; NODES]],
     out: &'a mut [[f32; 4]],
 }
 
-impl pulp::WithSimd for Colour<'_> {
+impl pulp::WithSimd for Color<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -28,7 +28,7 @@ fn measured(skin: Skin, internal: vec4<f32>) -> vec4<f32> {
 }
 
 // What binds `now` gives it `skin` and `rgb_from_nodes`.
-fn colour(internal: Nodes) -> vec3<f32> {
+fn color(internal: Nodes) -> vec3<f32> {
     let low = measured(now.skin, internal.low);
     let high = measured(now.skin, internal.high);
     let sum = low.x * now.rgb_from_nodes[0] + low.y * now.rgb_from_nodes[1]
@@ -39,7 +39,7 @@ fn colour(internal: Nodes) -> vec3<f32> {
 }
 
 // `heights` are those to the left, right, above and below.
-fn shaded(bumps: Bumps, heights: vec4<i32>, bare: u32, flat_colour: vec3<f32>) -> vec3<f32> {
+fn shaded(bumps: Bumps, heights: vec4<i32>, bare: u32, flat_color: vec3<f32>) -> vec3<f32> {
     let h = vec4<f32>(heights);
     let slopes = bumps.slope * vec2(h.y - h.x, h.w - h.z);
     let length = sqrt(dot(slopes, slopes) + 1.0);
@@ -51,5 +51,5 @@ fn shaded(bumps: Bumps, heights: vec4<i32>, bare: u32, flat_colour: vec3<f32>) -
     if gloss.x != 0.0 && mirrored > bumps.halfway.z {
         shine = gloss.x * max(pow(mirrored, gloss.y) - gloss.z, 0.0);
     }
-    return flat_colour * diffuse + shine;
+    return flat_color * diffuse + shine;
 }

@@ -18,7 +18,7 @@ mod painter;
 pub use graphics::orientation::Flow;
 pub use graphics::picture::{Framing, MOST_PIXELS, Photograph, PhotographError, Picture};
 pub use paint::separation::{
-    ChosenPalette, ColourErrors, Materials, OUT_OF_GAMUT, PaintFilm, Separation, SeparationError,
+    ChosenPalette, ColorErrors, Materials, OUT_OF_GAMUT, PaintFilm, Separation, SeparationError,
     SeparationSettings, choose_palette, rebuilt,
 };
 pub use painter::{LevelReport, Painted, Painter, PainterError};

@@ -14,7 +14,7 @@ use graphics::picture::Picture;
 use paint::brush::HeadShape;
 use paint::easel::{Easel, ReplayError, ReplayReport};
 use paint::painting::{Painting, PaintingError};
-use paint::separation::ColourErrors;
+use paint::separation::ColorErrors;
 use paint::separation::Separation;
 use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, Strokes, Surface};
 
@@ -122,10 +122,10 @@ impl Painter<'_> {
         &self,
         painting: &mut Painting,
         blur_cells: f64,
-    ) -> Result<ColourErrors, PaintingError> {
+    ) -> Result<ColorErrors, PaintingError> {
         let wanted = blurred(self.target, blur_cells);
-        let painted = blurred(&colours(painting)?, blur_cells);
-        Ok(ColourErrors::between(self.separation, &wanted, &painted))
+        let painted = blurred(&colors(painting)?, blur_cells);
+        Ok(ColorErrors::between(self.separation, &wanted, &painted))
     }
 
     /// The blur, in cells, through which a brush of `size_mm` sees.
@@ -140,7 +140,7 @@ impl Painter<'_> {
         level: usize,
         round: u64,
     ) -> Result<Vec<PlannedStroke>, PaintingError> {
-        let current = colours(painting)?;
+        let current = colors(painting)?;
         let plan = Plan { seed: self.plan.seed.wrapping_add(round), ..self.plan.clone() };
         let cell_mm = painting.cell_mm();
         Ok(plan_layer(self.target, &current, self.separation, &plan, level, cell_mm))
@@ -163,10 +163,10 @@ fn shape(size_mm: f64) -> HeadShape {
 }
 
 /// The colours that stand on the canvas, without relief and gloss.
-fn colours(painting: &mut Painting) -> Result<Picture, PaintingError> {
+fn colors(painting: &mut Painting) -> Result<Picture, PaintingError> {
     let flat = painting.flat_picture()?;
-    let colours = flat.values().iter().map(|&[red, green, blue, _]| [red, green, blue]);
-    Ok(Field::from_values(flat.width(), flat.height(), colours.collect()))
+    let colors = flat.values().iter().map(|&[red, green, blue, _]| [red, green, blue]);
+    Ok(Field::from_values(flat.width(), flat.height(), colors.collect()))
 }
 
 /// A script of one round alone.

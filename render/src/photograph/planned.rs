@@ -94,8 +94,8 @@ pub fn plan_layer(
     let mut strokes: Vec<(f64, PlannedStroke)> = paths
         .par_iter()
         .map(|(_, path)| {
-            let colour = mean_colour(&blurred_target, path);
-            let heights = separation.refined_heights_mm(colour).map(f64::from);
+            let color = mean_color(&blurred_target, path);
+            let heights = separation.refined_heights_mm(color).map(f64::from);
             let height_mm: f64 = heights.iter().sum();
             let samples = samples(path, plan, size, cell_mm);
             let length = path.windows(2).map(|ends| between(ends[0], ends[1])).sum::<f64>() / size;
@@ -235,11 +235,11 @@ fn cover(off: &mut Field<f32>, path: &[[f64; 2]], radius: f64) {
 }
 
 /// The mean of a picture along a path.
-fn mean_colour(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
+fn mean_color(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
     let mut sum = [0.0; 3];
     for &place in path {
-        let colour = picture[cell(picture, place)];
-        sum.iter_mut().zip(colour).for_each(|(sum, value)| *sum += f64::from(value));
+        let color = picture[cell(picture, place)];
+        sum.iter_mut().zip(color).for_each(|(sum, value)| *sum += f64::from(value));
     }
     sum.map(|value| (value / path.len() as f64) as f32)
 }

@@ -22,10 +22,10 @@ pub(super) struct Ground<'a> {
 /// brush apart, none farther from the canvas than that: paint runs over the edge.
 pub(super) fn traced(ground: &Ground<'_>, plan: &Plan, start: [f64; 2]) -> Vec<[f64; 2]> {
     let cell = cell(ground.wanted, start);
-    let colour = ground.wanted[cell];
+    let color = ground.wanted[cell];
     let along = ground.flow.at(cell.0, cell.1);
-    let back = half(ground, plan, start, colour, along.map(|side| -side));
-    let forth = half(ground, plan, start, colour, along);
+    let back = half(ground, plan, start, color, along.map(|side| -side));
+    let forth = half(ground, plan, start, color, along);
     back.into_iter().rev().chain([start]).chain(forth).collect()
 }
 
@@ -34,7 +34,7 @@ fn half(
     ground: &Ground<'_>,
     plan: &Plan,
     start: [f64; 2],
-    colour: [f32; 3],
+    color: [f32; 3],
     mut heading: [f64; 2],
 ) -> Vec<[f64; 2]> {
     let step = (ground.size / 4.0).max(0.5);
@@ -58,7 +58,7 @@ fn half(
             break;
         }
         let here = cell(ground.wanted, place);
-        let departs = distance(ground.wanted[here], colour);
+        let departs = distance(ground.wanted[here], color);
         let limit = ground.off[here].min(plan.departure as f32);
         if points.len() >= least && departs >= limit {
             break;

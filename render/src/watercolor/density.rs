@@ -29,22 +29,22 @@ pub struct DensityLayer<'a, Grey> {
 
 /// Changes of density.
 pub trait Density: Backend {
-    /// `colour` of an `overall` density, 0 and up, and then of all `layers`, one upon the
+    /// `color` of an `overall` density, 0 and up, and then of all `layers`, one upon the
     /// other. `mask`, 0..1, tells how much of each layer's change takes place. Bare paper
     /// and colours of density 1 keep their bits.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     ///
     /// # Panics
     /// If sizes differ.
     fn densified(
         &mut self,
-        colour: Self::Colour,
+        color: Self::Color,
         overall: f32,
         layers: &[DensityLayer<'_, Self::Grey>],
         mask: Option<&Self::Grey>,
-    ) -> Result<Self::Colour, GpuError>;
+    ) -> Result<Self::Color, GpuError>;
 }
 
 /// d - 1 of a pixel.
@@ -56,35 +56,35 @@ pub(super) fn excess(strength: f32, pivot: f32, texture: f32, mask: f32) -> f32 
 impl Density for OnCpu {
     fn densified(
         &mut self,
-        mut colour: Field<[f32; 4]>,
+        mut color: Field<[f32; 4]>,
         overall: f32,
         layers: &[DensityLayer<'_, Field<f32>>],
         mask: Option<&Field<f32>>,
     ) -> Result<Field<[f32; 4]>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         for grey in layers.iter().map(|layer| layer.texture).chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "a texture's size");
         }
         if width == 0 {
-            return Ok(colour);
+            return Ok(color);
         }
-        colour.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colours)| {
+        color.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colors)| {
             let mask = mask.map(|mask| mask.row(y, 0, width));
             if overall != 1.0 {
-                pulp::Arch::new().dispatch(Evenly { colours, excess: overall - 1.0 });
+                pulp::Arch::new().dispatch(Evenly { colors, excess: overall - 1.0 });
             }
             for layer in layers.iter().filter(|layer| layer.strength != 0.0) {
                 let texture = layer.texture.row(y, 0, width);
                 let (strength, pivot) = (layer.strength, layer.pivot);
-                pulp::Arch::new().dispatch(Row { colours, texture, mask, strength, pivot });
+                pulp::Arch::new().dispatch(Row { colors, texture, mask, strength, pivot });
             }
         });
-        Ok(colour)
+        Ok(color)
     }
 }
 
 struct Evenly<'a> {
-    colours: &'a mut [[f32; 4]],
+    colors: &'a mut [[f32; 4]],
     excess: f32,
 }
 
@@ -93,14 +93,14 @@ impl pulp::WithSimd for Evenly<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for colour in self.colours {
-            *colour = changed::<S>(*colour, self.excess);
+        for color in self.colors {
+            *color = changed::<S>(*color, self.excess);
         }
     }
 }
 
 struct Row<'a> {
-    colours: &'a mut [[f32; 4]],
+    colors: &'a mut [[f32; 4]],
     texture: &'a [f32],
     mask: Option<&'a [f32]>,
     strength: f32,
@@ -112,16 +112,16 @@ impl pulp::WithSimd for Row<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { colours, texture, mask, strength, pivot } = self;
+        let Self { colors, texture, mask, strength, pivot } = self;
         match mask {
             None => {
-                for (colour, &t) in colours.iter_mut().zip(texture) {
-                    *colour = changed::<S>(*colour, excess(strength, pivot, t, 1.0));
+                for (color, &t) in colors.iter_mut().zip(texture) {
+                    *color = changed::<S>(*color, excess(strength, pivot, t, 1.0));
                 }
             }
             Some(mask) => {
-                for ((colour, &t), &mask) in colours.iter_mut().zip(texture).zip(mask) {
-                    *colour = changed::<S>(*colour, excess(strength, pivot, t, mask));
+                for ((color, &t), &mask) in colors.iter_mut().zip(texture).zip(mask) {
+                    *color = changed::<S>(*color, excess(strength, pivot, t, mask));
                 }
             }
         }
@@ -131,13 +131,13 @@ impl pulp::WithSimd for Row<'_> {
 /// A colour of density `1 + excess`; written so that an excess of 0 and 1 are
 /// exact. The fourth value goes along unchanged.
 #[inline(always)]
-fn changed<S: Simd>(colour: [f32; 4], excess: f32) -> [f32; 4] {
-    let k = if colour[3] > 0.0 { excess } else { 0.0 };
+fn changed<S: Simd>(color: [f32; 4], excess: f32) -> [f32; 4] {
+    let k = if color[3] > 0.0 { excess } else { 0.0 };
     let k = [k, k, k, 0.0];
     let mut out = [0.0; 4];
     for i in 0..4 {
-        let kept = multiply_add::<S>(k[i], colour[i], 1.0 - k[i]);
-        out[i] = lesser(greater(colour[i] * kept, 0.0), 1.0);
+        let kept = multiply_add::<S>(k[i], color[i], 1.0 - k[i]);
+        out[i] = lesser(greater(color[i] * kept, 0.0), 1.0);
     }
     out
 }
@@ -179,12 +179,12 @@ pub(super) static DENSITY: Kernel = Kernel {
 impl Density for OnGpu {
     fn densified(
         &mut self,
-        mut colour: Plane,
+        mut color: Plane,
         overall: f32,
         layers: &[DensityLayer<'_, Plane>],
         mask: Option<&Plane>,
     ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         for grey in layers.iter().map(|layer| layer.texture).chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "a texture's size");
         }
@@ -205,10 +205,10 @@ impl Density for OnGpu {
                 more: [0; 2],
             };
             // Places that are not read are bound to the colours.
-            let texture = |i: usize| of(i).map_or(colour.buffer(), |l| l.texture.buffer());
+            let texture = |i: usize| of(i).map_or(color.buffer(), |l| l.texture.buffer());
             let changed = self.plane(width, height, size_of::<[f32; 4]>())?;
             let buffers = [
-                colour.buffer(),
+                color.buffer(),
                 texture(0),
                 texture(1),
                 texture(2),
@@ -218,9 +218,9 @@ impl Density for OnGpu {
             ];
             let groups = [groups(width), groups(height), 1];
             self.recording.dispatch(&DENSITY, &now, &buffers, groups);
-            colour = changed;
+            color = changed;
             (overall, rest) = (0.0, after);
         }
-        Ok(colour)
+        Ok(color)
     }
 }

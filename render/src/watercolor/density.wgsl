@@ -12,7 +12,7 @@ struct DensityNow {
 }
 
 @group(0) @binding(0) var<uniform> now: DensityNow;
-@group(0) @binding(1) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> first: array<f32>;
 @group(0) @binding(3) var<storage, read> second: array<f32>;
 @group(0) @binding(4) var<storage, read> third: array<f32>;
@@ -31,8 +31,8 @@ fn watercolor_density(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let i = id.y * now.size.x + id.x;
-    var colour = colours[i];
-    if colour.w > 0.0 {
+    var color = colors[i];
+    if color.w > 0.0 {
         var texture = vec4(0.0);
         if now.layers > 0u { texture.x = first[i]; }
         if now.layers > 1u { texture.y = second[i]; }
@@ -42,12 +42,12 @@ fn watercolor_density(@builtin(global_invocation_id) id: vec3<u32>) {
         if now.masked != 0u { share = mask[i]; }
         // A strength of 0 leaves the colour.
         let excess = max(now.strength * (texture - now.pivot) * share, vec4(-1.0));
-        var c = denser(colour.xyz, now.overall);
+        var c = denser(color.xyz, now.overall);
         c = denser(c, excess.x);
         c = denser(c, excess.y);
         c = denser(c, excess.z);
         c = denser(c, excess.w);
-        colour = vec4(c, colour.w);
+        color = vec4(c, color.w);
     }
-    changed[i] = colour;
+    changed[i] = color;
 }

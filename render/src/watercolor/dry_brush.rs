@@ -44,48 +44,48 @@ impl DryBrushReach {
 
 /// Dry brushes.
 pub trait DryBrush: Backend {
-    /// `colour` with the coverage that the brush leaves on paper of `heights`, 0..1,
+    /// `color` with the coverage that the brush leaves on paper of `heights`, 0..1,
     /// and of a wash of this `flow`; `mask`, 0..1, tells where the brush is dry. A threshold of 0 changes nothing.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     ///
     /// # Panics
     /// If sizes differ.
     fn dry_brushed(
         &mut self,
-        colour: Self::Colour,
+        color: Self::Color,
         heights: &Self::Grey,
         flow: &Self::Grey,
         reach: DryBrushReach,
         mask: Option<&Self::Grey>,
-    ) -> Result<Self::Colour, GpuError>;
+    ) -> Result<Self::Color, GpuError>;
 }
 
 impl DryBrush for OnCpu {
     fn dry_brushed(
         &mut self,
-        mut colour: Field<[f32; 4]>,
+        mut color: Field<[f32; 4]>,
         heights: &Field<f32>,
         flow: &Field<f32>,
         reach: DryBrushReach,
         mask: Option<&Field<f32>>,
     ) -> Result<Field<[f32; 4]>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         for grey in [heights, flow].into_iter().chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "the paper's size");
         }
         if reach.threshold <= 0.0 || width == 0 {
-            return Ok(colour);
+            return Ok(color);
         }
-        colour.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colours)| {
+        color.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colors)| {
             let mask = mask.map(|mask| mask.row(y, 0, width));
             let paper = heights.row(y, 0, width).iter().zip(flow.row(y, 0, width));
-            for (x, (colour, (&height, &flow))) in colours.iter_mut().zip(paper).enumerate() {
-                colour[3] *= reach.kept(height, flow, mask.map_or(1.0, |mask| mask[x]));
+            for (x, (color, (&height, &flow))) in colors.iter_mut().zip(paper).enumerate() {
+                color[3] *= reach.kept(height, flow, mask.map_or(1.0, |mask| mask[x]));
             }
         });
-        Ok(colour)
+        Ok(color)
     }
 }
 
@@ -113,18 +113,18 @@ pub(super) static DRY_BRUSH: Kernel = Kernel {
 impl DryBrush for OnGpu {
     fn dry_brushed(
         &mut self,
-        colour: Plane,
+        color: Plane,
         heights: &Plane,
         flow: &Plane,
         reach: DryBrushReach,
         mask: Option<&Plane>,
     ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         for grey in [heights, flow].into_iter().chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "the paper's size");
         }
         if reach.threshold <= 0.0 {
-            return Ok(colour);
+            return Ok(color);
         }
         let brushed = self.plane(width, height, size_of::<[f32; 4]>())?;
         let now = DryBrushNow {
@@ -137,7 +137,7 @@ impl DryBrush for OnGpu {
             thinner: THINNER,
         };
         let mask = mask.unwrap_or(heights);
-        let buffers = [&colour, heights, flow, mask, &brushed].map(Plane::buffer);
+        let buffers = [&color, heights, flow, mask, &brushed].map(Plane::buffer);
         self.recording.dispatch(&DRY_BRUSH, &now, &buffers, [groups(width), groups(height), 1]);
         Ok(brushed)
     }

@@ -11,7 +11,7 @@ struct DryBrushNow {
 }
 
 @group(0) @binding(0) var<uniform> now: DryBrushNow;
-@group(0) @binding(1) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> heights: array<f32>;
 @group(0) @binding(3) var<storage, read> flow: array<f32>;
 @group(0) @binding(4) var<storage, read> mask: array<f32>;
@@ -28,6 +28,6 @@ fn watercolor_dry_brush(@builtin(global_invocation_id) id: vec3<u32>) {
     let thin = clamp((now.thin - flow[i]) / now.thinner, 0.0, 1.0);
     let dry = share * (1.0 - now.patches * (1.0 - thin));
     let above = (heights[i] - now.threshold * dry) / now.softness;
-    let colour = colours[i];
-    brushed[i] = vec4(colour.xyz, colour.w * clamp(1.0 + above, 0.0, 1.0));
+    let color = colors[i];
+    brushed[i] = vec4(color.xyz, color.w * clamp(1.0 + above, 0.0, 1.0));
 }

@@ -19,12 +19,12 @@ use graphics::lanes::{greater, multiply_add};
 
 /// Edges of a picture.
 pub trait Edges: Backend {
-    /// How much of an edge every pixel of `colour` is, 0..2, after a Gaussian blur
+    /// How much of an edge every pixel of `color` is, 0..2, after a Gaussian blur
     /// of standard deviation `width_px`, 0 and up.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
-    fn edges(&mut self, colour: &Self::Colour, width_px: f32) -> Result<Self::Grey, GpuError>;
+    /// As [`Backend::color_of`].
+    fn edges(&mut self, color: &Self::Color, width_px: f32) -> Result<Self::Grey, GpuError>;
 }
 
 /// Half of a Gaussian, from its middle outwards; whole, it sums to 1.
@@ -43,8 +43,8 @@ fn half_gaussian(sigma: f32) -> Vec<f32> {
 const BAND: usize = 24;
 
 impl Edges for OnCpu {
-    fn edges(&mut self, colour: &Field<[f32; 4]>, width_px: f32) -> Result<Field<f32>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+    fn edges(&mut self, color: &Field<[f32; 4]>, width_px: f32) -> Result<Field<f32>, GpuError> {
+        let (width, height) = (color.width(), color.height());
         let mut edges = Field::filled(width, height, 0.0);
         if width == 0 || height == 0 {
             return Ok(edges);
@@ -52,7 +52,7 @@ impl Edges for OnCpu {
         let half = half_gaussian(width_px);
         let bands = edges.values_mut().par_chunks_mut(width * BAND).enumerate();
         bands.for_each_init(Scratch::default, |scratch, (band, edges)| {
-            let band = Band { colour, half: &half, first: band * BAND, scratch, edges };
+            let band = Band { color, half: &half, first: band * BAND, scratch, edges };
             pulp::Arch::new().dispatch(band);
         });
         Ok(edges)
@@ -71,7 +71,7 @@ struct Scratch {
 }
 
 struct Band<'a> {
-    colour: &'a Field<[f32; 4]>,
+    color: &'a Field<[f32; 4]>,
     half: &'a [f32],
     /// Its first row.
     first: usize,
@@ -91,8 +91,8 @@ impl pulp::WithSimd for Band<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { colour, half, first, scratch, edges } = self;
-        let (width, last) = (colour.width(), colour.height() as isize - 1);
+        let Self { color, half, first, scratch, edges } = self;
+        let (width, last) = (color.width(), color.height() as isize - 1);
         let (rows, radius) = (edges.len() / width, half.len() - 1);
         let Scratch { line, sideways, blurred } = scratch;
         line.resize(width + 2 * radius, [0.0; 4]);
@@ -101,7 +101,7 @@ impl pulp::WithSimd for Band<'_> {
         let top = first as isize - 1 - radius as isize;
         for (i, out) in sideways.chunks_exact_mut(width).enumerate() {
             let y = (top + i as isize).clamp(0, last) as usize;
-            let row = colour.row(y, 0, width);
+            let row = color.row(y, 0, width);
             for (out, &pixel) in line[radius..].iter_mut().zip(row) {
                 *out = over_white(pixel);
             }
@@ -198,8 +198,8 @@ pub(super) static EDGES: Kernel = Kernel {
 };
 
 impl Edges for OnGpu {
-    fn edges(&mut self, colour: &Plane, width_px: f32) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+    fn edges(&mut self, color: &Plane, width_px: f32) -> Result<Plane, GpuError> {
+        let (width, height) = (color.width(), color.height());
         let half = half_gaussian(width_px);
         let first = self.recording.batch(&half);
         let size = [width as u32, height as u32];
@@ -207,7 +207,7 @@ impl Edges for OnGpu {
         let rows =
             EdgeBlurNow { size, along: [1, 0], first, count: half.len() as u32, bare: 1, spare: 0 };
         let mut blurred = self.plane(width, height, size_of::<[f32; 4]>())?;
-        let buffers = [colour.buffer(), blurred.buffer()];
+        let buffers = [color.buffer(), blurred.buffer()];
         self.recording.dispatch(&EDGE_BLUR, &rows, &buffers, groups);
         if half.len() > 1 {
             let columns = EdgeBlurNow { along: [0, 1], bare: 0, ..rows };

@@ -11,16 +11,16 @@ struct EdgeBlurNow {
 
 @group(0) @binding(0) var<uniform> now: EdgeBlurNow;
 @group(0) @binding(1) var<storage, read> half: array<f32>;
-@group(0) @binding(2) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> blurred: array<vec4<f32>>;
 
 fn pixel(at: vec2<u32>) -> vec4<f32> {
     let inside = min(at, now.size - vec2(1u));
-    let colour = colours[inside.y * now.size.x + inside.x];
+    let color = colors[inside.y * now.size.x + inside.x];
     if now.bare == 0u {
-        return colour;
+        return color;
     }
-    return vec4(colour.xyz * colour.w + (1.0 - colour.w), colour.w);
+    return vec4(color.xyz * color.w + (1.0 - color.w), color.w);
 }
 
 @compute @workgroup_size(8, 8)

@@ -1,6 +1,6 @@
 //! All kernels of watercolor, in one list.
 
-use super::{colour_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
+use super::{color_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
 use graphics::coherence;
 use graphics::gpu::Kernel;
 
@@ -18,7 +18,7 @@ pub fn kernels() -> Vec<&'static Kernel> {
         &edges::EDGES,
         &wobble::WOBBLE,
         &dry_brush::DRY_BRUSH,
-        &colour_mask::COLOUR_MASK,
+        &color_mask::COLOR_MASK,
         &sheet::SHEET,
     ]
 }

@@ -29,7 +29,7 @@ mod edges;
 
 mod wobble;
 
-mod colour_mask;
+mod color_mask;
 
 mod dry_brush;
 
@@ -43,7 +43,7 @@ mod glaze;
 
 mod kernels;
 
-pub use colour_mask::{ColourMask, ColourRange};
+pub use color_mask::{ColorMask, ColorRange};
 pub use density::{Density, DensityLayer};
 pub use dry_brush::{DryBrush, DryBrushReach};
 pub use edges::Edges;

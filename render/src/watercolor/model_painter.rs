@@ -53,7 +53,7 @@ enum Noise<B: MovingBackend> {
 #[derive(Debug)]
 pub struct Moment<B: MovingBackend> {
     /// Toon-shaded colour with coverage.
-    pub colour: B::Colour,
+    pub color: B::Color,
     /// Clouds and grains; those that do not move where there are none.
     pub noise: Option<[B::Grey; 2]>,
 }
@@ -116,14 +116,14 @@ impl<B: MovingBackend> ModelPainter<B> {
     /// What `camera` sees.
     ///
     /// # Errors
-    /// As [`super::Backend::colour_of`].
+    /// As [`super::Backend::color_of`].
     pub fn moment(&mut self, backend: &mut B, camera: &Camera) -> Result<Moment<B>, GpuError> {
         let Self { model, toon, noise, width, height, .. } = self;
         let samples = toon.samples;
         let seen = backend.seen(model, camera, *width * samples, *height * samples)?;
-        let colour = backend.toon(model, &seen, camera, toon)?;
+        let color = backend.toon(model, &seen, camera, toon)?;
         if let Noise::Static = noise {
-            return Ok(Moment { colour, noise: None });
+            return Ok(Moment { color, noise: None });
         }
         let seen = match samples {
             1 => seen,
@@ -131,19 +131,19 @@ impl<B: MovingBackend> ModelPainter<B> {
         };
         let depth = backend.depths(&seen)?;
         let noise = noise.at(backend, &depth, &Sight::new(camera, *width, *height))?;
-        Ok(Moment { colour, noise })
+        Ok(Moment { color, noise })
     }
 
     /// The same with the processor, for glazes: the wash, and the textures of the moment.
     ///
     /// # Errors
-    /// As [`super::Backend::colour_of`].
+    /// As [`super::Backend::color_of`].
     pub fn at_rest(
         &mut self,
         backend: &mut B,
         camera: &Camera,
     ) -> Result<(Wash, Textures), GpuError> {
-        let Moment { colour, noise } = self.moment(backend, camera)?;
+        let Moment { color, noise } = self.moment(backend, camera)?;
         let TexturesOn { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
         let textures = Textures {
@@ -151,15 +151,15 @@ impl<B: MovingBackend> ModelPainter<B> {
             dispersion: backend.grey_field(dispersion)?,
             paper: paper.texture.clone(),
         };
-        let colour = backend.colour_field(&colour)?;
-        Ok((Wash { colour, controls: self.controls.clone() }, textures))
+        let color = backend.color_field(&color)?;
+        Ok((Wash { color, controls: self.controls.clone() }, textures))
     }
 
     /// The surface without light, as a stage of its own.
     ///
     /// # Errors
-    /// As [`super::Backend::colour_of`].
-    pub fn flat(&mut self, backend: &mut B, camera: &Camera) -> Result<B::Colour, GpuError> {
+    /// As [`super::Backend::color_of`].
+    pub fn flat(&mut self, backend: &mut B, camera: &Camera) -> Result<B::Color, GpuError> {
         let (width, height) = (self.width * self.toon.samples, self.height * self.toon.samples);
         let seen = backend.seen(&mut self.model, camera, width, height)?;
         let flat = Toon { strength: 0.0, ..self.toon.clone() };
@@ -169,21 +169,21 @@ impl<B: MovingBackend> ModelPainter<B> {
     /// The watercolor from `camera`; `watcher` as of [`paint`].
     ///
     /// # Errors
-    /// As [`super::Backend::colour_of`], and what the watcher says.
+    /// As [`super::Backend::color_of`], and what the watcher says.
     pub fn frame(
         &mut self,
         backend: &mut B,
         camera: &Camera,
         watcher: Option<Watcher<'_, B>>,
-    ) -> Result<B::Colour, GpuError> {
-        let Moment { colour, noise } = self.moment(backend, camera)?;
+    ) -> Result<B::Color, GpuError> {
+        let Moment { color, noise } = self.moment(backend, camera)?;
         let TexturesOn { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] =
             noise.as_ref().map_or([flow, dispersion], |[flow, grain]| [flow, grain]);
         let mut grey =
             |field: &Option<_>| field.as_ref().map(|field| backend.grey_of(field)).transpose();
         let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
-        let wash = WashOn { colour, dry_brush, density };
+        let wash = WashOn { color, dry_brush, density };
         paint(backend, wash, flow, dispersion, paper, &self.settings, watcher)
     }
 }

@@ -25,20 +25,20 @@ pub trait Morphology: Backend {
     /// [`GpuError`] if the device has no room or is lost; never on the processor.
     fn extreme(
         &mut self,
-        colour: &Self::Colour,
+        color: &Self::Color,
         brush: Brush,
         which: Extreme,
-        spare: Option<Self::Colour>,
-    ) -> Result<Self::Colour, GpuError>;
+        spare: Option<Self::Color>,
+    ) -> Result<Self::Color, GpuError>;
 
     /// Without light details into which a brush of `radius_px` does not fit; with 0 as
     /// it is. Nowhere lighter than before; once more changes nothing.
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn opened(&mut self, colour: &Self::Colour, radius_px: u32) -> Result<Self::Colour, GpuError> {
+    fn opened(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
         let brush = Brush::round(radius_px);
-        let least = self.extreme(colour, brush, Extreme::Least, None)?;
+        let least = self.extreme(color, brush, Extreme::Least, None)?;
         self.extreme(&least, brush, Extreme::Greatest, None)
     }
 
@@ -47,9 +47,9 @@ pub trait Morphology: Backend {
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn closed(&mut self, colour: &Self::Colour, radius_px: u32) -> Result<Self::Colour, GpuError> {
+    fn closed(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
         let brush = Brush::round(radius_px);
-        let greatest = self.extreme(colour, brush, Extreme::Greatest, None)?;
+        let greatest = self.extreme(color, brush, Extreme::Greatest, None)?;
         self.extreme(&greatest, brush, Extreme::Least, None)
     }
 
@@ -57,13 +57,9 @@ pub trait Morphology: Backend {
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn smoothed(
-        &mut self,
-        colour: &Self::Colour,
-        radius_px: u32,
-    ) -> Result<Self::Colour, GpuError> {
+    fn smoothed(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
         let brush = Brush::round(radius_px);
-        let least = self.extreme(colour, brush, Extreme::Least, None)?;
+        let least = self.extreme(color, brush, Extreme::Least, None)?;
         // The last pass of the opening and the first of the closing are one.
         let greatest = self.extreme(&least, brush.twice(), Extreme::Greatest, None)?;
         self.extreme(&greatest, brush, Extreme::Least, Some(least))
@@ -73,14 +69,14 @@ pub trait Morphology: Backend {
 impl Morphology for OnCpu {
     fn extreme(
         &mut self,
-        colour: &Self::Colour,
+        color: &Self::Color,
         brush: Brush,
         which: Extreme,
-        spare: Option<Self::Colour>,
-    ) -> Result<Self::Colour, GpuError> {
-        let fresh = || Field::filled(colour.width(), colour.height(), [0.0; 4]);
+        spare: Option<Self::Color>,
+    ) -> Result<Self::Color, GpuError> {
+        let fresh = || Field::filled(color.width(), color.height(), [0.0; 4]);
         let mut result = spare.unwrap_or_else(fresh);
-        extreme(colour, brush, which, &mut result);
+        extreme(color, brush, which, &mut result);
         Ok(result)
     }
 }
@@ -122,16 +118,16 @@ pub(super) static CROSSING: Kernel = Kernel {
 impl Morphology for OnGpu {
     fn extreme(
         &mut self,
-        colour: &Plane,
+        color: &Plane,
         brush: Brush,
         which: Extreme,
         _: Option<Plane>,
     ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         let crossings = brush.crossings();
         // Segments between may lie outside of the picture.
         let margin = brush.reach() as usize;
-        let mut current = colour.clone();
+        let mut current = color.clone();
         let mut margin_in = 0;
         for (i, crossing) in crossings.iter().enumerate() {
             let margin_out = if i + 1 == crossings.len() { 0 } else { margin };

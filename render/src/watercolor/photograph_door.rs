@@ -45,7 +45,7 @@ impl AbstractedPhotograph {
     /// The last stage, with effects the same everywhere.
     #[must_use]
     pub fn into_wash(self) -> Wash {
-        Wash { colour: self.smoothed, controls: Controls::default() }
+        Wash { color: self.smoothed, controls: Controls::default() }
     }
 }
 
@@ -74,11 +74,11 @@ pub fn from_photograph<B: Morphology>(
     let smoothed = if radius_px == 0 {
         segmented.clone()
     } else {
-        let there = backend.colour_of(&segmented)?;
+        let there = backend.color_of(&segmented)?;
         let there = backend.smoothed(&there, radius_px)?;
-        backend.colour_field(&there)?
+        backend.color_field(&there)?
     };
-    Ok(AbstractedPhotograph { original, segmented, smoothed, regions: segmentation.colours.len() })
+    Ok(AbstractedPhotograph { original, segmented, smoothed, regions: segmentation.colors.len() })
 }
 
 /// A photograph that cannot be abstracted so.

@@ -5,7 +5,7 @@
 
 use spectra::color::Rgb;
 
-use super::colour_mask::{ColourMask, ColourRange};
+use super::color_mask::{ColorMask, ColorRange};
 use super::density::{Density, DensityLayer};
 use super::dry_brush::{DryBrush, DryBrushReach};
 use super::edges::Edges;
@@ -18,9 +18,9 @@ use graphics::gpu::GpuError;
 use graphics::image::Backend;
 
 /// A backend that does all that watercolor needs.
-pub trait Watercolor: Wobble + Edges + Density + ColourMask + DryBrush + OnSheet {}
+pub trait Watercolor: Wobble + Edges + Density + ColorMask + DryBrush + OnSheet {}
 
-impl<B: Wobble + Edges + Density + ColourMask + DryBrush + OnSheet> Watercolor for B {}
+impl<B: Wobble + Edges + Density + ColorMask + DryBrush + OnSheet> Watercolor for B {}
 
 /// A picture on its way, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,7 +76,7 @@ impl Stage {
 #[derive(Debug)]
 pub struct WashOn<B: Backend> {
     /// Encoded sRGB and coverage.
-    pub colour: B::Colour,
+    pub color: B::Color,
     /// Where the brush is dry; everywhere if none.
     pub dry_brush: Option<B::Grey>,
     /// Where density changes; everywhere if none.
@@ -87,17 +87,17 @@ impl Wash {
     /// Puts it where it is worked on.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     pub fn on<B: Backend>(&self, backend: &mut B) -> Result<WashOn<B>, GpuError> {
         let mut grey = |field: &Option<_>| field.as_ref().map(|f| backend.grey_of(f)).transpose();
         let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
-        Ok(WashOn { colour: backend.colour_of(&self.colour)?, dry_brush, density })
+        Ok(WashOn { color: backend.color_of(&self.color)?, dry_brush, density })
     }
 }
 
 /// Told of every stage: the picture is only lent, and later stages change it.
 pub type Watcher<'a, B> =
-    &'a mut dyn FnMut(&mut B, Stage, &<B as Backend>::Colour) -> Result<(), GpuError>;
+    &'a mut dyn FnMut(&mut B, Stage, &<B as Backend>::Color) -> Result<(), GpuError>;
 
 /// Paints `wash` with clouds and grains of this moment on `paper`; the picture on its
 /// sheet. Settings are those for its size ([`Settings::for_size`]). All stages are as
@@ -105,7 +105,7 @@ pub type Watcher<'a, B> =
 /// densities in one go.
 ///
 /// # Errors
-/// As [`Backend::colour_of`], and what the watcher says.
+/// As [`Backend::color_of`], and what the watcher says.
 ///
 /// # Panics
 /// If sizes differ.
@@ -117,24 +117,24 @@ pub fn paint<B: Watercolor>(
     paper: &PaperOn<B>,
     settings: &Settings,
     mut watcher: Option<Watcher<'_, B>>,
-) -> Result<B::Colour, GpuError> {
-    let WashOn { colour, dry_brush, density } = wash;
-    tell(&mut watcher, backend, Stage::Wash, &colour)?;
+) -> Result<B::Color, GpuError> {
+    let WashOn { color, dry_brush, density } = wash;
+    tell(&mut watcher, backend, Stage::Wash, &color)?;
     let heights = &paper.heights;
     let displaced = paper.texture.per_slope(settings.wobble.amount_px);
-    let mut colour = backend.wobbled(colour, heights, displaced)?;
-    tell(&mut watcher, backend, Stage::Wobble, &colour)?;
+    let mut color = backend.wobbled(color, heights, displaced)?;
+    tell(&mut watcher, backend, Stage::Wobble, &color)?;
     let dry = settings.dry_brush.amount > 0.0;
-    let dry_brush = match settings.dry_brush.colour.as_deref().and_then(Rgb::from_hex) {
+    let dry_brush = match settings.dry_brush.color.as_deref().and_then(Rgb::from_hex) {
         Some(like) if dry => {
-            let range = ColourRange::around(like, settings.dry_brush.tolerance);
-            Some(backend.colour_mask(&colour, range, dry_brush.as_ref())?)
+            let range = ColorRange::around(like, settings.dry_brush.tolerance);
+            Some(backend.color_mask(&color, range, dry_brush.as_ref())?)
         }
         _ => dry_brush,
     };
     let edges = match settings.edges.strength {
         0.0 => None,
-        _ => Some(backend.edges(&colour, settings.edges.width_px)?),
+        _ => Some(backend.edges(&color, settings.edges.width_px)?),
     };
     let layers = [
         (Stage::Edges, edges.as_ref(), settings.edges.strength, 0.0),
@@ -150,34 +150,34 @@ pub fn paint<B: Watercolor>(
     if watcher.is_some() {
         for (stage, layer) in layers {
             let overall = if stage == Stage::Edges { overall } else { 1.0 };
-            colour = backend.densified(colour, overall, layer.as_slice(), density.as_ref())?;
-            tell(&mut watcher, backend, stage, &colour)?;
+            color = backend.densified(color, overall, layer.as_slice(), density.as_ref())?;
+            tell(&mut watcher, backend, stage, &color)?;
         }
     } else {
         let layers: Vec<_> = layers.into_iter().filter_map(|(_, layer)| layer).collect();
-        colour = backend.densified(colour, overall, &layers, density.as_ref())?;
+        color = backend.densified(color, overall, &layers, density.as_ref())?;
     }
-    colour = backend.dry_brushed(
-        colour,
+    color = backend.dry_brushed(
+        color,
         heights,
         flow,
         reach(&paper.texture, settings),
         dry_brush.as_ref(),
     )?;
-    tell(&mut watcher, backend, Stage::DryBrush, &colour)?;
-    colour = backend.on_sheet(colour, heights, sheet(paper, settings))?;
-    tell(&mut watcher, backend, Stage::Sheet, &colour)?;
-    Ok(colour)
+    tell(&mut watcher, backend, Stage::DryBrush, &color)?;
+    color = backend.on_sheet(color, heights, sheet(paper, settings))?;
+    tell(&mut watcher, backend, Stage::Sheet, &color)?;
+    Ok(color)
 }
 
 fn tell<B: Backend>(
     watcher: &mut Option<Watcher<'_, B>>,
     backend: &mut B,
     stage: Stage,
-    colour: &B::Colour,
+    color: &B::Color,
 ) -> Result<(), GpuError> {
     match watcher {
-        Some(watcher) => watcher(backend, stage, colour),
+        Some(watcher) => watcher(backend, stage, color),
         None => Ok(()),
     }
 }
@@ -194,7 +194,7 @@ pub(super) fn reach(paper: &PaperTexture, settings: &Settings) -> DryBrushReach 
 }
 
 fn sheet<B: Backend>(paper: &PaperOn<B>, settings: &Settings) -> Sheet {
-    let colour = Rgb::from_hex(&settings.paper.colour).unwrap_or(Rgb([1.0; 3]));
+    let color = Rgb::from_hex(&settings.paper.color).unwrap_or(Rgb([1.0; 3]));
     let relief = paper.texture.relief_per_slope(settings.paper.relief);
-    Sheet { colour: colour.0.map(|value| value as f32), relief }
+    Sheet { color: color.0.map(|value| value as f32), relief }
 }

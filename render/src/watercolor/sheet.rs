@@ -16,7 +16,7 @@ use graphics::image::{OnGpu, Plane};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sheet {
     /// Encoded sRGB of the paper, 0..1.
-    pub colour: [f32; 3],
+    pub color: [f32; 3],
     /// What the sum of both slopes (height to the right less that to the left, and
     /// below less above) adds to a light of 1; 0 is flat.
     pub relief: f32,
@@ -29,49 +29,49 @@ impl Sheet {
         let bare = 1.0 - covered;
         let seen = [r, g, b].map(|value| value * covered + bare);
         let [r, g, b]: [f32; 3] =
-            std::array::from_fn(|i| (seen[i] * self.colour[i] * light).clamp(0.0, 1.0));
+            std::array::from_fn(|i| (seen[i] * self.color[i] * light).clamp(0.0, 1.0));
         [r, g, b, 1.0]
     }
 }
 
 /// Laying a picture on its sheet.
 pub trait OnSheet: Backend {
-    /// What is seen of `colour` on a sheet of `heights`; covered everywhere. White
+    /// What is seen of `color` on a sheet of `heights`; covered everywhere. White
     /// paper without relief keeps the bits of whole paint.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     ///
     /// # Panics
     /// If sizes differ.
     fn on_sheet(
         &mut self,
-        colour: Self::Colour,
+        color: Self::Color,
         heights: &Self::Grey,
         sheet: Sheet,
-    ) -> Result<Self::Colour, GpuError>;
+    ) -> Result<Self::Color, GpuError>;
 }
 
 impl OnSheet for OnCpu {
     fn on_sheet(
         &mut self,
-        mut colour: Field<[f32; 4]>,
+        mut color: Field<[f32; 4]>,
         heights: &Field<f32>,
         sheet: Sheet,
     ) -> Result<Field<[f32; 4]>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if width == 0 {
-            return Ok(colour);
+            return Ok(color);
         }
-        colour.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colours)| {
+        color.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colors)| {
             let here = heights.row(y, 0, width);
             let above = heights.row(y.saturating_sub(1), 0, width);
             let below = heights.row((y + 1).min(height - 1), 0, width);
-            let row = Row { sheet, here, above, below, colours };
+            let row = Row { sheet, here, above, below, colors };
             pulp::Arch::new().dispatch(row);
         });
-        Ok(colour)
+        Ok(color)
     }
 }
 
@@ -80,7 +80,7 @@ struct Row<'a> {
     here: &'a [f32],
     above: &'a [f32],
     below: &'a [f32],
-    colours: &'a mut [[f32; 4]],
+    colors: &'a mut [[f32; 4]],
 }
 
 impl pulp::WithSimd for Row<'_> {
@@ -88,11 +88,11 @@ impl pulp::WithSimd for Row<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { sheet, here, above, below, colours } = self;
-        let end = colours.len() - 1;
+        let Self { sheet, here, above, below, colors } = self;
+        let end = colors.len() - 1;
         let mut lay = |x: usize, left: f32, right: f32| {
             let slope = (right - left) + (below[x] - above[x]);
-            colours[x] = sheet.seen(colours[x], slope);
+            colors[x] = sheet.seen(colors[x], slope);
         };
         lay(0, here[0], here[1.min(end)]);
         for x in 1..end {
@@ -123,19 +123,14 @@ pub(super) static SHEET: Kernel = Kernel {
 };
 
 impl OnSheet for OnGpu {
-    fn on_sheet(
-        &mut self,
-        colour: Plane,
-        heights: &Plane,
-        sheet: Sheet,
-    ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+    fn on_sheet(&mut self, color: Plane, heights: &Plane, sheet: Sheet) -> Result<Plane, GpuError> {
+        let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         let seen = self.plane(width, height, size_of::<[f32; 4]>())?;
-        let [r, g, b] = sheet.colour;
+        let [r, g, b] = sheet.color;
         let size = [width as u32, height as u32];
         let now = SheetNow { paper: [r, g, b, sheet.relief], size, spare: [0; 2] };
-        let buffers = [colour.buffer(), heights.buffer(), seen.buffer()];
+        let buffers = [color.buffer(), heights.buffer(), seen.buffer()];
         self.recording.dispatch(&SHEET, &now, &buffers, [groups(width), groups(height), 1]);
         Ok(seen)
     }

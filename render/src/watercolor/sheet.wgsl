@@ -7,7 +7,7 @@ struct SheetNow {
 }
 
 @group(0) @binding(0) var<uniform> now: SheetNow;
-@group(0) @binding(1) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> heights: array<f32>;
 @group(0) @binding(3) var<storage, read_write> seen: array<vec4<f32>>;
 
@@ -27,7 +27,7 @@ fn watercolor_sheet(@builtin(global_invocation_id) id: vec3<u32>) {
         + (height(at.x, after.y) - height(at.x, before.y));
     let light = 1.0 + now.paper.w * slope;
     let i = at.y * now.size.x + at.x;
-    let colour = colours[i];
-    let flat_colour = (colour.xyz * colour.w + (1.0 - colour.w)) * now.paper.xyz;
-    seen[i] = vec4(clamp(flat_colour * light, vec3(0.0), vec3(1.0)), 1.0);
+    let color = colors[i];
+    let flat_color = (color.xyz * color.w + (1.0 - color.w)) * now.paper.xyz;
+    seen[i] = vec4(clamp(flat_color * light, vec3(0.0), vec3(1.0)), 1.0);
 }

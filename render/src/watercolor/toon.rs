@@ -86,7 +86,7 @@ pub trait Shading: Models {
     /// `toon.samples` times smaller than `visible`.
     ///
     /// # Errors
-    /// As [`super::Backend::colour_of`].
+    /// As [`super::Backend::color_of`].
     ///
     /// # Panics
     /// If `visible` is of another mesh, or no multiple of the samples.
@@ -96,7 +96,7 @@ pub trait Shading: Models {
         visible: &Self::Visible,
         camera: &Camera,
         toon: &Toon,
-    ) -> Result<Self::Colour, GpuError>;
+    ) -> Result<Self::Color, GpuError>;
 }
 
 /// The picture's size, of what is seen.
@@ -118,17 +118,17 @@ impl Shading for OnCpu {
         toon: &Toon,
     ) -> Result<Field<[f32; 4]>, GpuError> {
         let (width, height) = size((visible.width(), visible.height()), toon.samples);
-        let mut colour = Field::filled(width, height, PAPER);
+        let mut color = Field::filled(width, height, PAPER);
         if width == 0 {
-            return Ok(colour);
+            return Ok(color);
         }
         let light = toon.light.direction(camera);
         let shaded = Shaded { mesh: &model.mesh, eye: camera.eye, light, toon };
-        colour.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        color.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             if toon.samples == 1 {
                 for (pixel, seen) in row.iter_mut().zip(visible.row(y, 0, width)) {
                     if seen.triangle != NOTHING {
-                        *pixel = shaded.colour(*seen).extend(1.0).into();
+                        *pixel = shaded.color(*seen).extend(1.0).into();
                     }
                 }
                 return;
@@ -139,7 +139,7 @@ impl Shading for OnCpu {
                     let y = y * toon.samples + line;
                     for seen in visible.row(y, x * toon.samples, toon.samples) {
                         if seen.triangle != NOTHING {
-                            sum += shaded.colour(*seen).extend(1.0);
+                            sum += shaded.color(*seen).extend(1.0);
                         }
                     }
                 }
@@ -149,7 +149,7 @@ impl Shading for OnCpu {
                 }
             }
         });
-        Ok(colour)
+        Ok(color)
     }
 }
 
@@ -163,7 +163,7 @@ struct Shaded<'a> {
 
 impl Shaded<'_> {
     #[inline]
-    fn colour(&self, seen: Seen) -> Vec3 {
+    fn color(&self, seen: Seen) -> Vec3 {
         let facet = self.mesh.facet(seen);
         let grey = self.toon.tones.grey(facet.normal(self.eye).dot(self.light));
         let excess = (self.toon.strength * (0.5 - grey)).max(-1.0);
@@ -218,10 +218,10 @@ impl Shading for OnGpu {
             spare: [0; 2],
             greys: bytemuck::cast(*toon.tones.greys()),
         };
-        let colour = self.plane(width, height, size_of::<[f32; 4]>())?;
+        let color = self.plane(width, height, size_of::<[f32; 4]>())?;
         let GpuModel { vertices, triangles, coatings, texels, .. } = model;
-        let buffers = [vertices, triangles, coatings, texels, visible.buffer(), colour.buffer()];
+        let buffers = [vertices, triangles, coatings, texels, visible.buffer(), color.buffer()];
         self.recording.dispatch(&TOON, &now, &buffers, [groups(width), groups(height), 1]);
-        Ok(colour)
+        Ok(color)
     }
 }

@@ -18,12 +18,12 @@ struct Vertex {
     u: f32,
     normal: vec3<f32>,
     v: f32,
-    colour: vec3<f32>,
+    color: vec3<f32>,
     spare: f32,
 }
 
 struct Coating {
-    colour: vec3<f32>,
+    color: vec3<f32>,
     first: u32,
     width: u32,
     height: u32,
@@ -96,7 +96,7 @@ fn toon(at: Seen) -> vec3<f32> {
     if dot(face, now.eye - a.position) < 0.0 {
         normal = -normal;
     }
-    var albedo = coating.colour * between(at, a.colour, b.colour, c.colour);
+    var albedo = coating.color * between(at, a.color, b.color, c.color);
     if coating.width > 0u {
         let uv = vec2(a.u, a.v) + (vec2(b.u, b.v) - vec2(a.u, a.v)) * at.second
             + (vec2(c.u, c.v) - vec2(a.u, a.v)) * at.third;
@@ -121,9 +121,9 @@ fn watercolor_toon(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
     }
-    var colour = vec4(1.0, 1.0, 1.0, 0.0);
+    var color = vec4(1.0, 1.0, 1.0, 0.0);
     if sum.w > 0.0 {
-        colour = vec4(sum.xyz / sum.w, sum.w / f32(now.samples * now.samples));
+        color = vec4(sum.xyz / sum.w, sum.w / f32(now.samples * now.samples));
     }
-    painted[id.y * now.size.x + id.x] = colour;
+    painted[id.y * now.size.x + id.x] = color;
 }

@@ -6,7 +6,7 @@ use graphics::field::Field;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wash {
     /// Encoded sRGB in 0..1, then coverage: 1 where paint is, 0 on bare paper.
-    pub colour: Field<[f32; 4]>,
+    pub color: Field<[f32; 4]>,
     /// Where effects are stronger or weaker.
     pub controls: Controls,
 }

@@ -17,34 +17,34 @@ use graphics::lanes::{greater, lesser, multiply_add};
 
 /// Displacing by slopes.
 pub trait Wobble: Backend {
-    /// `colour` displaced by `px_per_slope` times the slope of `heights`, which is the
+    /// `color` displaced by `px_per_slope` times the slope of `heights`, which is the
     /// height to the right less that to the left, and below less above; beyond
     /// the borders both go on as they end. 0 changes nothing.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     ///
     /// # Panics
     /// If sizes differ.
     fn wobbled(
         &mut self,
-        colour: Self::Colour,
+        color: Self::Color,
         heights: &Self::Grey,
         px_per_slope: f32,
-    ) -> Result<Self::Colour, GpuError>;
+    ) -> Result<Self::Color, GpuError>;
 }
 
 impl Wobble for OnCpu {
     fn wobbled(
         &mut self,
-        colour: Field<[f32; 4]>,
+        color: Field<[f32; 4]>,
         heights: &Field<f32>,
         px_per_slope: f32,
     ) -> Result<Field<[f32; 4]>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if px_per_slope == 0.0 || width == 0 {
-            return Ok(colour);
+            return Ok(color);
         }
         let mut wobbled = Field::filled(width, height, [0.0; 4]);
         wobbled.values_mut().par_chunks_mut(width).enumerate().for_each_init(
@@ -52,7 +52,7 @@ impl Wobble for OnCpu {
             |here, (y, out)| {
                 here[1..=width].copy_from_slice(heights.row(y, 0, width));
                 (here[0], here[width + 1]) = (here[1], here[width]);
-                let row = Row { colour: &colour, heights, here, px_per_slope, y, out };
+                let row = Row { color: &color, heights, here, px_per_slope, y, out };
                 pulp::Arch::new().dispatch(row);
             },
         );
@@ -61,7 +61,7 @@ impl Wobble for OnCpu {
 }
 
 struct Row<'a> {
-    colour: &'a Field<[f32; 4]>,
+    color: &'a Field<[f32; 4]>,
     heights: &'a Field<f32>,
     /// Heights of the row, its ends repeated.
     here: &'a [f32],
@@ -78,12 +78,12 @@ impl pulp::WithSimd for Row<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { colour, heights, here, px_per_slope, y, out } = self;
-        let (width, height) = (colour.width(), colour.height());
+        let Self { color, heights, here, px_per_slope, y, out } = self;
+        let (width, height) = (color.width(), color.height());
         let (end, bottom) = ((width - 1) as f32, (height - 1) as f32);
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
-        let values = colour.values();
+        let values = color.values();
         let (mut corners, mut shares) = ([[0_i32; 2]; BLOCK], [[0.0_f32; 2]; BLOCK]);
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
             let (first, count) = (block * BLOCK, out.len());
@@ -101,9 +101,9 @@ impl pulp::WithSimd for Row<'_> {
                 let corner = y * width + x;
                 let right = usize::from(x + 1 < width);
                 let down = if y + 1 < height { width } else { 0 };
-                let colours = [corner, corner + right, corner + down, corner + down + right];
+                let colors = [corner, corner + right, corner + down, corner + down + right];
                 let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];
-                *out = mixed::<S>(colours.map(|i| values[i]), shares);
+                *out = mixed::<S>(colors.map(|i| values[i]), shares);
             }
         }
     }
@@ -111,13 +111,13 @@ impl pulp::WithSimd for Row<'_> {
 
 /// Four colours, each by its share and its coverage.
 #[inline(always)]
-fn mixed<S: Simd>(colours: [[f32; 4]; 4], shares: [f32; 4]) -> [f32; 4] {
+fn mixed<S: Simd>(colors: [[f32; 4]; 4], shares: [f32; 4]) -> [f32; 4] {
     let mut sum = [0.0; 4];
-    for (colour, share) in colours.into_iter().zip(shares) {
-        let weight = share * colour[3];
-        let colour = [colour[0], colour[1], colour[2], 1.0];
+    for (color, share) in colors.into_iter().zip(shares) {
+        let weight = share * color[3];
+        let color = [color[0], color[1], color[2], 1.0];
         for i in 0..4 {
-            sum[i] = multiply_add::<S>(weight, colour[i], sum[i]);
+            sum[i] = multiply_add::<S>(weight, color[i], sum[i]);
         }
     }
     let covered = sum[3];
@@ -150,18 +150,18 @@ pub(super) static WOBBLE: Kernel = Kernel {
 impl Wobble for OnGpu {
     fn wobbled(
         &mut self,
-        colour: Plane,
+        color: Plane,
         heights: &Plane,
         px_per_slope: f32,
     ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if px_per_slope == 0.0 {
-            return Ok(colour);
+            return Ok(color);
         }
         let wobbled = self.plane(width, height, size_of::<[f32; 4]>())?;
         let now = WobbleNow { size: [width as u32, height as u32], px_per_slope, spare: 0 };
-        let buffers = [colour.buffer(), heights.buffer(), wobbled.buffer()];
+        let buffers = [color.buffer(), heights.buffer(), wobbled.buffer()];
         self.recording.dispatch(&WOBBLE, &now, &buffers, [groups(width), groups(height), 1]);
         Ok(wobbled)
     }

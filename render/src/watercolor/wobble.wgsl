@@ -7,7 +7,7 @@ struct WobbleNow {
 }
 
 @group(0) @binding(0) var<uniform> now: WobbleNow;
-@group(0) @binding(1) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> heights: array<f32>;
 @group(0) @binding(3) var<storage, read_write> wobbled: array<vec4<f32>>;
 
@@ -17,8 +17,8 @@ fn place(x: u32, y: u32) -> u32 {
 
 // A colour weighted by its share and its coverage; the sum of weights is the fourth.
 fn part(x: u32, y: u32, share: f32) -> vec4<f32> {
-    let colour = colours[place(x, y)];
-    return share * colour.w * vec4(colour.xyz, 1.0);
+    let color = colors[place(x, y)];
+    return share * color.w * vec4(color.xyz, 1.0);
 }
 
 @compute @workgroup_size(8, 8)

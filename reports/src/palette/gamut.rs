@@ -11,7 +11,7 @@ use super::{films, palette, thinner};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::panel::{Chart, Mark, Panel, Sign};
-use crate::style::{Colour, FAINT, HAIR, INK, SERIES};
+use crate::style::{Color, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
@@ -47,22 +47,22 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
 
     let chromaticity = |sample: &GamutSample| {
         let white = palette.weights().white();
-        let xyy = sample.colour.xyz.to_xyy(white);
+        let xyy = sample.color.xyz.to_xyy(white);
         [xyy.x, xyy.y]
     };
-    let lit = |sample: &GamutSample| sample.colour.xyz.y >= 0.5;
+    let lit = |sample: &GamutSample| sample.color.xyz.y >= 0.5;
     let mut marks = field(gamut, CELLS[1], |sample| lit(sample).then(|| chromaticity(sample)));
     let locus = spectral_locus(palette.viewing());
     let mut horseshoe: Vec<(f64, f64)> = locus.iter().map(|(_, [x, y])| (*x, *y)).collect();
     horseshoe.extend(horseshoe.first().copied());
-    marks.push(Mark::Line { points: horseshoe, colour: FAINT, width: 1.2 });
+    marks.push(Mark::Line { points: horseshoe, color: FAINT, width: 1.2 });
     let mut triangle = srgb_primaries(palette.weights().white()).map(|[x, y]| (x, y)).to_vec();
     triangle.extend(triangle.first().copied());
-    marks.push(Mark::Dashes { points: triangle, colour: SERIES[0] });
+    marks.push(Mark::Dashes { points: triangle, color: SERIES[0] });
     marks.push(outline(&xy, 1.2));
     let tens = locus.iter().filter(|(nm, _)| *nm >= 460.0 && *nm <= 620.0 && nm % 20.0 == 0.0);
     let names = tens.map(|(nm, [x, y])| ((*x, *y), format!("{nm}"))).collect();
-    marks.push(Mark::Names { names, around: Vec::new(), colour: FAINT });
+    marks.push(Mark::Names { names, around: Vec::new(), color: FAINT });
     let axis = |name: &str| Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) };
     let chart = Panel::new(axis("Chromaticity x"), axis("Chromaticity y"), marks)
         .with_key(Sign::Line, FAINT, "spectrum (nm)")
@@ -88,7 +88,7 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
     let whole = gamut.in_lab([0.0, 100.0], SECTORS);
     let [a, b] = axes(&whole);
     let mut data = Table::new(columns(outline_columns("lightness", "a*", "b*")));
-    let lightness = |sample: &GamutSample| sample.colour.lab.lightness;
+    let lightness = |sample: &GamutSample| sample.color.lab.lightness;
     let held = |[low, high]: &[f64; 2]| {
         gamut.samples.iter().any(|sample| (*low..=*high).contains(&lightness(sample)))
     };
@@ -103,7 +103,7 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
             (low..=high).contains(&lightness(sample)).then(|| lab_place(sample))
         };
         let mut marks = field(gamut, 1.5 * CELLS[0], inside);
-        marks.push(Mark::Line { points: closed(&whole), colour: FAINT, width: HAIR });
+        marks.push(Mark::Line { points: closed(&whole), color: FAINT, width: HAIR });
         marks.push(outline(&edge, 1.0));
         let few = |axis: &Axis| Axis::linear("", "", axis.low, axis.high, 3).ticks;
         let with = |axis: &Axis| Axis { ticks: few(axis), ..axis.clone() };
@@ -122,7 +122,7 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
 }
 
 fn lab_place(sample: &GamutSample) -> [f64; 2] {
-    [sample.colour.lab.a, sample.colour.lab.b]
+    [sample.color.lab.a, sample.color.lab.b]
 }
 
 /// Two axes of one range, that a circle stays round.
@@ -140,14 +140,14 @@ fn field(gamut: &Gamut, cell: f64, place: impl Fn(&GamutSample) -> Option<[f64; 
         let Some([x, y]) = place(sample) else { continue };
         let at = ((x / cell).floor() as i64, (y / cell).floor() as i64);
         let kept = lightest.entry(at).or_insert(sample);
-        if sample.colour.lab.lightness > kept.colour.lab.lightness {
+        if sample.color.lab.lightness > kept.color.lab.lightness {
             *kept = sample;
         }
     }
     let mark = |((x, y), sample): ((i64, i64), &GamutSample)| {
         let from = (x as f64 * cell, y as f64 * cell);
-        let colour = Colour::shown(sample.colour.srgb);
-        Mark::Bar { from, to: (from.0 + cell, from.1 + cell), colour }
+        let color = Color::shown(sample.color.srgb);
+        Mark::Bar { from, to: (from.0 + cell, from.1 + cell), color }
     };
     lightest.into_iter().map(mark).collect()
 }
@@ -159,7 +159,7 @@ fn closed(boundary: &Boundary) -> Vec<(f64, f64)> {
 }
 
 fn outline(boundary: &Boundary, width: f64) -> Mark {
-    Mark::Line { points: closed(boundary), colour: INK, width }
+    Mark::Line { points: closed(boundary), color: INK, width }
 }
 
 /// A dot and a name for each masstone.
@@ -182,7 +182,7 @@ fn masstones(
     let far = |((x, y), _): &((f64, f64), String)| x.hypot(*y);
     names.retain(|name| far(name) >= NAMED);
     names.sort_by(|a, b| far(b).total_cmp(&far(a)));
-    [Mark::Dots { points, colour: INK, radius: 2.2 }, Mark::Names { names, around, colour: INK }]
+    [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
 }
 
 fn outline_columns(what: &str, first: &str, second: &str) -> [Column; 5] {
@@ -207,6 +207,6 @@ fn tell(data: &mut Table, palette: &Palette<'_>, gamut: &Gamut, boundary: &Bound
             y.into(),
             palette.recipe_label(&sample.recipe).into(),
         ];
-        data.push(row(own, &sample.colour));
+        data.push(row(own, &sample.color));
     }
 }

@@ -79,7 +79,7 @@ fn figure(
     for step in &mixture.steps {
         let from = if step.sample.is_some() { MixingRow::Measured } else { MixingRow::Spectrum };
         for way in MixingRow::ALL {
-            let Some(look) = step.colours[way as usize] else { continue };
+            let Some(look) = step.colors[way as usize] else { continue };
             let error = step.errors[way as usize];
             let own: [Cell; 5] = [
                 (100.0 * step.share).into(),
@@ -114,7 +114,7 @@ fn figure(
 
 fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
     let shown =
-        |way: &MixingRow| mixture.steps.iter().any(|step| step.colours[*way as usize].is_some());
+        |way: &MixingRow| mixture.steps.iter().any(|step| step.colors[*way as usize].is_some());
     let ways: Vec<MixingRow> = MixingRow::ALL.into_iter().filter(shown).collect();
     let step_width = (f64::from(WIDTH) - NAME - MEAN) / mixture.steps.len() as f64;
     let mut canvas = Canvas::new(WIDTH, (HEAD + ROW * ways.len() as f64).ceil() as u32);
@@ -136,19 +136,19 @@ fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
         canvas.text((NAME - 8.0, y + PATCH / 2.0), TEXT, Anchor::End, INK, way.name());
         for (at, step) in mixture.steps.iter().enumerate() {
             let x = NAME + at as f64 * step_width;
-            if let Some(look) = &step.colours[way as usize] {
+            if let Some(look) = &step.colors[way as usize] {
                 rimmed(&mut canvas, (x + 1.0, y), (step_width - 2.0, PATCH), look);
             }
             if let Some(error) = step.errors[way as usize] {
-                let colour = if step.sample.is_some() { INK } else { FAINT };
+                let color = if step.sample.is_some() { INK } else { FAINT };
                 let at = (x + step_width / 2.0, y + PATCH + 9.0);
-                canvas.text(at, SMALL_TEXT, Anchor::Middle, colour, &format!("{error:.1}"));
+                canvas.text(at, SMALL_TEXT, Anchor::Middle, color, &format!("{error:.1}"));
             }
         }
-        for (measured, dy, colour) in [(true, 12.0, INK), (false, 28.0, FAINT)] {
+        for (measured, dy, color) in [(true, 12.0, INK), (false, 28.0, FAINT)] {
             let Some((mean, count)) = mixture.mean_error(way, measured) else { continue };
             let told = format!("{mean:.2} of {count}");
-            canvas.text((right + 8.0, y + dy), SMALL_TEXT, Anchor::Start, colour, &told);
+            canvas.text((right + 8.0, y + dy), SMALL_TEXT, Anchor::Start, color, &told);
         }
     }
     canvas

@@ -1,7 +1,7 @@
 //! Colours under other lights, drawn.
 
 use calibrate::palette::{
-    ColourShift, Metamers, Palette, Recipe, TestLight, colour_shifts, metamers, test_lights,
+    ColorShift, Metamers, Palette, Recipe, TestLight, color_shifts, metamers, test_lights,
 };
 
 use super::cells::{columns, row};
@@ -38,7 +38,7 @@ fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) ->
     let paints = palette.paints();
     let recipes: Vec<Recipe> =
         paints.iter().flat_map(|&p| [vec![(p, 1.0)], palette.tint(p, TINT)]).collect();
-    let shifts = colour_shifts(palette, lights, &recipes);
+    let shifts = color_shifts(palette, lights, &recipes);
     let first = &lights[0].name;
     let own = [
         Column::words("mixture"),
@@ -48,7 +48,7 @@ fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) ->
     let mut data = Table::new(columns(own));
     for shift in &shifts {
         let name = palette.recipe_label(&shift.recipe);
-        for (light, (look, far)) in lights.iter().zip(shift.colours.iter().zip(&shift.shifts)) {
+        for (light, (look, far)) in lights.iter().zip(shift.colors.iter().zip(&shift.shifts)) {
             let own = [name.as_str().into(), light.name.as_str().into(), (*far).into()];
             data.push(row(own, look));
         }
@@ -70,7 +70,7 @@ fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) ->
 }
 
 /// Masstone and tint of each pigment, in two blocks side by side.
-fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColourShift]) -> Canvas {
+fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColorShift]) -> Canvas {
     const NAME: f64 = 160.0;
     const ROW: f64 = 40.0;
     const HEAD: f64 = 40.0;
@@ -101,7 +101,7 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColourShift]) ->
         for (which, shift) in pair.iter().enumerate() {
             let x = x + which as f64 * group;
             rim(&mut canvas, (x, y), (side * lights.len() as f64, 22.0));
-            for (place, (look, far)) in shift.colours.iter().zip(&shift.shifts).enumerate() {
+            for (place, (look, far)) in shift.colors.iter().zip(&shift.shifts).enumerate() {
                 let left = x + place as f64 * side;
                 patch(&mut canvas, (left, y), (side, 22.0), look);
                 if place > 0 {
@@ -138,7 +138,7 @@ fn parting(
                 pair.differences[at].into(),
                 pair.indices[at].into(),
             ];
-            data.push(row(own, &pair.colours[at][which]));
+            data.push(row(own, &pair.colors[at][which]));
         }
     }
     let caption = format!(
@@ -174,7 +174,7 @@ fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
             let at = (NAME - 10.0, y + 10.0 + 18.0 * line as f64);
             canvas.text(at, SMALL_TEXT, Anchor::End, INK, &name);
         }
-        for (place, looks) in pair.colours.iter().enumerate() {
+        for (place, looks) in pair.colors.iter().enumerate() {
             let x = NAME + place as f64 * each;
             rim(&mut canvas, (x, y), (2.0 * half, 36.0));
             patch(&mut canvas, (x, y), (half, 36.0), &looks[0]);

@@ -43,7 +43,7 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let mut data = Table::new(columns(own));
     for (i, first) in names.iter().enumerate() {
         for (j, second) in names.iter().enumerate().skip(i) {
-            for (parts, looks) in [(0.0, &chart.colours), (CHART_TINT, &chart.tinted)] {
+            for (parts, looks) in [(0.0, &chart.colors), (CHART_TINT, &chart.tinted)] {
                 let own = [first.as_str().into(), second.as_str().into(), parts.into()];
                 data.push(row(own, &looks[i][j]));
             }
@@ -63,9 +63,9 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         for j in 0..count {
             let at = (NAME + j as f64 * cell, head + i as f64 * cell);
             if i == j {
-                patch(&mut canvas, at, (cell, cell), &chart.colours[i][i]);
+                patch(&mut canvas, at, (cell, cell), &chart.colors[i][i]);
             } else {
-                let looks = if j < i { &chart.colours } else { &chart.tinted };
+                let looks = if j < i { &chart.colors } else { &chart.tinted };
                 let at = (at.0 + 1.0, at.1 + 1.0);
                 patch(&mut canvas, at, (cell - 2.0, cell - 2.0), &looks[i][j]);
             }
@@ -109,7 +109,7 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         let name = subject.label(ladder.paint);
         let shown = shortened(&name, TEXT, NAME - 12.0);
         canvas.text((x - 8.0, y + ROW / 2.0), TEXT, Anchor::End, INK, &shown);
-        for (place, (parts, look)) in TINTS.iter().zip(&ladder.colours).enumerate() {
+        for (place, (parts, look)) in TINTS.iter().zip(&ladder.colors).enumerate() {
             let at = (x + place as f64 * step, y + 2.0);
             rimmed(&mut canvas, at, (step, ROW - 5.0), look);
             data.push(row([name.as_str().into(), (*parts).into()], look));

@@ -2,7 +2,7 @@
 
 use calibrate::palette::Appearance;
 
-use crate::style::{Colour, GRID, PAPER};
+use crate::style::{Color, GRID, PAPER};
 use crate::svg::Canvas;
 
 const NOTCH: f64 = 6.0;
@@ -10,7 +10,7 @@ const NOTCH: f64 = 6.0;
 /// A patch of a colour, `at` its upper left corner, in px; a corner is cut out
 /// where sRGB cannot show the colour.
 pub(super) fn patch(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look: &Appearance) {
-    canvas.rectangle(at, size, Colour::shown(look.srgb));
+    canvas.rectangle(at, size, Color::shown(look.srgb));
     if !look.srgb.in_gamut() {
         canvas.rectangle((at.0 + size.0 - NOTCH, at.1), (NOTCH, NOTCH), PAPER);
     }
@@ -23,7 +23,7 @@ pub(super) fn notched_below(
     size: (f64, f64),
     look: &Appearance,
 ) {
-    canvas.rectangle(at, size, Colour::shown(look.srgb));
+    canvas.rectangle(at, size, Color::shown(look.srgb));
     if !look.srgb.in_gamut() {
         let corner = (at.0 + size.0 - NOTCH, at.1 + size.1 - NOTCH);
         canvas.rectangle(corner, (NOTCH, NOTCH), PAPER);

@@ -201,9 +201,9 @@ mod tests {
 
     #[test]
     fn the_residuals_make_up_ciede2000_at_any_distance() {
-        let colours =
+        let colors =
             [(5.0, 8.0, 1.0), (50.0, -30.0, 20.0), (90.0, 3.0, -60.0), (30.0, 60.0, -40.0)];
-        let labs = colours.map(|(lightness, a, b)| Lab { lightness, a, b });
+        let labs = colors.map(|(lightness, a, b)| Lab { lightness, a, b });
         for first in labs {
             for second in labs {
                 let made =

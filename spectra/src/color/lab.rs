@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_numbers_are_a_colour_and_nothing_else_is() {
+    fn three_numbers_are_a_color_and_nothing_else_is() {
         let wanted = Some(Lab { lightness: 52.0, a: -10.5, b: 8.0 });
         for text in ["52,-10.5,8", "52 -10.5 8", "lab(52, -10.5, 8)", " LAB(52,-10.5,8) "] {
             assert_eq!(Lab::from_text(text), wanted, "{text}");

@@ -4,7 +4,7 @@
 
 use super::bytes::{Bytes, put_units, units};
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColour};
+use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::{Lab, Rgb};
 
 const RGB: u16 = 0;
@@ -27,7 +27,7 @@ pub fn write_aco(palette: &Palette) -> Result<Vec<u8>, SwatchFileError> {
         bytes.extend(version.to_be_bytes());
         bytes.extend(count.to_be_bytes());
         for swatch in &palette.swatches {
-            let (space, values) = words(swatch.colour);
+            let (space, values) = words(swatch.color);
             bytes.extend(space.to_be_bytes());
             bytes.extend(values.iter().flat_map(|word| word.to_be_bytes()));
             if version == 2 {
@@ -41,19 +41,19 @@ pub fn write_aco(palette: &Palette) -> Result<Vec<u8>, SwatchFileError> {
 }
 
 /// The space and the four words of a colour.
-fn words(colour: SwatchColour) -> (u16, [u16; 4]) {
+fn words(color: SwatchColor) -> (u16, [u16; 4]) {
     let share = |v: f64| (v.clamp(0.0, 1.0) * 65535.0).round() as u16;
     // Hundredths, those below 0 as two's complement.
     let hundredths = |v: f64| ((v * 100.0).round().clamp(-12800.0, 12700.0) as i16) as u16;
-    match colour {
-        SwatchColour::Rgb(Rgb([r, g, b])) => (RGB, [share(r), share(g), share(b), 0]),
-        SwatchColour::Lab(lab) => {
+    match color {
+        SwatchColor::Rgb(Rgb([r, g, b])) => (RGB, [share(r), share(g), share(b), 0]),
+        SwatchColor::Lab(lab) => {
             let lightness = (lab.lightness * 100.0).round().clamp(0.0, 10000.0) as u16;
             (LAB, [lightness, hundredths(lab.a), hundredths(lab.b), 0])
         }
         // Counted from full ink.
-        SwatchColour::Cmyk(inks) => (CMYK, inks.map(|ink| share(1.0 - ink))),
-        SwatchColour::Grey(grey) => {
+        SwatchColor::Cmyk(inks) => (CMYK, inks.map(|ink| share(1.0 - ink))),
+        SwatchColor::Grey(grey) => {
             (GREY, [(grey.clamp(0.0, 1.0) * 10000.0).round() as u16, 0, 0, 0])
         }
     }
@@ -89,7 +89,7 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<Palette, SwatchFileErr
         let space = bytes.u16("a colour space")?;
         let mut word = || bytes.u16("a colour of four words");
         let words = [word()?, word()?, word()?, word()?];
-        let colour = colour(space, words)
+        let color = color(space, words)
             .ok_or_else(|| bytes.wrong(offset, "RGB, HSB, CMYK, Lab or grey", space))?;
         let name = if version == 2 {
             let length = bytes.u32("the length of a name")?;
@@ -97,25 +97,25 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<Palette, SwatchFileErr
         } else {
             String::new()
         };
-        palette.swatches.push(Swatch { name, group: String::new(), colour });
+        palette.swatches.push(Swatch { name, group: String::new(), color });
     }
     Ok(palette)
 }
 
 /// `None` for a space such as a book of spot colours.
-fn colour(space: u16, words: [u16; 4]) -> Option<SwatchColour> {
+fn color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
     let hundredths = |word: u16| f64::from(word as i16) / 100.0;
     Some(match space {
-        RGB => SwatchColour::Rgb(Rgb([shares[0], shares[1], shares[2]])),
-        HSB => SwatchColour::Rgb(rgb_from_hsb(shares[0], shares[1], shares[2])),
-        CMYK => SwatchColour::Cmyk(shares.map(|share| 1.0 - share)),
-        LAB => SwatchColour::Lab(Lab {
+        RGB => SwatchColor::Rgb(Rgb([shares[0], shares[1], shares[2]])),
+        HSB => SwatchColor::Rgb(rgb_from_hsb(shares[0], shares[1], shares[2])),
+        CMYK => SwatchColor::Cmyk(shares.map(|share| 1.0 - share)),
+        LAB => SwatchColor::Lab(Lab {
             lightness: f64::from(words[0]) / 100.0,
             a: hundredths(words[1]),
             b: hundredths(words[2]),
         }),
-        GREY => SwatchColour::Grey(f64::from(words[0]) / 10000.0),
+        GREY => SwatchColor::Grey(f64::from(words[0]) / 10000.0),
         _ => return None,
     })
 }

@@ -5,10 +5,10 @@
 
 use super::bytes::{Bytes, put_units, units};
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColour};
+use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::{Lab, Rgb};
 
-const COLOUR: u16 = 0x0001;
+const COLOR: u16 = 0x0001;
 const GROUP_START: u16 = 0xc001;
 const GROUP_END: u16 = 0xc002;
 /// A colour that changes no other when changed.
@@ -35,11 +35,11 @@ pub fn write_ase(palette: &Palette) -> Result<Vec<u8>, SwatchFileError> {
             open = &swatch.group;
         }
         let mut block = name(&swatch.name)?;
-        let (model, values) = model(swatch.colour);
+        let (model, values) = model(swatch.color);
         block.extend(model);
         block.extend(values.iter().flat_map(|value| (*value as f32).to_be_bytes()));
         block.extend(NORMAL.to_be_bytes());
-        blocks.push((COLOUR, block));
+        blocks.push((COLOR, block));
     }
     if !open.is_empty() {
         blocks.push((GROUP_END, Vec::new()));
@@ -61,12 +61,12 @@ fn name(text: &str) -> Result<Vec<u8>, SwatchFileError> {
     Ok(bytes)
 }
 
-fn model(colour: SwatchColour) -> Model<'static> {
-    match colour {
-        SwatchColour::Rgb(Rgb(rgb)) => (b"RGB ", rgb.map(|v| v.clamp(0.0, 1.0)).to_vec()),
-        SwatchColour::Lab(lab) => (b"LAB ", vec![lab.lightness / 100.0, lab.a, lab.b]),
-        SwatchColour::Cmyk(inks) => (b"CMYK", inks.to_vec()),
-        SwatchColour::Grey(grey) => (b"Gray", vec![grey]),
+fn model(color: SwatchColor) -> Model<'static> {
+    match color {
+        SwatchColor::Rgb(Rgb(rgb)) => (b"RGB ", rgb.map(|v| v.clamp(0.0, 1.0)).to_vec()),
+        SwatchColor::Lab(lab) => (b"LAB ", vec![lab.lightness / 100.0, lab.a, lab.b]),
+        SwatchColor::Cmyk(inks) => (b"CMYK", inks.to_vec()),
+        SwatchColor::Grey(grey) => (b"Gray", vec![grey]),
     }
 }
 
@@ -92,10 +92,10 @@ pub fn read_ase(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
         match kind {
             GROUP_START => group = text(&mut block)?,
             GROUP_END => group.clear(),
-            COLOUR => {
+            COLOR => {
                 let name = text(&mut block)?;
-                let colour = colour(&mut block)?;
-                palette.swatches.push(Swatch { name, group: group.clone(), colour });
+                let color = color(&mut block)?;
+                palette.swatches.push(Swatch { name, group: group.clone(), color });
             }
             _ => {}
         }
@@ -108,17 +108,17 @@ fn text(block: &mut Bytes<'_>) -> Result<String, SwatchFileError> {
     block.text(count.into())
 }
 
-fn colour(block: &mut Bytes<'_>) -> Result<SwatchColour, SwatchFileError> {
+fn color(block: &mut Bytes<'_>) -> Result<SwatchColor, SwatchFileError> {
     let model = block.part(4, "a colour model")?;
     let mut value = || block.f32("a number");
     Ok(match model.rest {
-        b"RGB " => SwatchColour::Rgb(Rgb([value()?, value()?, value()?])),
+        b"RGB " => SwatchColor::Rgb(Rgb([value()?, value()?, value()?])),
         b"LAB " => {
             let lightness = value()? * 100.0;
-            SwatchColour::Lab(Lab { lightness, a: value()?, b: value()? })
+            SwatchColor::Lab(Lab { lightness, a: value()?, b: value()? })
         }
-        b"CMYK" => SwatchColour::Cmyk([value()?, value()?, value()?, value()?]),
-        b"Gray" => SwatchColour::Grey(value()?),
+        b"CMYK" => SwatchColor::Cmyk([value()?, value()?, value()?, value()?]),
+        b"Gray" => SwatchColor::Grey(value()?),
         other => {
             let found = other.escape_ascii();
             return Err(block.wrong(model.offset, "RGB, LAB, CMYK or Gray", found));

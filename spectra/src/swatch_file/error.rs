@@ -29,7 +29,7 @@ pub enum SwatchFileError {
     },
     /// A colour that the format cannot hold.
     #[error("{format} holds no such colour as that of `{name}`")]
-    Colour {
+    Color {
         /// The format.
         format: &'static str,
         /// The swatch.

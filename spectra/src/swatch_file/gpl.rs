@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColour};
+use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::Rgb;
 
 const HEAD: &str = "GIMP Palette";
@@ -14,15 +14,15 @@ const HEAD: &str = "GIMP Palette";
 /// control characters of names become spaces.
 ///
 /// # Errors
-/// [`SwatchFileError::Colour`] for inks.
+/// [`SwatchFileError::Color`] for inks.
 pub fn write_gpl(palette: &Palette) -> Result<String, SwatchFileError> {
     let name = one_line(&palette.name);
     let mut text = format!("{HEAD}\nName: {name}\nColumns: 0\n#\n");
     for swatch in &palette.swatches {
         let rgb = swatch
-            .colour
+            .color
             .srgb()
-            .ok_or_else(|| SwatchFileError::Colour { format: ".gpl", name: swatch.name.clone() })?;
+            .ok_or_else(|| SwatchFileError::Color { format: ".gpl", name: swatch.name.clone() })?;
         let [r, g, b] = rgb.to_bytes();
         let name = one_line(&swatch.name);
         writeln!(text, "{r:3} {g:3} {b:3}\t{name}").expect("text takes a line");
@@ -71,7 +71,7 @@ pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
             palette.swatches.push(Swatch {
                 name: rest.to_owned(),
                 group: String::new(),
-                colour: SwatchColour::Rgb(Rgb(channels)),
+                color: SwatchColor::Rgb(Rgb(channels)),
             });
         }
     }

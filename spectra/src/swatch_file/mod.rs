@@ -25,4 +25,4 @@ pub use aco::{read_aco, write_aco};
 pub use ase::{read_ase, write_ase};
 pub use error::SwatchFileError;
 pub use gpl::{read_gpl, write_gpl};
-pub use palette::{Palette, Swatch, SwatchColour, d50_white};
+pub use palette::{Palette, Swatch, SwatchColor, d50_white};

@@ -9,7 +9,7 @@ use crate::observer::Observer;
 
 /// A colour as a palette holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SwatchColour {
+pub enum SwatchColor {
     /// Encoded RGB, 0..1; sRGB unless one knows better.
     Rgb(Rgb),
     /// CIELAB under D50 ([`d50_white`]).
@@ -20,7 +20,7 @@ pub enum SwatchColour {
     Grey(f64),
 }
 
-impl SwatchColour {
+impl SwatchColor {
     /// The colour in sRGB, not cut off at the gamut; none for inks.
     #[must_use]
     pub fn srgb(self) -> Option<Rgb> {
@@ -54,7 +54,7 @@ pub struct Swatch {
     /// The group it stands in; empty for none. Only `.ase` has groups.
     pub group: String,
     /// Its colour.
-    pub colour: SwatchColour,
+    pub color: SwatchColor,
 }
 
 /// Named colours in order.

@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     two_lights(&mut window);
     save(&mut window, &folder, "studio-lights")?;
     window.studio_mut().ask(Command::SecondLight(None));
-    colours(&mut window)?;
+    colors(&mut window)?;
     save(&mut window, &folder, "studio-colour")?;
     window.studio_mut().panels.reference.close();
     layers(&mut window);
@@ -101,7 +101,7 @@ fn two_lights(window: &mut Window) {
 }
 
 /// A colour of the photograph beside the study is matched.
-fn colours(window: &mut Window) -> Result<(), Box<dyn Error>> {
+fn colors(window: &mut Window) -> Result<(), Box<dyn Error>> {
     let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/still-life.png");
     let context = window.harness().ctx.clone();
     window.studio_mut().panels.reference.open(&context, &photograph);

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use pigment::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
-use render::paint::ground::{ColourPrimer, GroundRelief, GroundSpec, Linen, Primer};
+use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{BrushSpec, Canvas};
-use session::{Command, Origin, bare, oils};
+use session::{Command, Origin, bare};
 
 use crate::hand::{Hand, Place};
 
@@ -18,12 +19,14 @@ const EDGE: f64 = 31.0;
 
 /// A toned linen, stiff paint, and light from low at the left.
 pub(crate) fn begun() -> Command {
-    let Origin::Bare { mut script, library } = bare(oils(), WIDTH, HEIGHT, 0.1) else {
+    let Origin::Bare { mut script, library } =
+        bare(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
+    else {
         unreachable!("a bare canvas is bare");
     };
     script.title = "Two pears and a plum".to_owned();
     let linen = Linen { seed: 7, threads_per_cm: 16.0, relief_mm: 0.05 };
-    let primer = Primer::Colour(ColourPrimer { rgb: "#c39a6b".to_owned() });
+    let primer = Primer::Color(ColorPrimer { rgb: "#c39a6b".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     script.canvas = Canvas { ground, ..script.canvas };
     script.medium = Some(Medium { scattering_per_mm: 300.0, ..Medium::default() });

@@ -9,9 +9,6 @@ use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Strokes};
 
 use super::command::{Command, Origin};
 
-/// The oils that come with the program.
-const OILS: &str = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-
 /// Squeezed out at first: white, a cool and a warm one of each primary, black.
 const TUBES: [&str; 8] = [
     "Zinc White",
@@ -33,13 +30,6 @@ const STAND: [(&str, HeadShape, f64); 6] = [
     ("fan", HeadShape::Fan, 12.0),
     ("knife", HeadShape::Knife, 14.0),
 ];
-
-/// The library of Van Gogh's oils, built in.
-#[must_use]
-pub fn oils() -> PigmentLibrary {
-    let library = PigmentLibrary::from_json("van-gogh-oils.pigments.json", OILS);
-    library.expect("the built-in library is sound")
-}
 
 /// The brushes that stand there at first.
 #[must_use]
@@ -90,7 +80,10 @@ pub fn fresh() -> Vec<Command> {
         vehicle: 0.15,
         amount_mm: 0.3,
     };
-    vec![Command::Open(bare(oils(), 192.0, 108.0, 0.1)), Command::Act(Action::Load(paint))]
+    vec![
+        Command::Open(bare(PigmentLibrary::van_gogh_oils(), 192.0, 108.0, 0.1)),
+        Command::Act(Action::Load(paint)),
+    ]
 }
 
 #[cfg(test)]
@@ -117,7 +110,7 @@ mod tests {
 
     #[test]
     fn another_library_opens_with_its_white_and_what_can_be_mixed() {
-        let mut library = oils();
+        let mut library = PigmentLibrary::van_gogh_oils();
         library.pigments.retain(|pigment| pigment.name != "Vermilion");
         library.pigments[3].identified = false;
         let Origin::Bare { script, .. } = bare(library, 20.0, 10.0, 0.1) else {

@@ -20,7 +20,7 @@ mod srgb;
 
 mod tiles;
 
-mod colours;
+mod colors;
 
 mod thumbnail;
 
@@ -62,6 +62,6 @@ pub use autosave::{LostSession, Session, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};
 pub use event::{Event, HeadOnCanvas, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
-pub use fresh::{bare, brushes, fresh, mixing, oils};
+pub use fresh::{bare, brushes, fresh, mixing};
 pub use state::{BrushState, EaselState, Figures, LayerState, Thumbnail};
 pub use thread::{Worker, WorkerOptions};

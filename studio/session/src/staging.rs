@@ -162,7 +162,9 @@ mod tests {
     use render::paint::strokes::{Action, Squeeze, Surface};
 
     use super::super::backend::Backend;
-    use super::super::fresh::{bare, oils};
+    use pigment::library::PigmentLibrary;
+
+    use super::super::fresh::bare;
     use super::super::inbox::Inbox;
     use super::*;
 
@@ -174,7 +176,7 @@ mod tests {
         let (_say, heard) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
         let mut workshop = Workshop::new(Inbox::new(heard), backend, 1 << 24, &tell);
-        workshop.open(bare(oils(), 6.0, 5.0, 0.1));
+        workshop.open(bare(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
             on: Surface::Canvas,
             recipe: [("Vermilion".to_owned(), 1.0)].into(),

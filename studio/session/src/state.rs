@@ -49,7 +49,7 @@ pub struct BrushState {
     /// Parts by slot of the palette, summing to 1; all 0 without pigment.
     pub parts: [f64; render::layer::SLOTS],
     /// sRGB of its mixture in a film that hides, if it has pigment.
-    pub colour: Option<[u8; 3]>,
+    pub color: Option<[u8; 3]>,
 }
 
 /// Everything about the painting but its pixels.

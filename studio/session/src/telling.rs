@@ -9,7 +9,7 @@ use render::light::Light;
 use render::paint::easel::{Easel, EaselError};
 use render::paint::strokes::{BrushSpec, Surface};
 
-use super::colours::Colours;
+use super::colors::Colors;
 use super::layers::Layers;
 use super::opening::Opened;
 use super::srgb::SrgbBytes;
@@ -18,7 +18,7 @@ use super::state::{BrushState, EaselState};
 /// What is kept from one telling to the next.
 #[derive(Debug)]
 pub(super) struct Teller {
-    colours: Colours,
+    colors: Colors,
     pub(super) layers: Layers,
     /// Paint on brushes by name, as heights in mm; cleared when it may have
     /// changed.
@@ -36,8 +36,8 @@ pub(super) struct Beside {
 impl Teller {
     pub(super) fn new(opened: &Opened) -> Self {
         let light = Arc::clone(opened.easel.canvas().light());
-        let colours = Colours::new(Arc::clone(&opened.library), light);
-        Self { colours, layers: Layers::default(), brushes: BTreeMap::new() }
+        let colors = Colors::new(Arc::clone(&opened.library), light);
+        Self { colors, layers: Layers::default(), brushes: BTreeMap::new() }
     }
 
     /// All of it, as it is now.
@@ -52,8 +52,8 @@ impl Teller {
     ) -> Result<EaselState, EaselError> {
         let Opened { easel, library, ground, .. } = opened;
         let light: Arc<Light> = Arc::clone(easel.canvas().light());
-        if !self.colours.are_of(library, &light) {
-            self.colours = Colours::new(Arc::clone(library), Arc::clone(&light));
+        if !self.colors.are_of(library, &light) {
+            self.colors = Colors::new(Arc::clone(library), Arc::clone(&light));
         }
         let brushes = self.stand(easel)?;
         let palette = easel.painting(Surface::Palette).map(|palette| palette.bounds());
@@ -70,8 +70,8 @@ impl Teller {
             cell_mm: canvas.cell_mm(),
             library: Arc::clone(library),
             slots,
-            masstones: self.colours.masstones(&slots),
-            tints: self.colours.tints(&slots),
+            masstones: self.colors.masstones(&slots),
+            tints: self.colors.tints(&slots),
             layers: self.layers.states(canvas, bytes),
             lighting: canvas.state().lighting.clone(),
             light,
@@ -108,7 +108,7 @@ impl Teller {
             let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
             let parts = std::array::from_fn(|slot| share(pigments, heights[slot]));
             stand.push(BrushState {
-                colour: self.colours.of_slots(&slots, &parts),
+                color: self.colors.of_slots(&slots, &parts),
                 vehicle: share(amount_mm, heights[SLOTS]),
                 name,
                 spec,

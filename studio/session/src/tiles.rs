@@ -26,7 +26,7 @@ pub(super) fn encoded<E: Send>(
             let mut pixels = Vec::with_capacity(rect.width * rect.height);
             for y in 0..rect.height {
                 let row = picture.row(rect.y - run.y + y, rect.x - run.x, rect.width);
-                pixels.extend(row.iter().map(|&colour| bytes.pixel(colour)));
+                pixels.extend(row.iter().map(|&color| bytes.pixel(color)));
             }
             TilePixels { rect, pixels }
         });
@@ -60,11 +60,11 @@ mod tests {
 
     /// Colours of all kinds, in gamut and out of it.
     fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
-        let colour = |index: usize| {
+        let color = |index: usize| {
             let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
             [value(1), value(31), value(577), 1.0]
         };
-        Field::from_values(width, height, (0..width * height).map(colour).collect())
+        Field::from_values(width, height, (0..width * height).map(color).collect())
     }
 
     fn part(picture: &Field<[f32; 4]>, rect: Rect) -> Field<[f32; 4]> {

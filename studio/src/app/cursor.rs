@@ -59,7 +59,7 @@ impl Studio {
     fn brush(&mut self, ui: &Ui, easel: &EaselState) {
         let look = |name: &str| {
             let brush = easel.brushes.iter().find(|brush| brush.name == name);
-            HeadLook::under(&easel.lighting, brush.and_then(|brush| brush.colour))
+            HeadLook::under(&easel.lighting, brush.and_then(|brush| brush.color))
         };
         if let Some(head) = &self.head {
             self.view(head.surface).show_head(ui, head, look(&self.tools.brush));
@@ -87,15 +87,15 @@ impl Studio {
         let Some(point) = ui.input(|input| input.pointer.hover_pos()) else { return };
         let over = |surface: &Surface| self.view(*surface).place(point).is_some();
         let Some(surface) = self.surfaces_shown().into_iter().find(over) else { return };
-        let Some(colour) = self.colour_at(surface, point) else { return };
+        let Some(color) = self.color_at(surface, point) else { return };
         let painter = ui.painter_at(self.view(surface).room());
         painter.circle_stroke(point, RING + 6.0, Stroke::new(6.0, theme::SURROUND));
-        painter.circle_stroke(point, RING, Stroke::new(8.0, colour));
+        painter.circle_stroke(point, RING, Stroke::new(8.0, color));
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
     }
 
     /// The colour on the screen of the cell at a point of the window.
-    fn colour_at(&self, surface: Surface, point: Pos2) -> Option<Color32> {
+    fn color_at(&self, surface: Surface, point: Pos2) -> Option<Color32> {
         let view = self.view(surface);
         let [x, y] = view.place(point)?;
         let beyond = x >= f64::from(self.tools.split) * view.cells().0 as f64;

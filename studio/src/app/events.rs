@@ -42,7 +42,7 @@ impl Studio {
             Event::Figures(figures) => self.figures = figures,
             Event::Picked(picked) => {
                 self.tools.picked = Some(picked);
-                self.panels.bring(Tab::Colour);
+                self.panels.bring(Tab::Color);
             }
             Event::Recording { number, .. } => self.answered = Some(number),
             // Of the files.

@@ -23,11 +23,11 @@ enum Mark {
 use Mark::{Arc, Filled, Line};
 
 /// Draws the icon of an intent in the middle of a button; whether it has one.
-pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, colour: Color32) -> bool {
+pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, color: Color32) -> bool {
     let marks = marks(intent);
     let corner = button.center() - eframe::egui::Vec2::splat(0.5 * SQUARE);
     let place = |&(x, y): &(f32, f32)| corner + eframe::egui::vec2(x, y);
-    let stroke = Stroke::new(1.5, colour);
+    let stroke = Stroke::new(1.5, color);
     for mark in marks {
         match mark {
             Line(places) => {
@@ -35,7 +35,7 @@ pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, colour: Colo
             }
             Filled(places) => {
                 let shape = places.iter().map(place).collect();
-                painter.add(Shape::convex_polygon(shape, colour, Stroke::NONE));
+                painter.add(Shape::convex_polygon(shape, color, Stroke::NONE));
             }
             Arc(middle, radius, from, to) => {
                 let middle = place(middle);

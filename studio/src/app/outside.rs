@@ -36,7 +36,7 @@ impl Studio {
         for path in dropped {
             if Eyedropper::takes(&path) {
                 self.panels.eyedropper.open_swatches(&path);
-                self.panels.bring(Tab::Colour);
+                self.panels.bring(Tab::Color);
                 continue;
             }
             self.asked.push(Request::File(FileRequest::Open(Some(path))));

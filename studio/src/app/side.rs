@@ -26,7 +26,7 @@ pub enum Tab {
     /// The light.
     Light,
     /// What was picked, and recipes for a colour.
-    Colour,
+    Color,
     /// What was done.
     History,
     /// Revisions.
@@ -38,7 +38,7 @@ impl Tab {
     const UPPER: [Self; 2] = [Self::Brush, Self::Layers];
 
     /// What is looked at now and then.
-    const LOWER: [Self; 4] = [Self::Light, Self::Colour, Self::History, Self::Files];
+    const LOWER: [Self; 4] = [Self::Light, Self::Color, Self::History, Self::Files];
 
     /// Its name.
     #[must_use]
@@ -47,7 +47,7 @@ impl Tab {
             Self::Brush => "Brush",
             Self::Layers => "Layers",
             Self::Light => "Light",
-            Self::Colour => "Colour",
+            Self::Color => "Colour",
             Self::History => "History",
             Self::Files => "Files",
         }
@@ -58,7 +58,7 @@ impl Tab {
             Self::Brush => "The stand, the head of the brush, its paint",
             Self::Layers => "Wet and dry paint",
             Self::Light => "The light, the gloss, and a second light to compare",
-            Self::Colour => "What lies where the eyedropper asked, and recipes for a colour",
+            Self::Color => "What lies where the eyedropper asked, and recipes for a colour",
             Self::History => "What was done, to go back to",
             Self::Files => "Numbered revisions of the painting",
         }
@@ -143,7 +143,7 @@ impl Panels {
             Tab::Brush => self.brushes.show(ui, desk),
             Tab::Layers => self.layers.show(ui, desk),
             Tab::Light => self.light.show(ui, desk),
-            Tab::Colour => self.eyedropper.show(ui, desk),
+            Tab::Color => self.eyedropper.show(ui, desk),
             Tab::History => self.history.show(ui, desk),
             Tab::Files => revisions::show(ui, desk, &files.revisions),
         });

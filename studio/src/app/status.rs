@@ -66,8 +66,8 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
                 .hint
                 .as_ref()
                 .map_or_else(|| message.text.clone(), |hint| format!("{}: {hint}", message.text));
-            let colour = if message.failed { theme::STRONG } else { theme::TEXT };
-            let mut text = RichText::new(&words).color(colour);
+            let color = if message.failed { theme::STRONG } else { theme::TEXT };
+            let mut text = RichText::new(&words).color(color);
             if message.failed {
                 text = text.strong();
             }

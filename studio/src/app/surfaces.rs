@@ -63,7 +63,7 @@ impl Studio {
                     let before = self.tools.wanted;
                     self.with_desk(|panels, desk| panels.reference.show(ui, desk));
                     if self.tools.wanted != before {
-                        self.panels.bring(Tab::Colour);
+                        self.panels.bring(Tab::Color);
                     }
                 });
         }

@@ -75,8 +75,8 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
             (false, false) => theme::BAR,
         };
         ui.painter().rect(rect, theme::ROUND, fill, Stroke::NONE, eframe::egui::StrokeKind::Inside);
-        let colour = if chosen { theme::STRONG } else { look.fg_stroke.color };
-        icons::draw(ui.painter(), rect, intent, colour);
+        let color = if chosen { theme::STRONG } else { look.fg_stroke.color };
+        icons::draw(ui.painter(), rect, intent, color);
         let response = response.on_hover_ui(|ui| tip(ui, entry)).on_disabled_hover_ui(|ui| {
             tip(ui, entry);
         });

@@ -14,7 +14,7 @@ use super::notices::Notice;
 use super::revisions;
 use super::state::{Files, Reference, Then};
 use super::work::name;
-use session::{EaselState, Origin, bare, oils};
+use session::{EaselState, Origin, bare};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
@@ -102,7 +102,8 @@ impl Files {
                     let canvas = painting.canvas();
                     let (width, height) = (canvas.width_mm, canvas.height_mm);
                     let same = painting.same_pigments;
-                    let library = if same { (**library).clone() } else { oils() };
+                    let library =
+                        if same { (**library).clone() } else { PigmentLibrary::van_gogh_oils() };
                     if let Origin::Bare { mut script, library } =
                         bare(library, width, height, canvas.cell_mm)
                     {

@@ -14,7 +14,6 @@ use spectra::lamp_from_bytes;
 
 use super::job::{Progress, Stopped};
 use session::FileFailure;
-use session::oils;
 
 /// What a file was opened as.
 #[derive(Debug, Clone, PartialEq)]
@@ -194,7 +193,7 @@ fn named_library(
     folder: &Path,
     remarks: &mut Vec<FileFailure>,
 ) -> Result<PigmentLibrary, FileFailure> {
-    let built_in = oils();
+    let built_in = PigmentLibrary::van_gogh_oils();
     let Some(named) = script.library.as_ref().filter(|named| **named != built_in.title) else {
         return Ok(built_in);
     };
@@ -243,7 +242,7 @@ mod tests {
 
     #[test]
     fn kinds_are_found_by_content_whatever_the_name() {
-        let library = oils();
+        let library = PigmentLibrary::van_gogh_oils();
         let script = script();
         let resolved = script.resolve(&library).unwrap();
         let (width, height) = script.canvas.cells();
@@ -284,7 +283,7 @@ mod tests {
     #[test]
     fn a_recording_takes_the_files_beside_it() {
         let folder = tempfile::tempdir().unwrap();
-        let mut library = oils();
+        let mut library = PigmentLibrary::van_gogh_oils();
         library.title = "mine".to_owned();
         std::fs::write(folder.path().join("mine.json"), library.to_json()).unwrap();
         let mut script = script();
@@ -300,7 +299,7 @@ mod tests {
         assert_eq!(told(&script), (Box::new(script.clone()), Box::new(library), Vec::new()));
         script.library = Some("lost.json".to_owned());
         let (_, library, remarks) = told(&script);
-        assert_eq!((*library, remarks.len()), (oils(), 1));
+        assert_eq!((*library, remarks.len()), (PigmentLibrary::van_gogh_oils(), 1));
         script.library = None;
         script.start = Some("before.exr".to_owned());
         let (script, ..) = told(&script);

@@ -97,10 +97,10 @@ pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
 }
 
 /// A patch of colour; crossed out if there is none.
-pub(super) fn patch(painter: &Painter, rect: Rect, colour: Option<[u8; 3]>) {
+pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
     let line = Stroke::new(1.0, theme::WELL);
     let corners = CornerRadius::same(2);
-    match colour {
+    match color {
         Some([red, green, blue]) => {
             let fill = Color32::from_rgb(red, green, blue);
             painter.rect(rect, corners, fill, line, StrokeKind::Outside);
@@ -119,13 +119,13 @@ pub(super) fn text(
     rect: Rect,
     align: Align,
     style: egui::TextStyle,
-    colour: Color32,
+    color: Color32,
     words: &str,
 ) {
     let mut job = egui::text::LayoutJob::simple_singleline(
         words.to_owned(),
         style.resolve(ui.style()),
-        colour,
+        color,
     );
     job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width());
     let laid = ui.painter().layout_job(job);
@@ -135,7 +135,7 @@ pub(super) fn text(
         Align::Max => rect.right() - laid.size().x,
     };
     let at = egui::pos2(x, rect.center().y - laid.size().y / 2.0);
-    ui.painter_at(rect.expand(2.0)).galley(at, laid, colour);
+    ui.painter_at(rect.expand(2.0)).galley(at, laid, color);
 }
 
 /// A height in mm, to two digits.

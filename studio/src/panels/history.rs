@@ -47,11 +47,11 @@ impl History {
                     _ => desk.easel.history[place - 1].as_str(),
                 };
                 let response = row(ui, ROW, &format!("{place} {label}"), place == done);
-                let colour = if place > done { theme::FAINT } else { theme::TEXT };
+                let color = if place > done { theme::FAINT } else { theme::TEXT };
                 let inner = response.rect.shrink2(vec2(6.0, 0.0));
                 let (number, words) = inner.split_left_right_at_x(inner.left() + 34.0);
                 text(ui, number, Align::Min, TextStyle::Small, theme::FAINT, &place.to_string());
-                text(ui, words, Align::Min, TextStyle::Body, colour, label);
+                text(ui, words, Align::Min, TextStyle::Body, color, label);
                 if response.clicked() && place != done {
                     wanted = Some(place);
                 }

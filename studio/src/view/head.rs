@@ -53,8 +53,8 @@ pub(super) fn draw(painter: &Painter, placement: &Placement, head: &HeadOnCanvas
     let hair = tone(look.paint, 0.0);
     for (at, pair) in rings.windows(2).enumerate() {
         let along = (at + 1) as f32 / (rings.len() - 1) as f32;
-        let colour = mixed(hair, tone(look.paint, 1.0), along);
-        band(&mut facets, &pair[0], &pair[1], look.light, colour, 0.62);
+        let color = mixed(hair, tone(look.paint, 1.0), along);
+        band(&mut facets, &pair[0], &pair[1], look.light, color, 0.62);
     }
     let [collar, wood, end] = handle(&rings);
     band(&mut facets, &collar, &rings[0], look.light, [196.0; 3], 0.5);
@@ -65,7 +65,7 @@ pub(super) fn draw(painter: &Painter, placement: &Placement, head: &HeadOnCanvas
     for facet in &facets {
         let first = mesh.vertices.len() as u32;
         for place in facet.corners {
-            mesh.colored_vertex(screen(place), facet.colour);
+            mesh.colored_vertex(screen(place), facet.color);
         }
         mesh.add_triangle(first, first + 1, first + 2);
         mesh.add_triangle(first, first + 2, first + 3);
@@ -86,7 +86,7 @@ fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
 struct Facet {
     corners: [[f32; 3]; 4],
     height: f32,
-    colour: Color32,
+    color: Color32,
 }
 
 /// The facets between two rings that face the viewer.
@@ -95,7 +95,7 @@ fn band(
     upper: &Ring,
     lower: &Ring,
     light: [f32; 3],
-    colour: [f32; 3],
+    color: [f32; 3],
     alpha: f32,
 ) {
     let middle = mean(lower);
@@ -114,10 +114,10 @@ fn band(
         }
         let shine = dot(normal, light).max(0.0) / length;
         let bright = AMBIENT + (1.0 - AMBIENT) * shine;
-        let [red, green, blue] = colour.map(|part| (part * bright).clamp(0.0, 255.0) as u8);
+        let [red, green, blue] = color.map(|part| (part * bright).clamp(0.0, 255.0) as u8);
         let opaque = (alpha * 255.0) as u8;
-        let colour = Color32::from_rgba_unmultiplied(red, green, blue, opaque);
-        facets.push(Facet { corners, height: centre[2], colour });
+        let color = Color32::from_rgba_unmultiplied(red, green, blue, opaque);
+        facets.push(Facet { corners, height: centre[2], color });
     }
 }
 

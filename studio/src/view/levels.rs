@@ -33,11 +33,11 @@ pub(super) struct Levels {
 
 impl Levels {
     /// A picture of so many cells, all of one colour.
-    pub(super) fn new(width: usize, height: usize, colour: Color32) -> Self {
+    pub(super) fn new(width: usize, height: usize, color: Color32) -> Self {
         let mut levels = Vec::new();
         let (mut width, mut height) = (width.max(1), height.max(1));
         loop {
-            levels.push(Level { width, height, pixels: vec![colour; width * height] });
+            levels.push(Level { width, height, pixels: vec![color; width * height] });
             if width.max(height) <= SMALLEST {
                 return Self { levels };
             }
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_even_colour_is_the_same_at_every_level() {
+    fn an_even_color_is_the_same_at_every_level() {
         for value in 0..=255 {
             let mut levels = Levels::new(300, 2, Color32::BLACK);
             levels.write(levels.bounds(0), &[grey(value); 600]);

@@ -58,7 +58,7 @@ impl Outline {
         let outer = grown(&edge, SHADOW);
         let strip = (0..edge.len()).map(|at| {
             let next = (at + 1) % edge.len();
-            Quad::coloured([
+            Quad::colored([
                 (edge[at], SHADE),
                 (edge[next], SHADE),
                 (outer[next], theme::SURROUND),

@@ -91,7 +91,7 @@ pub(super) struct Corner {
     /// Where in the sheet, 0..1.
     pub(super) place: Pos2,
     /// Which colour, where there is no sheet.
-    pub(super) colour: Color32,
+    pub(super) color: Color32,
 }
 
 /// Four corners, one after the other around it.
@@ -104,21 +104,21 @@ pub(super) struct Quad {
 
 impl Quad {
     /// Four points, each in its colour; between them they blend.
-    pub(super) fn coloured(corners: [(Pos2, Color32); 4]) -> Self {
-        let corners = corners.map(|(point, colour)| Corner { point, place: Pos2::ZERO, colour });
+    pub(super) fn colored(corners: [(Pos2, Color32); 4]) -> Self {
+        let corners = corners.map(|(point, color)| Corner { point, place: Pos2::ZERO, color });
         Self { corners, sheet: None }
     }
 }
 
 /// Fills a rectangle, whatever its size, at little cost.
-pub fn fill(painter: &Painter, rect: Rect, colour: Color32) {
+pub fn fill(painter: &Painter, rect: Rect, color: Color32) {
     let rect = rect.intersect(painter.clip_rect());
     // On whole pixels, as egui draws rectangles.
     let density = painter.pixels_per_point();
     let even = |at: Pos2| pos2((at.x * density).round(), (at.y * density).round()) / density;
     let (min, max) = (even(rect.min), even(rect.max));
     let points = [min, pos2(max.x, min.y), max, pos2(min.x, max.y)];
-    draw(painter, vec![Quad::coloured(points.map(|point| (point, colour)))]);
+    draw(painter, vec![Quad::colored(points.map(|point| (point, color)))]);
 }
 
 /// Draws opaque quads, in order, within the painter's clip.
@@ -146,12 +146,12 @@ impl Job {
         for corner in
             self.quads.iter().flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|at| quad.corners[at]))
         {
-            let Corner { point, place, colour } = corner;
+            let Corner { point, place, color } = corner;
             let position = [2.0 * point.x / width - 1.0, 1.0 - 2.0 * point.y / height];
             for value in [position[0], position[1], place.x, place.y] {
                 bytes.extend(value.to_ne_bytes());
             }
-            bytes.extend(colour.to_array());
+            bytes.extend(color.to_array());
         }
         bytes
     }

@@ -7,7 +7,7 @@ override decodes: bool = false;
 struct Corner {
     @builtin(position) position: vec4<f32>,
     @location(0) place: vec2<f32>,
-    @location(1) colour: vec4<f32>,
+    @location(1) color: vec4<f32>,
 }
 
 @group(0) @binding(0) var cells: texture_2d<f32>;
@@ -17,17 +17,17 @@ struct Corner {
 fn corner(
     @location(0) position: vec2<f32>,
     @location(1) place: vec2<f32>,
-    @location(2) colour: vec4<f32>,
+    @location(2) color: vec4<f32>,
 ) -> Corner {
-    return Corner(vec4(position, 0.0, 1.0), place, colour);
+    return Corner(vec4(position, 0.0, 1.0), place, color);
 }
 
-fn written(colour: vec3<f32>) -> vec4<f32> {
+fn written(color: vec3<f32>) -> vec4<f32> {
     if decodes {
-        let high = pow((colour + 0.055) / 1.055, vec3(2.4));
-        return vec4(select(high, colour / 12.92, colour <= vec3(0.04045)), 1.0);
+        let high = pow((color + 0.055) / 1.055, vec3(2.4));
+        return vec4(select(high, color / 12.92, color <= vec3(0.04045)), 1.0);
     }
-    return vec4(colour, 1.0);
+    return vec4(color, 1.0);
 }
 
 @fragment
@@ -37,5 +37,5 @@ fn picture(in: Corner) -> @location(0) vec4<f32> {
 
 @fragment
 fn even(in: Corner) -> @location(0) vec4<f32> {
-    return written(in.colour.rgb);
+    return written(in.color.rgb);
 }

@@ -133,7 +133,7 @@ impl Picture {
             self.uploaded += bytes;
             let corner = |at: usize| {
                 let place = chunk.place(corners[at].map(|cells| cells / size as f64));
-                Corner { point: points[at], place, colour: Color32::WHITE }
+                Corner { point: points[at], place, color: Color32::WHITE }
             };
             quads.push(Quad { corners: [0, 1, 2, 3].map(corner), sheet: Some((sheet, blended)) });
         }

@@ -233,7 +233,7 @@ fn brushes_are_drawn() {
     let Some(drawn) = picture(&mut harness, "brushes") else { return };
     // The head of the round brush is in the colour of its paint.
     let row = harness.get_by_label("round").rect();
-    let [red, green, blue] = harness.state().easel.brushes[0].colour.unwrap();
+    let [red, green, blue] = harness.state().easel.brushes[0].color.unwrap();
     let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;
     assert_eq!(at, [red, green, blue, 255]);
 }

@@ -21,12 +21,12 @@ fn cell(x: usize, y: usize) -> [u8; 4] {
 }
 
 /// All of a picture in tiles, as the worker tells it.
-fn tiles(colour: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
+fn tiles(color: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
     let bounds = tile::Rect { x: 0, y: 0, width: CELLS.0, height: CELLS.1 };
     let pixels = |rect: tile::Rect| {
         let rows = rect.y..rect.y + rect.height;
         rows.flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| (x, y)))
-            .map(|(x, y)| colour(x, y))
+            .map(|(x, y)| color(x, y))
             .collect()
     };
     let rects = tile::TileSet::all(bounds);

@@ -17,7 +17,7 @@ use session::{Command, EaselState, Picked, PickedLayer};
 use spectra::color::{Adaptation, Lab, RgbSpace};
 use spectra::{Illuminant, Observer};
 use studio::panels::Mode;
-use studio::panels::eyedropper::{Colour, Eyedropper};
+use studio::panels::eyedropper::{Color, Eyedropper};
 use studio::view::Outline;
 
 use super::stage::{Stage, made_easel};
@@ -157,7 +157,7 @@ fn answered(stage: &mut Stage<Eyedropper>) {
 }
 
 #[test]
-fn a_typed_colour_is_matched_as_calibrate_matches_it() {
+fn a_typed_color_is_matched_as_calibrate_matches_it() {
     let mut stage = stage(made_easel());
     ask(&mut stage, "48,-4,-22");
     answered(&mut stage);
@@ -279,14 +279,14 @@ fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_u
 }
 
 #[test]
-fn a_colour_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
+fn a_color_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
     let mut stage = stage(made_easel());
     stage.scene().tools.wanted = Some([0.9, 0.05, 0.02]);
     stage.harness.step();
     stage.scene().tools.wanted = Some([0.18, 0.18, 0.18]);
     answered(&mut stage);
     let wanted = stage.scene().panel.wanted().unwrap().clone();
-    assert_eq!(wanted.colour, Colour::Screen([0.18; 3]));
+    assert_eq!(wanted.color, Color::Screen([0.18; 3]));
     let easel = stage.scene().easel.clone();
     let sights = sights(&easel);
     let target = wanted.target(easel.library.grid, &sights);
@@ -348,7 +348,7 @@ fn a_search_can_be_cancelled() {
 }
 
 #[test]
-fn a_text_that_is_no_colour_is_told_with_what_to_try() {
+fn a_text_that_is_no_color_is_told_with_what_to_try() {
     let mut stage = stage(made_easel());
     ask(&mut stage, "blue");
     let told = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
@@ -357,7 +357,7 @@ fn a_text_that_is_no_colour_is_told_with_what_to_try() {
 }
 
 #[test]
-fn colours_of_other_programs_are_wanted_by_a_click() {
+fn colors_of_other_programs_are_wanted_by_a_click() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("colours.gpl");
     std::fs::write(&path, "GIMP Palette\nName: two\n#\n 20 60 120 Sea\n200 180 90\tSand\n")
         .unwrap();

@@ -8,9 +8,10 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, UiBuilder, 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
+use pigment::library::PigmentLibrary;
 use render::gpu::{BackendChoice, choose};
 use render::paint::strokes::Surface;
-use session::{Command, WorkerOptions, bare, oils};
+use session::{Command, WorkerOptions, bare};
 use studio::app::{Begun, Parts, Studio};
 use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
@@ -40,7 +41,7 @@ impl Window {
 
     /// The same in another size and density.
     pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
-        let begin = vec![Command::Open(bare(oils(), 32.0, 20.0, 0.1))];
+        let begin = vec![Command::Open(bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
         Self::begun(name, size, density, begin)
     }
 
@@ -191,7 +192,7 @@ impl Window {
     }
 
     /// The colour at a point of the window.
-    pub(crate) fn colour(&self, picture: &RgbaImage, at: Pos2) -> [u8; 3] {
+    pub(crate) fn color(&self, picture: &RgbaImage, at: Pos2) -> [u8; 3] {
         let pixel = at * self.harness.ctx.pixels_per_point();
         let [red, green, blue, _] = picture.get_pixel(pixel.x as u32, pixel.y as u32).0;
         [red, green, blue]

@@ -166,19 +166,18 @@ fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
         window.frame(Vec::new());
         let (Some(before), Some(after)) = (before, window.picture()) else { return };
         window.save(&format!("head-{turn}"));
-        let changed = |offset: Vec2| {
-            window.colour(&before, at + offset) != window.colour(&after, at + offset)
-        };
+        let changed =
+            |offset: Vec2| window.color(&before, at + offset) != window.color(&after, at + offset);
         // The mouse's hold leans to the lower right of the window, however the
         // canvas is turned.
         assert!(changed(vec2(14.0, 14.0)), "the head is seen");
         assert!(!changed(vec2(-60.0, -60.0)), "and nowhere else");
-        let [red, green, blue] = window.colour(&after, at + vec2(14.0, 14.0));
+        let [red, green, blue] = window.color(&after, at + vec2(14.0, 14.0));
         assert!(red.min(green).min(blue) > 10, "it lets the paint through: {red} {green} {blue}");
         window.frame(vec![UiEvent::PointerMoved(pos2(1200.0, 300.0))]);
         window.frame(Vec::new());
         let gone = window.picture().unwrap();
-        assert_eq!(window.colour(&gone, at), window.colour(&before, at), "it left");
+        assert_eq!(window.color(&gone, at), window.color(&before, at), "it left");
     }
 }
 
@@ -235,7 +234,7 @@ fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
         let Some(picture) = window.picture() else { continue };
         let reddest = (-8..8).map(|step| {
             let at = window.point(Surface::Canvas, 16.0, 10.0 + 0.1 * f64::from(step));
-            let [red, green, _] = window.colour(&picture, at);
+            let [red, green, _] = window.color(&picture, at);
             i64::from(red) - i64::from(green)
         });
         assert!(reddest.max().unwrap() > 20, "on the screen, {turn}");
@@ -297,7 +296,7 @@ fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
                 [red, green, blue]
             };
             let at = window.studio().canvas.placement().point([x as f64 + 0.5, y as f64 + 0.5]);
-            assert_eq!(window.colour(&picture, at), told(second), "cell {x} {y}");
+            assert_eq!(window.color(&picture, at), told(second), "cell {x} {y}");
             differ += usize::from(told(false) != told(true));
         }
         assert!(differ > 0, "the lights differ in column {x}");

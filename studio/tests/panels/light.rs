@@ -6,7 +6,7 @@ use render::optics::Gloss;
 use render::paint::document::Lighting;
 use render::paint::strokes::Action;
 use session::{Command, EaselState};
-use spectra::ColourTemperature;
+use spectra::ColorTemperature;
 use studio::panels::FileRequest;
 use studio::panels::light::LightPanel;
 
@@ -245,7 +245,7 @@ fn numbers_of_the_white_are_those_of_spectra() {
     let light = stage.scene().easel.light.clone();
     let xyz = light.quadrature.white;
     let sum = xyz.x + xyz.y + xyz.z;
-    let temperature = ColourTemperature::of(&light.viewing.illuminant).unwrap();
+    let temperature = ColorTemperature::of(&light.viewing.illuminant).unwrap();
     let told = [
         format!("x {:.4}  y {:.4}", xyz.x / sum, xyz.y / sum),
         format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),

@@ -35,8 +35,7 @@ pub(crate) const PIGMENTS: [&str; 7] = [
 pub(crate) fn easel() -> EaselState {
     static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
     let (library, light) = LIBRARY.get_or_init(|| {
-        let oils = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-        let library = Arc::new(PigmentLibrary::from_json("oils", oils).unwrap());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::new(&library, &Viewing::default()).unwrap());
         (library, light)
     });
@@ -81,18 +80,18 @@ pub(crate) fn easel() -> EaselState {
     }
 }
 
-fn brush(name: &str, shape: HeadShape, size_mm: f64, colour: Option<[u8; 3]>) -> BrushState {
+fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> BrushState {
     let mut parts = [0.0; SLOTS];
     parts[0] = 0.25;
     parts[2] = 0.75;
-    let loaded = colour.is_some();
+    let loaded = color.is_some();
     BrushState {
         name: name.to_owned(),
         spec: BrushSpec { shape, size_mm },
         amount_mm: if loaded { 0.4 } else { 0.0 },
         vehicle: if loaded { 0.2 } else { 0.0 },
         parts: if loaded { parts } else { [0.0; SLOTS] },
-        colour,
+        color,
     }
 }
 

@@ -65,7 +65,7 @@ fn wanted(stage: &mut Stage<Reference>) -> Option<[u8; 3]> {
 }
 
 #[test]
-fn a_click_takes_the_colour_that_is_shown_there() {
+fn a_click_takes_the_color_that_is_shown_there() {
     let mut stage = stage("click.png");
     stage.save("reference");
     for (index, (x, y)) in
@@ -82,7 +82,7 @@ fn a_click_takes_the_colour_that_is_shown_there() {
 }
 
 #[test]
-fn dragging_shows_the_colour_and_takes_it_when_let_go() {
+fn dragging_shows_the_color_and_takes_it_when_let_go() {
     let mut stage = stage("drag.png");
     let (from, to) = (at(&stage, 0.25, 0.25), at(&stage, 0.75, 0.75));
     stage.harness.hover_at(from);
@@ -112,7 +112,7 @@ fn the_mean_is_of_the_radius_in_linear_light() {
 }
 
 #[test]
-fn flipped_left_is_right_and_the_colours_follow() {
+fn flipped_left_is_right_and_the_colors_follow() {
     let mut stage = stage("flip.png");
     stage.click("Flip");
     stage.click("Grey");

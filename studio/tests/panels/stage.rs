@@ -138,7 +138,7 @@ pub(crate) fn made_easel() -> EaselState {
         amount_mm: 0.0,
         vehicle: 0.0,
         parts: [0.0; SLOTS],
-        colour: None,
+        color: None,
         ..made.brushes[0].clone()
     };
     EaselState {

@@ -192,7 +192,7 @@ fn the_card_of_a_tube_tells_its_figures() {
 }
 
 #[test]
-fn tubes_show_the_colours_as_they_are() {
+fn tubes_show_the_colors_as_they_are() {
     let mut harness = tubes();
     let drawn = picture(&mut harness, "tubes");
     for (slot, name) in PIGMENTS.into_iter().enumerate() {

@@ -109,11 +109,11 @@ fn another_illuminant_is_chosen_and_the_brush_shows_it() {
     window.studio_mut().ask(Command::Act(Action::Load(load)));
     window.studio_mut().panels.bring(Tab::Light);
     window.settle();
-    let colour = |window: &Window| {
+    let color = |window: &Window| {
         let brushes = &window.studio().easel().unwrap().brushes;
-        brushes.iter().find(|brush| brush.name == "round").unwrap().colour
+        brushes.iter().find(|brush| brush.name == "round").unwrap().color
     };
-    let before = colour(&window);
+    let before = color(&window);
     assert!(before.is_some(), "there is paint on it");
     window.click("Illuminant: D65");
     window.harness().get_by_role(Role::TextInput).type_text("LED-RGB1");
@@ -123,11 +123,11 @@ fn another_illuminant_is_chosen_and_the_brush_shows_it() {
     let easel = window.studio().easel().unwrap();
     assert_eq!(easel.lighting.illuminant, "LED-RGB1");
     assert_eq!(easel.light.viewing.illuminant.name(), "LED-RGB1");
-    assert_ne!(colour(&window), before, "red paint looks otherwise under it");
+    assert_ne!(color(&window), before, "red paint looks otherwise under it");
 }
 
 #[test]
-fn a_colour_of_the_reference_picture_finds_recipes() {
+fn a_color_of_the_reference_picture_finds_recipes() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pinned.png");
     let picture =
         RgbImage::from_fn(
@@ -162,7 +162,7 @@ fn a_colour_of_the_reference_picture_finds_recipes() {
 }
 
 #[test]
-fn a_dropped_file_of_colours_is_shown_to_be_matched() {
+fn a_dropped_file_of_colors_is_shown_to_be_matched() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("dropped.gpl");
     std::fs::write(&path, "GIMP Palette\n#\n 120 96 60 Umber\n").unwrap();
     let mut window = Window::open("dropped-colours");

@@ -79,7 +79,7 @@ fn brushes_and_tubes_are_told() {
     let mut window = Window::open(BackendChoice::Cpu);
     let state = window.state();
     assert_eq!(state.brushes.len(), 6);
-    assert!(state.brushes.iter().all(|brush| brush.colour.is_none()), "the brushes are clean");
+    assert!(state.brushes.iter().all(|brush| brush.color.is_none()), "the brushes are clean");
     assert!(state.masstones.iter().all(Option::is_some), "eight tubes");
     assert!(state.tints.iter().all(Option::is_some), "all can be mixed with white");
     window.act(load("round", "Ultramarine"));
@@ -92,7 +92,7 @@ fn brushes_and_tubes_are_told() {
     assert!((loaded.amount_mm - 0.3).abs() < 1e-4, "{}", loaded.amount_mm);
     assert!((loaded.vehicle - 0.1).abs() < 1e-4, "{}", loaded.vehicle);
     let slot = loaded.parts.iter().position(|&part| part == 1.0).expect("one pigment");
-    assert_eq!(loaded.colour, window.state().masstones[slot]);
+    assert_eq!(loaded.color, window.state().masstones[slot]);
     window.stroke(Surface::Palette, "round", [&wander(43, 40, 10.0, 8.0)[..]]);
     window.wait_until("less paint", |window| {
         (1e-3..loaded.amount_mm).contains(&round(window).amount_mm)
@@ -100,5 +100,5 @@ fn brushes_and_tubes_are_told() {
     window.act(Action::Undo {});
     window.wait_until("the paint back", |window| round(window).amount_mm == loaded.amount_mm);
     window.act(Action::Wash { brush: "round".to_owned() });
-    window.wait_until("a clean brush", |window| round(window).colour.is_none());
+    window.wait_until("a clean brush", |window| round(window).color.is_none());
 }

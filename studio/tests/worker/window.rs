@@ -4,11 +4,12 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, Strokes, Surface};
 use session::{
     Command, EaselState, Event, Figures, Origin, PenSample, Snapshot, Worker, WorkerOptions,
-    brushes, mixing, oils,
+    brushes, mixing,
 };
 
 /// Longer than anything here takes.
@@ -201,7 +202,9 @@ impl Window {
 
 /// 320 x 200 cells of linen, and a palette of 100 x 80.
 pub(crate) fn small() -> Origin {
-    let Origin::Bare { mut script, library } = session::bare(oils(), 32.0, 20.0, 0.1) else {
+    let Origin::Bare { mut script, library } =
+        session::bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)
+    else {
         panic!("a bare canvas");
     };
     let mixing = render::paint::strokes::Canvas { width_mm: 10.0, height_mm: 8.0, ..mixing(0.1) };

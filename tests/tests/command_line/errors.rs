@@ -194,7 +194,7 @@ fn a_file_of_the_other_kind_is_told_so() {
 }
 
 #[test]
-fn spectra_beyond_the_visible_have_no_colour() {
+fn spectra_beyond_the_visible_have_no_color() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("uv.csv");
     std::fs::write(&file, "sample,220,270,320\na,0.1,0.2,0.3\n").unwrap();

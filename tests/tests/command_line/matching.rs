@@ -26,7 +26,7 @@ fn refused(arguments: &[&str]) -> (u8, String) {
 }
 
 #[test]
-fn a_hex_colour_and_its_lab_are_one_target() {
+fn a_hex_color_and_its_lab_are_one_target() {
     let both = matched(&["#7a6a50", "7A6A50"]);
     assert_eq!(both[0]["hex"], "#7a6a50");
     assert_eq!(both[0]["recipes"], both[1]["recipes"]);

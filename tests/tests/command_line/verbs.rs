@@ -263,9 +263,9 @@ fn absolute_amounts_are_fitted_validated_and_mixed() {
     let white = json(&["mix", path, "cadmium red=0.01", "--over", "white", "--json"]);
     assert_eq!(on_white, white, "amounts lie on something, white if nothing is told");
     assert_ne!(white, mix);
-    let colour = json(&["color", csv, "--sample", "W000", "--json"]);
+    let color = json(&["color", csv, "--sample", "W000", "--json"]);
     for channel in 0..3 {
-        let (a, b) = (&mix["lab"][channel], &colour[0]["lab"][channel]);
+        let (a, b) = (&mix["lab"][channel], &color[0]["lab"][channel]);
         assert!((a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 0.1, "{a} {b}");
     }
 }

@@ -62,7 +62,7 @@ fn pictures_say_what_they_are_and_how_large() {
 }
 
 #[test]
-fn colours_out_of_gamut_are_cut_off_and_counted() {
+fn colors_out_of_gamut_are_cut_off_and_counted() {
     let mut picture = ramp();
     picture[(3, 0)] = [1.5, -0.25, 0.5, 1.0];
     picture[(4, 0)] = [0.0, 0.0, -0.1, 1.0];
@@ -81,7 +81,7 @@ fn the_same_picture_gives_the_same_bytes() {
 }
 
 #[test]
-fn pictures_without_colours_or_cells_are_refused() {
+fn pictures_without_colors_or_cells_are_refused() {
     let mut picture = ramp();
     picture[(7, 3)][1] = f32::NAN;
     let error = png8(&picture, 0.1).unwrap_err();

@@ -42,7 +42,7 @@ fn flat_scene(ground: f32, wet: Coat, dry: Vec<Coat>) -> Scene {
 }
 
 /// Of each wavelength's internal reflectance, the flat colour.
-fn colour(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
+fn color(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
     let surface = Surface::new(0.03, 0.5, Specular::Included).unwrap();
     let mut sum = [0.0; 3];
     for (internal, rgb) in internal.into_iter().zip(scene.rgb_from_nodes) {
@@ -109,7 +109,7 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
             let (off, cell) = largest(&picture, |i| {
                 let nodes =
                     std::array::from_fn(|node| film(&coat, &wet.cell(i), node, f64::from(ground)));
-                colour(&scene, nodes)
+                color(&scene, nodes)
             });
             let found = wet.cell(cell).pigments;
             assert!(off < NEAR, "{per_quantum} over {ground}: {off:e} off at {found:?}");
@@ -193,7 +193,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
         let shine = f64::from(gloss.strength)
             * (1.0 - ambient)
             * (mirrored.powf(exponent) - level).max(0.0);
-        colour(&scene, nodes).map(|value| value * diffuse + shine)
+        color(&scene, nodes).map(|value| value * diffuse + shine)
     });
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }

@@ -78,7 +78,7 @@ fn what_the_files_say_of_themselves_is_kept() {
 }
 
 #[test]
-fn every_file_gives_the_same_colours() {
+fn every_file_gives_the_same_colors() {
     let sheet = impasto(&["color", &fixture("sheet.csv"), "--json"]).json();
     for (file, format, names, _) in FILES {
         let run = impasto(&["color", &fixture(file), "--json"]);

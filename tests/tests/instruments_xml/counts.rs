@@ -19,7 +19,7 @@ fn lamp(nm: f64) -> f64 {
 }
 
 #[test]
-fn a_grey_has_its_colour_by_way_of_counts() {
+fn a_grey_has_its_color_by_way_of_counts() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let white = counts(folder, "white.txt", |nm| 100.0 + lamp(nm));

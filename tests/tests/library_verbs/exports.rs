@@ -1,7 +1,7 @@
 //! What leaves a library for other programs.
 
 use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_cie76};
-use spectra::swatch_file::{Palette, SwatchColour, d50_white, read_aco, read_ase, read_gpl};
+use spectra::swatch_file::{Palette, SwatchColor, d50_white, read_aco, read_ase, read_gpl};
 use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
@@ -21,26 +21,25 @@ fn exported(format: &str, more: &[&str]) -> Palette {
 }
 
 #[test]
-fn each_palette_holds_the_colours_that_list_prints() {
+fn each_palette_holds_the_colors_that_list_prints() {
     let list = done(&["list", &oils(), "--json"]).json();
     for format in ["gpl", "ase", "aco"] {
         let palette = exported(format, &[]);
         assert_eq!(palette.swatches.len(), 20);
         for (swatch, line) in palette.swatches.iter().zip(list.as_array().unwrap()) {
             assert_eq!(line["name"], swatch.name.as_str());
-            assert_eq!(line["hex"], swatch.colour.srgb().unwrap().to_hex(), "{format}");
+            assert_eq!(line["hex"], swatch.color.srgb().unwrap().to_hex(), "{format}");
         }
     }
     assert_eq!(exported("gpl", &[]).name, "Van Gogh's oils");
 }
 
 #[test]
-fn lab_of_a_palette_is_the_same_colour_under_d50() {
+fn lab_of_a_palette_is_the_same_color_under_d50() {
     for format in ["ase", "aco"] {
         let (lab, rgb) = (exported(format, &["--space", "lab"]), exported(format, &[]));
         for (lab, rgb) in lab.swatches.iter().zip(&rgb.swatches) {
-            let (SwatchColour::Lab(found), SwatchColour::Rgb(rgb)) = (lab.colour, rgb.colour)
-            else {
+            let (SwatchColor::Lab(found), SwatchColor::Rgb(rgb)) = (lab.color, rgb.color) else {
                 panic!("{format}: {lab:?}")
             };
             if rgb.0.iter().any(|v| *v <= 0.0 || *v >= 1.0) {
@@ -67,7 +66,7 @@ fn tints_stand_beside_their_pigment() {
     );
     assert!(palette.swatches[..4].iter().all(|s| s.group == "Eosin Lake (wax)"));
     let mix = impasto(&["mix", &oils(), "Eosin Lake (wax)=1", "Zinc White=9", "--json"]).json();
-    assert_eq!(mix["hex"], palette.swatches[3].colour.srgb().unwrap().to_hex());
+    assert_eq!(mix["hex"], palette.swatches[3].color.srgb().unwrap().to_hex());
     let one = exported("gpl", &["--tints=2.5"]);
     assert_eq!(one.swatches[1].name, "Eosin Lake (wax) 1:2.5");
     let shelf = Shelf::new();

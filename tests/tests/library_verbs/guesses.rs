@@ -10,7 +10,7 @@ use suite::program::impasto;
 use crate::{Shelf, done, oils, read, refused};
 
 #[test]
-fn a_thousand_colours_come_back_from_mixing() {
+fn a_thousand_colors_come_back_from_mixing() {
     let shelf = Shelf::new();
     let start = shelf.path("white.json");
     done(&["from-rgb", "#f4f4f0", "--name", "White", "--output", &start]);
@@ -74,7 +74,7 @@ fn a_guess_joins_a_library_and_is_marked_everywhere() {
 }
 
 #[test]
-fn a_glaze_shows_its_colour_over_white_and_its_ground_elsewhere() {
+fn a_glaze_shows_its_color_over_white_and_its_ground_elsewhere() {
     let shelf = Shelf::new();
     let with = shelf.path("with.json");
     let glaze = ["from-rgb", &oils(), "lab(60, 40, 20)", "--name", "Rose", "--glaze"];
@@ -90,7 +90,7 @@ fn a_glaze_shows_its_colour_over_white_and_its_ground_elsewhere() {
 }
 
 #[test]
-fn a_colour_out_of_reach_is_refused_with_the_nearest() {
+fn a_color_out_of_reach_is_refused_with_the_nearest() {
     let shelf = Shelf::new();
     let new = shelf.path("new.json");
     let black = ["from-rgb", "#000000", "--name", "Black", "--output", &new];
@@ -100,13 +100,13 @@ fn a_colour_out_of_reach_is_refused_with_the_nearest() {
     assert!(run.err.contains("warning: #000000 is out of reach"), "{}", run.err);
     done(&[&black[..], &["--saunderson", "none", "--nearest"]].concat());
     assert!(read(&new).saunderson.k1 == 0.0 && read(&new).reference.as_deref() == Some("Black"));
-    for colour in ["red", "#12345", "lab(1,2)", "lab(101,0,0)", "lab(nan,0,0)"] {
-        refused(&["from-rgb", colour, "--name", "X", "--output", &new], 2, &[colour]);
+    for color in ["red", "#12345", "lab(1,2)", "lab(101,0,0)", "lab(nan,0,0)"] {
+        refused(&["from-rgb", color, "--name", "X", "--output", &new], 2, &[color]);
     }
 }
 
 #[test]
-fn options_may_stand_between_library_and_colour() {
+fn options_may_stand_between_library_and_color() {
     let shelf = Shelf::new();
     let (bare, between) = (shelf.path("bare.json"), shelf.path("between.json"));
     done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);

@@ -139,7 +139,7 @@ fn what_does_not_fit_together_is_refused_with_its_reason() {
 }
 
 #[test]
-fn amounts_become_shares_of_the_same_colours() {
+fn amounts_become_shares_of_the_same_colors() {
     let shelf = Shelf::new();
     let washes = shelf.changed("washes.json", &oils(), |library| {
         library.amounts = AmountKind::Absolute;
@@ -221,7 +221,7 @@ fn renaming_changes_names_alone() {
     assert_eq!(text(&back), text(&oils()), "and back, byte for byte");
     let index = ["--colour-index", "Ultramarine=PB29"];
     done(&[&["rename", &oils()][..], &index, &["--output", &there]].concat());
-    assert_eq!(read(&there).pigments[14].colour_index.as_deref(), Some("PB29"));
+    assert_eq!(read(&there).pigments[14].color_index.as_deref(), Some("PB29"));
     let none = ["--colour-index", "Ultramarine="];
     done(&[&["rename", &there][..], &none, &["--output", &back]].concat());
     assert_eq!(text(&back), text(&oils()));

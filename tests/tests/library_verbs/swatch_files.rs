@@ -3,25 +3,25 @@
 use proptest::prelude::*;
 use spectra::color::{Lab, Rgb};
 use spectra::swatch_file::{
-    Palette, Swatch, SwatchColour, read_aco, read_ase, read_gpl, write_aco, write_ase, write_gpl,
+    Palette, Swatch, SwatchColor, read_aco, read_ase, read_gpl, write_aco, write_ase, write_gpl,
 };
 
 /// Numbers that 8 bits, 16 bits and 32-bit floats all hold.
-fn colour() -> impl Strategy<Value = SwatchColour> {
+fn color() -> impl Strategy<Value = SwatchColor> {
     let step = || (0..=1u8).prop_map(f64::from);
     let quarter = |from: i32, to: i32| (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0);
     prop_oneof![
-        [step(), step(), step()].prop_map(|rgb| SwatchColour::Rgb(Rgb(rgb))),
+        [step(), step(), step()].prop_map(|rgb| SwatchColor::Rgb(Rgb(rgb))),
         (step(), quarter(-128, 127), quarter(-128, 127))
-            .prop_map(|(l, a, b)| SwatchColour::Lab(Lab { lightness: 100.0 * l, a, b })),
-        [step(), step(), step(), step()].prop_map(SwatchColour::Cmyk),
-        step().prop_map(SwatchColour::Grey),
+            .prop_map(|(l, a, b)| SwatchColor::Lab(Lab { lightness: 100.0 * l, a, b })),
+        [step(), step(), step(), step()].prop_map(SwatchColor::Cmyk),
+        step().prop_map(SwatchColor::Grey),
     ]
 }
 
 fn palette(groups: &'static str) -> impl Strategy<Value = Palette> {
-    let swatch = ("[^\u{0}]{0,9}", groups, colour());
-    let swatch = swatch.prop_map(|(name, group, colour)| Swatch { name, group, colour });
+    let swatch = ("[^\u{0}]{0,9}", groups, color());
+    let swatch = swatch.prop_map(|(name, group, color)| Swatch { name, group, color });
     prop::collection::vec(swatch, 0..9)
         .prop_map(|swatches| Palette { name: String::new(), swatches })
 }
@@ -46,7 +46,7 @@ proptest! {
         let swatch = |rgb: &[u8; 3]| Swatch {
             name: format!("Rot {rgb:?} \u{fc}"),
             group: String::new(),
-            colour: SwatchColour::Rgb(Rgb(rgb.map(|v| f64::from(v) / 255.0))),
+            color: SwatchColor::Rgb(Rgb(rgb.map(|v| f64::from(v) / 255.0))),
         };
         let swatches = rgbs.iter().map(swatch).collect();
         let palette = Palette { name: "Name: of # all".into(), swatches };
@@ -98,7 +98,7 @@ fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
     let swatch = Swatch {
         name: "Red".into(),
         group: String::new(),
-        colour: SwatchColour::Rgb(Rgb([1.0, 0.0, 0.0])),
+        color: SwatchColor::Rgb(Rgb([1.0, 0.0, 0.0])),
     };
     let palette = Palette { name: String::new(), swatches: vec![swatch] };
     let mut wanted = b"ASEF\x00\x01\x00\x00\x00\x00\x00\x01".to_vec();
@@ -140,7 +140,7 @@ fn faults_are_told_with_their_place() {
 fn hue_saturation_and_brightness_are_read_as_rgb() {
     // A third of a turn, full and bright: green.
     let bytes = b"\x00\x01\x00\x01\x00\x01\x55\x55\xff\xff\xff\xff\x00\x00";
-    let SwatchColour::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].colour else {
+    let SwatchColor::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].color else {
         panic!("RGB")
     };
     assert_eq!(rgb.to_hex(), "#00ff00");

@@ -131,7 +131,7 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
 }
 
 #[test]
-fn a_priming_is_the_librarys_white_a_number_a_colour_or_a_spectrum() {
+fn a_priming_is_the_librarys_white_a_number_a_color_or_a_spectrum() {
     let library = oils();
     let primed = |reflectance: &str| {
         let json = format!(r#"{{"kind":"panel","reflectance":{reflectance}}}"#);

@@ -38,19 +38,19 @@ fn sets(pigments: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// The colour of every recipe on the grid.
-fn colours(library: &PigmentLibrary, pigments: &[usize]) -> Vec<Lab> {
+fn colors(library: &PigmentLibrary, pigments: &[usize]) -> Vec<Lab> {
     let weights = sights(&["D65"])[0].viewing.weights(library.grid).unwrap();
     let by_count: Vec<Vec<Vec<usize>>> = (1..=4).map(|count| shares(count, STEPS)).collect();
-    let mut colours = Vec::new();
+    let mut colors = Vec::new();
     for set in sets(pigments) {
         for steps in &by_count[set.len() - 1] {
             let parts: Vec<(usize, f64)> =
                 set.iter().zip(steps).map(|(&pigment, &step)| (pigment, step as f64)).collect();
             let mixture = library.mix(&parts).unwrap();
-            colours.push(lab(&weights, &mixture.hiding(library.saunderson)));
+            colors.push(lab(&weights, &mixture.hiding(library.saunderson)));
         }
     }
-    colours
+    colors
 }
 
 /// Half of them colours of random mixtures, half anywhere in CIELAB.
@@ -84,16 +84,16 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     request.least_share = 1.0 / STEPS as f64;
     request.tolerance = 0.0;
     request.count = 1;
-    let every = colours(&library, &request.allowed);
+    let every = colors(&library, &request.allowed);
     let mut reached = 0;
     for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
         let target = Target::from_lab("", wanted, &sights);
         let found = recipes(&library, &target, &request).unwrap()[0].distance;
         // CIEDE2000 is never below a twelfth of CIE 1976 at these chromas; the
         // rest need not be computed.
-        let nearest = every.iter().fold(f64::INFINITY, |least, &colour| {
-            let far = delta_e_cie76(wanted, colour) > 12.0 * least;
-            if far { least } else { least.min(delta_e_ciede2000(wanted, colour)) }
+        let nearest = every.iter().fold(f64::INFINITY, |least, &color| {
+            let far = delta_e_cie76(wanted, color) > 12.0 * least;
+            if far { least } else { least.min(delta_e_ciede2000(wanted, color)) }
         });
         assert!(found <= nearest + 1e-6, "target {number}, {wanted:?}: {found} for {nearest}");
         reached += usize::from(found < 0.01);
@@ -125,7 +125,7 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
         let found = recipes(&library, &Target::from_lab("", wanted, &sights), &request).unwrap();
         let parts = found[0].parts.as_ref().unwrap();
         assert!(parts.iter().sum::<u32>() <= 9 && parts.iter().all(|part| *part > 0), "{parts:?}");
-        let nearest = every.iter().map(|&colour| delta_e_ciede2000(wanted, colour));
+        let nearest = every.iter().map(|&color| delta_e_ciede2000(wanted, color));
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         assert!(
             found[0].distance <= nearest + 1e-6,

@@ -7,7 +7,7 @@ use spectra::color::Lab;
 
 use super::{oils, sights};
 
-fn colours() -> Vec<Lab> {
+fn colors() -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut within = |least: f64, most: f64| least + (most - least) * random.random::<f64>();
     (0..12)
@@ -31,7 +31,7 @@ fn every_recipe_keeps_every_limit() {
             request.allowed.retain(|&pigment| pigment != viridian && pigment < 16);
             request.required = required.clone();
             (request.at_most, request.least_share, request.count) = (at_most, least, 20);
-            for wanted in colours() {
+            for wanted in colors() {
                 let target = Target::from_lab("", wanted, &sights);
                 let found = recipes(&library, &target, &request).unwrap();
                 assert!(!found.is_empty(), "no recipe for {wanted:?}");
@@ -57,7 +57,7 @@ fn every_recipe_keeps_every_limit() {
 fn a_wider_choice_is_never_farther() {
     let library = oils();
     let sights = sights(&["D65"]);
-    for wanted in colours() {
+    for wanted in colors() {
         let target = Target::from_lab("", wanted, &sights);
         let mut before = f64::INFINITY;
         for at_most in 1..=4 {
@@ -129,7 +129,7 @@ fn whole_parts_keep_the_least_share() {
     let sights = sights(&["D65"]);
     let mut request = MatchRequest::new(&library, sights.clone(), FilmKind::Hiding);
     (request.least_share, request.whole_parts) = (0.2, Some(12));
-    for wanted in colours() {
+    for wanted in colors() {
         let target = Target::from_lab("", wanted, &sights);
         for recipe in recipes(&library, &target, &request).unwrap() {
             assert!(recipe.shares.iter().all(|(_, share)| *share >= 0.2 - 1e-9), "{recipe:?}");

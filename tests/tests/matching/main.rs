@@ -33,7 +33,7 @@ fn sights(lights: &[&str]) -> Vec<Sight> {
 
 /// The colour of a reflectance on the library's grid under each sight.
 fn target_of(library: &PigmentLibrary, reflectance: &[f64], sights: &[Sight]) -> Target {
-    let colour =
+    let color =
         |sight: &Sight| -> Lab { lab(&sight.viewing.weights(library.grid).unwrap(), reflectance) };
-    Target { name: "a mixture".to_owned(), lab: sights.iter().map(colour).collect() }
+    Target { name: "a mixture".to_owned(), lab: sights.iter().map(color).collect() }
 }

@@ -12,7 +12,7 @@ fn sorted(recipe: &Recipe) -> Vec<usize> {
 }
 
 #[test]
-fn a_mixture_is_found_again_from_its_colour_under_three_lights() {
+fn a_mixture_is_found_again_from_its_color_under_three_lights() {
     let library = oils();
     let sights = sights(&["D65", "A", "FL11"]);
     for names in [

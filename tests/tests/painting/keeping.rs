@@ -44,7 +44,7 @@ fn a_saved_painting_comes_back_to_the_bit() {
 }
 
 #[test]
-fn drying_leaves_the_colours_as_they_were() {
+fn drying_leaves_the_colors_as_they_were() {
     for fraction in [1.0, 0.37] {
         for mut painting in on_both(&bare(130, 100)) {
             crossing(&mut painting);
@@ -109,7 +109,7 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn exported_pictures_have_the_colours_that_were_shown() {
+fn exported_pictures_have_the_colors_that_were_shown() {
     let mut painting = some_painting();
     let shown = painting.picture().unwrap();
     let clipped = Field::from_values(
@@ -164,7 +164,7 @@ fn channel_values(samples: &exr::prelude::FlatSamples) -> Vec<f32> {
 }
 
 #[test]
-fn a_spectral_export_at_the_nodes_has_the_colours_that_were_shown() {
+fn a_spectral_export_at_the_nodes_has_the_colors_that_were_shown() {
     let mut painting = some_painting();
     let flat = painting.flat_picture().unwrap();
     let document = painting.document().unwrap();

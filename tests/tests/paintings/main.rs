@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-#[path = "../../../render/examples/paintings/colour_study.rs"]
-mod colour_study;
+#[path = "../../../render/examples/paintings/color_study.rs"]
+mod color_study;
 
 #[path = "../../../render/examples/paintings/easel.rs"]
 mod easel;
@@ -51,7 +51,7 @@ fn begun(script: &Strokes, actions: usize) -> Strokes {
 #[test]
 fn every_script_is_what_its_program_makes() {
     for (name, script) in [
-        ("colour-study", colour_study::script()),
+        ("colour-study", color_study::script()),
         ("glaze", glaze::script()),
         ("landscape", landscape::script()),
     ] {

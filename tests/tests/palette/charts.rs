@@ -19,14 +19,14 @@ fn a_chart_holds_masstones_and_every_pair_both_ways() {
         for (column, &second) in chart.paints.iter().enumerate() {
             let mixture = oils.library.mix(&[(first, 1.0), (second, 1.0)]).unwrap();
             let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
-            let off = delta_e_ciede2000(chart.colours[row][column].lab, wanted.lab);
+            let off = delta_e_ciede2000(chart.colors[row][column].lab, wanted.lab);
             assert!(off < 1e-9, "{first} with {second}: {off}");
             let pale = [(first, 1.0), (second, 1.0), (palette.white().unwrap(), 6.0)];
             let mixture = oils.library.mix(&pale).unwrap();
             let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
             let off = delta_e_ciede2000(chart.tinted[row][column].lab, wanted.lab);
             assert!(off < 1e-9, "{first} with {second}, tinted: {off}");
-            assert_eq!(chart.colours[row][column], chart.colours[column][row]);
+            assert_eq!(chart.colors[row][column], chart.colors[column][row]);
         }
     }
 }
@@ -57,10 +57,10 @@ fn tints_pale_towards_the_white() {
     let ladders = tint_ladders(&palette);
     assert_eq!(ladders.len(), 17);
     for ladder in ladders {
-        for (&parts, colour) in TINTS.iter().zip(&ladder.colours) {
+        for (&parts, color) in TINTS.iter().zip(&ladder.colors) {
             let mixture = oils.library.mix(&[(ladder.paint, 1.0), (white, parts)]).unwrap();
             let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
-            assert!(delta_e_ciede2000(colour.lab, wanted.lab) < 1e-9, "{}", ladder.paint);
+            assert!(delta_e_ciede2000(color.lab, wanted.lab) < 1e-9, "{}", ladder.paint);
         }
     }
 }

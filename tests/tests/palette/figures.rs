@@ -6,7 +6,7 @@ use calibrate::palette::{
 };
 use reports::figure::Figure;
 use reports::report::{Report, drawn, head};
-use reports::style::{Colour, PAPER};
+use reports::style::{Color, PAPER};
 use reports::subject::Subject;
 use reports::table::Cell;
 
@@ -87,7 +87,7 @@ fn the_oils_have_every_figure_and_the_same_bytes_again() {
 }
 
 #[test]
-fn figures_show_the_colours_and_tell_the_numbers_that_were_computed() {
+fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
     let oils = Oils::fitted();
     let palette = oils.palette();
     let report = report_of_oils(&oils);
@@ -97,9 +97,9 @@ fn figures_show_the_colours_and_tell_the_numbers_that_were_computed() {
     let (mut outside, count) = (0, chart.paints.len());
     for row in 0..count {
         for column in 0..count {
-            let looks = if row < column { &chart.tinted } else { &chart.colours };
+            let looks = if row < column { &chart.tinted } else { &chart.colors };
             let look = looks[row][column];
-            let patch = format!("fill=\"{}\"", Colour::shown(look.srgb).hex());
+            let patch = format!("fill=\"{}\"", Color::shown(look.srgb).hex());
             assert!(drawn.svg.contains(&patch), "row {row}, column {column}: {patch}");
             outside += usize::from(!look.srgb.in_gamut());
         }
@@ -120,10 +120,10 @@ fn figures_show_the_colours_and_tell_the_numbers_that_were_computed() {
     let mixture = graded(&palette, pair, &oils.measured(&palette), &rules);
     let drawn = figure(&report, "graded-mixture-1");
     let rows = &drawn.data.rows;
-    let made = mixture.steps.iter().flat_map(|step| step.colours.iter().flatten());
+    let made = mixture.steps.iter().flat_map(|step| step.colors.iter().flatten());
     assert_eq!(rows.len(), made.clone().count());
     for look in made {
-        assert!(drawn.svg.contains(&Colour::shown(look.srgb).hex()), "{look:?}");
+        assert!(drawn.svg.contains(&Color::shown(look.srgb).hex()), "{look:?}");
     }
     let (mean, mixed) = mixture.mean_error(MixingRow::LinearRgb, true).unwrap();
     assert!(drawn.svg.contains(&format!(">{mean:.2} of {mixed}<")), "{mean} of {mixed}");

@@ -37,7 +37,7 @@ fn every_sample_is_a_mixture_of_the_palette() {
         assert!(sample.recipe.iter().all(|(p, s)| palette.paints().contains(p) && *s >= 0.0));
     }
     let last = gamut.samples.last().unwrap();
-    assert_eq!(last.colour, palette.look(&last.recipe));
+    assert_eq!(last.color, palette.look(&last.recipe));
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn a_band_of_lightness_lies_within_the_whole() {
     for low in [20.0, 40.0, 60.0, 80.0] {
         let band = gamut.in_lab([low, low + 20.0], 72);
         for (place, index) in band.sectors.iter().flatten() {
-            let lightness = gamut.samples[*index].colour.lab.lightness;
+            let lightness = gamut.samples[*index].color.lab.lightness;
             assert!((low..=low + 20.0).contains(&lightness), "{lightness} in the band from {low}");
             assert!(whole.reaches(*place), "{place:?} lies outside the whole");
         }
@@ -57,7 +57,7 @@ fn a_band_of_lightness_lies_within_the_whole() {
 }
 
 #[test]
-fn more_paints_mix_more_colours() {
+fn more_paints_mix_more_colors() {
     let viewing = Viewing::default();
     let area = |count: usize| {
         let mut library = five();
@@ -124,7 +124,7 @@ fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
 
 /// A colour's cell of the grid in which gaps are looked for: L* by 10, a* and b* by 3.
 fn cell(sample: &GamutSample) -> [i32; 3] {
-    let lab = sample.colour.lab;
+    let lab = sample.color.lab;
     [lab.lightness / 10.0, lab.a / 3.0, lab.b / 3.0].map(|side| side.floor() as i32)
 }
 

@@ -17,11 +17,11 @@ fn the_ends_are_the_masstones_in_every_row_that_keeps_the_spectrum() {
     for (step, paint) in [(&mixture.steps[0], pair.0), (&mixture.steps[10], pair.1)] {
         let masstone = palette.look(&[(paint, 1.0)]);
         for row in [MixingRow::Spectrum, MixingRow::LinearRgb] {
-            let colour = step.colours[row as usize].unwrap();
-            let off = delta_e_ciede2000(colour.lab, masstone.lab);
+            let color = step.colors[row as usize].unwrap();
+            let off = delta_e_ciede2000(color.lab, masstone.lab);
             assert!(off < 1e-9, "{} of {paint}: {off}", row.name());
         }
-        let eight = step.colours[MixingRow::EightNodes as usize].unwrap();
+        let eight = step.colors[MixingRow::EightNodes as usize].unwrap();
         assert!(delta_e_ciede2000(eight.lab, masstone.lab) < 1.0, "{paint} at 8 wavelengths");
     }
 }
@@ -34,7 +34,7 @@ fn the_middle_of_linear_rgb_is_the_mean_of_linear_rgb() {
     let pair = (find(&oils, "Chrome Yellow"), find(&oils, "Ultramarine"));
     let steps = graded(&palette, pair, &[], &rules).steps;
     let linear =
-        |at: usize| steps[at].colours[MixingRow::LinearRgb as usize].unwrap().srgb.linear().0;
+        |at: usize| steps[at].colors[MixingRow::LinearRgb as usize].unwrap().srgb.linear().0;
     let (first, middle, last) = (linear(0), linear(5), linear(10));
     let mean: Vec<f64> = first.iter().zip(last).map(|(a, b)| f64::midpoint(*a, b)).collect();
     assert_near("middle", &middle, &mean, 1e-9);
@@ -65,11 +65,11 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
     let half = steps.iter().find(|s| s.sample.as_deref() == Some("13C")).unwrap();
     let mixture = oils.library.mix(&[(pair.0, 50.7), (pair.1, 49.3)]).unwrap();
     let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
-    let spectrum = half.colours[MixingRow::Spectrum as usize].unwrap();
+    let spectrum = half.colors[MixingRow::Spectrum as usize].unwrap();
     assert!(delta_e_ciede2000(spectrum.lab, wanted.lab) < 1e-9);
     let sample = measured.iter().find(|m| m.sample == "13C").unwrap();
     let read = palette.appearance(&sample.reflectance);
-    assert_eq!(half.colours[MixingRow::Measured as usize], Some(read));
+    assert_eq!(half.colors[MixingRow::Measured as usize], Some(read));
     let off = delta_e_ciede2000(read.lab, spectrum.lab);
     assert_eq!(half.errors[MixingRow::Spectrum as usize], Some(off));
     assert_eq!(half.errors[MixingRow::Measured as usize], None);
@@ -83,8 +83,8 @@ fn without_a_measurement_errors_are_from_the_full_spectrum() {
     let pair = (find(&oils, "Chrome Yellow"), find(&oils, "Cobalt Blue"));
     let mixture = graded(&palette, pair, &oils.measured(&palette), &rules);
     let middle = &mixture.steps[5];
-    assert_eq!((middle.sample.as_deref(), middle.colours[0]), (None, None));
-    let [_, spectrum, _, _, linear] = middle.colours;
+    assert_eq!((middle.sample.as_deref(), middle.colors[0]), (None, None));
+    let [_, spectrum, _, _, linear] = middle.colors;
     let off = delta_e_ciede2000(spectrum.unwrap().lab, linear.unwrap().lab);
     assert_eq!(middle.errors[MixingRow::LinearRgb as usize], Some(off));
     assert_eq!(middle.errors[MixingRow::Spectrum as usize], None);

@@ -2,7 +2,7 @@
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::AmountKind;
-use calibrate::palette::{Cards, Palette, colour_shifts, metamers, test_lights};
+use calibrate::palette::{Cards, Palette, color_shifts, metamers, test_lights};
 use spectra::Illuminant;
 use spectra::color::{delta_e_ciede2000, metamerism_index};
 use suite::near::assert_near;
@@ -10,7 +10,7 @@ use suite::near::assert_near;
 use crate::made::{Oils, band, even, five, grid, library};
 
 #[test]
-fn a_grey_keeps_its_colour_and_a_band_does_not() {
+fn a_grey_keeps_its_color_and_a_band_does_not() {
     let five = five();
     let viewing = Viewing::default();
     let palette = Palette::new(&five, &viewing, Cards::standard(grid())).unwrap();
@@ -18,11 +18,11 @@ fn a_grey_keeps_its_colour_and_a_band_does_not() {
     let names: Vec<&str> = lights.iter().map(|light| light.name.as_str()).collect();
     assert_eq!(names, ["D65", "A", "FL11"]);
     let recipes: Vec<_> = [4, 3].map(|paint| vec![(paint, 1.0)]).into();
-    let shifts = colour_shifts(&palette, &lights, &recipes);
+    let shifts = color_shifts(&palette, &lights, &recipes);
     assert_near("black", &shifts[0].shifts, &[0.0, 0.0, 0.0], 1e-6);
     assert_eq!(shifts[1].shifts[0], 0.0);
     assert!(shifts[1].shifts[1] > 2.0, "blue in lamplight: {:?}", shifts[1].shifts);
-    assert_eq!(shifts[1].colours[0], palette.look(&[(3, 1.0)]));
+    assert_eq!(shifts[1].colors[0], palette.look(&[(3, 1.0)]));
 }
 
 #[test]
@@ -46,13 +46,13 @@ fn metamers_match_in_daylight_and_part_worst_first() {
     assert_eq!(found.len(), 8);
     let mut before = f64::INFINITY;
     for pair in &found {
-        let [first, second] = pair.colours[0];
+        let [first, second] = pair.colors[0];
         let apart = delta_e_ciede2000(first.lab, second.lab);
         assert_near("difference", &[pair.differences[0]], &[apart], 0.0);
         assert!(apart <= 2.0, "{:?}: {apart}", pair.names);
         assert_near("index under the first light", &[pair.indices[0]], &[0.0], 1e-9);
         for (at, light) in lights.iter().enumerate().skip(1) {
-            let [standard, sample] = [0, 1].map(|i| [0, at].map(|at| pair.colours[at][i].xyz));
+            let [standard, sample] = [0, 1].map(|i| [0, at].map(|at| pair.colors[at][i].xyz));
             let wanted = metamerism_index(standard, sample, light.weights.white()).unwrap();
             assert_near("index", &[pair.indices[at]], &[wanted], 1e-12);
         }
@@ -68,7 +68,7 @@ fn metamers_match_in_daylight_and_part_worst_first() {
 }
 
 #[test]
-fn no_colour_is_told_twice() {
+fn no_color_is_told_twice() {
     let oils = Oils::fitted();
     let palette = oils.palette();
     let lights = test_lights(&palette);

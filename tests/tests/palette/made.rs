@@ -13,7 +13,7 @@ use suite::oils::{SURFACE, fitted, swatches};
 pub(crate) fn pigment(name: &str, k: impl Fn(f64) -> f64, s: impl Fn(f64) -> f64) -> Pigment {
     Pigment {
         name: name.to_owned(),
-        colour_index: None,
+        color_index: None,
         absorption: grid().wavelengths_nm().map(k).collect(),
         scattering: grid().wavelengths_nm().map(s).collect(),
         absorption_sd: Vec::new(),

@@ -46,7 +46,7 @@ fn water_thins_a_wash_to_the_paper() {
     let paper = palette.appearance(&palette.cards().white);
     for ladder in tint_ladders(&palette) {
         let far: Vec<f64> =
-            ladder.colours.iter().map(|c| delta_e_ciede2000(c.lab, paper.lab)).collect();
+            ladder.colors.iter().map(|c| delta_e_ciede2000(c.lab, paper.lab)).collect();
         assert!(far.windows(2).all(|w| w[1] <= w[0] + 1e-9), "{}: {far:?}", ladder.paint);
     }
 }
@@ -60,11 +60,11 @@ fn charts_and_graded_mixtures_are_washes_over_the_white_card() {
     let amounts = [(0, 0.5 * palette.wash(0)), (2, 0.5 * palette.wash(2))];
     let film = library.mix(&amounts).unwrap().film(1.0, &palette.cards().white, library.film());
     assert_near("red and blue", &palette.reflectance(&[(0, 0.5), (2, 0.5)]), &film, 1e-12);
-    assert_eq!(chart.colours[0][2], palette.appearance(&film));
+    assert_eq!(chart.colors[0][2], palette.appearance(&film));
     let rules = PainterRules::of(&palette).unwrap();
     let mixture = graded(&palette, (1, 2), &[], &rules);
     let middle = &mixture.steps[5];
-    let spectrum = middle.colours[MixingRow::Spectrum as usize].unwrap();
+    let spectrum = middle.colors[MixingRow::Spectrum as usize].unwrap();
     assert_eq!(spectrum, palette.look(&[(1, 0.5), (2, 0.5)]));
     assert!(middle.errors.iter().flatten().all(|error| error.is_finite()), "{middle:?}");
 }
@@ -82,5 +82,5 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let most = |recipe: &[(usize, f64)]| recipe.iter().map(|(_, share)| share).sum::<f64>();
     let deepest = gamut.samples.iter().map(|s| most(&s.recipe)).fold(0.0, f64::max);
     assert!((deepest - 8.0).abs() < 1e-9, "washes lie {deepest} deep at most");
-    assert!(gamut.samples.iter().all(|s| s.colour.lab.a.is_finite()));
+    assert!(gamut.samples.iter().all(|s| s.color.lab.a.is_finite()));
 }

@@ -23,13 +23,13 @@ fn tints(name: &str) -> Picture {
     let mut slots: Slots = [None; SLOTS];
     slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
-    let colours = (0..60).map(|at| {
+    let colors = (0..60).map(|at| {
         let (white, black) = (0.28 * (at % 10) as f32 / 10.0, 0.02 * (at / 10) as f32 / 6.0);
         let mut heights = [0.0; SLOTS];
         heights[..3].copy_from_slice(&[white, 0.3 - white - black, black]);
         film.rgb(&heights).map(|value| value.clamp(0.0, 1.0))
     });
-    Field::from_values(60, 1, colours.collect())
+    Field::from_values(60, 1, colors.collect())
 }
 
 #[test]
@@ -42,8 +42,8 @@ fn a_photograph_of_one_hue_gets_a_palette_that_paints_it() {
 
 #[test]
 fn a_palette_holds_no_pigment_twice_and_none_unidentified() {
-    let colours = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
-    let found = chosen(&Field::from_values(216, 1, colours.collect()));
+    let colors = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
+    let found = chosen(&Field::from_values(216, 1, colors.collect()));
     let mut indices: Vec<usize> = found.slots.iter().flatten().copied().collect();
     assert_eq!(indices.len(), SLOTS, "all of sRGB wants a full palette: {found:?}");
     assert!(indices.iter().all(|&index| STUDIO.library.pigments[index].identified));

@@ -72,8 +72,8 @@ pub(crate) static THIN: LazyLock<Separation> = LazyLock::new(|| {
 pub(crate) fn mixtures(seed: u64, count: usize, least_mm: f32) -> Picture {
     let film = STUDIO.film();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut colours = Vec::new();
-    while colours.len() < count {
+    let mut colors = Vec::new();
+    while colors.len() < count {
         let mut parts = [0.0_f32; SLOTS];
         for _ in 0..random.random_range(1..=4) {
             parts[random.random_range(0..SLOTS)] += random.random_range(0.05..1.0_f32).powi(3);
@@ -82,8 +82,8 @@ pub(crate) fn mixtures(seed: u64, count: usize, least_mm: f32) -> Picture {
         let total: f32 = parts.iter().sum();
         let rgb = film.rgb(&parts.map(|part| part / total * height));
         if rgb.iter().all(|value| (0.0..=1.0).contains(value)) {
-            colours.push(rgb);
+            colors.push(rgb);
         }
     }
-    Picture::from_values(count, 1, colours)
+    Picture::from_values(count, 1, colors)
 }

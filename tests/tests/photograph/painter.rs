@@ -19,7 +19,7 @@ const CELL_MM: f64 = 0.5;
 
 /// A red disc on blue over ochre, 48 x 36 cells.
 fn target() -> Picture {
-    let colour = |i: usize| {
+    let color = |i: usize| {
         let (x, y) = ((i % 48) as f32 - 20.0, (i / 48) as f32 - 16.0);
         match (x.hypot(y) < 9.0, y > 6.0) {
             (true, _) => [0.5, 0.08 + 0.004 * (x + 10.0), 0.06],
@@ -27,7 +27,7 @@ fn target() -> Picture {
             _ => [0.12, 0.16, 0.3 + 0.005 * y],
         }
     };
-    let picture = Field::from_values(48, 36, (0..48 * 36).map(colour).collect());
+    let picture = Field::from_values(48, 36, (0..48 * 36).map(color).collect());
     black_compensated(&picture, HIDING.black())
 }
 

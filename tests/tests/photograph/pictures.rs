@@ -34,8 +34,8 @@ fn near(found: [f32; 3], wanted: [f64; 3]) {
 fn every_depth_becomes_linear_light() {
     let decoded = |value: f64| Rgb([value; 3]).linear().0[0];
     near(one(&png(GrayImage::from_pixel(1, 1, [100].into()))), [decoded(100.0 / 255.0); 3]);
-    let colour = [10.0, 128.0, 250.0].map(|value| decoded(value / 255.0));
-    near(one(&png(RgbImage::from_pixel(1, 1, [10, 128, 250].into()))), colour);
+    let color = [10.0, 128.0, 250.0].map(|value| decoded(value / 255.0));
+    near(one(&png(RgbImage::from_pixel(1, 1, [10, 128, 250].into()))), color);
     let deep =
         image::ImageBuffer::<image::Rgb<u16>, _>::from_pixel(1, 1, [9, 40_000, 65_535].into());
     near(one(&png(deep)), [9.0, 40_000.0, 65_535.0].map(|value| decoded(value / 65_535.0)));
@@ -67,9 +67,9 @@ fn cells_are_means_of_linear_light() {
 fn another_shape_is_cut_or_stretched() {
     // Red, green and blue thirds.
     let thirds = RgbImage::from_fn(30, 10, |x, _| {
-        let mut colour = [0; 3];
-        colour[x as usize / 10] = 255;
-        colour.into()
+        let mut color = [0; 3];
+        color[x as usize / 10] = 255;
+        color.into()
     });
     let photograph = read(&png(thirds));
     assert_eq!(photograph.size(), (30, 10));

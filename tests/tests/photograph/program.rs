@@ -8,7 +8,7 @@ use render::light::Light;
 use render::paint::document::Medium;
 use render::paint::ground::GroundSpec;
 use render::photograph::{
-    ColourErrors, Framing, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
+    ColorErrors, Framing, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
     black_compensated, rebuilt,
 };
 use suite::program::{Run, impasto};
@@ -19,11 +19,11 @@ const PALETTE: &str = "Zinc White,Vermilion,Prussian Blue";
 
 /// A small photograph in `folder`: red to blue, dark to light, 32 x 24 pixels.
 fn photograph(folder: &Path) -> String {
-    let colour = |i: usize| {
+    let color = |i: usize| {
         let (x, y) = ((i % 32) as f32 / 31.0, (i / 32) as f32 / 23.0);
         [0.1 + 0.5 * (1.0 - x), 0.1 + 0.2 * y, 0.1 + 0.3 * x, 1.0]
     };
-    let picture = Field::from_values(32, 24, (0..32 * 24).map(colour).collect());
+    let picture = Field::from_values(32, 24, (0..32 * 24).map(color).collect());
     let path = folder.join("ramp.png");
     std::fs::write(&path, png8(&picture, 1.0).unwrap().bytes).unwrap();
     path.display().to_string()
@@ -112,7 +112,7 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     let seen = Photograph::open(Path::new(&photo)).unwrap().on_canvas(32, 24, Framing::Stretched);
     let target = black_compensated(&seen, separation.black());
     let made = rebuilt(separation.film(), &separation.separate(&target));
-    let errors = ColourErrors::between(&separation, &target, &made);
+    let errors = ColorErrors::between(&separation, &target, &made);
     assert_eq!(told["error"], serde_json::to_value(errors).unwrap());
     assert_eq!(told["palette"][2], "Prussian Blue");
 }

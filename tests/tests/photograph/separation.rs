@@ -4,16 +4,16 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::photograph::{
-    ColourErrors, PaintFilm, Picture, Separation, SeparationError, SeparationSettings,
+    ColorErrors, PaintFilm, Picture, Separation, SeparationError, SeparationSettings,
     black_compensated, rebuilt,
 };
 use spectra::color::{Rgb, delta_e_ciede2000};
 
 use crate::made::{HIDING, STUDIO, THIN, mixtures};
 
-fn errors(separation: &Separation, picture: &Picture) -> ColourErrors {
+fn errors(separation: &Separation, picture: &Picture) -> ColorErrors {
     let heights = separation.separate(picture);
-    ColourErrors::between(separation, picture, &rebuilt(separation.film(), &heights))
+    ColorErrors::between(separation, picture, &rebuilt(separation.film(), &heights))
 }
 
 /// Linear light of `#rrggbb`.
@@ -36,7 +36,7 @@ fn the_table_alone_is_near_and_refining_brings_nearer() {
     let picture = mixtures(13, 2000, 0.03);
     let looked_up: Vec<_> = picture.values().iter().map(|&rgb| THIN.heights_mm(rgb)).collect();
     let looked_up = Field::from_values(2000, 1, looked_up);
-    let table = ColourErrors::between(&THIN, &picture, &rebuilt(THIN.film(), &looked_up));
+    let table = ColorErrors::between(&THIN, &picture, &rebuilt(THIN.film(), &looked_up));
     assert!(table.mean < 1.6, "{table:?}");
     assert!(errors(&THIN, &picture).mean < table.mean / 4.0);
 }
@@ -44,11 +44,11 @@ fn the_table_alone_is_near_and_refining_brings_nearer() {
 #[test]
 fn heights_are_never_negative_and_within_their_range() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
-    let mut colours: Vec<[f32; 3]> =
+    let mut colors: Vec<[f32; 3]> =
         (0..500).map(|_| std::array::from_fn(|_| random.random_range(-0.2..1.2))).collect();
-    colours.extend([[0.0; 3], [1.0; 3], [f32::NAN, 0.5, f32::INFINITY]]);
+    colors.extend([[0.0; 3], [1.0; 3], [f32::NAN, 0.5, f32::INFINITY]]);
     for separation in [&*HIDING, &*THIN] {
-        for &rgb in &colours {
+        for &rgb in &colors {
             for heights in [separation.heights_mm(rgb), separation.refined_heights_mm(rgb)] {
                 let sum: f32 = heights.iter().sum();
                 assert!(heights.iter().all(|height| *height >= 0.0), "{rgb:?}: {heights:?}");
@@ -137,12 +137,12 @@ fn eight_wavelengths_and_the_whole_spectrum_agree() {
     let heights = THIN.separate(&picture);
     let full = PaintFilm::on_grid(STUDIO.materials(&STUDIO.slots), &STUDIO.viewing).unwrap();
     let painted = rebuilt(&full, &heights);
-    let told = ColourErrors::between(&THIN, &rebuilt(THIN.film(), &heights), &painted);
+    let told = ColorErrors::between(&THIN, &rebuilt(THIN.film(), &heights), &painted);
     assert!(told.mean < 0.3, "{told:?}");
 }
 
 #[test]
-fn bare_ground_has_its_own_colour() {
+fn bare_ground_has_its_own_color() {
     let [r, g, b] = STUDIO.film().rgb(&[0.0; 8]);
     for value in [r, g, b] {
         assert!((value - 0.85).abs() < 2e-3, "{r} {g} {b}");

@@ -24,13 +24,13 @@ fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
 /// Waves of brown and cream whose crests run at an angle from x towards y.
 fn grating(degrees: f64) -> Picture {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let colour = |i: usize| {
+    let color = |i: usize| {
         let (x, y) = ((i % 160) as f64, (i / 160) as f64);
         let share = 0.5 + 0.5 * ((y * cos - x * sin) * 0.25).sin();
         [(0.2, 0.6), (0.15, 0.5), (0.1, 0.35)]
             .map(|(low, high)| (low + share * (high - low)) as f32)
     };
-    Field::from_values(160, 120, (0..160 * 120).map(colour).collect())
+    Field::from_values(160, 120, (0..160 * 120).map(color).collect())
 }
 
 #[test]

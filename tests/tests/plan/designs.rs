@@ -27,8 +27,8 @@ struct Bench {
 
 fn bench() -> Bench {
     let oils = oils();
-    let colours = ["Cobalt Blue", "Viridian", "Vermilion", "Chrome Yellow"].map(str::to_owned);
-    let palette = Palette::new(&colours, "Zinc White", Some("Bone Black")).unwrap();
+    let colors = ["Cobalt Blue", "Viridian", "Vermilion", "Chrome Yellow"].map(str::to_owned);
+    let palette = Palette::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
     let pigments: Vec<usize> = palette.names.iter().map(|n| oils.find(n).unwrap()).collect();
     let pool = candidates(&palette, 0.05);
     let noise = ExpectedNoise { constant: NOISE, even: 0.0 };

@@ -129,8 +129,8 @@ fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
 
     let found = std::fs::read_to_string(&found).unwrap();
     let found = calibrate::library::PigmentLibrary::from_json("found", &found).unwrap();
-    let colours = PAINTS[..3].iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
-    let palette = Palette::new(&colours, "Zinc White", Some("Bone Black")).unwrap();
+    let colors = PAINTS[..3].iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
+    let palette = Palette::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
     let pigments: Vec<usize> = palette.names.iter().map(|n| truth.find(n).unwrap()).collect();
     let pool = candidates(&palette, 0.05);
     let design = usual(&palette, &pool, 19).unwrap();

@@ -64,11 +64,11 @@ fn in_the_dark_ink_and_lines_are_exchanged_but_patches_are_not() {
     assert!(dark.contains(&format!("svg [fill=\"{ink}\"]{{fill:")), "{dark}");
     let svg = std::fs::read_to_string(whole().path("out/figures/absorption.svg")).unwrap();
     let line = svg.lines().rfind(|l| l.starts_with("<polyline") && l.contains("16")).unwrap();
-    let colour = line.split("stroke=\"").nth(1).unwrap().split('"').next().unwrap();
-    assert!(dark.contains(&format!("svg :not(rect)[stroke=\"{colour}\"]{{stroke:")), "{colour}");
+    let color = line.split("stroke=\"").nth(1).unwrap().split('"').next().unwrap();
+    assert!(dark.contains(&format!("svg :not(rect)[stroke=\"{color}\"]{{stroke:")), "{color}");
     let patches = svg.lines().filter(|l| l.starts_with("<rect")).skip(1);
     for patch in patches {
-        let colour = patch.split(" fill=\"").nth(1).unwrap().split('"').next().unwrap();
-        assert!(!dark.contains(&format!("svg [fill=\"{colour}\"]")), "{patch}");
+        let color = patch.split(" fill=\"").nth(1).unwrap().split('"').next().unwrap();
+        assert!(!dark.contains(&format!("svg [fill=\"{color}\"]")), "{patch}");
     }
 }

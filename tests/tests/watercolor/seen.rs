@@ -20,7 +20,7 @@ pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
         positions: corners.map(|&place| place.into()).collect(),
         normals: normals.collect(),
         texture_coordinates: vec![[0.0; 2]; 3 * triangles.len()],
-        colours: vec![[1.0; 3]; 3 * triangles.len()],
+        colors: vec![[1.0; 3]; 3 * triangles.len()],
         triangles: (0..count)
             .map(|i| Triangle { corners: [3 * i, 3 * i + 1, 3 * i + 2], material: 0 })
             .collect(),

@@ -27,17 +27,17 @@ fn checks() -> Texture {
 /// A textured ball and a knot with colours of its own, in one mesh.
 fn two() -> Mesh {
     let mut mesh = Mesh::torus_knot(3000);
-    for (colour, i) in mesh.colours.iter_mut().zip(0u8..=255) {
-        *colour = [0.5 + f32::from(i) / 512.0, 1.0, 0.7];
+    for (color, i) in mesh.colors.iter_mut().zip(0u8..=255) {
+        *color = [0.5 + f32::from(i) / 512.0, 1.0, 0.7];
     }
-    mesh.materials.push(Material { colour: [0.9, 0.8, 1.0], texture: Some(checks()) });
+    mesh.materials.push(Material { color: [0.9, 0.8, 1.0], texture: Some(checks()) });
     let ball = Mesh::sphere(800);
     let first = mesh.positions.len() as u32;
     mesh.positions.extend(&ball.positions);
     mesh.normals.extend(&ball.normals);
     mesh.texture_coordinates
         .extend(ball.texture_coordinates.iter().map(|[u, v]| [3.0 * u - 1.0, 2.0 * v]));
-    mesh.colours.extend(&ball.colours);
+    mesh.colors.extend(&ball.colors);
     mesh.triangles.extend(ball.triangles.iter().map(|triangle| render::mesh::Triangle {
         corners: triangle.corners.map(|at| at + first),
         material: 1,
@@ -61,8 +61,8 @@ fn shaded<B: Shading>(
     let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
     let samples = toon.samples;
     let visible = backend.seen(&mut model, camera, width * samples, height * samples).unwrap();
-    let colour = backend.toon(&model, &visible, camera, toon).unwrap();
-    backend.colour_field(&colour).unwrap()
+    let color = backend.toon(&model, &visible, camera, toon).unwrap();
+    backend.color_field(&color).unwrap()
 }
 
 #[test]
@@ -136,10 +136,10 @@ fn the_device_shades_as_the_processor_does() {
 }
 
 #[test]
-fn without_strength_surfaces_keep_their_colours() {
+fn without_strength_surfaces_keep_their_colors() {
     let mut mesh = two();
     let camera = Camera::framing(mesh.bounds(), 50.0, 20.0, 35.0);
-    mesh.colours.fill([1.0; 3]);
+    mesh.colors.fill([1.0; 3]);
     mesh.materials[1] = Material::plain([0.1, 0.6, 0.3]);
     let toon = Toon { strength: 0.0, ..Toon::default() };
     let picture = shaded(&mut OnCpu, &mesh, &camera, (120, 90), &toon);
@@ -244,11 +244,11 @@ fn greys_of_a_picture_take_the_place_of_steps() {
         let camera = framing.closest(&mesh.positions);
         let backend = &mut OnCpu;
         let mut painter = ModelPainter::new(backend, mesh, settings.clone(), (64, 64), 1).unwrap();
-        painter.moment(backend, &camera).unwrap().colour
+        painter.moment(backend, &camera).unwrap().color
     };
     let of = |field: &Field<[f32; 4]>| {
-        let seen = field.values().iter().filter(|colour| colour[3] == 1.0);
-        let greens = seen.map(|colour| colour[1]);
+        let seen = field.values().iter().filter(|color| color[3] == 1.0);
+        let greens = seen.map(|color| color[1]);
         greens.fold([1.0f32, 0.0], |[low, high], value| [low.min(value), high.max(value)])
     };
     let [low, high] = of(&shaded(&settings));

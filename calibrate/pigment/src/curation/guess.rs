@@ -13,7 +13,7 @@ use crate::smooth_reflectance::smoothest_reflectance;
 /// Scattering of a glaze, relative to the reference white: it hides little.
 const GLAZE_SCATTERING: f64 = 0.02;
 /// A colour this near to the one asked for is that colour, in CIEDE2000.
-const SAME_COLOUR: f64 = 0.05;
+const SAME_COLOR: f64 = 0.05;
 
 /// What kind of paint a guessed pigment makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +38,7 @@ pub struct Guess {
 
 /// A pigment for `library`'s grid and surface whose colour under D65 for the 1931
 /// observer is `wanted`: K and S from the smoothest reflectance of that colour
-/// ([`smoothest_reflectance`]). `colour` is that colour in the user's words.
+/// ([`smoothest_reflectance`]). `color` is that colour in the user's words.
 ///
 /// Nothing tells how such a paint mixes: that is what measuring is for.
 ///
@@ -48,7 +48,7 @@ pub struct Guess {
 /// `nearest` will do.
 pub fn guessed_pigment(
     library: &PigmentLibrary,
-    (name, colour): (&str, &str),
+    (name, color): (&str, &str),
     wanted: Xyz,
     body: Body,
     nearest: bool,
@@ -72,14 +72,14 @@ pub fn guessed_pigment(
     let count = absorption.len();
     let pigment = Pigment {
         name: name.to_owned(),
-        colour_index: None,
+        color_index: None,
         absorption,
         scattering: vec![scattering; count],
         absorption_sd: Vec::new(),
         scattering_sd: Vec::new(),
         identified: true,
         guessed: true,
-        notes: vec![format!("guessed from {colour} as {words}; how it mixes is not known")],
+        notes: vec![format!("guessed from {color} as {words}; how it mixes is not known")],
     };
     let film: Vec<f64> = (pigment.absorption.iter())
         .map(|&k| {
@@ -93,7 +93,7 @@ pub fn guessed_pigment(
     let (white, xyz) = (weights.white(), weights.xyz(&film));
     let delta_e = delta_e_ciede2000(Lab::from_xyz(wanted, white), Lab::from_xyz(xyz, white));
     let hex = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_hex();
-    if delta_e >= SAME_COLOUR && !nearest {
+    if delta_e >= SAME_COLOR && !nearest {
         let (k1, k2) = (surface.k1, surface.k2);
         return Err(CurationError::OutOfReach { k1, k2, nearest: hex, delta_e });
     }

@@ -206,7 +206,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
 fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: &mut Vec<Finding>) {
     let white = library.reference.as_deref();
     let white = white.and_then(|name| library.pigments.iter().position(|p| p.name == name));
-    let colours: Vec<[Lab; 2]> = (0..library.pigments.len())
+    let colors: Vec<[Lab; 2]> = (0..library.pigments.len())
         .map(|index| {
             let tint = white.map_or(vec![(index, 1.0)], |white| vec![(index, 1.0), (white, 9.0)]);
             [vec![(index, 1.0)], tint].map(|recipe| lab(weights, &hiding(library, &recipe)))
@@ -217,7 +217,7 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
             let plain = |name: &str| {
                 name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
             };
-            let apart = (colours[first].iter().zip(&colours[second]))
+            let apart = (colors[first].iter().zip(&colors[second]))
                 .map(|(a, b)| delta_e_ciede2000(*a, *b))
                 .fold(0.0, f64::max);
             let what = if plain(&pigment.name) == plain(&other.name) {

@@ -26,5 +26,5 @@ pub use health::{Finding, Health, PigmentHealth, Severity, health};
 pub use merge::{MergeSettings, Merged, Prefer, Source, merged};
 pub use resample::on_grid;
 pub use rescale::with_reference;
-pub use select::{renamed, subset, with_colour_indices};
+pub use select::{renamed, subset, with_color_indices};
 pub use table::{LibraryFrame, TableError, from_csv, to_csv};

@@ -40,7 +40,7 @@ pub fn renamed(
 ///
 /// # Errors
 /// [`CurationError`] for an unknown pigment.
-pub fn with_colour_indices(
+pub fn with_color_indices(
     file: &str,
     library: &PigmentLibrary,
     indices: &[(String, String)],
@@ -48,8 +48,8 @@ pub fn with_colour_indices(
     let mut result = library.clone();
     for (pigment, index_name) in indices {
         let name = index_name.trim();
-        let colour_index = (!name.is_empty()).then(|| name.to_owned());
-        result.pigments[find(file, library, pigment)?].colour_index = colour_index;
+        let color_index = (!name.is_empty()).then(|| name.to_owned());
+        result.pigments[find(file, library, pigment)?].color_index = color_index;
     }
     Ok(result)
 }

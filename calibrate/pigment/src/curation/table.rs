@@ -176,7 +176,7 @@ fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, T
     }
     Ok(Pigment {
         name,
-        colour_index: None,
+        color_index: None,
         absorption,
         scattering,
         absorption_sd,

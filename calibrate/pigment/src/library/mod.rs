@@ -6,6 +6,8 @@ mod json;
 
 mod pigment_library;
 
+mod shipped;
+
 pub use file::LibraryError;
 pub use json::to_text;
 pub use pigment_library::{

@@ -26,8 +26,8 @@ pub struct Pigment {
     /// Its name; no two of a library are alike.
     pub name: String,
     /// Colour Index name, such as `PB29`, if known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub colour_index: Option<String>,
+    #[serde(rename = "colour_index", default, skip_serializing_if = "Option::is_none")]
+    pub color_index: Option<String>,
     /// K at each wavelength, 0 and up.
     pub absorption: Vec<f64>,
     /// S at each wavelength, 0 and up.

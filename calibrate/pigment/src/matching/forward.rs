@@ -239,7 +239,7 @@ mod tests {
         let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
         let pigment = |name: &str, k: &dyn Fn(f64) -> f64, s: f64| Pigment {
             name: name.to_owned(),
-            colour_index: None,
+            color_index: None,
             absorption: grid.wavelengths_nm().map(k).collect(),
             scattering: vec![s; 16],
             absorption_sd: Vec::new(),

@@ -19,8 +19,8 @@ pub(super) fn between<'a>(
     samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
 ) -> Vec<(Recipe, Appearance)> {
     let mut cells: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
-    for (recipe, colour) in samples {
-        cells.entry(cell(colour)).or_insert_with(|| recipe.clone());
+    for (recipe, color) in samples {
+        cells.entry(cell(color)).or_insert_with(|| recipe.clone());
     }
     let mut found = Vec::new();
     for _ in 0..PASSES {
@@ -34,9 +34,9 @@ pub(super) fn between<'a>(
                     continue;
                 }
                 let mixed = halves(recipe, other);
-                let colour = palette.look(&mixed);
-                added.entry(cell(&colour)).or_insert_with(|| mixed.clone());
-                found.push((mixed, colour));
+                let color = palette.look(&mixed);
+                added.entry(cell(&color)).or_insert_with(|| mixed.clone());
+                found.push((mixed, color));
             }
         }
         for (place, recipe) in added {
@@ -46,9 +46,9 @@ pub(super) fn between<'a>(
     found
 }
 
-fn cell(colour: &Appearance) -> [i32; 3] {
+fn cell(color: &Appearance) -> [i32; 3] {
     let index = |value: f64, side: f64| (value / side).floor() as i32;
-    let lab = colour.lab;
+    let lab = color.lab;
     [index(lab.lightness, BAND), index(lab.a, CELL), index(lab.b, CELL)]
 }
 

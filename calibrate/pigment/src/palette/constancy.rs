@@ -20,11 +20,11 @@ pub struct TestLight {
 
 /// The colours of one recipe under several lights.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ColourShift {
+pub struct ColorShift {
     /// What is mixed.
     pub recipe: Recipe,
     /// By light: how it looks, each adapted to its own white.
-    pub colours: Vec<Appearance>,
+    pub colors: Vec<Appearance>,
     /// By light: CIEDE2000 from the first light's colour to this one's, adapted
     /// to the first light (Bradford); 0 for the first.
     pub shifts: Vec<f64>,
@@ -50,11 +50,11 @@ pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
 /// The difference that remains after the eye has adapted: 0 for a paint whose
 /// colour is constant.
 #[must_use]
-pub fn colour_shifts(
+pub fn color_shifts(
     palette: &Palette<'_>,
     lights: &[TestLight],
     recipes: &[Recipe],
-) -> Vec<ColourShift> {
+) -> Vec<ColorShift> {
     let shift = |recipe: &Recipe| {
         let reflectance = palette.reflectance(recipe);
         let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
@@ -68,9 +68,9 @@ pub fn colour_shifts(
             Lab::from_xyz(xyz, whites[0])
         };
         let all = 0..lights.len();
-        ColourShift {
+        ColorShift {
             recipe: recipe.clone(),
-            colours: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
+            colors: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
             shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
         }
     };

@@ -31,7 +31,7 @@ pub struct GamutSample {
     /// What is mixed.
     pub recipe: Recipe,
     /// How it looks.
-    pub colour: Appearance,
+    pub color: Appearance,
 }
 
 /// Many mixtures of a palette.
@@ -82,10 +82,10 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
         }
     }
     recipes.extend(random_recipes(palette));
-    let sample = |recipe: Recipe| GamutSample { colour: palette.look(&recipe), recipe };
+    let sample = |recipe: Recipe| GamutSample { color: palette.look(&recipe), recipe };
     let mut samples: Vec<GamutSample> = recipes.into_iter().map(sample).collect();
-    let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.colour)));
-    samples.extend(filled.into_iter().map(|(recipe, colour)| GamutSample { recipe, colour }));
+    let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
+    samples.extend(filled.into_iter().map(|(recipe, color)| GamutSample { recipe, color }));
     Gamut { samples, white: palette.weights().white() }
 }
 
@@ -99,8 +99,8 @@ impl Gamut {
             .samples
             .iter()
             .enumerate()
-            .filter(|(_, sample)| (low..=high).contains(&sample.colour.lab.lightness));
-        let places = inside.map(|(i, sample)| ([sample.colour.lab.a, sample.colour.lab.b], i));
+            .filter(|(_, sample)| (low..=high).contains(&sample.color.lab.lightness));
+        let places = inside.map(|(i, sample)| ([sample.color.lab.a, sample.color.lab.b], i));
         Boundary::around([0.0, 0.0], sectors, places)
     }
 
@@ -109,8 +109,8 @@ impl Gamut {
     #[must_use]
     pub fn in_xy(&self, sectors: usize) -> Boundary {
         let white = chromaticity(self.white);
-        let lit = self.samples.iter().enumerate().filter(|(_, s)| s.colour.xyz.y >= 0.5);
-        let places = lit.map(|(i, sample)| (chromaticity(sample.colour.xyz), i));
+        let lit = self.samples.iter().enumerate().filter(|(_, s)| s.color.xyz.y >= 0.5);
+        let places = lit.map(|(i, sample)| (chromaticity(sample.color.xyz), i));
         Boundary::around(white, sectors, places)
     }
 }

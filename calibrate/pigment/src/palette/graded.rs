@@ -79,7 +79,7 @@ pub struct GradedStep {
     /// The measured sample of this share.
     pub sample: Option<String>,
     /// In the order of [`MixingRow::ALL`]; none where nothing was measured.
-    pub colours: [Option<Appearance>; 5],
+    pub colors: [Option<Appearance>; 5],
     /// CIEDE2000 of each from the measured colour; where there is none, from the
     /// full spectrum.
     pub errors: [Option<f64>; 5],
@@ -128,14 +128,14 @@ pub fn graded(
         let straight: [f64; 3] =
             std::array::from_fn(|i| (1.0 - share) * ends[0][i] + share * ends[1][i]);
         let white = palette.weights().white();
-        let colours = [
+        let colors = [
             sample.map(|sample| palette.appearance(&sample.reflectance)),
             Some(palette.look(&recipe)),
             Some(at_nodes(palette, &rules.eight, &mixture)),
             Some(at_nodes(palette, &rules.three, &mixture)),
             Some(Appearance::of(Xyz::from(straight), white)),
         ];
-        let own = |row: MixingRow| colours[row as usize].map(|colour: Appearance| colour.lab);
+        let own = |row: MixingRow| colors[row as usize].map(|color: Appearance| color.lab);
         let (truth, row) = own(MixingRow::Measured).map_or_else(
             || (own(MixingRow::Spectrum), MixingRow::Spectrum),
             |lab| (Some(lab), MixingRow::Measured),
@@ -148,7 +148,7 @@ pub fn graded(
             share,
             sample: sample.map(|sample| sample.sample.clone()),
             errors: MixingRow::ALL.map(error),
-            colours,
+            colors,
         }
     };
     GradedMixture { pair, steps: shares(pair, measured).into_iter().map(step).collect() }

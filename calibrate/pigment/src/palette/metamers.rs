@@ -19,7 +19,7 @@ pub struct Metamers {
     /// Their recipes.
     pub recipes: [Recipe; 2],
     /// By light: how the two look.
-    pub colours: Vec<[Appearance; 2]>,
+    pub colors: Vec<[Appearance; 2]>,
     /// By light: CIEDE2000 between the two as they are.
     pub differences: Vec<f64>,
     /// By light: the special metamerism index (CIE 15:2018, section 9.2), the
@@ -105,14 +105,14 @@ fn described(first: &Candidate, second: &Candidate, lights: &[TestLight]) -> Met
         let white = lights[light].weights.white();
         [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
     };
-    let colours: Vec<[Appearance; 2]> = (0..lights.len()).map(look).collect();
+    let colors: Vec<[Appearance; 2]> = (0..lights.len()).map(look).collect();
     let all = 0..lights.len();
     Metamers {
         names: [first.name.clone(), second.name.clone()],
         recipes: [first.recipe.clone(), second.recipe.clone()],
-        differences: colours.iter().map(|[a, b]| delta_e_ciede2000(a.lab, b.lab)).collect(),
+        differences: colors.iter().map(|[a, b]| delta_e_ciede2000(a.lab, b.lab)).collect(),
         indices: all.map(|light| index(first, second, lights, light).unwrap_or(0.0)).collect(),
-        colours,
+        colors,
     }
 }
 

@@ -15,7 +15,7 @@ pub struct MixingChart {
     /// The paints, in the library's order.
     pub paints: Vec<usize>,
     /// By row and column of `paints`; symmetric, the masstones on the diagonal.
-    pub colours: Vec<Vec<Appearance>>,
+    pub colors: Vec<Vec<Appearance>>,
     /// The same, each with [`CHART_TINT`] parts of white to one.
     pub tinted: Vec<Vec<Appearance>>,
 }
@@ -25,25 +25,25 @@ pub struct MixingChart {
 pub fn mixing_chart(palette: &Palette<'_>) -> MixingChart {
     MixingChart {
         paints: palette.paints().to_vec(),
-        colours: every_pair(palette, 0.0),
+        colors: every_pair(palette, 0.0),
         tinted: every_pair(palette, CHART_TINT),
     }
 }
 
 fn every_pair(palette: &Palette<'_>, whites: f64) -> Vec<Vec<Appearance>> {
     let paints = palette.paints();
-    let mut colours: Vec<Vec<Appearance>> = Vec::with_capacity(paints.len());
+    let mut colors: Vec<Vec<Appearance>> = Vec::with_capacity(paints.len());
     for (row, &first) in paints.iter().enumerate() {
-        let mut line: Vec<Appearance> = colours.iter().map(|above| above[row]).collect();
+        let mut line: Vec<Appearance> = colors.iter().map(|above| above[row]).collect();
         line.push(palette.look(&palette.tint(first, whites)));
         line.extend(
             paints[row + 1..].iter().map(|&second| {
                 palette.look(&palette.thinned(&[(first, 0.5), (second, 0.5)], whites))
             }),
         );
-        colours.push(line);
+        colors.push(line);
     }
-    colours
+    colors
 }
 
 /// One paint from the masstone to its palest tint.
@@ -52,7 +52,7 @@ pub struct TintLadder {
     /// The paint.
     pub paint: usize,
     /// By step of [`TINTS`].
-    pub colours: Vec<Appearance>,
+    pub colors: Vec<Appearance>,
 }
 
 /// The tints of every paint but the white.
@@ -61,7 +61,7 @@ pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
     let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
     let ladder = |&paint: &usize| TintLadder {
         paint,
-        colours: TINTS.iter().map(|&parts| palette.look(&palette.tint(paint, parts))).collect(),
+        colors: TINTS.iter().map(|&parts| palette.look(&palette.tint(paint, parts))).collect(),
     };
     paints.map(ladder).collect()
 }

@@ -31,7 +31,7 @@ mod metamers;
 mod graded;
 
 pub use cards::Cards;
-pub use constancy::{ColourShift, TestLight, colour_shifts, test_lights};
+pub use constancy::{ColorShift, TestLight, color_shifts, test_lights};
 pub use gamut::{Boundary, Gamut, GamutSample, sampled_gamut, spectral_locus, srgb_primaries};
 pub use graded::{GradedMixture, GradedStep, MixingRow, PainterRules, default_pairs, graded};
 pub use hiding_power::{HIDING_CONTRAST, Hides, HidingPower, hiding_powers};

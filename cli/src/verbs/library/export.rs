@@ -8,13 +8,13 @@ use clap::{Args, ValueEnum};
 use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapted};
 use spectra::instrument::{CxfHead, write_cxf};
 use spectra::swatch_file::{
-    Palette, Swatch, SwatchColour, d50_white, write_aco, write_ase, write_gpl,
+    Palette, Swatch, SwatchColor, d50_white, write_aco, write_ase, write_gpl,
 };
 use spectra::{Reflectance, Spectrum, TristimulusWeights};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, colour_weights, library, srgb};
+use crate::input::{ViewingOptions, color_weights, library, srgb};
 use crate::output::Output;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -82,31 +82,31 @@ impl Export {
             let count = library.pigments.len();
             return console.line(format!("{}: {count} pigments", self.output.display()));
         }
-        let weights = colour_weights(&viewing, library.grid, console)?;
-        let colours = colours(&library, &weights, &tints)?;
+        let weights = color_weights(&viewing, library.grid, console)?;
+        let colors = colors(&library, &weights, &tints)?;
         if self.to == Format::Cxf {
-            output.write(cxf(&library, &colours)?)?;
-            let count = colours.len();
+            output.write(cxf(&library, &colors)?)?;
+            let count = colors.len();
             return console.line(format!("{}: {count} spectra", self.output.display()));
         }
-        let clipped: Vec<&str> = (colours.iter())
-            .filter(|colour| self.space == Space::Rgb && !colour.rgb.in_gamut())
-            .map(|colour| colour.name.as_str())
+        let clipped: Vec<&str> = (colors.iter())
+            .filter(|color| self.space == Space::Rgb && !color.rgb.in_gamut())
+            .map(|color| color.name.as_str())
             .collect();
         if !clipped.is_empty() {
             let names = clipped.join(", ");
             console.warnings(&[format!("outside sRGB, cut off at its gamut: {names}")])?;
         }
-        let count = colours.len();
-        let swatch = |colour: NamedColour| Swatch {
-            group: if tints.is_empty() { String::new() } else { colour.pigment },
-            name: colour.name,
-            colour: match self.space {
-                Space::Rgb => SwatchColour::Rgb(colour.rgb),
-                Space::Lab => SwatchColour::Lab(lab_d50(colour.xyz, weights.white())),
+        let count = colors.len();
+        let swatch = |color: NamedColor| Swatch {
+            group: if tints.is_empty() { String::new() } else { color.pigment },
+            name: color.name,
+            color: match self.space {
+                Space::Rgb => SwatchColor::Rgb(color.rgb),
+                Space::Lab => SwatchColor::Lab(lab_d50(color.xyz, weights.white())),
             },
         };
-        let swatches = colours.into_iter().map(swatch).collect();
+        let swatches = colors.into_iter().map(swatch).collect();
         let palette = Palette { name: library.title, swatches };
         output.write(match self.to {
             Format::Ase => write_ase(&palette)?,
@@ -118,7 +118,7 @@ impl Export {
 }
 
 /// A colour to be a swatch.
-struct NamedColour {
+struct NamedColor {
     pigment: String,
     name: String,
     reflectance: Vec<f64>,
@@ -127,11 +127,11 @@ struct NamedColour {
 }
 
 /// The masstone of each pigment, then its tints.
-fn colours(
+fn colors(
     library: &PigmentLibrary,
     weights: &TristimulusWeights,
     tints: &[f64],
-) -> anyhow::Result<Vec<NamedColour>> {
+) -> anyhow::Result<Vec<NamedColor>> {
     let white = library.reference.as_deref().map(|name| library.find(name)).transpose()?;
     if !tints.is_empty() && (white.is_none() || library.amounts == AmountKind::Absolute) {
         return Err(Refusal::data(
@@ -139,19 +139,13 @@ fn colours(
             "leave out --tints",
         ));
     }
-    let mut colours = Vec::new();
+    let mut colors = Vec::new();
     for (index, pigment) in library.pigments.iter().enumerate() {
         let mut add = |name: String, recipe: &[(usize, f64)]| -> anyhow::Result<()> {
             let reflectance = library.mix(recipe)?.hiding(library.saunderson);
             let xyz = weights.xyz(&reflectance);
             let rgb = srgb(xyz, weights.white());
-            colours.push(NamedColour {
-                pigment: pigment.name.clone(),
-                name,
-                reflectance,
-                xyz,
-                rgb,
-            });
+            colors.push(NamedColor { pigment: pigment.name.clone(), name, reflectance, xyz, rgb });
             Ok(())
         };
         add(pigment.name.clone(), &[(index, 1.0)])?;
@@ -162,17 +156,17 @@ fn colours(
             add(format!("{} 1:{parts}", pigment.name), &[(index, 1.0), (white, *parts)])?;
         }
     }
-    Ok(colours)
+    Ok(colors)
 }
 
-/// The spectra of `colours`, as CxF3.
-fn cxf(library: &PigmentLibrary, colours: &[NamedColour]) -> anyhow::Result<String> {
-    let spectra = colours
+/// The spectra of `colors`, as CxF3.
+fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> anyhow::Result<String> {
+    let spectra = colors
         .iter()
-        .map(|colour| Ok(Spectrum::new(library.grid, colour.reflectance.clone())?))
+        .map(|color| Ok(Spectrum::new(library.grid, color.reflectance.clone())?))
         .collect::<anyhow::Result<Vec<Spectrum<Reflectance>>>>()?;
     let named: Vec<(&str, &Spectrum<Reflectance>)> =
-        colours.iter().map(|colour| colour.name.as_str()).zip(&spectra).collect();
+        colors.iter().map(|color| color.name.as_str()).zip(&spectra).collect();
     let head = CxfHead {
         creator: "impasto",
         description: &library.title,

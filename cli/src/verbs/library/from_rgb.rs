@@ -32,7 +32,7 @@ pub(super) struct FromRgb {
     /// L,a,b under D65
     // Not two arguments: the first, optional, would take the colour's place before an option.
     #[arg(required = true, value_name = "[LIBRARY] COLOUR")]
-    library_and_colour: Vec<String>,
+    library_and_color: Vec<String>,
     /// The pigment's name
     #[arg(long)]
     name: String,
@@ -54,7 +54,7 @@ pub(super) struct FromRgb {
 
 impl FromRgb {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let (path, colour) = self.library_and_colour()?;
+        let (path, color) = self.library_and_color()?;
         let inputs: Vec<PathBuf> = path.iter().cloned().collect();
         let output = Output::open(&self.output, &inputs)?;
         let mut library = match &path {
@@ -78,9 +78,9 @@ impl FromRgb {
             ));
         }
         let weights = Viewing::default().weights(library.grid)?;
-        let wanted = wanted(colour, &weights)?;
+        let wanted = wanted(color, &weights)?;
         let body = if self.glaze { Body::Glaze } else { Body::Hiding };
-        let guess = guessed_pigment(&library, (name, colour), wanted, body, self.nearest)?;
+        let guess = guessed_pigment(&library, (name, color), wanted, body, self.nearest)?;
         if path.is_none() && body == Body::Hiding {
             library.reference = Some(name.to_owned());
         }
@@ -88,7 +88,7 @@ impl FromRgb {
         output.write(library.to_json())?;
         if guess.delta_e >= 0.05 {
             let (hex, off) = (&guess.hex, guess.delta_e);
-            let warning = format!("{colour} is out of reach; {hex} is {off:.2} CIEDE2000 off");
+            let warning = format!("{color} is out of reach; {hex} is {off:.2} CIEDE2000 off");
             console.warnings(&[warning])?;
         }
         let patch = match Rgb::from_hex(&guess.hex) {
@@ -96,17 +96,17 @@ impl FromRgb {
             None => String::new(),
         };
         console.line(format!(
-            "{}: {name} {patch}{}, {:.3} CIEDE2000 from {colour}, guessed",
+            "{}: {name} {patch}{}, {:.3} CIEDE2000 from {color}, guessed",
             self.output.display(),
             guess.hex,
             guess.delta_e
         ))
     }
 
-    fn library_and_colour(&self) -> anyhow::Result<(Option<PathBuf>, &str)> {
-        match self.library_and_colour.as_slice() {
-            [colour] => Ok((None, colour.trim())),
-            [library, colour] => Ok((Some(PathBuf::from(library)), colour.trim())),
+    fn library_and_color(&self) -> anyhow::Result<(Option<PathBuf>, &str)> {
+        match self.library_and_color.as_slice() {
+            [color] => Ok((None, color.trim())),
+            [library, color] => Ok((Some(PathBuf::from(library)), color.trim())),
             more => Err(Refusal::usage(
                 format!("a library and one colour are wanted, found `{}` words", more.len()),
                 "quote a colour that holds spaces: \"40, 5, -45\"",

@@ -54,7 +54,7 @@ impl List {
                 let xyz = weights.xyz(&library.mix(&[(index, 1.0)])?.hiding(library.saunderson));
                 Ok(json!({
                     "name": pigment.name,
-                    "colour_index": pigment.colour_index,
+                    "colour_index": pigment.color_index,
                     "identified": pigment.identified,
                     "guessed": pigment.guessed,
                     "lab": Lab::from_xyz(xyz, weights.white()).to_array(),
@@ -78,19 +78,19 @@ pub(crate) fn print_pigments(
     let width = library.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
     let tints = white.is_some() && library.amounts == AmountKind::Relative;
     // A patch of colour takes seven columns more.
-    let column = if console.screen.colours { 21 } else { 14 };
+    let column = if console.screen.colors { 21 } else { 14 };
     let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
     console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;
     for (index, pigment) in library.pigments.iter().enumerate() {
-        let colour = |recipe: &[(usize, f64)]| -> anyhow::Result<String> {
+        let color = |recipe: &[(usize, f64)]| -> anyhow::Result<String> {
             let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));
             let rgb = srgb(xyz, weights.white());
             Ok(format!("{}{}", console.patch(rgb), rgb.to_hex()))
         };
-        let mut line = format!("{:width$}  {}", pigment.name, colour(&[(index, 1.0)])?);
+        let mut line = format!("{:width$}  {}", pigment.name, color(&[(index, 1.0)])?);
         match white {
             Some(white) if tints && pigment.identified => {
-                line += &format!("       {}", colour(&[(index, 1.0), (white, 9.0)])?);
+                line += &format!("       {}", color(&[(index, 1.0), (white, 9.0)])?);
             }
             _ if tints => line += "       S unknown",
             _ => {}

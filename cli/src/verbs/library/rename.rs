@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use calibrate::curation::{renamed, with_colour_indices};
+use calibrate::curation::{renamed, with_color_indices};
 use clap::Args;
 
 use crate::console::Console;
@@ -19,8 +19,8 @@ pub(super) struct Rename {
     #[arg(value_name = "OLD=NEW")]
     names: Vec<String>,
     /// A Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
-    #[arg(long, value_name = "NAME=INDEX")]
-    colour_index: Vec<String>,
+    #[arg(long = "colour-index", value_name = "NAME=INDEX")]
+    color_index: Vec<String>,
     /// Where to write the library
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
@@ -28,21 +28,21 @@ pub(super) struct Rename {
 
 impl Rename {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        if self.names.is_empty() && self.colour_index.is_empty() {
+        if self.names.is_empty() && self.color_index.is_empty() {
             return Err(Refusal::usage("nothing to rename", "say OLD=NEW, or --colour-index"));
         }
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let before = library(&self.library)?;
         let file = self.library.display().to_string();
-        let indexed = with_colour_indices(&file, &before, &pairs(&self.colour_index)?)?;
+        let indexed = with_color_indices(&file, &before, &pairs(&self.color_index)?)?;
         let after = renamed(&file, &indexed, &pairs(&self.names)?)?;
         output.write(after.to_json())?;
         for (old, new) in before.pigments.iter().zip(&after.pigments) {
             if old.name != new.name {
                 console.line(format!("{} is now {}", old.name, new.name))?;
             }
-            if old.colour_index != new.colour_index {
-                let index = new.colour_index.as_deref().unwrap_or("without a Colour Index name");
+            if old.color_index != new.color_index {
+                let index = new.color_index.as_deref().unwrap_or("without a Colour Index name");
                 console.line(format!("{} is {index}", new.name))?;
             }
         }

@@ -45,12 +45,12 @@ pub(super) fn paint<B: Backend>(
     let mut stages = Vec::new();
     if sheets.watched() {
         let flat = painter.flat(backend, first)?;
-        stages.push(("surface".to_owned(), backend.colour_field(&flat)?));
+        stages.push(("surface".to_owned(), backend.color_field(&flat)?));
         painter.frame(
             backend,
             first,
-            Some(&mut |backend, stage, colour| {
-                stages.push((stage.name().to_owned(), backend.colour_field(colour)?));
+            Some(&mut |backend, stage, color| {
+                stages.push((stage.name().to_owned(), backend.color_field(color)?));
                 Ok(())
             }),
         )?;
@@ -59,8 +59,8 @@ pub(super) fn paint<B: Backend>(
     if sheets.exports.any() {
         match &mut glazing {
             None => {
-                let colour = painter.frame(backend, first, None)?;
-                let picture = linear(&backend.colour_field(&colour)?);
+                let color = painter.frame(backend, first, None)?;
+                let picture = linear(&backend.color_field(&color)?);
                 let cell_mm = painter.textures().paper.texture.px_mm;
                 sheets.exports.write_picture(&picture, cell_mm, console)?;
             }
@@ -84,8 +84,8 @@ pub(super) fn paint<B: Backend>(
             let camera = &cameras[index];
             let picture: Field<[f32; 4]> = match &mut glazing {
                 None => {
-                    let colour = painter.frame(backend, camera, None)?;
-                    backend.colour_field(&colour)?
+                    let color = painter.frame(backend, camera, None)?;
+                    backend.color_field(&color)?
                 }
                 Some(glazing) => {
                     let (wash, textures) = painter.at_rest(backend, camera)?;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use render::export::{Apng, ColourTable, Frame, FrameRate, Gif, Sequence, Shots};
+use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, Shots};
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
@@ -150,7 +150,7 @@ impl Shooting {
 }
 
 fn gif(sequence: &Sequence, size: (usize, usize), rate: FrameRate) -> anyhow::Result<Vec<u8>> {
-    let table = ColourTable::of(sequence.frames())?;
+    let table = ColorTable::of(sequence.frames())?;
     let mut gif = Gif::new(Vec::new(), size, rate, &table)?;
     for frame in sequence.frames() {
         gif.push(&frame?)?;

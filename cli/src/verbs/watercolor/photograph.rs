@@ -42,16 +42,16 @@ pub(super) fn paint<B: Watercolor + Morphology>(
     if plain || sheets.watched() {
         let there = wash.on(backend)?;
         let own = textures.clone().on(backend)?;
-        let mut watch = |backend: &mut B, stage: Stage, colour: &B::Colour| {
-            stages.push((stage.name().to_owned(), backend.colour_field(colour)?));
+        let mut watch = |backend: &mut B, stage: Stage, color: &B::Color| {
+            stages.push((stage.name().to_owned(), backend.color_field(color)?));
             Ok(())
         };
         let watcher: Option<Watcher<'_, B>> =
             if sheets.watched() { Some(&mut watch) } else { None };
         let (flow, dispersion) = (&own.flow, &own.dispersion);
-        let colour = painted(backend, there, flow, dispersion, &own.paper, &settings, watcher)?;
+        let color = painted(backend, there, flow, dispersion, &own.paper, &settings, watcher)?;
         if plain && sheets.exports.any() {
-            picture = Some(linear(&backend.colour_field(&colour)?));
+            picture = Some(linear(&backend.color_field(&color)?));
         }
     }
     sheets.write_stages(&stages)?;

@@ -6,7 +6,7 @@ use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::light::Light;
 use render::paint::document::{Document, Lighting, Slots};
-use render::paint::ground::{ColourPrimer, Primer};
+use render::paint::ground::{ColorPrimer, Primer};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::watercolor::{Glazes, Settings, Textures, Wash};
@@ -67,8 +67,8 @@ impl PigmentOptions {
         let paper = match &self.over {
             Some(text) => ground(text, &library, console)?,
             None => {
-                let rgb = settings.paper.colour.clone();
-                Primer::Colour(ColourPrimer { rgb }).reflectance(&library)?
+                let rgb = settings.paper.color.clone();
+                Primer::Color(ColorPrimer { rgb }).reflectance(&library)?
             }
         };
         let lighting = Lighting { illuminant: self.illuminant.clone(), ..Lighting::default() };

@@ -6,7 +6,7 @@ use std::io::Write;
 
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 
-use super::colour_table::{COLOURS, ColourTable};
+use super::color_table::{COLORS, ColorTable};
 use super::frame::{Frame, FrameError, FrameRate, check_size, encoder_failed};
 
 /// A GIF that repeats for ever. Frames last whole hundredths of a second, the
@@ -15,7 +15,7 @@ use super::frame::{Frame, FrameError, FrameRate, check_size, encoder_failed};
 pub struct Gif<'a, W: Write> {
     encoder: gif::Encoder<W>,
     rate: FrameRate,
-    table: &'a ColourTable,
+    table: &'a ColorTable,
     size: [usize; 2],
     count: usize,
     /// Indices that are shown so far.
@@ -24,7 +24,7 @@ pub struct Gif<'a, W: Write> {
 }
 
 /// The index of pixels that stay as they are.
-const STAYS: u8 = COLOURS as u8;
+const STAYS: u8 = COLORS as u8;
 
 impl<'a, W: Write> Gif<'a, W> {
     /// Begins a GIF with the colours of `table`.
@@ -35,14 +35,14 @@ impl<'a, W: Write> Gif<'a, W> {
         to: W,
         (width, height): (usize, usize),
         rate: FrameRate,
-        table: &'a ColourTable,
+        table: &'a ColorTable,
     ) -> Result<Self, FrameError> {
         check_size("GIF", usize::from(u16::MAX), width, height)?;
-        let mut colours = table.colours().as_flattened().to_vec();
-        colours.resize(3 * (COLOURS + 1), 0);
+        let mut colors = table.colors().as_flattened().to_vec();
+        colors.resize(3 * (COLORS + 1), 0);
         let failed = |error| encoder_failed("GIF", &error);
         let mut encoder =
-            gif::Encoder::new(to, width as u16, height as u16, &colours).map_err(failed)?;
+            gif::Encoder::new(to, width as u16, height as u16, &colors).map_err(failed)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
         let (shown, written) = (Vec::new(), vec![0; width * height]);
         Ok(Self { encoder, rate, table, size: [width, height], count: 0, shown, written })
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn a_gif_shows_its_frames() {
-        let table = ColourTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
+        let table = ColorTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
         let mut gif = Gif::new(Vec::new(), (8, 6), FrameRate::new(24.0).unwrap(), &table).unwrap();
         frames().iter().for_each(|frame| gif.push(frame).unwrap());
         let bytes = gif.finish().unwrap();
@@ -238,7 +238,7 @@ mod tests {
         let wanted = FrameError::Differs { wanted: [8, 6], found: [3, 2] };
         assert_eq!(apng.push(&other), Err(wanted));
         assert_eq!(apng.finish(), Err(FrameError::Count { wanted: 2, found: 0 }));
-        let table = ColourTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
+        let table = ColorTable::of::<()>(frames().into_iter().map(Ok)).unwrap();
         let large = Gif::new(Vec::new(), (70_000, 6), rate, &table);
         assert!(large.is_err_and(|error| error.hint().is_some()));
         let none = Gif::new(Vec::new(), (8, 6), rate, &table).unwrap().finish();

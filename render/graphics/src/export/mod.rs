@@ -13,14 +13,14 @@ mod png;
 
 mod frame;
 
-mod colour_table;
+mod color_table;
 
 mod animation;
 
 mod sequence;
 
 pub use animation::{Apng, Gif};
-pub use colour_table::ColourTable;
+pub use color_table::ColorTable;
 pub use error::{ExportError, check_cell, check_size};
 pub use exr_part::exr_file;
 pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};

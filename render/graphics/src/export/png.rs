@@ -32,7 +32,7 @@ pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError>
     let (values, clipped) = encoded(picture, |value, row| {
         row.push((value * 255.0).round() as u8);
     })?;
-    let bytes = colour_file(picture, cell_mm, BitDepth::Eight, &values)?;
+    let bytes = color_file(picture, cell_mm, BitDepth::Eight, &values)?;
     Ok(Png { bytes, clipped })
 }
 
@@ -44,7 +44,7 @@ pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError
     let (values, clipped) = encoded(picture, |value, row| {
         row.extend(((value * 65535.0).round() as u16).to_be_bytes());
     })?;
-    let bytes = colour_file(picture, cell_mm, BitDepth::Sixteen, &values)?;
+    let bytes = color_file(picture, cell_mm, BitDepth::Sixteen, &values)?;
     Ok(Png { bytes, clipped })
 }
 
@@ -72,9 +72,9 @@ fn encoded(
             if let Some(&found) = [r, g, b].iter().find(|value| !value.is_finite()) {
                 return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
             }
-            let colour = Rgb([r, g, b].map(f64::from));
-            clipped += usize::from(!colour.in_gamut());
-            for value in Rgb(colour.0.map(|value| value.clamp(0.0, 1.0))).encoded().0 {
+            let color = Rgb([r, g, b].map(f64::from));
+            clipped += usize::from(!color.in_gamut());
+            for value in Rgb(color.0.map(|value| value.clamp(0.0, 1.0))).encoded().0 {
                 put(value.clamp(0.0, 1.0), &mut samples);
             }
         }
@@ -90,7 +90,7 @@ fn encoded(
     Ok(all)
 }
 
-fn colour_file(
+fn color_file(
     picture: &Field<[f32; 4]>,
     cell_mm: f64,
     depth: BitDepth,
@@ -103,7 +103,7 @@ fn colour_file(
 fn file(
     (width, height): (usize, usize),
     cell_mm: f64,
-    (colour, depth): (ColorType, BitDepth),
+    (color, depth): (ColorType, BitDepth),
     texts: &[(&str, &str)],
     samples: &[u8],
 ) -> Result<Vec<u8>, ExportError> {
@@ -112,7 +112,7 @@ fn file(
     let make = || {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, width as u32, height as u32);
-        encoder.set_color(colour);
+        encoder.set_color(color);
         encoder.set_depth(depth);
         let per_metre = (1000.0 / cell_mm).round() as u32;
         let unit = Unit::Meter;
@@ -120,7 +120,7 @@ fn file(
         for (keyword, text) in texts {
             encoder.add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())?;
         }
-        let light = colour == ColorType::Rgb;
+        let light = color == ColorType::Rgb;
         if light {
             encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
         }

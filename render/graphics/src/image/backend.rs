@@ -7,7 +7,7 @@ use crate::gpu::GpuError;
 /// Keeps pictures. Both backends take the same steps in the same order.
 pub trait Backend {
     /// Encoded sRGB and coverage of every pixel.
-    type Colour: std::fmt::Debug;
+    type Color: std::fmt::Debug;
     /// A number for every pixel.
     type Grey: std::fmt::Debug;
 
@@ -18,23 +18,23 @@ pub trait Backend {
     ///
     /// # Errors
     /// [`GpuError`] if the device has no room or is lost; never on the processor.
-    fn colour_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Colour, GpuError>;
+    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Color, GpuError>;
 
     /// Takes numbers in.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     fn grey_of(&mut self, field: &Field<f32>) -> Result<Self::Grey, GpuError>;
 
     /// The picture.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
-    fn colour_field(&mut self, colour: &Self::Colour) -> Result<Field<[f32; 4]>, GpuError>;
+    /// As [`Backend::color_of`].
+    fn color_field(&mut self, color: &Self::Color) -> Result<Field<[f32; 4]>, GpuError>;
 
     /// The numbers.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     fn grey_field(&mut self, grey: &Self::Grey) -> Result<Field<f32>, GpuError>;
 }

@@ -20,13 +20,13 @@ pub trait Models: Backend {
     /// Takes a mesh in.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     fn model(&mut self, mesh: PackedMesh) -> Result<Self::Model, GpuError>;
 
     /// What `camera` sees at the middle of every pixel: both sides of all triangles.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`]; a device also refuses pictures without a pixel, and
+    /// As [`Backend::color_of`]; a device also refuses pictures without a pixel, and
     /// those larger than it draws (at least 2048 pixels, as a rule 16384).
     fn seen(
         &mut self,
@@ -39,7 +39,7 @@ pub trait Models: Backend {
     /// The same with the processor.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     fn visible_field(&mut self, visible: &Self::Visible) -> Result<Visible, GpuError>;
 }
 

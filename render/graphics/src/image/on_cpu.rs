@@ -9,14 +9,14 @@ use crate::gpu::GpuError;
 pub struct OnCpu;
 
 impl Backend for OnCpu {
-    type Colour = Field<[f32; 4]>;
+    type Color = Field<[f32; 4]>;
     type Grey = Field<f32>;
 
     fn name(&self) -> String {
         "cpu".to_owned()
     }
 
-    fn colour_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Colour, GpuError> {
+    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Color, GpuError> {
         Ok(field.clone())
     }
 
@@ -24,8 +24,8 @@ impl Backend for OnCpu {
         Ok(field.clone())
     }
 
-    fn colour_field(&mut self, colour: &Self::Colour) -> Result<Field<[f32; 4]>, GpuError> {
-        Ok(colour.clone())
+    fn color_field(&mut self, color: &Self::Color) -> Result<Field<[f32; 4]>, GpuError> {
+        Ok(color.clone())
     }
 
     fn grey_field(&mut self, grey: &Self::Grey) -> Result<Field<f32>, GpuError> {

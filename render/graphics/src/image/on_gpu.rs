@@ -96,14 +96,14 @@ impl OnGpu {
 }
 
 impl Backend for OnGpu {
-    type Colour = Plane;
+    type Color = Plane;
     type Grey = Plane;
 
     fn name(&self) -> String {
         self.device.adapter().name.clone()
     }
 
-    fn colour_of(&mut self, field: &Field<[f32; 4]>) -> Result<Plane, GpuError> {
+    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Plane, GpuError> {
         self.taken(field)
     }
 
@@ -111,8 +111,8 @@ impl Backend for OnGpu {
         self.taken(field)
     }
 
-    fn colour_field(&mut self, colour: &Plane) -> Result<Field<[f32; 4]>, GpuError> {
-        self.given(colour)
+    fn color_field(&mut self, color: &Plane) -> Result<Field<[f32; 4]>, GpuError> {
+        self.given(color)
     }
 
     fn grey_field(&mut self, grey: &Plane) -> Result<Field<f32>, GpuError> {

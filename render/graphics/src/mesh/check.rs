@@ -50,7 +50,7 @@ pub enum MeshFault {
     },
     /// A colour out of 0..1.
     #[error("material {material} has the colour `{found:?}`")]
-    Colour {
+    Color {
         /// Which one.
         material: usize,
         /// As found.
@@ -83,7 +83,7 @@ impl MeshFault {
             Self::NoSuchVertex { .. } | Self::NoSuchMaterial { .. } => {
                 "the file is damaged: export it again"
             }
-            Self::Colour { .. } => "colours are encoded sRGB from 0 to 1",
+            Self::Color { .. } => "colours are encoded sRGB from 0 to 1",
         }
     }
 }
@@ -98,7 +98,7 @@ impl Mesh {
         for (what, found) in [
             ("normals", self.normals.len()),
             ("texture coordinates", self.texture_coordinates.len()),
-            ("colours", self.colours.len()),
+            ("colours", self.colors.len()),
         ] {
             if found != wanted {
                 return Err(MeshFault::Lengths { what, found, wanted });
@@ -107,10 +107,10 @@ impl Mesh {
         finite("position", &self.positions)?;
         finite("normal", &self.normals)?;
         finite("texture coordinate", &self.texture_coordinates)?;
-        finite("colour", &self.colours)?;
+        finite("colour", &self.colors)?;
         for (material, it) in self.materials.iter().enumerate() {
-            if it.colour.iter().any(|value| !(0.0..=1.0).contains(value)) {
-                return Err(MeshFault::Colour { material, found: it.colour });
+            if it.color.iter().any(|value| !(0.0..=1.0).contains(value)) {
+                return Err(MeshFault::Color { material, found: it.color });
             }
             let Some(texture) = &it.texture else { continue };
             let (width, height, texels) = (texture.width, texture.height, texture.texels.len());

@@ -14,7 +14,7 @@ pub struct Mesh {
     pub texture_coordinates: Vec<[f32; 2]>,
     /// Colours of the vertices, encoded sRGB in 0..1, which multiply those of the
     /// material; white where a file has none.
-    pub colours: Vec<[f32; 3]>,
+    pub colors: Vec<[f32; 3]>,
     /// The triangles, counter-clockwise seen from outside.
     pub triangles: Vec<Triangle>,
     /// The materials; at least one where there are triangles.
@@ -35,7 +35,7 @@ pub struct Triangle {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Encoded sRGB in 0..1.
-    pub colour: [f32; 3],
+    pub color: [f32; 3],
     /// Multiplies the colour.
     pub texture: Option<Texture>,
 }
@@ -54,8 +54,8 @@ pub struct Texture {
 impl Material {
     /// One colour all over, encoded sRGB in 0..1.
     #[must_use]
-    pub fn plain(colour: [f32; 3]) -> Self {
-        Self { colour, texture: None }
+    pub fn plain(color: [f32; 3]) -> Self {
+        Self { color, texture: None }
     }
 }
 

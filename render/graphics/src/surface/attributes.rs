@@ -74,13 +74,13 @@ impl Facet<'_> {
     #[must_use]
     #[inline]
     pub fn albedo(&self) -> Vec3 {
-        let colour = Vec3::from(self.coating.colour);
-        let colour = colour * between(self.seen, self.corners.map(|corner| corner.colour.into()));
+        let color = Vec3::from(self.coating.color);
+        let color = color * between(self.seen, self.corners.map(|corner| corner.color.into()));
         if self.coating.width == 0 {
-            return colour;
+            return color;
         }
         let [a, b, c] = self.corners.map(|corner| Vec2::new(corner.u, corner.v));
-        colour * self.textured(a + (b - a) * self.seen.second + (c - a) * self.seen.third)
+        color * self.textured(a + (b - a) * self.seen.second + (c - a) * self.seen.third)
     }
 
     /// The texture at `place`, (0, 0) its upper left corner and (1, 1) its lower right.

@@ -19,7 +19,7 @@ pub struct Vertex {
     /// Downwards in its texture, 0..1.
     pub v: f32,
     /// Encoded sRGB, 0..1.
-    pub colour: [f32; 3],
+    pub color: [f32; 3],
     spare: f32,
 }
 
@@ -28,7 +28,7 @@ pub struct Vertex {
 #[repr(C)]
 pub struct Coating {
     /// Encoded sRGB, 0..1.
-    pub colour: [f32; 3],
+    pub color: [f32; 3],
     /// Where its texture starts in the texels of all.
     pub first: u32,
     /// Texels in a row; 0 without a texture.
@@ -60,12 +60,12 @@ impl Placed for Vertex {
 
 impl Vertex {
     /// The layout that shaders share.
-    pub const LAYOUT: Layout = layout!(Vertex { position, u, normal, v, colour, spare });
+    pub const LAYOUT: Layout = layout!(Vertex { position, u, normal, v, color, spare });
 }
 
 impl Coating {
     /// The layout that shaders share.
-    pub const LAYOUT: Layout = layout!(Coating { colour, first, width, height, spare });
+    pub const LAYOUT: Layout = layout!(Coating { color, first, width, height, spare });
 }
 
 /// A mesh as it is drawn.
@@ -93,9 +93,9 @@ impl PackedMesh {
     /// textures are 2^32 or more.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
-        let Mesh { positions, normals, texture_coordinates, colours, .. } = mesh;
+        let Mesh { positions, normals, texture_coordinates, colors, .. } = mesh;
         let count = positions.len();
-        let lengths = [normals.len(), texture_coordinates.len(), colours.len()];
+        let lengths = [normals.len(), texture_coordinates.len(), colors.len()];
         assert_eq!(
             lengths, [count; 3],
             "normals, texture coordinates, colours of {count} vertices"
@@ -105,7 +105,7 @@ impl PackedMesh {
             u: texture_coordinates[i][0],
             normal: normals[i],
             v: texture_coordinates[i][1],
-            colour: colours[i],
+            color: colors[i],
             spare: 0.0,
         });
         let mut texels = Vec::new();
@@ -117,7 +117,7 @@ impl PackedMesh {
             });
             assert!(first <= u32::MAX as usize, "{first} texels");
             let first = first as u32;
-            Coating { colour: material.colour, first, width, height, spare: [0; 2] }
+            Coating { color: material.color, first, width, height, spare: [0; 2] }
         });
         Self {
             vertices: vertices.collect(),

@@ -9,7 +9,7 @@ struct Vertex {
     u: f32,
     normal: vec3<f32>,
     v: f32,
-    colour: vec3<f32>,
+    color: vec3<f32>,
     spare: f32,
 }
 

@@ -13,8 +13,7 @@ use crate::pose::Sample;
 use crate::strokes::{Action, BrushSpec, Strokes, Surface};
 
 fn recorded() -> Easel {
-    let text = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
-    let library = PigmentLibrary::from_json("oils", text).unwrap();
+    let library = PigmentLibrary::van_gogh_oils();
     let text = r#"{"format": "strokes", "version": 1, "brushes": {}, "actions": [],
         "canvas": {"width_mm": 8, "height_mm": 6, "cell_mm": 0.2}, "palette": ["Lead White"]}"#;
     let script = Strokes::from_json("header", text.as_bytes()).unwrap();

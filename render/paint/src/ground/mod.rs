@@ -21,7 +21,7 @@ pub use linen::Linen;
 pub use panel::Panel;
 pub use paper::{Making, Paper};
 pub use picture_relief::PictureRelief;
-pub use primer::{ColourPrimer, MeasuredPrimer, Primer, PrimerSpectrum};
+pub use primer::{ColorPrimer, MeasuredPrimer, Primer, PrimerSpectrum};
 pub use wood::Wood;
 
 use pigment::library::PigmentLibrary;
@@ -187,7 +187,7 @@ pub enum GroundError {
     },
     /// No colour.
     #[error("the colour of a ground is written #rrggbb, found `{text}`")]
-    Colour {
+    Color {
         /// What was given.
         text: String,
     },
@@ -223,7 +223,7 @@ impl GroundError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::TooHigh { .. } => Some("use larger cells, or a lower ground".to_owned()),
-            Self::Colour { .. } => {
+            Self::Color { .. } => {
                 Some("or give a number 0 to 1, or {\"spectrum\": {..}}".to_owned())
             }
             Self::Band { library, .. } => Some(format!("the library stands on {library}")),

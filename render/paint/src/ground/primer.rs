@@ -20,7 +20,7 @@ pub enum Primer {
     /// The same at every wavelength, 0..=1.
     Grey(f64),
     /// The smoothest reflectance of a colour.
-    Colour(ColourPrimer),
+    Color(ColorPrimer),
     /// As measured.
     Measured(MeasuredPrimer),
 }
@@ -28,7 +28,7 @@ pub enum Primer {
 /// A colour of a ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ColourPrimer {
+pub struct ColorPrimer {
     /// `#rrggbb`, sRGB seen under D65. A colour that no film of the library's
     /// surface can have is replaced by one near it.
     pub rgb: String,
@@ -78,12 +78,12 @@ impl Primer {
             Self::Grey(value) => {
                 Ok(vec![within("reflectance", "", *value, [0.0, 1.0])?; grid.count()])
             }
-            Self::Colour(ColourPrimer { rgb }) => {
-                let colour =
-                    Rgb::from_hex(rgb).ok_or_else(|| GroundError::Colour { text: rgb.clone() })?;
+            Self::Color(ColorPrimer { rgb }) => {
+                let color =
+                    Rgb::from_hex(rgb).ok_or_else(|| GroundError::Color { text: rgb.clone() })?;
                 let weights = Viewing::default().weights(grid)?;
                 let (white, surface) = (weights.white(), library.saunderson);
-                let xyz = RgbSpace::Srgb.xyz_from_encoded(colour, white, Adaptation::Bradford);
+                let xyz = RgbSpace::Srgb.xyz_from_encoded(color, white, Adaptation::Bradford);
                 let found = smoothest_reflectance(&weights, surface, xyz).internal;
                 Ok(found.into_iter().map(|r| surface.measured_from_internal(r)).collect())
             }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::primer::{ColourPrimer, Primer};
+use super::primer::{ColorPrimer, Primer};
 use super::{GroundError, within};
 use crate::optics::Gloss;
 use graphics::field::Field;
@@ -35,7 +35,7 @@ const RING_MM: f32 = 5.0;
 impl Wood {
     /// What it reflects if nothing else is said: a walnut brown.
     pub(super) fn walnut() -> Primer {
-        Primer::Colour(ColourPrimer { rgb: "#7a5433".to_owned() })
+        Primer::Color(ColorPrimer { rgb: "#7a5433".to_owned() })
     }
 
     /// The shine of its varnish.

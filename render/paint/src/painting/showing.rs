@@ -168,8 +168,7 @@ mod tests {
     }
 
     fn bare() -> Painting {
-        let text = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
-        let library = PigmentLibrary::from_json("van-gogh-oils.pigments.json", text).unwrap();
+        let library = PigmentLibrary::van_gogh_oils();
         let ground = GroundSpec::default().ground(300, 200, 0.1, &library).unwrap();
         let (medium, lighting) = (Medium::default(), Lighting::default());
         let slots = std::array::from_fn(Some);

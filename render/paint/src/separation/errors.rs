@@ -14,13 +14,13 @@ use graphics::picture::Picture;
 /// sRGB by Kubelka-Munk, not by any table.
 #[must_use]
 pub fn rebuilt(film: &PaintFilm, heights_mm: &Field<[f32; SLOTS]>) -> Picture {
-    let colours = heights_mm.values().par_iter().with_min_len(256).map(|at| film.rgb(at));
-    Field::from_values(heights_mm.width(), heights_mm.height(), colours.collect())
+    let colors = heights_mm.values().par_iter().with_min_len(256).map(|at| film.rgb(at));
+    Field::from_values(heights_mm.width(), heights_mm.height(), colors.collect())
 }
 
 /// CIEDE2000 over the pixels of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct ColourErrors {
+pub struct ColorErrors {
     /// Arithmetic mean.
     pub mean: f64,
     /// Median.
@@ -35,7 +35,7 @@ pub struct ColourErrors {
     pub out_of_gamut: f64,
 }
 
-impl ColourErrors {
+impl ColorErrors {
     /// The errors of `painted` against `wanted`, seen under the light of
     /// `separation`, which also says which colours are out of gamut.
     ///

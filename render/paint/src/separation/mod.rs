@@ -16,7 +16,7 @@ mod errors;
 
 mod selection;
 
-pub use errors::{ColourErrors, rebuilt};
+pub use errors::{ColorErrors, rebuilt};
 pub use film::{Materials, PaintFilm};
 pub use selection::{ChosenPalette, choose_palette};
 pub use table::{OUT_OF_GAMUT, Separation, SeparationError, SeparationSettings};

@@ -13,7 +13,7 @@ use crate::layer::SLOTS;
 use graphics::picture::Picture;
 
 /// Colours of the photograph that are tried.
-const COLOURS: usize = 96;
+const COLORS: usize = 96;
 /// Bins of each channel in which its pixels are gathered.
 const BINS: f32 = 12.0;
 /// A pigment that gains less than this, in mean CIEDE2000, is left out.
@@ -51,7 +51,7 @@ pub fn choose_palette(
     settings: &SeparationSettings,
 ) -> Result<ChosenPalette, SeparationError> {
     settings.check()?;
-    let colours = gathered(picture);
+    let colors = gathered(picture);
     let mut open: Vec<usize> = (0..materials.library.pigments.len())
         .filter(|&index| materials.library.pigments[index].identified)
         .collect();
@@ -60,7 +60,7 @@ pub fn choose_palette(
     }
     let mean = |chosen: &[usize]| {
         let slots = slots_of(chosen);
-        error(&film(Materials { slots: &slots, ..materials }), settings, &colours)
+        error(&film(Materials { slots: &slots, ..materials }), settings, &colors)
     };
     // The pigment that does best at a place of the palette.
     let best = |chosen: &[usize], place: usize, open: &[usize]| {
@@ -106,10 +106,10 @@ fn slots_of(chosen: &[usize]) -> Slots {
 }
 
 /// Weighted mean CIEDE2000 of the colours by the films of a palette.
-fn error(film: &PaintFilm, settings: &SeparationSettings, colours: &[(f64, [f32; 3])]) -> f64 {
+fn error(film: &PaintFilm, settings: &SeparationSettings, colors: &[(f64, [f32; 3])]) -> f64 {
     let nearest = settings.nearest(film.clone());
     let mixtures = Mixtures::of(&nearest);
-    let errors: Vec<f64> = colours
+    let errors: Vec<f64> = colors
         .par_iter()
         .map(|&(weight, rgb)| {
             let lab = film.lab_from_rgb(rgb);
@@ -124,7 +124,7 @@ fn error(film: &PaintFilm, settings: &SeparationSettings, colours: &[(f64, [f32;
             weight * difference.hypot(nearest.showing(&mixed))
         })
         .collect();
-    errors.iter().sum::<f64>() / colours.iter().map(|(weight, _)| weight).sum::<f64>()
+    errors.iter().sum::<f64>() / colors.iter().map(|(weight, _)| weight).sum::<f64>()
 }
 
 /// The photograph's most frequent colours with their weights.
@@ -136,12 +136,12 @@ fn gathered(picture: &Picture) -> Vec<(f64, [f32; 3])> {
         *count += 1.0;
         sum.iter_mut().zip(rgb).for_each(|(sum, value)| *sum += f64::from(*value));
     }
-    let mut colours: Vec<(f64, [f32; 3])> = bins
+    let mut colors: Vec<(f64, [f32; 3])> = bins
         .into_values()
         .map(|(count, sum)| (count.sqrt(), sum.map(|value| (value / count) as f32)))
         .collect();
     // Stable: bins of one size stay in the order of their colours.
-    colours.sort_by(|a, b| b.0.total_cmp(&a.0));
-    colours.truncate(COLOURS);
-    colours
+    colors.sort_by(|a, b| b.0.total_cmp(&a.0));
+    colors.truncate(COLORS);
+    colors
 }

@@ -86,7 +86,7 @@ impl Separation {
         let mut films: Vec<Mixed> = (0..count.pow(3))
             .into_par_iter()
             .map(|index| {
-                let wanted = nearest.wanted(colour(&nearest, count, index));
+                let wanted = nearest.wanted(color(&nearest, count, index));
                 let found = mixtures
                     .nearest_to(&wanted, STARTS)
                     .iter()
@@ -151,11 +151,11 @@ impl Separation {
     /// Heights in mm by slot for every pixel.
     #[must_use]
     pub fn separate(&self, picture: &Picture) -> Field<[f32; SLOTS]> {
-        let colours = picture.values().par_iter().with_min_len(1024);
+        let colors = picture.values().par_iter().with_min_len(1024);
         let heights = if self.refined {
-            colours.map(|&rgb| self.refined_heights_mm(rgb)).collect()
+            colors.map(|&rgb| self.refined_heights_mm(rgb)).collect()
         } else {
-            colours.map(|&rgb| self.heights_mm(rgb)).collect()
+            colors.map(|&rgb| self.heights_mm(rgb)).collect()
         };
         Field::from_values(picture.width(), picture.height(), heights)
     }
@@ -209,7 +209,7 @@ fn inside(rgb: [f32; 3]) -> [f32; 3] {
 }
 
 /// The colour of a point of the table.
-fn colour(nearest: &Nearest, count: usize, index: usize) -> Lab {
+fn color(nearest: &Nearest, count: usize, index: usize) -> Lab {
     let place = [index / (count * count), index / count % count, index % count];
     let rgb = place.map(|at| (at as f32 / (count - 1) as f32).powi(2));
     nearest.film.lab_from_rgb(rgb)
@@ -236,7 +236,7 @@ fn smoothed(nearest: &Nearest, count: usize, films: &[Mixed], index: usize) -> M
         return films[index];
     }
     let mean = Mixed::of(sum.map(|height| height / neighbours), nearest.film.used()[0]);
-    let wanted = nearest.wanted(colour(nearest, count, index));
+    let wanted = nearest.wanted(color(nearest, count, index));
     let anchor = Anchor { mixed: mean, strength: NEIGHBOURS };
     let found = [films[index], mean]
         .iter()

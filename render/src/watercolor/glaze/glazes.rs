@@ -90,14 +90,14 @@ impl Glazes {
         let none = Slots::default();
         let white = film(library, &none, paper, light).rgb(&[0.0; SLOTS]);
         let black = library.saunderson.floor() as f32;
-        let values = wash.colour.values().iter().filter(|colour| colour[3] > 0.0);
-        let values: Vec<_> = values.map(|colour| wanted(*colour, white, black)).collect();
-        let colours = Picture::from_values(values.len(), 1, values);
+        let values = wash.color.values().iter().filter(|color| color[3] > 0.0);
+        let values: Vec<_> = values.map(|color| wanted(*color, white, black)).collect();
+        let colors = Picture::from_values(values.len(), 1, values);
         let ground = paper;
         let scattering_per_mm = medium().scattering_per_mm;
         let materials = Materials { library, slots: &none, ground, scattering_per_mm };
         let film = |materials: Materials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
-        Ok(choose_palette(&colours, materials, film, &HEIGHTS)?.slots)
+        Ok(choose_palette(&colors, materials, film, &HEIGHTS)?.slots)
     }
 
     /// Its pigments.
@@ -115,8 +115,8 @@ impl Glazes {
     /// Heights in mm by slot of the glaze for an encoded sRGB colour, which is seen
     /// relative to the paper: white is next to no paint.
     #[must_use]
-    pub fn heights_mm(&self, colour: [f32; 4]) -> [f32; SLOTS] {
-        self.separation.heights_mm(wanted(colour, self.white, self.black))
+    pub fn heights_mm(&self, color: [f32; 4]) -> [f32; SLOTS] {
+        self.separation.heights_mm(wanted(color, self.white, self.black))
     }
 
     /// Paints `wash` as [`crate::watercolor::paint`] does, but with glazes: a painting
@@ -137,12 +137,12 @@ impl Glazes {
     ) -> Result<Document, GpuError> {
         let heights = &textures.paper.heights;
         let displaced = textures.paper.per_slope(settings.wobble.amount_px);
-        let colour = OnCpu.wobbled(wash.colour.clone(), heights, displaced)?;
-        let thickness = thickness(&colour, &wash.controls, textures, settings)?;
-        Ok(self.document(title, &colour, &thickness, &textures.paper, lighting))
+        let color = OnCpu.wobbled(wash.color.clone(), heights, displaced)?;
+        let thickness = thickness(&color, &wash.controls, textures, settings)?;
+        Ok(self.document(title, &color, &thickness, &textures.paper, lighting))
     }
 
-    /// The painting of `colour`, the glaze of each pixel `thickness` times as high as its
+    /// The painting of `color`, the glaze of each pixel `thickness` times as high as its
     /// recipe wants.
     ///
     /// # Panics
@@ -151,21 +151,21 @@ impl Glazes {
     pub fn document(
         &self,
         title: &str,
-        colour: &Field<[f32; 4]>,
+        color: &Field<[f32; 4]>,
         thickness: &Field<f32>,
         paper: &PaperTexture,
         lighting: Lighting,
     ) -> Document {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         assert_eq!((thickness.width(), thickness.height()), (width, height), "a thickness each");
         let cell_mm = paper.px_mm;
-        let quanta = colour.values().par_iter().zip(thickness.values()).with_min_len(1024);
-        let quanta = quanta.map(|(&colour, &times)| {
+        let quanta = color.values().par_iter().zip(thickness.values()).with_min_len(1024);
+        let quanta = quanta.map(|(&color, &times)| {
             if times <= 0.0 {
                 return [0; SLOTS];
             }
             let height = |mm: f32| quanta_from_mm(f64::from(mm) * f64::from(times), cell_mm);
-            self.heights_mm(colour).map(height)
+            self.heights_mm(color).map(height)
         });
         let mut layer = Layer::empty(width, height);
         layer.pigments = Field::from_values(width, height, quanta.collect());

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::watercolor::density::excess;
 use crate::watercolor::pipeline::reach;
 use crate::watercolor::{
-    Backend, ColourMask, ColourRange, Controls, Edges, OnCpu, Settings, Textures,
+    Backend, ColorMask, ColorRange, Controls, Edges, OnCpu, Settings, Textures,
 };
 use graphics::field::Field;
 use graphics::gpu::GpuError;
@@ -13,7 +13,7 @@ use spectra::color::Rgb;
 
 /// What a glaze's height is multiplied with, pixel by pixel: the product of all
 /// densities d that would change its colour (see [`crate::watercolor::Density`]), of what
-/// the dry brush leaves, and of coverage. `colour` is the wash, displaced already;
+/// the dry brush leaves, and of coverage. `color` is the wash, displaced already;
 /// settings are those for its size.
 ///
 /// # Errors
@@ -22,12 +22,12 @@ use spectra::color::Rgb;
 /// # Panics
 /// If sizes differ.
 pub fn thickness(
-    colour: &Field<[f32; 4]>,
+    color: &Field<[f32; 4]>,
     controls: &Controls,
     textures: &Textures,
     settings: &Settings,
 ) -> Result<Field<f32>, GpuError> {
-    let (width, height) = (colour.width(), colour.height());
+    let (width, height) = (color.width(), color.height());
     let Textures { flow, dispersion, paper } = textures;
     let Controls { dry_brush, density } = controls;
     let greys = [flow, dispersion, &paper.heights].into_iter().chain(dry_brush).chain(density);
@@ -36,18 +36,18 @@ pub fn thickness(
     }
     let edges = match settings.edges.strength {
         0.0 => OnCpu.grey_of(&Field::filled(width, height, 0.0))?,
-        _ => OnCpu.edges(colour, settings.edges.width_px)?,
+        _ => OnCpu.edges(color, settings.edges.width_px)?,
     };
     let reach = reach(paper, settings);
-    let like = settings.dry_brush.colour.as_deref().and_then(Rgb::from_hex);
-    let by_colour = match like {
+    let like = settings.dry_brush.color.as_deref().and_then(Rgb::from_hex);
+    let by_color = match like {
         Some(like) if reach.threshold > 0.0 => {
-            let range = ColourRange::around(like, settings.dry_brush.tolerance);
-            Some(OnCpu.colour_mask(colour, range, dry_brush.as_ref())?)
+            let range = ColorRange::around(like, settings.dry_brush.tolerance);
+            Some(OnCpu.color_mask(color, range, dry_brush.as_ref())?)
         }
         _ => None,
     };
-    let dry_brush = by_colour.as_ref().or(dry_brush.as_ref());
+    let dry_brush = by_color.as_ref().or(dry_brush.as_ref());
     let mut thickness = Field::filled(width, height, 0.0);
     thickness.values_mut().par_iter_mut().with_min_len(1024).enumerate().for_each(|(i, out)| {
         let at = |field: &Field<f32>| field.values()[i];
@@ -63,7 +63,7 @@ pub fn thickness(
             true => reach.kept(at(&paper.heights), at(flow), dry_brush.map_or(1.0, at)),
             false => 1.0,
         };
-        *out = product * kept * colour.values()[i][3];
+        *out = product * kept * color.values()[i][3];
     });
     Ok(thickness)
 }

@@ -65,7 +65,7 @@ struct Tile<'a> {
 /// A path that came by: its colour there, and the number of its mode.
 #[derive(Debug, Clone, Copy)]
 struct Passed {
-    colour: [f32; 3],
+    color: [f32; 3],
     mode: u32,
 }
 
@@ -78,21 +78,21 @@ impl pulp::WithSimd for Tile<'_> {
         let per_px = bandwidth.spatial_px.powi(-2);
         let per_difference = bandwidth.range.powi(-2);
         let meets = (meeting * bandwidth.range).powi(2);
-        let nobody = Passed { colour: [f32::INFINITY; 3], mode: 0 };
+        let nobody = Passed { color: [f32::INFINITY; 3], mode: 0 };
         let mut passed = vec![nobody; width * height];
         let mut modes: Vec<Mode> = Vec::new();
         let mut of_pixels = Vec::with_capacity(width * height);
         let mut path: Vec<(usize, [f32; 3])> = Vec::new();
         for pixel in 0..width * height {
             let (x, y) = (left + pixel % width, top + pixel / width);
-            let mut at = Mode { x: x as f32, y: y as f32, colour: planes.at(x, y) };
+            let mut at = Mode { x: x as f32, y: y as f32, color: planes.at(x, y) };
             let mut met = None;
             path.clear();
             for _ in 0..MOST_STEPS {
                 let Some(step) = step(simd, planes, at, bandwidth) else { break };
                 at = at.moved(step);
                 let length = (step.x * step.x + step.y * step.y) * per_px
-                    + squared(step.colour) * per_difference;
+                    + squared(step.color) * per_difference;
                 if length <= STILL * STILL {
                     break;
                 }
@@ -103,20 +103,20 @@ impl pulp::WithSimd for Tile<'_> {
                 };
                 if meeting > 0.0 && x < width && y < height {
                     let other = &passed[y * width + x];
-                    let apart = [0, 1, 2].map(|i| other.colour[i] - at.colour[i]);
+                    let apart = [0, 1, 2].map(|i| other.color[i] - at.color[i]);
                     if squared(apart) <= meets {
                         met = Some(other.mode);
                         break;
                     }
-                    path.push((y * width + x, at.colour));
+                    path.push((y * width + x, at.color));
                 }
             }
             let mode = met.unwrap_or_else(|| {
                 modes.push(at);
                 modes.len() as u32 - 1
             });
-            for &(pixel, colour) in &path {
-                passed[pixel] = Passed { colour, mode };
+            for &(pixel, color) in &path {
+                passed[pixel] = Passed { color, mode };
             }
             of_pixels.push(modes[mode as usize]);
         }
@@ -161,7 +161,7 @@ mod tests {
         let walked = modes(&planes, BANDWIDTH, 0.0);
         let met = modes(&planes, BANDWIDTH, MEETING);
         let apart = |(a, b): (&Mode, &Mode)| {
-            squared([0, 1, 2].map(|i| a.colour[i] - b.colour[i])).sqrt() / BANDWIDTH.range
+            squared([0, 1, 2].map(|i| a.color[i] - b.color[i])).sqrt() / BANDWIDTH.range
         };
         let off: Vec<f32> = met.values().iter().zip(walked.values()).map(apart).collect();
         let beyond = |limit: f32| off.iter().filter(|&&off| off > limit).count();
@@ -210,7 +210,7 @@ mod tests {
             for (&pixel, wanted) in case.pixels.iter().zip(&case.modes) {
                 let mode = found.values()[pixel];
                 let own =
-                    if wanted.len() == 3 { mode.colour.to_vec() } else { vec![mode.x, mode.y] };
+                    if wanted.len() == 3 { mode.color.to_vec() } else { vec![mode.x, mode.y] };
                 for (own, wanted) in own.iter().zip(wanted) {
                     // As far as the conversion of colours, and a last step.
                     let near = (own - wanted).abs() <= tolerance + 1e-3;

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_those_of_f64() {
+    fn colors_are_those_of_f64() {
         let fast = LuvOfSrgb::new();
         let steps = [0.0, 1e-4, 0.01, 0.04, 0.041, 0.1, 0.3, 0.55, 0.8, 0.999, 1.0];
         let white = RgbSpace::Srgb.white();

@@ -25,14 +25,14 @@ pub(super) struct Mode {
     pub(super) x: f32,
     pub(super) y: f32,
     /// L*, u*, v*.
-    pub(super) colour: [f32; 3],
+    pub(super) color: [f32; 3],
 }
 
 impl Mode {
     /// A `step` further.
     pub(super) fn moved(self, step: Self) -> Self {
-        let colour = [0, 1, 2].map(|i| self.colour[i] + step.colour[i]);
-        Self { x: self.x + step.x, y: self.y + step.y, colour }
+        let color = [0, 1, 2].map(|i| self.color[i] + step.color[i]);
+        Self { x: self.x + step.x, y: self.y + step.y, color }
     }
 }
 
@@ -50,7 +50,7 @@ pub(super) fn step<S: Simd>(
     let lane = S::as_simd_f32s(&LANES).0[0];
     let (zero, one) = (simd.splat_f32s(0.0), simd.splat_f32s(1.0));
     let lanes = simd.splat_f32s(S::F32_LANES as f32);
-    let [at_l, at_u, at_v] = at.colour.map(|value| simd.splat_f32s(value));
+    let [at_l, at_u, at_v] = at.color.map(|value| simd.splat_f32s(value));
     let most = simd.splat_f32s(range * range);
     let [mut sum_l, mut sum_u, mut sum_v, mut sum_x, mut sum_y, mut count] = [zero; 6];
     let [first, last] = [(at.y - spatial_px).ceil() as isize, (at.y + spatial_px) as isize];
@@ -93,5 +93,5 @@ pub(super) fn step<S: Simd>(
         return None;
     }
     let mean = |sum| simd.reduce_sum_f32s(sum) / count;
-    Some(Mode { x: mean(sum_x), y: mean(sum_y), colour: [mean(sum_l), mean(sum_u), mean(sum_v)] })
+    Some(Mode { x: mean(sum_x), y: mean(sum_y), color: [mean(sum_l), mean(sum_u), mean(sum_v)] })
 }

@@ -71,7 +71,7 @@ mod tests {
         let mut modes = Vec::new();
         for (label, &(pixels, l)) in (0..).zip(regions) {
             labels.extend(vec![label; pixels]);
-            modes.extend(vec![Mode { colour: [l, 0.0, 0.0], ..Mode::default() }; pixels]);
+            modes.extend(vec![Mode { color: [l, 0.0, 0.0], ..Mode::default() }; pixels]);
         }
         let width = labels.len();
         let mut labels = Field::from_values(width, 1, labels);
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn the_small_join_the_nearest_in_colour() {
+    fn the_small_join_the_nearest_in_color() {
         let row = |l: f32| joined(&[(3, 10.0), (1, l), (3, 60.0)], |graph| join_small(graph, 2));
         assert_eq!(row(40.0), [0, 0, 0, 1, 1, 1, 1]);
         assert_eq!(row(30.0), [0, 0, 0, 0, 1, 1, 1]);

@@ -11,7 +11,7 @@ use graphics::field::Field;
 struct Weight {
     pixels: u32,
     /// Sums of L*, u*, v* of the modes.
-    colours: [f64; 3],
+    colors: [f64; 3],
     /// Pixels with paint.
     painted: u32,
 }
@@ -37,7 +37,7 @@ impl RegionGraph {
             let weight = &mut weights[label as usize];
             weight.pixels += 1;
             weight.painted += u32::from(painted(pixel));
-            for (sum, value) in weight.colours.iter_mut().zip(mode.colour) {
+            for (sum, value) in weight.colors.iter_mut().zip(mode.color) {
                 *sum += f64::from(value);
             }
         }
@@ -59,7 +59,7 @@ impl RegionGraph {
         const PAPER: f64 = 1e4;
         let [one, other] = [one, other].map(|region| &self.weights[region as usize]);
         let mean = |sum: f64, of: &Weight| sum / f64::from(of.pixels);
-        let off = |i: usize| mean(one.colours[i], one) - mean(other.colours[i], other);
+        let off = |i: usize| mean(one.colors[i], one) - mean(other.colors[i], other);
         let paper = PAPER * (mean(one.painted.into(), one) - mean(other.painted.into(), other));
         (off(0).powi(2) + off(1).powi(2) + off(2).powi(2) + paper.powi(2)).sqrt()
     }
@@ -83,7 +83,7 @@ impl RegionGraph {
         let weight = &mut self.weights[whole as usize];
         weight.pixels += added.pixels;
         weight.painted += added.painted;
-        for (sum, more) in weight.colours.iter_mut().zip(added.colours) {
+        for (sum, more) in weight.colors.iter_mut().zip(added.colors) {
             *sum += more;
         }
         let mut short = std::mem::take(&mut self.neighbours[part as usize]);

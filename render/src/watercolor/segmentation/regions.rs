@@ -69,7 +69,7 @@ pub(super) fn linked(
     let values = modes.values();
     let alike = |one: usize, other: usize| {
         let (a, b) = (&values[one], &values[other]);
-        let [l, u, v] = [0, 1, 2].map(|i| a.colour[i] - b.colour[i]);
+        let [l, u, v] = [0, 1, 2].map(|i| a.color[i] - b.color[i]);
         let (x, y) = (a.x - b.x, a.y - b.y);
         (l * l + u * u + v * v <= near)
             & (x * x + y * y <= near_px)
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn links_reach_over_steps_within_the_bandwidths_only() {
-        let mode = |x: f32, l: f32| Mode { x, y: 0.0, colour: [l, 0.0, 0.0] };
+        let mode = |x: f32, l: f32| Mode { x, y: 0.0, color: [l, 0.0, 0.0] };
         // Steps in L* of 2, 2, 3; a step of place; the paper's edge.
         let row = [(0.0, 10.0), (0.0, 12.0), (0.0, 14.0), (0.0, 17.0), (9.0, 17.0), (9.0, 17.0)];
         let modes = Field::from_values(6, 1, row.map(|(x, l)| mode(x, l)).to_vec());

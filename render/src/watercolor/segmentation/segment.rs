@@ -47,15 +47,15 @@ pub struct Segmentation {
     /// row by row. A region hangs together by rows and columns.
     pub labels: Field<u32>,
     /// The mean of each region: encoded sRGB where there is paint, and coverage.
-    pub colours: Vec<[f32; 4]>,
+    pub colors: Vec<[f32; 4]>,
 }
 
 impl Segmentation {
     /// The picture with each region in its own colour.
     #[must_use]
     pub fn flat(&self) -> Field<[f32; 4]> {
-        let colour = |&label: &u32| self.colours[label as usize];
-        let values = self.labels.values().par_iter().with_min_len(4096).map(colour).collect();
+        let color = |&label: &u32| self.colors[label as usize];
+        let values = self.labels.values().par_iter().with_min_len(4096).map(color).collect();
         Field::from_values(self.labels.width(), self.labels.height(), values)
     }
 }
@@ -79,7 +79,7 @@ pub fn segment(
     let bandwidth = settings.bandwidth()?;
     if picture.values().is_empty() {
         let labels = Field::filled(picture.width(), picture.height(), 0);
-        return Ok(Segmentation { labels, colours: Vec::new() });
+        return Ok(Segmentation { labels, colors: Vec::new() });
     }
     let margin = bandwidth.spatial_px.ceil() as usize + MOST_LANES + 1;
     let planes = LuvPlanes::new(picture, margin);
@@ -96,8 +96,8 @@ pub fn segment(
         join_small(&mut graph, settings.least_region_px);
         count = graph.relabel(&mut labels);
     }
-    let colours = means(picture, &labels, count);
-    Ok(Segmentation { labels, colours })
+    let colors = means(picture, &labels, count);
+    Ok(Segmentation { labels, colors })
 }
 
 /// The mean of every region, weighted by coverage; white where it is 0.
@@ -113,8 +113,8 @@ fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f
         *pixels += 1;
     }
     let mean = |([r, g, b, coverage], pixels): ([f64; 4], u32)| {
-        let colour = [r, g, b].map(|sum| if coverage > 0.0 { sum / coverage } else { 1.0 });
-        let [r, g, b] = colour.map(|value| value as f32);
+        let color = [r, g, b].map(|sum| if coverage > 0.0 { sum / coverage } else { 1.0 });
+        let [r, g, b] = color.map(|value| value as f32);
         [r, g, b, (coverage / f64::from(pixels)) as f32]
     };
     sums.into_iter().map(mean).collect()

@@ -95,11 +95,11 @@ impl Plane {
         let mut sums = [0.0; 3];
         let mut squares = [[0.0; 3]; 3];
         for &pixel in pixels {
-            let colour = modes[pixel as usize].colour.map(f64::from);
+            let color = modes[pixel as usize].color.map(f64::from);
             for i in 0..3 {
-                sums[i] += colour[i];
+                sums[i] += color[i];
                 for j in 0..3 {
-                    squares[i][j] += colour[i] * colour[j];
+                    squares[i][j] += color[i] * color[j];
                 }
             }
         }
@@ -125,7 +125,7 @@ impl Plane {
 
     /// Above the plane (positive) or below it.
     fn height(&self, mode: &Mode) -> f64 {
-        (0..3).map(|i| self.axis[i] * (f64::from(mode.colour[i]) - self.mean[i])).sum()
+        (0..3).map(|i| self.axis[i] * (f64::from(mode.color[i]) - self.mean[i])).sum()
     }
 }
 
@@ -133,36 +133,36 @@ impl Plane {
 mod tests {
     use super::*;
 
-    fn row(colours: &[[f32; 3]]) -> Field<Mode> {
-        let modes = colours.iter().map(|&colour| Mode { colour, ..Mode::default() }).collect();
-        Field::from_values(colours.len(), 1, modes)
+    fn row(colors: &[[f32; 3]]) -> Field<Mode> {
+        let modes = colors.iter().map(|&color| Mode { color, ..Mode::default() }).collect();
+        Field::from_values(colors.len(), 1, modes)
     }
 
     #[test]
     fn a_ramp_is_cut_into_even_steps() {
-        let colours: Vec<[f32; 3]> = (0..80).map(|i| [i as f32, 0.0, i as f32 / 2.0]).collect();
+        let colors: Vec<[f32; 3]> = (0..80).map(|i| [i as f32, 0.0, i as f32 / 2.0]).collect();
         let labels = Field::filled(80, 1, 0);
         // 80 of L* and 40 of v* are 89.4 in all: four steps of 22.4.
-        let (found, count) = cut(&labels, 1, &row(&colours), 23.0);
+        let (found, count) = cut(&labels, 1, &row(&colors), 23.0);
         assert_eq!(count, 4);
         let wanted: Vec<u32> = (0..80).map(|i| i / 20).collect();
         assert_eq!(found.values(), wanted);
         assert_eq!(
-            [60.0, 88.0, 90.0].map(|step| cut(&labels, 1, &row(&colours), step).1),
+            [60.0, 88.0, 90.0].map(|step| cut(&labels, 1, &row(&colors), step).1),
             [2, 2, 1]
         );
     }
 
     #[test]
     fn parts_hang_together_and_stay_in_their_region() {
-        let colours = [0.0, 0.0, 50.0, 0.0, 0.0, 0.0].map(|l| [l, 0.0, 0.0]);
+        let colors = [0.0, 0.0, 50.0, 0.0, 0.0, 0.0].map(|l| [l, 0.0, 0.0]);
         let labels = Field::from_values(6, 1, vec![0, 0, 0, 0, 1, 1]);
-        let (found, count) = cut(&labels, 2, &row(&colours), 20.0);
+        let (found, count) = cut(&labels, 2, &row(&colors), 20.0);
         assert_eq!((found.values(), count), (&[0, 0, 1, 2, 3, 3][..], 4));
     }
 
     #[test]
-    fn even_colour_is_not_cut() {
+    fn even_color_is_not_cut() {
         let labels = Field::filled(5, 1, 0);
         assert_eq!(cut(&labels, 1, &row(&[[30.0, 7.0, -3.0]; 5]), 1.0).1, 1);
     }

@@ -47,10 +47,10 @@ mod tests {
         assert_eq!(sketch.changed("none", "").unwrap(), sketch);
         let text = "[paper]\nseed = 7\n[dry_brush]\ncolour = \"#102030\"";
         let changed = sketch.changed("some", text).unwrap();
-        assert_eq!((changed.paper.seed, changed.dry_brush.colour.as_deref()), (7, Some("#102030")));
+        assert_eq!((changed.paper.seed, changed.dry_brush.color.as_deref()), (7, Some("#102030")));
         let mut back = changed;
         back.paper.seed = sketch.paper.seed;
-        back.dry_brush.colour.clone_from(&sketch.dry_brush.colour);
+        back.dry_brush.color.clone_from(&sketch.dry_brush.color);
         assert_eq!(back, sketch);
     }
 

@@ -81,7 +81,8 @@ pub struct PaperSettings {
     /// they are wider.
     pub grain_px: f32,
     /// Its colour, `#rrggbb`.
-    pub colour: String,
+    #[serde(rename = "colour")]
+    pub color: String,
     /// How much light from the upper left shows the grain, 0..=1.
     pub relief: f32,
 }
@@ -98,8 +99,8 @@ pub struct DryBrushSettings {
     /// only where the wash flows thinly.
     pub patches: f32,
     /// Only where the wash is of about this colour, `#rrggbb`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub colour: Option<String>,
+    #[serde(rename = "colour", skip_serializing_if = "Option::is_none")]
+    pub color: Option<String>,
     /// How far from that colour, in CIELAB, 1..=200.
     pub tolerance: f32,
 }
@@ -143,7 +144,7 @@ impl Default for PaperSettings {
             seed: 1,
             strength: 0.5,
             grain_px: 4.5,
-            colour: "#fbf9f4".to_owned(),
+            color: "#fbf9f4".to_owned(),
             relief: 0.02,
         }
     }
@@ -151,7 +152,7 @@ impl Default for PaperSettings {
 
 impl Default for DryBrushSettings {
     fn default() -> Self {
-        Self { amount: 0.0, softness: 0.1, patches: 1.0, colour: None, tolerance: 25.0 }
+        Self { amount: 0.0, softness: 0.1, patches: 1.0, color: None, tolerance: 25.0 }
     }
 }
 

@@ -48,14 +48,14 @@ impl Settings {
                 value: figure.value as f32,
             });
         }
-        let colours = [
-            ("paper.colour", Some(&self.paper.colour)),
-            ("dry_brush.colour", self.dry_brush.colour.as_ref()),
+        let colors = [
+            ("paper.colour", Some(&self.paper.color)),
+            ("dry_brush.colour", self.dry_brush.color.as_ref()),
         ];
-        for (key, text) in colours {
+        for (key, text) in colors {
             if let Some(text) = text.filter(|text| Rgb::from_hex(text).is_none()) {
                 let (name, text) = (name.to_owned(), text.clone());
-                return Err(SettingsError::Colour { name, line: line(key), key, text });
+                return Err(SettingsError::Color { name, line: line(key), key, text });
             }
         }
         Ok(())
@@ -119,7 +119,7 @@ pub enum SettingsError {
     },
     /// No colour.
     #[error("{name}, line {line}: {key} is written #rrggbb, found `{text}`")]
-    Colour {
+    Color {
         /// The file.
         name: String,
         /// Counted from 1.
@@ -154,7 +154,7 @@ impl SettingsError {
                 let usual = value.map_or(0.0, |figure| figure.value as f32);
                 format!("{usual} is usual")
             }
-            Self::Colour { .. } => "a warm white is \"#fbf9f4\"".to_owned(),
+            Self::Color { .. } => "a warm white is \"#fbf9f4\"".to_owned(),
         }
     }
 }

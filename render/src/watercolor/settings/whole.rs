@@ -86,7 +86,7 @@ impl Settings {
         self.dispersion.strength = 0.0;
         self.paper.strength = 0.0;
         self.paper.relief = 0.0;
-        "#ffffff".clone_into(&mut self.paper.colour);
+        "#ffffff".clone_into(&mut self.paper.color);
         self.dry_brush.amount = 0.0;
         self
     }

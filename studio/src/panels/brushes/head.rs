@@ -6,8 +6,8 @@ use render::paint::brush::HeadShape;
 use crate::theme;
 
 /// Draws a head that points up, with its ferrule and a bit of the handle, in paint
-/// of `colour` or the brown grey of hair.
-pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, colour: Option<[u8; 3]>) {
+/// of `color` or the brown grey of hair.
+pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, color: Option<[u8; 3]>) {
     let contour = shape.contour();
     let (length, _) = contour[contour.len() - 1];
     let metal = room.height() * 0.28;
@@ -27,7 +27,7 @@ pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, colour: Opti
     );
     painter.rect_filled(handle, 1.0, Color32::from_gray(88));
     painter.rect_filled(ferrule.expand2(vec2(0.75, 0.0)), 1.0, Color32::from_gray(150));
-    let hair = match (colour, shape) {
+    let hair = match (color, shape) {
         (Some([red, green, blue]), _) => Color32::from_rgb(red, green, blue),
         (None, HeadShape::Knife) => Color32::from_gray(190),
         (None, _) => Color32::from_gray(112),

@@ -37,9 +37,9 @@ impl Row<'_> {
             let number = self.number.to_string();
             text(ui, key, Align::Center, TextStyle::Small, faint, &number);
         }
-        let colour = self.state.and_then(|state| state.colour);
+        let color = self.state.and_then(|state| state.color);
         let drawn = between(inner.left() + 18.0, inner.left() + 42.0);
-        head::draw(ui.painter(), drawn, self.spec.shape, colour);
+        head::draw(ui.painter(), drawn, self.spec.shape, color);
         let (name, below) =
             between(inner.left() + 50.0, inner.right() - 84.0).split_top_bottom_at_fraction(0.55);
         text(ui, name, Align::Min, TextStyle::Body, theme::STRONG, self.label);
@@ -91,7 +91,7 @@ fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
     let (paint, _) = bar.split_left_right_at_fraction(filled);
     let (pigment, medium) = paint.split_left_right_at_fraction(1.0 - state.vehicle as f32);
     painter.rect_filled(medium, 0.0, Color32::from_gray(176));
-    if let Some([red, green, blue]) = state.colour {
+    if let Some([red, green, blue]) = state.color {
         painter.rect_filled(pigment, 0.0, Color32::from_rgb(red, green, blue));
     }
 }

@@ -130,7 +130,7 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use session::oils;
+    use pigment::library::PigmentLibrary;
 
     fn layer(amounts: &[(usize, f64)], vehicle: f64) -> PickedLayer {
         let mut slots = [None; SLOTS];
@@ -155,7 +155,7 @@ mod tests {
     fn what_comes_near_no_parts_is_told_in_percent_and_traces_apart() {
         let paint = LayerPaint::of(&layer(&[(3, 0.0487), (0, 0.0513), (5, 0.0002)], 0.0)).unwrap();
         assert_eq!((&paint.parts, &paint.traces[..]), (&None, &[5][..]));
-        let library = oils();
+        let library = PigmentLibrary::van_gogh_oils();
         let lines = paint.lines(&library);
         assert_eq!(lines[0], ("51.3 %".to_owned(), library.pigments[0].name.clone()));
         assert_eq!(lines[1], ("48.7 %".to_owned(), library.pigments[3].name.clone()));
@@ -172,12 +172,12 @@ mod tests {
         assert_eq!(LayerPaint::of(&layer(&[(0, 0.0)], 0.0)), None);
         let clear = LayerPaint::of(&layer(&[], 0.05)).unwrap();
         assert_eq!((clear.vehicle, clear.shares.len()), (1.0, 0));
-        assert_eq!(clear.mix_text(&oils(), &Medium::default()), None);
+        assert_eq!(clear.mix_text(&PigmentLibrary::van_gogh_oils(), &Medium::default()), None);
     }
 
     #[test]
     fn the_text_is_the_recipe_of_mix_with_the_film_in_units_of_the_library() {
-        let mut library = oils();
+        let mut library = PigmentLibrary::van_gogh_oils();
         let paint = LayerPaint::of(&layer(&[(0, 0.06), (3, 0.02)], 0.02)).unwrap();
         let names = [0, 3].map(|pigment| library.pigments[pigment].name.clone());
         let text = paint.mix_text(&library, &Medium::default()).unwrap();

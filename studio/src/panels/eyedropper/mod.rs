@@ -15,4 +15,4 @@ mod search;
 mod panel;
 
 pub use panel::Eyedropper;
-pub use wanted::{Colour, Wanted};
+pub use wanted::{Color, Wanted};

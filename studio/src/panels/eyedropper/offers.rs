@@ -45,8 +45,8 @@ impl Offer<'_> {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(PATCH.x);
-                let colours = [wanted, shown(found.lab[0], white)];
-                let patch = swatch(ui, &format!("Colour {number}"), PATCH, &colours);
+                let colors = [wanted, shown(found.lab[0], white)];
+                let patch = swatch(ui, &format!("Colour {number}"), PATCH, &colors);
                 patch.on_hover_text("Left what is wanted, right what the recipe gives");
                 told(ui, found);
             });

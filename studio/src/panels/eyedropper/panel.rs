@@ -11,7 +11,7 @@ use super::super::tools::Mode;
 use super::picked_place::picked_place;
 use super::search::Search;
 use super::swatch::swatch;
-use super::wanted::{Colour, Wanted};
+use super::wanted::{Color, Wanted};
 
 /// What was picked, what is wanted, and recipes for it.
 #[derive(Debug, Default)]
@@ -36,7 +36,7 @@ impl Eyedropper {
     /// by a click. A fault is told in the panel.
     pub fn open_swatches(&mut self, path: &Path) {
         self.fault = None;
-        match colours(path) {
+        match colors(path) {
             Ok(palette) => self.swatches = wanted_of(&palette),
             Err(fault) => self.fault = Some(fault),
         }
@@ -71,22 +71,22 @@ impl Eyedropper {
             Some(picked) => {
                 if picked_place(ui, desk, &picked) {
                     let name = format!("Picked at {:.1}, {:.1} mm", picked.x_mm, picked.y_mm);
-                    let colour = Colour::Reflectance(Arc::new(picked.reflectance.clone()));
-                    self.want(ui, desk, Wanted { name, colour });
+                    let color = Color::Reflectance(Arc::new(picked.reflectance.clone()));
+                    self.want(ui, desk, Wanted { name, color });
                 }
             }
         }
         ui.separator();
-        self.wanted_colour(ui, desk);
+        self.wanted_color(ui, desk);
         self.search.show(ui, desk, self.wanted.as_ref());
     }
 
-    fn wanted_colour(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
+    fn wanted_color(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
         let (grid, viewing) = (desk.easel.library.grid, &desk.easel.light.viewing);
         ui.horizontal(|ui| {
             if let Some(wanted) = &self.wanted {
-                let colour = wanted.shown(grid, viewing);
-                let patch = swatch(ui, "Wanted colour", vec2(40.0, 22.0), &[colour]);
+                let color = wanted.shown(grid, viewing);
+                let patch = swatch(ui, "Wanted colour", vec2(40.0, 22.0), &[color]);
                 let [l, a, b] = wanted.lab(grid, viewing).to_array();
                 patch.on_hover_text(format!("{}: Lab {l:.2} {a:.2} {b:.2}", wanted.name));
             }
@@ -128,8 +128,8 @@ impl Eyedropper {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
             for one in &self.swatches {
-                let colour = one.shown(grid, viewing);
-                let patch = swatch(ui, &one.name, vec2(18.0, 18.0), &[colour]);
+                let color = one.shown(grid, viewing);
+                let patch = swatch(ui, &one.name, vec2(18.0, 18.0), &[color]);
                 let hover = format!("{}. Click to search recipes for it", one.name);
                 if patch.on_hover_text(hover).clicked() {
                     clicked = Some(one.clone());
@@ -172,7 +172,7 @@ fn reader(path: &Path) -> Option<Reader> {
     }
 }
 
-fn colours(path: &Path) -> Result<Palette, String> {
+fn colors(path: &Path) -> Result<Palette, String> {
     let name = path.display().to_string();
     let reader = reader(path)
         .ok_or_else(|| format!("{name}: a palette of colours is a .gpl, .ase or .aco file"))?;
@@ -184,7 +184,7 @@ fn colours(path: &Path) -> Result<Palette, String> {
 fn wanted_of(palette: &Palette) -> Vec<Wanted> {
     let swatches = palette.swatches.iter();
     let wanted = swatches.filter_map(|one| {
-        let rgb = one.colour.srgb()?;
+        let rgb = one.color.srgb()?;
         let name = if one.name.is_empty() { rgb.to_hex() } else { one.name.clone() };
         Some(Wanted::screen(&name, rgb.linear().0))
     });

@@ -23,8 +23,8 @@ pub(super) fn picked_place(ui: &mut Ui, desk: &mut Desk<'_>, picked: &Picked) ->
         numbers(ui, &look, picked);
     });
     let library = &easel.library;
-    let colour = look.srgb.to_bytes();
-    let curve = Curve::new("reflectance", library.grid, &picked.reflectance).coloured(colour);
+    let color = look.srgb.to_bytes();
+    let curve = Curve::new("reflectance", library.grid, &picked.reflectance).colored(color);
     let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", most: Some(1.0) };
     let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
     chart.on_hover_text("Reflectance over wavelength at the picked place");

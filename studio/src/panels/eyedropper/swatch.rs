@@ -15,11 +15,11 @@ pub(super) fn on_screen(rgb: Rgb) -> Color32 {
 
 /// A patch called `name`. Two colours lie side by side without a seam, so that
 /// they can be compared.
-pub(super) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colours: &[Rgb]) -> Response {
+pub(super) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colors: &[Rgb]) -> Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
-    let width = rect.width() / colours.len().max(1) as f32;
-    for (at, &rgb) in colours.iter().enumerate() {
+    let width = rect.width() / colors.len().max(1) as f32;
+    for (at, &rgb) in colors.iter().enumerate() {
         let left = rect.left() + at as f32 * width;
         let part = Rect::from_x_y_ranges(left..=left + width, rect.y_range());
         ui.painter().rect_filled(part, 0.0, on_screen(rgb));

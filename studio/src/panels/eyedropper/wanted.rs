@@ -9,7 +9,7 @@ use spectra::{Grid, TristimulusWeights};
 
 /// A colour in one of three forms.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Colour {
+pub enum Color {
     /// As on the screen, linear sRGB: wanted to look so under any light.
     Screen([f64; 3]),
     /// CIELAB under the light of the painting.
@@ -24,14 +24,14 @@ pub struct Wanted {
     /// Where it comes from.
     pub name: String,
     /// The colour.
-    pub colour: Colour,
+    pub color: Color,
 }
 
 impl Wanted {
     /// A colour of the screen.
     #[must_use]
     pub fn screen(name: &str, linear: [f64; 3]) -> Self {
-        Self { name: name.to_owned(), colour: Colour::Screen(linear) }
+        Self { name: name.to_owned(), color: Color::Screen(linear) }
     }
 
     /// What a painter types: `#rrggbb`, or `L,a,b`.
@@ -43,27 +43,27 @@ impl Wanted {
         }
         let lab = Lab::from_text(text)?;
         let [l, a, b] = lab.to_array();
-        Some(Self { name: format!("Lab {l} {a} {b}"), colour: Colour::Lab(lab) })
+        Some(Self { name: format!("Lab {l} {a} {b}"), color: Color::Lab(lab) })
     }
 
     /// CIELAB under a light.
     #[must_use]
     pub fn lab(&self, grid: Grid, viewing: &Viewing) -> Lab {
-        match &self.colour {
-            Colour::Screen(linear) => {
+        match &self.color {
+            Color::Screen(linear) => {
                 let white = weights(grid, viewing).white();
                 Lab::from_xyz(from_screen(*linear, white), white)
             }
-            Colour::Lab(lab) => *lab,
-            Colour::Reflectance(values) => lab(&weights(grid, viewing), values),
+            Color::Lab(lab) => *lab,
+            Color::Reflectance(values) => lab(&weights(grid, viewing), values),
         }
     }
 
     /// Encoded sRGB under a light, not cut off at the gamut.
     #[must_use]
     pub fn shown(&self, grid: Grid, viewing: &Viewing) -> Rgb {
-        match &self.colour {
-            Colour::Screen(linear) => Rgb(*linear).encoded(),
+        match &self.color {
+            Color::Screen(linear) => Rgb(*linear).encoded(),
             _ => shown(self.lab(grid, viewing), weights(grid, viewing).white()),
         }
     }
@@ -132,14 +132,14 @@ mod tests {
     }
 
     #[test]
-    fn a_reflectance_has_the_colour_that_calibrate_gives_it() {
+    fn a_reflectance_has_the_color_that_calibrate_gives_it() {
         let values: Vec<f64> = (0..36).map(|i| 0.1 + 0.02 * f64::from(i)).collect();
         let viewing = tungsten();
         let wanted =
-            Wanted { name: String::new(), colour: Colour::Reflectance(Arc::new(values.clone())) };
+            Wanted { name: String::new(), color: Color::Reflectance(Arc::new(values.clone())) };
         assert_eq!(wanted.lab(grid(), &viewing), lab(&viewing.weights(grid()).unwrap(), &values));
         let perfect =
-            Wanted { name: String::new(), colour: Colour::Reflectance(vec![1.0; 36].into()) };
+            Wanted { name: String::new(), color: Color::Reflectance(vec![1.0; 36].into()) };
         assert_eq!(perfect.shown(grid(), &viewing).to_hex(), "#ffffff");
     }
 }

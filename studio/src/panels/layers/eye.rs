@@ -10,12 +10,12 @@ pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
     back(ui, &response, name, false);
     let lens = Rect::from_center_size(rect.center(), vec2(16.0, 10.0));
-    let colour = if visible { theme::STRONG } else { theme::FAINT };
-    let line = Stroke::new(1.5, colour);
+    let color = if visible { theme::STRONG } else { theme::FAINT };
+    let line = Stroke::new(1.5, color);
     ui.painter().add(Shape::line(lid(lens, 1.0), line));
     if visible {
         ui.painter().add(Shape::line(lid(lens, -1.0), line));
-        ui.painter().circle_filled(rect.center(), 2.75, colour);
+        ui.painter().circle_filled(rect.center(), 2.75, color);
     }
     response
 }

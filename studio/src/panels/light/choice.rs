@@ -1,7 +1,7 @@
 //! One light of the two: its list, and its temperature.
 
 use eframe::egui::Ui;
-use spectra::{ColourTemperature, light_from_text};
+use spectra::{ColorTemperature, light_from_text};
 
 use super::picker::Picker;
 use super::temperature::Temperature;
@@ -34,7 +34,7 @@ impl Choice {
     pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         if self.known.0 != chosen {
             let light = light_from_text(chosen).ok();
-            let temperature = light.as_ref().and_then(ColourTemperature::of);
+            let temperature = light.as_ref().and_then(ColorTemperature::of);
             let kelvin = temperature.map_or(USUAL_KELVIN, |temperature| temperature.kelvin);
             self.known = (chosen.to_owned(), kelvin);
         }

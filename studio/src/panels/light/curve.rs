@@ -13,8 +13,7 @@ const STEP_NM: usize = 2;
 /// Shows the present light with the wavelengths that stand for it, and others
 /// beside it, each with its colour. All have the same mean power.
 pub(super) fn powers(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
-    let mut curves: Vec<Curve> =
-        others.iter().map(|(other, colour)| curve(other, *colour)).collect();
+    let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
     curves.push(curve(&light.viewing.illuminant, theme::TEXT));
     let marks = &light.quadrature.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: "relative power", most: None };
@@ -26,14 +25,14 @@ pub(super) fn powers(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)
     ));
 }
 
-fn curve(light: &Illuminant, colour: Color32) -> Curve {
+fn curve(light: &Illuminant, color: Color32) -> Curve {
     let grid = light.power().grid();
     let shown = |point: &(f64, f64)| BAND_NM.contains(&point.0);
     let values = light.power().values().iter().copied();
     let mut points: Vec<(f64, f64)> = grid.wavelengths_nm().zip(values).filter(shown).collect();
     let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len().max(1) as f64;
     points = points.into_iter().step_by(STEP_NM).map(|(nm, power)| (nm, power / mean)).collect();
-    Curve { name: light.name().to_owned(), points, colour }
+    Curve { name: light.name().to_owned(), points, color }
 }
 
 #[cfg(test)]

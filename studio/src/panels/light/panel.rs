@@ -115,9 +115,9 @@ impl LightPanel {
     fn spectrum(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
         let light = &desk.easel.light;
         let mut others = Vec::new();
-        let mut add = |name: Option<String>, colour: Color32| {
+        let mut add = |name: Option<String>, color: Color32| {
             let other = name.and_then(|name| light_from_text(&name).ok());
-            others.extend(other.map(|other| (other, colour)));
+            others.extend(other.map(|other| (other, color)));
         };
         add(desk.easel.second.as_ref().map(|second| second.illuminant.clone()), theme::FAINT);
         add(self.first.wished().or(self.second.wished()), theme::STRONG);

@@ -6,7 +6,7 @@ use eframe::egui::{
     Align, Align2, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape,
     Stroke, TextEdit, Ui, vec2,
 };
-use spectra::{ColourTemperature, Illuminant, light_from_text};
+use spectra::{ColorTemperature, Illuminant, light_from_text};
 
 use super::lamps::{Kind, Lamp, lamps};
 use crate::theme;
@@ -120,7 +120,7 @@ fn entry(ui: &mut Ui, lamp: &Lamp, chosen: bool) -> bool {
     response
         .on_hover_ui(|ui| {
             ui.label(format!("{}: {}", lamp.name, lamp.note));
-            let temperature = Illuminant::named(lamp.name).ok().as_ref().map(ColourTemperature::of);
+            let temperature = Illuminant::named(lamp.name).ok().as_ref().map(ColorTemperature::of);
             if let Some(Some(temperature)) = temperature {
                 ui.label(format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv));
             }

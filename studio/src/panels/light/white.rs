@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use render::light::Light;
-use spectra::ColourTemperature;
+use spectra::ColorTemperature;
 
 /// Chromaticity and temperature of a light.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +12,7 @@ pub(super) struct White {
     /// Chromaticity x, y for the light's observer.
     pub(super) chromaticity: [f64; 2],
     /// The correlated colour temperature, if it has one.
-    pub(super) temperature: Option<ColourTemperature>,
+    pub(super) temperature: Option<ColorTemperature>,
 }
 
 impl White {
@@ -23,7 +23,7 @@ impl White {
         Self {
             light: Arc::clone(light),
             chromaticity: [xyy.x, xyy.y],
-            temperature: ColourTemperature::of(&light.viewing.illuminant),
+            temperature: ColorTemperature::of(&light.viewing.illuminant),
         }
     }
 

@@ -23,14 +23,14 @@ pub(in crate::panels) fn card(
     ui.set_max_width(WIDTH);
     ui.horizontal(|ui| {
         ui.label(RichText::new(&known.name).strong());
-        if let Some(index) = &known.colour_index {
+        if let Some(index) = &known.color_index {
             ui.weak(index);
         }
     });
     let (grid, look) = (catalogue.library.grid, catalogue.look(pigment));
-    let mut curves = vec![Curve::new("full", grid, &look.masstone).coloured(look.masstone_srgb)];
+    let mut curves = vec![Curve::new("full", grid, &look.masstone).colored(look.masstone_srgb)];
     if let (Some(tint), Some(srgb)) = (&look.tint, look.tint_srgb) {
-        curves.push(Curve::new("one in ten", grid, tint).coloured(srgb));
+        curves.push(Curve::new("one in ten", grid, tint).colored(srgb));
     }
     let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", most: Some(1.0) };
     chart.show(ui, vec2(WIDTH, 120.0));
@@ -78,8 +78,7 @@ mod tests {
 
     #[test]
     fn a_card_tells_what_calibrate_finds() {
-        let oils = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
-        let library = Arc::new(PigmentLibrary::from_json("oils", oils).unwrap());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);
         let told = |name: &str| lines(&catalogue, library.find(name).unwrap(), 50.0);

@@ -138,8 +138,7 @@ mod tests {
 
     #[test]
     fn a_catalogue_is_made_anew_only_for_another_library_or_light() {
-        let oils = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
-        let library = Arc::new(PigmentLibrary::from_json("oils", oils).unwrap());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let mut known = Known::default();
         let first = known.under(&library, &light);

@@ -63,7 +63,7 @@ impl PigmentList {
     fn finds(&self, catalogue: &Catalogue, pigment: usize) -> bool {
         let wanted = self.search.trim().to_lowercase();
         let pigment = &catalogue.library.pigments[pigment];
-        let index = pigment.colour_index.as_deref().unwrap_or_default();
+        let index = pigment.color_index.as_deref().unwrap_or_default();
         pigment.name.to_lowercase().contains(&wanted) || index.to_lowercase().contains(&wanted)
     }
 }
@@ -99,7 +99,7 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
 
 fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) {
     let [swatch, name, index, hides] = places(rect);
-    let colour = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
+    let color = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
     let look = catalogue.look(pigment);
     let (full, tint) = swatch.split_left_right_at_fraction(0.55);
     // Paint that cannot be chosen keeps its colour.
@@ -107,7 +107,7 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_p
     painter.set_opacity(1.0);
     patch(&painter, tint, look.tint_srgb);
     patch(&painter, full, Some(look.masstone_srgb));
-    text(ui, name, Align::Min, TextStyle::Body, colour, catalogue.name(pigment));
+    text(ui, name, Align::Min, TextStyle::Body, color, catalogue.name(pigment));
     let marked = mark(catalogue, pigment);
     text(ui, index, Align::Min, TextStyle::Small, theme::FAINT, marked);
     let words = catalogue.hiding(pigment, scattering_per_mm);
@@ -117,7 +117,7 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_p
 /// The colour index, or what a painter must know in its place.
 fn mark(catalogue: &Catalogue, pigment: usize) -> &str {
     let known = &catalogue.library.pigments[pigment];
-    match (&known.colour_index, known.guessed) {
+    match (&known.color_index, known.guessed) {
         (Some(index), _) => index,
         (None, true) => "guessed",
         (None, false) => "",

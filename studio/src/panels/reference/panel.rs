@@ -226,12 +226,12 @@ impl Reference {
             return;
         };
         let place = placing.place(response.rect, pointer);
-        let Some(colour) = picture.mean([place.x, place.y], self.radius) else { return };
+        let Some(color) = picture.mean([place.x, place.y], self.radius) else { return };
         if response.drag_stopped() || response.clicked() {
-            desk.tools.wanted = Some(colour);
+            desk.tools.wanted = Some(color);
         } else {
             let reach = placing.zoom * self.radius.max(0.5);
-            loupe(ui, response.rect, pointer, reach, Rgb(colour));
+            loupe(ui, response.rect, pointer, reach, Rgb(color));
         }
     }
 }

@@ -160,10 +160,10 @@ mod tests {
     #[test]
     fn the_screen_shows_srgb_and_grey_of_the_same_luminance() {
         let picture = two_by_two();
-        let colour = picture.on_screen(false);
-        assert_eq!(colour.pixels[0], Color32::from_rgb(255, 0, 0));
+        let color = picture.on_screen(false);
+        assert_eq!(color.pixels[0], Color32::from_rgb(255, 0, 0));
         let [shade, ..] = Rgb([0.2; 3]).encoded().to_bytes();
-        assert_eq!(colour.pixels[3], Color32::from_gray(shade));
+        assert_eq!(color.pixels[3], Color32::from_gray(shade));
         let grey = picture.on_screen(true);
         assert_eq!(grey.pixels[3], Color32::from_gray(shade));
         // IEC 61966-2-1: Y of the primaries.

@@ -77,8 +77,8 @@ impl Chooser {
         let (rect, response) = ui.allocate_exact_size(vec2(42.0, 42.0), Sense::click());
         back(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
         let (upper, lower) = rect.shrink(5.0).split_top_bottom_at_fraction(0.6);
-        let colour = held.map(|pigment| catalogue.look(pigment).masstone_srgb);
-        patch(ui.painter(), upper, colour);
+        let color = held.map(|pigment| catalogue.look(pigment).masstone_srgb);
+        patch(ui.painter(), upper, color);
         let number = (slot + 1).to_string();
         text(ui, lower, Align::Center, TextStyle::Small, theme::TEXT, &number);
         if response.clicked() {

@@ -151,8 +151,8 @@ fn clicked(response: &Response, desk: &mut Desk<'_>, slot: usize) {
 fn drag(ui: &Ui, desk: &Desk<'_>) {
     let Some(dragged) = DragAndDrop::payload::<DraggedTube>(ui.ctx()) else { return };
     let Some(pointer) = ui.ctx().pointer_interact_pos() else { return };
-    let Some(colour) = desk.easel.masstones[dragged.slot] else { return };
+    let Some(color) = desk.easel.masstones[dragged.slot] else { return };
     let layer = LayerId::new(Order::Tooltip, Id::unique("dragged tube"));
     let everywhere = Rect::EVERYTHING;
-    tube::draw_drop(&ui.ctx().layer_painter(layer).with_clip_rect(everywhere), pointer, colour);
+    tube::draw_drop(&ui.ctx().layer_painter(layer).with_clip_rect(everywhere), pointer, color);
 }

@@ -92,10 +92,10 @@ fn crimp(painter: &Painter, body: Rect) {
 fn tapered(painter: &Painter, body: Rect) {
     let mut mesh = Mesh::default();
     for (index, (place, grey)) in METAL.into_iter().enumerate() {
-        let colour = Color32::from_gray(grey);
+        let color = Color32::from_gray(grey);
         let at = |inset: f32| body.left() + inset + (body.width() - 2.0 * inset) * place;
-        mesh.colored_vertex(pos2(at(0.0), body.top() + 5.0), colour);
-        mesh.colored_vertex(pos2(at(1.5), body.bottom()), colour);
+        mesh.colored_vertex(pos2(at(0.0), body.top() + 5.0), color);
+        mesh.colored_vertex(pos2(at(1.5), body.bottom()), color);
         let last = 2 * index as u32;
         if index > 0 {
             mesh.add_triangle(last - 2, last - 1, last);

@@ -7,13 +7,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui_kittest::{Harness, kittest::Queryable};
+use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::Document;
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::strokes::Strokes;
-use session::{Command, EaselState, Event, Origin, Snapshot, bare, oils};
+use session::{Command, EaselState, Event, Origin, Snapshot, bare};
 use studio::files::{FileRequest, Files, Home, Preferences};
 use studio::panels::revisions;
 use studio::panels::{Desk, Request, Tools};
@@ -21,7 +22,9 @@ use studio::theme;
 
 /// A painting of some strokes, by the engine.
 pub(super) fn painted(title: &str) -> Document {
-    let Origin::Bare { mut script, library } = bare(oils(), 24.0, 16.0, 0.2) else {
+    let Origin::Bare { mut script, library } =
+        bare(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
+    else {
         panic!("a bare canvas");
     };
     script.title = title.to_owned();
@@ -174,7 +177,8 @@ impl Bench {
         if let Some(script) = &self.recorded {
             return script.clone();
         }
-        let Origin::Bare { script, .. } = bare(oils(), 24.0, 16.0, 0.2) else {
+        let Origin::Bare { script, .. } = bare(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
+        else {
             panic!("a bare canvas");
         };
         *script

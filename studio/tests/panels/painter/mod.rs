@@ -6,12 +6,11 @@ use std::time::{Duration, Instant};
 use eframe::egui::{UiBuilder, Vec2, accesskit::Role, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
 use render::paint::pose::Sample;
 use render::paint::strokes::Surface;
-use session::{
-    BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare, oils,
-};
+use session::{BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare};
 use studio::panels::brushes::Brushes;
 use studio::panels::history::History;
 use studio::panels::layers::Layers;
@@ -41,7 +40,7 @@ impl Studio {
     fn new() -> Self {
         let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
         let worker = Worker::start(options, || {});
-        worker.ask(Command::Open(bare(oils(), 32.0, 20.0, 0.1)));
+        worker.ask(Command::Open(bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)));
         Self {
             worker,
             easel: None,

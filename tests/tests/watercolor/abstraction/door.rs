@@ -52,7 +52,7 @@ fn photographs_become_flat_with_their_opacity() {
     assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
     assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
     assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
-    assert_eq!(found.clone().into_wash().colour, found.smoothed);
+    assert_eq!(found.clone().into_wash().color, found.smoothed);
 }
 
 #[test]

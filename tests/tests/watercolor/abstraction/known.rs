@@ -71,7 +71,7 @@ impl Told {
         for row in 0..HEIGHT {
             for column in 0..WIDTH {
                 let (x, y) = (column as f64, row as f64);
-                let mut colours = [0.0; 3];
+                let mut colors = [0.0; 3];
                 for (number, shape) in (0..).zip(&self.shapes) {
                     let away = shape.distance(x, y);
                     if away < 0.0 {
@@ -82,15 +82,15 @@ impl Told {
                     let turn = (x + 2.0 * y) / shape.period;
                     let turn = turn - turn.trunc();
                     let wave = shape.texture * (4.0 * (turn - 0.5).abs() - 1.0);
-                    for (i, colour) in colours.iter_mut().enumerate() {
+                    for (i, color) in colors.iter_mut().enumerate() {
                         let own = shape.rgb[i] + shape.across[i] * (x / WIDTH as f64);
                         let own = own + shape.down[i] * (y / HEIGHT as f64) + wave;
-                        *colour += cover * (own - *colour);
+                        *color += cover * (own - *color);
                     }
                 }
-                for colour in colours {
+                for color in colors {
                     let draws = random.next() + random.next() + random.next() + random.next();
-                    let value: f64 = colour + self.noise * 1.75 * (draws - 2.0);
+                    let value: f64 = color + self.noise * 1.75 * (draws - 2.0);
                     bytes.push((value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
                 }
             }

@@ -6,16 +6,16 @@ use render::field::Field;
 use render::watercolor::{Backend, Brush, Extreme, Morphology, OnCpu, OnGpu};
 use suite::adapter::device;
 
-type Colours = Field<[f32; 4]>;
+type Colors = Field<[f32; 4]>;
 
-fn noise(width: usize, height: usize) -> Colours {
+fn noise(width: usize, height: usize) -> Colors {
     let mut random = ChaCha8Rng::seed_from_u64(8);
     let values = (0..width * height).map(|_| std::array::from_fn(|_| random.random())).collect();
     Field::from_values(width, height, values)
 }
 
 /// Every pixel under the brush looked at.
-fn looked_at(field: &Colours, brush: Brush, which: Extreme) -> Colours {
+fn looked_at(field: &Colors, brush: Brush, which: Extreme) -> Colors {
     let reach = brush.reach() as i32;
     let mut result = field.clone();
     for y in 0..field.height() as i32 {
@@ -64,7 +64,7 @@ fn extremes_are_those_of_every_pixel_under_the_brush() {
 
 #[test]
 fn opening_and_closing_keep_their_laws() {
-    let all = |a: &Colours, b: &Colours| {
+    let all = |a: &Colors, b: &Colors| {
         let pairs = a.values().iter().flatten().zip(b.values().iter().flatten());
         pairs.clone().all(|(a, b)| a <= b) && pairs.clone().any(|(a, b)| a < b)
     };
@@ -114,18 +114,18 @@ fn backends_agree_bit_for_bit() {
     let Some(mut gpu) = device().map(OnGpu::new) else { return };
     for (width, height) in SIZES {
         let field = noise(width, height);
-        let there = gpu.colour_of(&field).unwrap();
+        let there = gpu.color_of(&field).unwrap();
         for radius in [0, 1, 2, 3, 5, 8] {
             for brush in [Brush::round(radius), Brush::round(radius).twice()] {
                 for which in [Extreme::Least, Extreme::Greatest] {
                     let here = OnCpu.extreme(&field, brush, which, None).unwrap();
                     let found = gpu.extreme(&there, brush, which, None).unwrap();
-                    let found = gpu.colour_field(&found).unwrap();
+                    let found = gpu.color_field(&found).unwrap();
                     assert!(found == here, "{width} x {height}, {brush:?} {which:?}");
                 }
             }
             let smoothed = gpu.smoothed(&there, radius).unwrap();
-            let smoothed = gpu.colour_field(&smoothed).unwrap();
+            let smoothed = gpu.color_field(&smoothed).unwrap();
             assert!(smoothed == OnCpu.smoothed(&field, radius).unwrap(), "{width} {radius}");
         }
     }

@@ -72,7 +72,7 @@ fn boundaries_are_found_no_worse_than_by_opencv() {
         let segmentation = segment(&picture, &settings).unwrap();
         let (edge, wanted) = (edges(&segmentation.labels), edges(&truth));
         let found = Found {
-            regions: segmentation.colours.len(),
+            regions: segmentation.colors.len(),
             recall: near(&wanted, &edge),
             precision: near(&edge, &wanted),
         };

@@ -79,21 +79,21 @@ fn reached(labels: &Field<u32>, count: usize) -> Vec<usize> {
 fn a_constant_picture_is_one_region_unchanged() {
     let picture = Field::filled(30, 20, [0.25, 0.5, 0.75, 1.0]);
     let found = segment(&picture, &settings(10)).unwrap();
-    assert_eq!(found.colours.len(), 1);
+    assert_eq!(found.colors.len(), 1);
     assert_eq!(found.flat(), picture);
 }
 
 #[test]
 fn a_step_stays_and_noise_goes() {
     let found = segment(&step(), &settings(10)).unwrap();
-    assert_eq!(found.colours.len(), 2);
+    assert_eq!(found.colors.len(), 2);
     for y in 0..40 {
         for x in 0..60 {
             assert_eq!(found.labels[(x, y)], u32::from(x >= 23), "{x} {y}");
         }
     }
-    for (colour, wanted) in found.colours.iter().zip([0.35, 0.65]) {
-        assert!((colour[0] - wanted).abs() < 0.005 && colour[3] == 1.0, "{colour:?}");
+    for (color, wanted) in found.colors.iter().zip([0.35, 0.65]) {
+        assert!((color[0] - wanted).abs() < 0.005 && color[3] == 1.0, "{color:?}");
     }
 }
 
@@ -102,7 +102,7 @@ fn regions_hang_together_and_none_is_too_small() {
     let picture = wild();
     for least in [1, 12, 60] {
         let found = segment(&picture, &settings(least)).unwrap();
-        let count = found.colours.len();
+        let count = found.colors.len();
         assert!(count > 3, "{count} regions");
         let mut sizes = vec![0; count];
         found.labels.values().iter().for_each(|&label| sizes[label as usize] += 1);
@@ -135,7 +135,7 @@ fn bare_paper_stays_bare() {
         }
     }
     let found = segment(&picture, &settings(10)).unwrap();
-    let coverages: Vec<f32> = found.colours.iter().map(|colour| colour[3]).collect();
+    let coverages: Vec<f32> = found.colors.iter().map(|color| color[3]).collect();
     assert_eq!(coverages, [0.0, 1.0]);
     assert_eq!(found.labels[(20, 20)], 1);
 }
@@ -144,7 +144,7 @@ fn bare_paper_stays_bare() {
 fn pictures_of_few_pixels_and_odd_numbers_are_taken() {
     for (width, height) in [(0, 0), (1, 1), (1, 9), (9, 1), (2, 3)] {
         let found = segment(&Field::filled(width, height, [0.5; 4]), &settings(4)).unwrap();
-        assert_eq!(found.colours.len(), usize::from(width > 0));
+        assert_eq!(found.colors.len(), usize::from(width > 0));
     }
     let odd = [f32::NAN, f32::INFINITY, -1.0, 7.0];
     let values = (0..64).map(|i| [odd[i % 4], 0.5, odd[i / 4 % 4], 1.0]).collect();

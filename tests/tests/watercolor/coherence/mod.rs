@@ -68,7 +68,7 @@ fn wall() -> (Mesh, Camera) {
         positions: corners.to_vec(),
         normals: vec![[0.0, 0.0, 1.0]; 4],
         texture_coordinates: vec![[0.0; 2]; 4],
-        colours: vec![[1.0; 3]; 4],
+        colors: vec![[1.0; 3]; 4],
         triangles: triangles.to_vec(),
         materials: Mesh::sphere(20).materials,
     };

@@ -51,23 +51,23 @@ fn seen(document: &Document, light: &Light) -> Field<[f32; 4]> {
 #[test]
 fn a_density_of_1_is_the_recipe_and_no_coverage_is_the_paper() {
     let Made { glazes, light, sheet } = made();
-    let mut colour = any_picture(40, 30, 51);
-    colour.values_mut().iter_mut().for_each(|c| c[3] = c[3].ceil());
-    let covered: Vec<f32> = colour.values().iter().map(|c| c[3]).collect();
+    let mut color = any_picture(40, 30, 51);
+    color.values_mut().iter_mut().for_each(|c| c[3] = c[3].ceil());
+    let covered: Vec<f32> = color.values().iter().map(|c| c[3]).collect();
     let thickness = Field::from_values(40, 30, covered);
-    let document = glazes.document("made", &colour, &thickness, sheet, level());
+    let document = glazes.document("made", &color, &thickness, sheet, level());
     let found = seen(&document, light);
     let bare = glazes.film().rgb(&[0.0; 8]);
     let mut bares = 0;
-    for (found, colour) in found.values().iter().zip(colour.values()) {
-        let wanted = match colour[3] > 0.0 {
-            true => glazes.film().rgb(&glazes.heights_mm(*colour)),
+    for (found, color) in found.values().iter().zip(color.values()) {
+        let wanted = match color[3] > 0.0 {
+            true => glazes.film().rgb(&glazes.heights_mm(*color)),
             false => bare,
         };
         for (found, wanted) in found.iter().zip(wanted) {
-            assert!((found - wanted).abs() < NEAR, "{colour:?}: {found} {wanted}");
+            assert!((found - wanted).abs() < NEAR, "{color:?}: {found} {wanted}");
         }
-        bares += usize::from(colour[3] == 0.0);
+        bares += usize::from(color[3] == 0.0);
     }
     assert!(bares > 100, "{bares} bare pixels");
     assert!(document.ground.height.values().iter().any(|height| *height > 0));
@@ -76,9 +76,8 @@ fn a_density_of_1_is_the_recipe_and_no_coverage_is_the_paper() {
 #[test]
 fn a_density_of_2_is_two_glazes() {
     let Made { glazes, light, sheet } = made();
-    let colour = any_picture(40, 30, 52);
-    let of =
-        |times| glazes.document("made", &colour, &Field::filled(40, 30, times), sheet, level());
+    let color = any_picture(40, 30, 52);
+    let of = |times| glazes.document("made", &color, &Field::filled(40, 30, times), sheet, level());
     let twice = seen(&of(2.0), light);
     let mut glazed = of(1.0);
     let once = seen(&glazed, light);
@@ -97,16 +96,16 @@ fn a_density_of_2_is_two_glazes() {
 
 #[test]
 fn thickness_is_the_product_of_all_densities() {
-    let colour = Field::filled(32, 24, [0.4, 0.5, 0.6, 1.0]);
+    let color = Field::filled(32, 24, [0.4, 0.5, 0.6, 1.0]);
     let mut settings = Settings::default().for_size(32, 24).without_effects();
     let textures = Textures::new(32, 24, &settings).unwrap();
     let none = Controls::default();
-    let flat = thickness(&colour, &none, &textures, &settings).unwrap();
+    let flat = thickness(&color, &none, &textures, &settings).unwrap();
     assert!(flat.values().iter().all(|value| (value - 1.0).abs() < 1e-7));
     settings.wash.density = 0.5;
     settings.flow.strength = 1.5;
     settings.paper.strength = 0.7;
-    let found = thickness(&colour, &none, &textures, &settings).unwrap();
+    let found = thickness(&color, &none, &textures, &settings).unwrap();
     for (i, found) in found.values().iter().enumerate() {
         let of = |field: &Field<f32>, strength: f32| 1.0 + strength * (field.values()[i] - 0.5);
         let wanted = 0.5 * of(&textures.flow, 1.5) * of(&textures.paper.heights, -0.7);
@@ -114,11 +113,11 @@ fn thickness_is_the_product_of_all_densities() {
     }
     settings.dry_brush.amount = 0.5;
     settings.dry_brush.patches = 0.0;
-    let dry = thickness(&colour, &none, &textures, &settings).unwrap();
+    let dry = thickness(&color, &none, &textures, &settings).unwrap();
     let bare = dry.values().iter().filter(|value| **value == 0.0).count();
     assert!((200..500).contains(&bare), "{bare} of 768 pixels are bare");
-    let bare_colour = Field::filled(32, 24, [0.4, 0.5, 0.6, 0.0]);
-    let nothing = thickness(&bare_colour, &none, &textures, &settings).unwrap();
+    let bare_color = Field::filled(32, 24, [0.4, 0.5, 0.6, 0.0]);
+    let nothing = thickness(&bare_color, &none, &textures, &settings).unwrap();
     assert!(nothing.values().iter().all(|value| *value == 0.0));
 }
 
@@ -127,44 +126,44 @@ fn a_painting_of_glazes_is_that_of_its_effects() {
     let Made { glazes, .. } = made();
     let settings = Settings::default().for_size(40, 30);
     let textures = Textures::new(40, 30, &settings).unwrap();
-    let wash = Wash { colour: any_picture(40, 30, 53), controls: Controls::default() };
+    let wash = Wash { color: any_picture(40, 30, 53), controls: Controls::default() };
     let found = glazes.painted("made", &wash, &textures, &settings, level()).unwrap();
     let px = textures.paper.per_slope(settings.wobble.amount_px);
-    let colour = OnCpu.wobbled(wash.colour, &textures.paper.heights, px).unwrap();
-    let thickness = thickness(&colour, &wash.controls, &textures, &settings).unwrap();
-    let wanted = glazes.document("made", &colour, &thickness, &textures.paper, level());
+    let color = OnCpu.wobbled(wash.color, &textures.paper.heights, px).unwrap();
+    let thickness = thickness(&color, &wash.controls, &textures, &settings).unwrap();
+    let wanted = glazes.document("made", &color, &thickness, &textures.paper, level());
     assert_eq!(found, wanted);
     assert_eq!(found.dry.len(), 1);
 }
 
 #[test]
-fn a_palette_is_chosen_and_comes_near_to_colours_that_watercolor_has() {
+fn a_palette_is_chosen_and_comes_near_to_colors_that_watercolor_has() {
     let library = suite::oils::library();
     let Made { light, .. } = made();
     let paper = paper(library.grid.count());
-    let colours = [
+    let colors = [
         [0.95, 0.93, 0.85, 1.0],
         [0.85, 0.65, 0.35, 1.0],
         [0.5, 0.6, 0.75, 1.0],
         [0.55, 0.3, 0.35, 1.0],
         [0.75, 0.78, 0.45, 1.0],
     ];
-    let colour = Field::from_values(5, 1, colours.to_vec());
-    let wash = Wash { colour, controls: Controls::default() };
+    let color = Field::from_values(5, 1, colors.to_vec());
+    let wash = Wash { color, controls: Controls::default() };
     let slots = Glazes::palette(&wash, &library, &paper, light).unwrap();
     let glazes = Glazes::new(&library, &slots, paper.clone(), light).unwrap();
     let film = glazes.film();
     let white = film.rgb(&[0.0; 8]);
     // Blacks are raised to what paint reaches; its surface alone takes this.
     let black = library.saunderson.floor() as f32;
-    for colour in colours {
-        let linear = spectra::color::Rgb([colour[0], colour[1], colour[2]].map(f64::from)).linear();
+    for color in colors {
+        let linear = spectra::color::Rgb([color[0], color[1], color[2]].map(f64::from)).linear();
         let wanted: [f32; 3] =
             std::array::from_fn(|i| black + (1.0 - black) * linear.0[i] as f32 * white[i]);
-        let found = film.rgb(&glazes.heights_mm(colour));
+        let found = film.rgb(&glazes.heights_mm(color));
         let lab = |rgb: [f32; 3]| -> Lab { film.lab_from_rgb(rgb) };
         let off = delta_e_ciede2000(lab(wanted), lab(found));
-        assert!(off < 4.0, "{colour:?}: {off} CIEDE2000");
+        assert!(off < 4.0, "{color:?}: {off} CIEDE2000");
     }
     let none = Glazes::new(&library, &Slots::default(), paper, light).unwrap_err();
     assert!(matches!(none, GlazeError::Separation(_)) && none.hint().contains("pigments"));

@@ -2,7 +2,7 @@
 
 use render::field::Field;
 use render::watercolor::{
-    ColourMask, ColourRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu, OnSheet,
+    ColorMask, ColorRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu, OnSheet,
     Sheet, Wobble,
 };
 use spectra::color::{Lab, Rgb, RgbSpace};
@@ -60,8 +60,8 @@ fn density_is_the_formula_within_its_limits() {
 }
 
 /// A column of paint on bare paper whose colour there is anything.
-fn column(colour: [f32; 3]) -> Field<[f32; 4]> {
-    let [r, g, b] = colour;
+fn column(color: [f32; 3]) -> Field<[f32; 4]> {
+    let [r, g, b] = color;
     let at = |i: usize| {
         if (10..20).contains(&(i % 30)) { [r, g, b, 1.0] } else { [0.1, 0.2, 0.3, 0.0] }
     };
@@ -93,7 +93,7 @@ fn edges_darken_inside_the_paint_only_and_at_both_its_sides() {
 #[test]
 fn edges_are_the_symmetric_gradient() {
     let mut picture = any_picture(17, 12, 5);
-    picture.values_mut().iter_mut().for_each(|colour| colour[3] = 1.0);
+    picture.values_mut().iter_mut().for_each(|color| color[3] = 1.0);
     let edges = OnCpu.edges(&picture, 0.0).unwrap();
     for y in 0..12 {
         for x in 0..17 {
@@ -150,15 +150,15 @@ fn wobble_displaces_by_the_stated_px() {
 }
 
 #[test]
-fn wobble_never_mixes_in_the_colour_of_bare_paper() {
+fn wobble_never_mixes_in_the_color_of_bare_paper() {
     let picture = column([0.9, 0.8, 0.7]);
     let found = OnCpu.wobbled(picture, &any_grey(30, 8, 6), 2.3).unwrap();
-    for colour in found.values().iter().filter(|colour| colour[3] > 0.0) {
-        for (found, wanted) in colour.iter().zip([0.9, 0.8, 0.7]) {
-            assert!((found - wanted).abs() < 1e-6, "{colour:?}");
+    for color in found.values().iter().filter(|color| color[3] > 0.0) {
+        for (found, wanted) in color.iter().zip([0.9, 0.8, 0.7]) {
+            assert!((found - wanted).abs() < 1e-6, "{color:?}");
         }
     }
-    assert!(found.values().iter().any(|colour| colour[3] > 0.0 && colour[3] < 1.0));
+    assert!(found.values().iter().any(|color| color[3] > 0.0 && color[3] < 1.0));
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     for threshold in [0.1, 0.37, 0.8] {
         let found =
             OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(threshold), None).unwrap();
-        let covered: f32 = found.values().iter().map(|colour| colour[3]).sum();
+        let covered: f32 = found.values().iter().map(|color| color[3]).sum();
         let below = heights.values().iter().filter(|height| **height < threshold).count();
         let bare = 20000.0 - covered;
         assert!((bare - below as f32).abs() < 60.0, "{threshold}: {bare} bare, {below} below");
@@ -190,7 +190,7 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
 }
 
 #[test]
-fn colours_alike_are_told_by_cielab() {
+fn colors_alike_are_told_by_cielab() {
     let picture = any_picture(40, 40, 8);
     let like = Rgb::from_hex("#8060a0").unwrap();
     let lab = |rgb: Rgb| {
@@ -198,35 +198,35 @@ fn colours_alike_are_told_by_cielab() {
         let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.linear().0);
         Lab::from_xyz(xyz.into(), white).to_array()
     };
-    let range = ColourRange::around(like, 40.0);
-    let found = OnCpu.colour_mask(&picture, range, None).unwrap();
-    for (found, colour) in found.values().iter().zip(picture.values()) {
-        let own = lab(Rgb([colour[0], colour[1], colour[2]].map(f64::from)));
+    let range = ColorRange::around(like, 40.0);
+    let found = OnCpu.color_mask(&picture, range, None).unwrap();
+    for (found, color) in found.values().iter().zip(picture.values()) {
+        let own = lab(Rgb([color[0], color[1], color[2]].map(f64::from)));
         let off = own.iter().zip(lab(like)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
         let wanted = (3.0 - 2.0 * off / 40.0).clamp(0.0, 1.0);
-        assert!((f64::from(*found) - wanted).abs() < 1e-4, "{colour:?}: {found} {wanted}");
+        assert!((f64::from(*found) - wanted).abs() < 1e-4, "{color:?}: {found} {wanted}");
     }
     let some = found.values().iter().filter(|value| **value > 0.0).count();
     assert!((1..1600).contains(&some), "{some} of 1600 pixels are alike");
 }
 
 #[test]
-fn a_sheet_shows_its_colour_where_bare_and_its_slopes_in_the_light() {
+fn a_sheet_shows_its_color_where_bare_and_its_slopes_in_the_light() {
     let heights = Field::from_values(30, 8, (0..240).map(|i| 0.02 * (i % 30) as f32).collect());
     let picture = column([0.5, 0.4, 0.3]);
-    let sheet = Sheet { colour: [0.9, 0.8, 0.7], relief: 0.5 };
+    let sheet = Sheet { color: [0.9, 0.8, 0.7], relief: 0.5 };
     let found = OnCpu.on_sheet(picture.clone(), &heights, sheet).unwrap();
     // Two pixels rise by 0.04.
     let light = 1.02;
     for (x, own) in [(5, [1.0, 1.0, 1.0]), (15, [0.5, 0.4, 0.3])] {
         for i in 0..3 {
-            let wanted = own[i] * sheet.colour[i] * light;
+            let wanted = own[i] * sheet.color[i] * light;
             assert!((found[(x, 4)][i] - wanted).abs() < 1e-6, "{x}: {:?}", found[(x, 4)]);
         }
     }
-    assert!(found.values().iter().all(|colour| colour[3].to_bits() == 1.0_f32.to_bits()));
-    let white = Sheet { colour: [1.0; 3], relief: 0.0 };
+    assert!(found.values().iter().all(|color| color[3].to_bits() == 1.0_f32.to_bits()));
+    let white = Sheet { color: [1.0; 3], relief: 0.0 };
     let mut full = any_picture(30, 8, 9);
-    full.values_mut().iter_mut().for_each(|colour| colour[3] = 1.0);
+    full.values_mut().iter_mut().for_each(|color| color[3] = 1.0);
     assert_eq!(OnCpu.on_sheet(full.clone(), &heights, white).unwrap(), full);
 }

@@ -25,9 +25,9 @@ fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let patches: Vec<[f32; 4]> = (0..64)
         .map(|i| {
-            let mut colour: [f32; 4] = std::array::from_fn(|_| random.random_range(0.0..1.0));
-            colour[3] = [0.0, 1.0, 1.0, colour[3]][i % 4];
-            colour
+            let mut color: [f32; 4] = std::array::from_fn(|_| random.random_range(0.0..1.0));
+            color[3] = [0.0, 1.0, 1.0, color[3]][i % 4];
+            color
         })
         .collect();
     let at = |i: usize| patches[(i % width / 5 + i / width / 4 * 7) % 64];
@@ -51,9 +51,9 @@ fn greys(field: &Field<f32>) -> Vec<f64> {
 #[test]
 fn pictures_come_back_from_both_backends() {
     let field = Field::from_values(3, 2, (0..6).map(|i| [i as f32 / 8.0; 4]).collect());
-    let on_cpu = OnCpu.colour_of(&field).unwrap();
-    assert_eq!(OnCpu.colour_field(&on_cpu).unwrap(), field);
+    let on_cpu = OnCpu.color_of(&field).unwrap();
+    assert_eq!(OnCpu.color_field(&on_cpu).unwrap(), field);
     let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
-    let there = on_gpu.colour_of(&field).unwrap();
-    assert_eq!(on_gpu.colour_field(&there).unwrap(), field);
+    let there = on_gpu.color_of(&field).unwrap();
+    assert_eq!(on_gpu.color_field(&there).unwrap(), field);
 }

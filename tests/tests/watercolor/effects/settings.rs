@@ -31,7 +31,7 @@ fn presets_are_read_and_tell_of_every_key() {
     let mut settings = Settings::default();
     settings.paper.scan = Some("x".to_owned());
     settings.toon.greys = Some("x".to_owned());
-    settings.dry_brush.colour = Some("x".to_owned());
+    settings.dry_brush.color = Some("x".to_owned());
     let all = keys(&toml::to_string(&settings).unwrap());
     let all: BTreeSet<String> = all.into_iter().map(|(key, _)| key).collect();
     assert!(all.contains("paper.scan") && all.contains("reference_px") && all.len() > 40);

@@ -2,7 +2,7 @@
 
 use render::field::Field;
 use render::watercolor::{
-    Backend, ColourMask, ColourRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu,
+    Backend, ColorMask, ColorRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu,
     OnGpu, OnSheet, Plane, Sheet, Wobble,
 };
 use spectra::color::Rgb;
@@ -30,7 +30,7 @@ impl Both {
         let mut gpu = OnGpu::new(device);
         for (seed, (width, height)) in (0..).zip(SIZES) {
             let picture = any_picture(width, height, seed);
-            let there = gpu.colour_of(&picture).unwrap();
+            let there = gpu.color_of(&picture).unwrap();
             let mut both = Self { gpu, size: (width, height), picture, there };
             each(&mut both);
             gpu = both.gpu;
@@ -44,7 +44,7 @@ impl Both {
     }
 
     fn assert_alike(&mut self, case: &str, here: &Field<[f32; 4]>, there: &Plane, near: f64) {
-        let there = self.gpu.colour_field(there).unwrap();
+        let there = self.gpu.color_field(there).unwrap();
         assert_near(format!("{case}, {:?}", self.size), &numbers(&there), &numbers(here), near);
     }
 }
@@ -133,16 +133,16 @@ fn dry_brush() {
 }
 
 #[test]
-fn colour_mask() {
+fn color_mask() {
     Both::each(|both| {
         let mask = both.grey(15);
-        for (colour, tolerance) in [("#ffffff", 30.0), ("#4060a0", 1.0), ("#000000", 200.0)] {
+        for (color, tolerance) in [("#ffffff", 30.0), ("#4060a0", 1.0), ("#000000", 200.0)] {
             for mask in [None, Some(&mask)] {
-                let range = ColourRange::around(Rgb::from_hex(colour).unwrap(), tolerance);
-                let here = OnCpu.colour_mask(&both.picture, range, mask.map(|m| &m.0)).unwrap();
-                let there = both.gpu.colour_mask(&both.there, range, mask.map(|m| &m.1)).unwrap();
+                let range = ColorRange::around(Rgb::from_hex(color).unwrap(), tolerance);
+                let here = OnCpu.color_mask(&both.picture, range, mask.map(|m| &m.0)).unwrap();
+                let there = both.gpu.color_mask(&both.there, range, mask.map(|m| &m.1)).unwrap();
                 let there = both.gpu.grey_field(&there).unwrap();
-                let case = format!("{colour} {tolerance}, {:?}", both.size);
+                let case = format!("{color} {tolerance}, {:?}", both.size);
                 // WGSL's pow is loose; by the tolerance CIELAB becomes a share.
                 assert_near(case, &greys(&there), &greys(&here), 1e-3 / f64::from(tolerance));
             }
@@ -154,8 +154,8 @@ fn colour_mask() {
 fn sheet() {
     Both::each(|both| {
         let (heights, plane) = both.grey(16);
-        for (colour, relief) in [([1.0; 3], 0.0), ([0.9, 0.8, 0.6], 0.4), ([0.2, 1.0, 0.0], 5.0)] {
-            let sheet = Sheet { colour, relief };
+        for (color, relief) in [([1.0; 3], 0.0), ([0.9, 0.8, 0.6], 0.4), ([0.2, 1.0, 0.0], 5.0)] {
+            let sheet = Sheet { color, relief };
             let here = OnCpu.on_sheet(both.picture.clone(), &heights, sheet).unwrap();
             let there = both.gpu.on_sheet(both.there.clone(), &plane, sheet).unwrap();
             both.assert_alike(&format!("{sheet:?}"), &here, &there, NEAR);

@@ -16,19 +16,19 @@ fn painted<B: render::watercolor::Watercolor>(
     settings: &Settings,
     watched: bool,
 ) -> (Field<[f32; 4]>, Stages) {
-    let textures = Textures::new(wash.colour.width(), wash.colour.height(), settings).unwrap();
+    let textures = Textures::new(wash.color.width(), wash.color.height(), settings).unwrap();
     let on = textures.on(backend).unwrap();
     let wash = wash.on(backend).unwrap();
     let mut stages = Vec::new();
-    let mut keep = |backend: &mut B, stage, colour: &B::Colour| {
-        stages.push((stage, backend.colour_field(colour)?));
+    let mut keep = |backend: &mut B, stage, color: &B::Color| {
+        stages.push((stage, backend.color_field(color)?));
         Ok(())
     };
     let watcher: Option<render::watercolor::Watcher<'_, B>> =
         if watched { Some(&mut keep) } else { None };
     let painted = paint(backend, wash, &on.flow, &on.dispersion, &on.paper, settings, watcher);
     let painted = painted.unwrap();
-    (backend.colour_field(&painted).unwrap(), stages)
+    (backend.color_field(&painted).unwrap(), stages)
 }
 
 fn wash(width: usize, height: usize) -> Wash {
@@ -36,17 +36,17 @@ fn wash(width: usize, height: usize) -> Wash {
         dry_brush: Some(any_grey(width, height, 31)),
         density: Some(any_grey(width, height, 32)),
     };
-    Wash { colour: any_picture(width, height, 33), controls }
+    Wash { color: any_picture(width, height, 33), controls }
 }
 
 #[test]
 fn without_effects_what_comes_in_goes_out() {
     let settings = Settings::default().for_size(48, 40).without_effects();
-    for colour in [[0.3, 0.6, 0.9, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4], [0.123_456_7; 4]] {
-        let mut colour = colour;
-        colour[3] = 1.0;
-        let field = Field::filled(48, 40, colour);
-        let plain = Wash { colour: field.clone(), controls: Controls::default() };
+    for color in [[0.3, 0.6, 0.9, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4], [0.123_456_7; 4]] {
+        let mut color = color;
+        color[3] = 1.0;
+        let field = Field::filled(48, 40, color);
+        let plain = Wash { color: field.clone(), controls: Controls::default() };
         let (found, stages) = painted(&mut OnCpu, &plain, &settings, true);
         assert_eq!(found, field);
         assert_eq!(stages.len(), Stage::ALL.len());
@@ -87,7 +87,7 @@ fn both_backends_paint_the_same() {
     let wash = wash(130, 90);
     for preset in Preset::ALL {
         let mut settings = preset.settings().for_size(900, 600);
-        settings.dry_brush.colour = Some("#808080".to_owned());
+        settings.dry_brush.color = Some("#808080".to_owned());
         for watched in [false, true] {
             let (here, before) = painted(&mut OnCpu, &wash, &settings, watched);
             let (there, after) = painted(&mut gpu, &wash, &settings, watched);

@@ -65,10 +65,10 @@ impl Bytes for Vec<u32> {
 }
 
 #[test]
-fn obj_with_colours_of_vertices_and_nothing_else() {
+fn obj_with_colors_of_vertices_and_nothing_else() {
     let obj = b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 2\nf 1 2 3\n";
     let mesh = opened(&[("a.OBJ", obj)]).unwrap();
-    assert_eq!(mesh.colours, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(mesh.colors, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 3]);
     assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
     // A place may be divided by a fourth number.
@@ -104,7 +104,7 @@ fn ply_as_text_and_in_both_binaries() {
     for content in [text, low, high] {
         let mesh = opened(&[("a.ply", &content)]).unwrap();
         assert_eq!(corners(&mesh), square());
-        assert_eq!(mesh.colours[1], [0.2, 0.0, 1.0]);
+        assert_eq!(mesh.colors[1], [0.2, 0.0, 1.0]);
         assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
         assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 4]);
     }
@@ -136,7 +136,7 @@ fn gltf_with_transforms_materials_and_textures() {
     // A mirror turns what runs clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
-    let Material { colour: [r, g, b], texture } = &mesh.materials[0];
+    let Material { color: [r, g, b], texture } = &mesh.materials[0];
     assert!((r - 0.5).abs() < 1e-4 && *g > 0.9999 && *b < 1e-6, "{r} {g} {b}");
     assert_eq!(texture.as_ref().unwrap().texels.map_bytes()[1], [0, 0, 255, 255]);
 }

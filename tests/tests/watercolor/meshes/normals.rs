@@ -73,11 +73,11 @@ fn what_cannot_be_drawn_is_found() {
     let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
     let found = [
         fault(&|mesh| mesh.triangles.clear()),
-        fault(&|mesh| mesh.colours.truncate(1)),
+        fault(&|mesh| mesh.colors.truncate(1)),
         fault(&|mesh| mesh.positions[3][1] = f32::NAN),
         fault(&|mesh| mesh.triangles[2].corners[1] = 4000),
         fault(&|mesh| mesh.triangles[2].material = 1),
-        fault(&|mesh| mesh.materials[0].colour[2] = 1.5),
+        fault(&|mesh| mesh.materials[0].color[2] = 1.5),
         fault(&|mesh| mesh.materials[0].texture = Some(texture.clone())),
     ];
     assert_eq!(found[0], MeshFault::NoTriangle);
@@ -107,8 +107,8 @@ fn shapes_are_whole_and_as_fine_as_asked() {
             assert!(near.contains(&found), "{}: {found} for {triangles}", shape.name());
             let lengths = mesh.normals.iter().map(|&normal| Vec3::from(normal).length());
             assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
-            let colours = mesh.colours.iter().flatten();
-            assert!(colours.into_iter().all(|value| (0.0..=1.0).contains(value)));
+            let colors = mesh.colors.iter().flatten();
+            assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
             // Normals are on the side from which corners run counter-clockwise.
             let agree = mesh.triangles.iter().filter(|triangle| {
                 let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));

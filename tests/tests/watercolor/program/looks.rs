@@ -47,7 +47,7 @@ fn a_file_changes_what_it_names_and_an_option_changes_the_file() {
 }
 
 #[test]
-fn numbers_words_and_colours_are_set() {
+fn numbers_words_and_colors_are_set() {
     let folder = Folder::new();
     let photo = folder.photograph();
     let usual = decoded(&picture(&folder, &photo, &[]));

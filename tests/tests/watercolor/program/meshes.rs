@@ -14,8 +14,8 @@ fn ply() -> String {
         CORNERS.len(),
         SIDES.len()
     );
-    for ([x, y, z], colour) in CORNERS {
-        let [r, g, b] = colour.map(|value| value * 255);
+    for ([x, y, z], color) in CORNERS {
+        let [r, g, b] = color.map(|value| value * 255);
         text += &format!("{x} {y} {z} {r} {g} {b}\n");
     }
     for [a, b, c] in SIDES {
@@ -26,9 +26,9 @@ fn ply() -> String {
 
 fn glb() -> Vec<u8> {
     let places = CORNERS.iter().flat_map(|(place, _)| place.map(f32::from));
-    let colours = CORNERS.iter().flat_map(|(_, colour)| colour.map(f32::from));
+    let colors = CORNERS.iter().flat_map(|(_, color)| color.map(f32::from));
     let corners = SIDES.as_flattened().iter().flat_map(|corner| corner.to_le_bytes());
-    let buffer: Vec<u8> = places.chain(colours).flat_map(f32::to_le_bytes).chain(corners).collect();
+    let buffer: Vec<u8> = places.chain(colors).flat_map(f32::to_le_bytes).chain(corners).collect();
     let document = serde_json::json!({
         "asset": { "version": "2.0" },
         "buffers": [{ "byteLength": buffer.len() }],

@@ -50,7 +50,7 @@ impl Folder {
     /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker
     /// downwards, with a yellow disc in the middle.
     fn photograph(&self) -> String {
-        let colour = |i: usize| {
+        let color = |i: usize| {
             let (x, y) = ((i % 160) as f32, (i / 160) as f32);
             let light = 1.0 - 0.5 * y / 120.0;
             let [r, g, b] = match (x - 80.0).hypot(y - 60.0) {
@@ -60,7 +60,7 @@ impl Folder {
             };
             [r * light, g * light, b * light, 1.0]
         };
-        let picture = Field::from_values(160, 120, (0..160 * 120).map(colour).collect());
+        let picture = Field::from_values(160, 120, (0..160 * 120).map(color).collect());
         self.write("photo.png", png8(&picture, 1.0).unwrap().bytes)
     }
 

@@ -5,7 +5,7 @@ use super::{Folder, decoded, difference, mean, opened, painted, picture, waterco
 const KEYS: [&str; 6] = ["backend", "frames", "frames_found", "pigments", "regions", "size"];
 
 #[test]
-fn a_photograph_becomes_a_picture_of_its_colours() {
+fn a_photograph_becomes_a_picture_of_its_colors() {
     let folder = Folder::new();
     let photo = folder.photograph();
     let out = folder.file("out.png");

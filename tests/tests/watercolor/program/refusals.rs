@@ -87,7 +87,7 @@ fn looks_that_are_none() {
     let file = |name: &str, text: &str| folder.write(name, text);
     let key = file("key.toml", "[edges]\n# too much\nstronger = 1\n");
     let range = file("range.toml", "\n[edges]\nstrength = 99\n");
-    let colour = file("colour.toml", "[paper]\ncolour = \"red\"\n");
+    let color = file("colour.toml", "[paper]\ncolour = \"red\"\n");
     let torn = file("torn.toml", "[paper\n");
     let (none, scan) =
         (folder.file("none.toml"), file("scan.toml", "[paper]\nscan = \"none.png\"\n"));
@@ -104,7 +104,7 @@ fn looks_that_are_none() {
         ),
         (
             "--settings",
-            &colour,
+            &color,
             1,
             "colour.toml, line 2: paper.colour is written #rrggbb, found `red`",
             "a warm white",

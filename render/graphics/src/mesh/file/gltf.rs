@@ -8,7 +8,7 @@ use gltf::mesh::{Mode, Semantic};
 use spectra::color::Rgb;
 
 use super::error::MeshError;
-use super::gltf_values::{COLOURS, COORDINATES, CORNERS, NORMALS, PLACES, check, path_of, slice};
+use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, PLACES, check, path_of, slice};
 use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
@@ -93,7 +93,7 @@ impl Reader<'_> {
         self.coordinates.push(texture.as_ref().map_or(0, |texture| texture.tex_coord()));
         let texture = texture.map(|texture| self.texture(&texture.texture().source()));
         let texture = texture.transpose()?;
-        self.mesh.materials.push(Material { colour: encoded([r, g, b]), texture });
+        self.mesh.materials.push(Material { color: encoded([r, g, b]), texture });
         Ok(())
     }
 
@@ -145,7 +145,7 @@ impl Reader<'_> {
                 Semantic::Positions => &PLACES,
                 Semantic::Normals => &NORMALS,
                 Semantic::TexCoords(found) if found == set => &COORDINATES,
-                Semantic::Colors(0) => &COLOURS,
+                Semantic::Colors(0) => &COLORS,
                 _ => continue,
             };
             check(&accessor, kind, &self.buffers)
@@ -179,13 +179,13 @@ impl Reader<'_> {
         if let Some(coordinates) = reader.read_tex_coords(set) {
             part.texture_coordinates = coordinates.into_f32().collect();
         }
-        if let Some(colours) = reader.read_colors(0) {
-            part.colours = colours.into_rgb_f32().map(encoded).collect();
+        if let Some(colors) = reader.read_colors(0) {
+            part.colors = colors.into_rgb_f32().map(encoded).collect();
         }
         for (what, found) in [
             ("normals", part.normals.len()),
             ("texture coordinates", part.texture_coordinates.len()),
-            ("colours", part.colours.len()),
+            ("colours", part.colors.len()),
         ] {
             if found != 0 && found != count {
                 return Err(format!("{found} {what} for {count} vertices"));

@@ -20,7 +20,7 @@ const FRACTIONS: &[DataType] = &[DataType::F32, DataType::U8, DataType::U16];
 pub(super) const COORDINATES: Kind =
     Kind { name: "TEXCOORD", types: FRACTIONS, dimensions: &[Dimensions::Vec2] };
 
-pub(super) const COLOURS: Kind =
+pub(super) const COLORS: Kind =
     Kind { name: "COLOR", types: FRACTIONS, dimensions: &[Dimensions::Vec3, Dimensions::Vec4] };
 
 pub(super) const CORNERS: Kind = Kind {

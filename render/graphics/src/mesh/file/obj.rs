@@ -67,7 +67,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
     }
     let plain = mesh.materials.len() as u32;
     // All vertices of a file have colours, or none.
-    let coloured = models.iter().any(|model| !model.mesh.vertex_color.is_empty());
+    let colored = models.iter().any(|model| !model.mesh.vertex_color.is_empty());
     for model in models {
         let tobj::Mesh { positions, normals, texcoords, vertex_color, indices, .. } = model.mesh;
         let count = positions.len() / 3;
@@ -81,14 +81,14 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
             part.texture_coordinates = upwards.map(|at| [at[0], 1.0 - at[1]]).collect();
         }
         if vertex_color.len() == 3 * count {
-            let colours = triples(vertex_color);
-            part.colours = colours.iter().map(|rgb| rgb.map(|v| v.clamp(0.0, 1.0))).collect();
+            let colors = triples(vertex_color);
+            part.colors = colors.iter().map(|rgb| rgb.map(|v| v.clamp(0.0, 1.0))).collect();
         }
         part.corners = indices;
         mesh.add(part);
     }
     if mesh.triangles.iter().any(|triangle| triangle.material == plain) {
-        mesh.materials.push(if coloured { PAINTED } else { PLAIN });
+        mesh.materials.push(if colored { PAINTED } else { PLAIN });
     }
     Ok(mesh)
 }
@@ -124,8 +124,8 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
         }
     };
     // A texture without a colour is shown as it is.
-    let colour = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.colour });
-    Ok(Material { colour: colour.map(|value| value.clamp(0.0, 1.0)), texture })
+    let color = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.color });
+    Ok(Material { color: color.map(|value| value.clamp(0.0, 1.0)), texture })
 }
 
 /// The name of a picture after its options (`-s 1 1 1 wood.png`).

@@ -18,7 +18,7 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     let count = |of: &str| text.lines().filter(|line| words(line).as_deref() == Some(of)).count();
     let all = Counts { places: count("v"), coordinates: count("vt"), normals: count("vn") };
     let mut so_far = Counts::default();
-    let mut coloured = None;
+    let mut colored = None;
     for (line, number) in text.lines().zip(1..) {
         let fault = |reason: String| (number, reason);
         let mut words = line.split_whitespace();
@@ -34,7 +34,7 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
                 if words.get(3).is_some_and(|w| found == 4 && w.parse() == Ok(0.0f32)) {
                     return Err(fault(format!("a place divided by 0: `{line}`")));
                 }
-                if *coloured.get_or_insert(found == 6) != (found == 6) {
+                if *colored.get_or_insert(found == 6) != (found == 6) {
                     let reason = "some vertices have colours and some do not";
                     return Err(fault(format!("{reason}: `{line}`")));
                 }

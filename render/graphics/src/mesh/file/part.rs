@@ -9,17 +9,17 @@ pub(super) struct Part {
     /// None, or as many as positions; so are the next two.
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texture_coordinates: Vec<[f32; 2]>,
-    pub(super) colours: Vec<[f32; 3]>,
+    pub(super) colors: Vec<[f32; 3]>,
     /// Three corners a triangle, counted within the part.
     pub(super) corners: Vec<u32>,
     pub(super) material: u32,
 }
 
 /// What a model without materials is made of: light paper.
-pub(super) const PLAIN: Material = Material { colour: [0.8, 0.8, 0.8], texture: None };
+pub(super) const PLAIN: Material = Material { color: [0.8, 0.8, 0.8], texture: None };
 
 /// The same where its vertices have colours, which are not darkened besides.
-pub(super) const PAINTED: Material = Material { colour: [1.0; 3], texture: None };
+pub(super) const PAINTED: Material = Material { color: [1.0; 3], texture: None };
 
 impl Mesh {
     /// Adds a part; what it lacks is filled in, normals with zeros.
@@ -31,8 +31,8 @@ impl Mesh {
         self.normals.resize(count, [0.0; 3]);
         self.texture_coordinates.extend(part.texture_coordinates);
         self.texture_coordinates.resize(count, [0.0; 2]);
-        self.colours.extend(part.colours);
-        self.colours.resize(count, [1.0; 3]);
+        self.colors.extend(part.colors);
+        self.colors.resize(count, [1.0; 3]);
         let material = part.material;
         self.triangles.extend(part.corners.chunks_exact(3).map(|corners| Triangle {
             // A corner that there is not stays one.

@@ -70,9 +70,9 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
         let upwards = vertices.iter().map(|vertex| vertex.coordinates);
         part.texture_coordinates = upwards.map(|[u, v]| [u, 1.0 - v]).collect();
     }
-    if COLOURS.iter().any(|[red, ..]| has(red)) {
-        let colours = vertices.iter().map(|vertex| vertex.colour);
-        part.colours = colours.map(|rgb| rgb.map(|value| value.clamp(0.0, 1.0))).collect();
+    if COLORS.iter().any(|[red, ..]| has(red)) {
+        let colors = vertices.iter().map(|vertex| vertex.color);
+        part.colors = colors.map(|rgb| rgb.map(|value| value.clamp(0.0, 1.0))).collect();
     }
     for face in faces {
         for i in 2..face.corners.len() {
@@ -80,7 +80,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
         }
     }
     let mut mesh = Mesh::default();
-    mesh.materials.push(if part.colours.is_empty() { PLAIN } else { PAINTED });
+    mesh.materials.push(if part.colors.is_empty() { PLAIN } else { PAINTED });
     mesh.add(part);
     mesh
 }
@@ -88,7 +88,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
 /// As programs name texture coordinates and colours.
 const COORDINATES: [[&str; 2]; 4] =
     [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
-const COLOURS: [[&str; 3]; 3] =
+const COLORS: [[&str; 3]; 3] =
     [["red", "green", "blue"], ["r", "g", "b"], ["diffuse_red", "diffuse_green", "diffuse_blue"]];
 
 #[derive(Default)]
@@ -96,7 +96,7 @@ struct Vertex {
     place: [f32; 3],
     normal: [f32; 3],
     coordinates: [f32; 2],
-    colour: [f32; 3],
+    color: [f32; 3],
 }
 
 impl PropertyAccess for Vertex {
@@ -117,9 +117,9 @@ impl PropertyAccess for Vertex {
                 let column = |row: &[&str]| row.iter().position(|name| *name == key);
                 if let Some(axis) = COORDINATES.iter().find_map(|row| column(row)) {
                     self.coordinates[axis] = value;
-                } else if let Some(channel) = COLOURS.iter().find_map(|row| column(row)) {
+                } else if let Some(channel) = COLORS.iter().find_map(|row| column(row)) {
                     // Whole numbers count up to their greatest.
-                    self.colour[channel] = match property {
+                    self.color[channel] = match property {
                         Property::UChar(_) | Property::Char(_) => value / 255.0,
                         Property::UShort(_) | Property::Short(_) => value / 65535.0,
                         _ => value,

@@ -38,7 +38,7 @@ impl Mesh {
                 self.positions.push(place(uv).into());
                 self.normals.push(normal(uv, &place).into());
                 self.texture_coordinates.push(uv.into());
-                self.colours.push([1.0; 3]);
+                self.colors.push([1.0; 3]);
             }
         }
         join(&mut self.positions[first..], &mut self.normals[first..], cells);

@@ -27,7 +27,7 @@ impl Mesh {
     #[must_use]
     pub fn still_life(triangles: usize) -> Self {
         let materials = vec![
-            Material { colour: [1.0; 3], texture: Some(stripes()) },
+            Material { color: [1.0; 3], texture: Some(stripes()) },
             Material::plain([1.0; 3]),
             Material::plain([1.0; 3]),
             Material::plain([0.42, 0.30, 0.20]),
@@ -50,9 +50,9 @@ impl Mesh {
     }
 
     /// Gives the vertices from `first` on colours by their places.
-    pub(super) fn tint(&mut self, first: usize, colour: impl Fn(Vec3) -> [f32; 3]) {
-        for (place, found) in self.positions[first..].iter().zip(&mut self.colours[first..]) {
-            *found = colour(Vec3::from(*place));
+    pub(super) fn tint(&mut self, first: usize, color: impl Fn(Vec3) -> [f32; 3]) {
+        for (place, found) in self.positions[first..].iter().zip(&mut self.colors[first..]) {
+            *found = color(Vec3::from(*place));
         }
     }
 }

@@ -69,8 +69,8 @@ impl Mesh {
             );
             // They stand along the slope.
             let turn = angle + rng.random_range(-0.25..0.25);
-            let colours = [WALLS[i % 3], ROOFS[i * 7 % 2]];
-            add_house(&mut mesh, at, turn, size, colours);
+            let colors = [WALLS[i % 3], ROOFS[i * 7 % 2]];
+            add_house(&mut mesh, at, turn, size, colors);
         }
         let trees = 46;
         let each = (triangles * 55 / 100).saturating_sub(HOUSES.len() * 60) / trees;

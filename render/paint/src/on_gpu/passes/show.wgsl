@@ -42,7 +42,7 @@ fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let wet = cell_at(i);
     let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
     let internal = lay_over(wet.low, wet.high, backing);
-    var seen = colour(internal);
+    var seen = color(internal);
     if now.skin.bumpy != 0u {
         let here = vec2<i32>(at);
         let heights = vec4(

@@ -6,21 +6,21 @@ use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 
 /// The colours that a fit should reproduce.
 #[derive(Debug, Clone)]
-pub(super) struct ColourTerm<'a> {
+pub(super) struct ColorTerm<'a> {
     weights: &'a TristimulusWeights,
     /// By sample: its measured colour, and the local metric of CIEDE2000.
     targets: Vec<(Lab, Matrix3)>,
 }
 
 /// The colour residual of one sample, with its slopes over reflectance.
-pub(super) struct ColourResidual {
+pub(super) struct ColorResidual {
     /// Three components whose length is the colour difference.
     pub(super) residual: [f64; 3],
     /// By wavelength: their derivatives.
     pub(super) slopes: Vec<[f64; 3]>,
 }
 
-impl<'a> ColourTerm<'a> {
+impl<'a> ColorTerm<'a> {
     pub(super) fn new(weights: &'a TristimulusWeights, target: &[Vec<f64>]) -> Self {
         let targets = target
             .iter()
@@ -38,11 +38,11 @@ impl<'a> ColourTerm<'a> {
         residual.iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
-    pub(super) fn linear(&self, index: usize, reflectance: &[f64]) -> ColourResidual {
+    pub(super) fn linear(&self, index: usize, reflectance: &[f64]) -> ColorResidual {
         let xyz = self.weights.xyz(reflectance);
         let map = self.targets[index].1.after(&Lab::slopes_over_xyz(xyz, self.weights.white()));
         let slopes = self.weights.weights().iter().map(|w| map.apply(*w)).collect();
-        ColourResidual { residual: self.components(index, xyz), slopes }
+        ColorResidual { residual: self.components(index, xyz), slopes }
     }
 
     /// How far the colour moves, in CIEDE2000, with the reflectance of each

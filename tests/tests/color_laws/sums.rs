@@ -78,7 +78,7 @@ fn xyz_of_many_reflectances_is_that_of_each() {
 }
 
 #[test]
-fn a_brighter_light_of_the_same_kind_changes_no_colour() {
+fn a_brighter_light_of_the_same_kind_changes_no_color() {
     let dim = lamp_from_bytes("dim", b"400,1\n500,2\n700,4\n", None).unwrap();
     let bright = lamp_from_bytes("bright", b"400,30\n500,60\n700,120\n", None).unwrap();
     let [dim, bright] = [dim, bright].map(|light| {

@@ -11,12 +11,12 @@ use crate::adaptation::transform;
 
 #[derive(Deserialize)]
 struct Cases {
-    colours: Vec<Colour>,
+    colors: Vec<Color>,
     transfer: Vec<Transfer>,
 }
 
 #[derive(Deserialize)]
-struct Colour {
+struct Color {
     transform: Option<String>,
     white: [f64; 3],
     #[serde(rename = "XYZ")]
@@ -79,9 +79,9 @@ fn matrices_and_white_of_each_space() {
 }
 
 #[test]
-fn display_colours_unclipped() {
+fn display_colors_unclipped() {
     let golden = golden();
-    for case in &golden.cases.colours {
+    for case in &golden.cases.colors {
         for ((name, space), wanted) in SPACES.into_iter().zip([&case.srgb, &case.display_p3]) {
             // Without a transform XYZ is taken as it stands: no change of white.
             let (white, adaptation) = match &case.transform {

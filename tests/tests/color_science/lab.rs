@@ -10,7 +10,7 @@ const GREY: f64 = 0.01;
 
 #[derive(Deserialize)]
 #[serde(rename_all = "PascalCase")]
-struct Colour {
+struct Color {
     #[serde(rename = "white")]
     white: [f64; 3],
     #[serde(rename = "XYZ")]
@@ -23,18 +23,18 @@ struct Colour {
 }
 
 #[derive(Deserialize)]
-struct Colours {
-    from_xyz: Vec<Colour>,
-    from_lab: Vec<Colour>,
+struct Colors {
+    from_xyz: Vec<Color>,
+    from_lab: Vec<Color>,
 }
 
-fn colours() -> Golden<Colours> {
+fn colors() -> Golden<Colors> {
     read("lab")
 }
 
 #[test]
 fn lab_from_xyz_and_back() {
-    let golden = colours();
+    let golden = colors();
     for case in &golden.cases.from_xyz {
         let white = Xyz::from(case.white);
         let lab = Lab::from_xyz(case.xyz.into(), white);
@@ -47,7 +47,7 @@ fn lab_from_xyz_and_back() {
 
 #[test]
 fn xyz_from_lab() {
-    let golden = colours();
+    let golden = colors();
     for case in &golden.cases.from_lab {
         let xyz = Lab::from(case.lab).to_xyz(case.white.into());
         assert_near(format!("{:?}", case.lab), &xyz.to_array(), &case.xyz, golden.tolerance);
@@ -56,7 +56,7 @@ fn xyz_from_lab() {
 
 #[test]
 fn lch_from_lab_and_back() {
-    let golden = colours();
+    let golden = colors();
     for case in golden.cases.from_xyz.iter().chain(&golden.cases.from_lab) {
         let Lch { lightness, chroma, hue_degrees } = Lab::from(case.lab).to_lch();
         let told = format!("Lab {:?}", case.lab);
@@ -73,7 +73,7 @@ fn lch_from_lab_and_back() {
 
 #[test]
 fn chromaticity_from_xyz_and_back() {
-    let golden = colours();
+    let golden = colors();
     for case in &golden.cases.from_xyz {
         let white = Xyz::from(case.white);
         let xyz = Xyz::from(case.xyz);

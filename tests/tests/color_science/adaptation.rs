@@ -40,7 +40,7 @@ fn white_of(light: &str) -> [f64; 3] {
 }
 
 #[test]
-fn matrices_and_colours_from_white_to_white() {
+fn matrices_and_colors_from_white_to_white() {
     let golden: Golden<Vec<Change>> = read("adaptation");
     for case in &golden.cases {
         let told = format!("{} from {} to {}", case.transform, case.from, case.to);

@@ -14,7 +14,7 @@ const TINT: f64 = 9.0;
 
 /// Colours of paint from tubes and brushes, under one light.
 #[derive(Debug, Clone)]
-pub(super) struct Colours {
+pub(super) struct Colors {
     library: Arc<PigmentLibrary>,
     light: Arc<Light>,
     weights: TristimulusWeights,
@@ -22,14 +22,14 @@ pub(super) struct Colours {
     white: Option<usize>,
 }
 
-impl Colours {
+impl Colors {
     /// Paint of `library` under `light`.
     pub(super) fn new(library: Arc<PigmentLibrary>, light: Arc<Light>) -> Self {
         let weights = light.viewing.weights(library.grid);
         let weights = weights.expect("a light that was taken up fits its library");
-        let mut colours = Self { library, light, weights, white: None };
-        colours.white = colours.lightener();
-        colours
+        let mut colors = Self { library, light, weights, white: None };
+        colors.white = colors.lightener();
+        colors
     }
 
     /// Whether they are of this library and light.
@@ -90,39 +90,39 @@ impl Colours {
 mod tests {
     use pigment::palette::{Cards, Palette};
 
-    use super::super::fresh::oils;
     use super::*;
+    use pigment::library::PigmentLibrary;
 
     #[test]
     fn tubes_show_what_the_calibration_says() {
-        let library = Arc::new(oils());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "A", "1931-2").unwrap());
-        let colours = Colours::new(Arc::clone(&library), Arc::clone(&light));
+        let colors = Colors::new(Arc::clone(&library), Arc::clone(&light));
         let blue = library.find("Prussian Blue").unwrap();
         let unknown = library.pigments.iter().position(|pigment| !pigment.identified).unwrap();
         let mut slots = [None; SLOTS];
         (slots[2], slots[5]) = (Some(blue), Some(unknown));
         let cards = Cards::standard(library.grid);
         let palette = Palette::new(&library, &light.viewing, cards).unwrap();
-        let masstones = colours.masstones(&slots);
+        let masstones = colors.masstones(&slots);
         assert_eq!(masstones[2], Some(palette.look(&[(blue, 1.0)]).srgb.to_bytes()));
         assert!(masstones[5].is_some(), "a masstone is known without the scattering");
-        let tints = colours.tints(&slots);
+        let tints = colors.tints(&slots);
         assert_eq!(tints[2], Some(palette.look(&palette.tint(blue, TINT)).srgb.to_bytes()));
         assert_eq!((tints[0], tints[5]), (None, None), "an empty slot; no known scattering");
-        let green = |colour: Option<[u8; 3]>| colour.map(|colour| colour[1]);
+        let green = |color: Option<[u8; 3]>| color.map(|color| color[1]);
         assert!(green(tints[2]) > green(masstones[2]), "white lightens");
     }
 
     #[test]
     fn a_mixture_by_slots_counts_only_what_has_parts() {
-        let library = Arc::new(oils());
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
-        let colours = Colours::new(library, light);
+        let colors = Colors::new(library, light);
         let slots = std::array::from_fn(Some);
         let mut parts = [0.0; SLOTS];
-        assert_eq!(colours.of_slots(&slots, &parts), None, "no paint has no colour");
+        assert_eq!(colors.of_slots(&slots, &parts), None, "no paint has no colour");
         (parts[1], parts[4]) = (3.0, 1.0);
-        assert_eq!(colours.of_slots(&slots, &parts), colours.of(&[(1, 0.75), (4, 0.25)]));
+        assert_eq!(colors.of_slots(&slots, &parts), colors.of(&[(1, 0.75), (4, 0.25)]));
     }
 }

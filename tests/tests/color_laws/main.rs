@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-mod colours;
+mod colors;
 mod inputs;
 mod sums;
 

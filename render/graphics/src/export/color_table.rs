@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::frame::Frame;
 
 /// The colours of a table; one index more is left for pixels that stay.
-pub(super) const COLOURS: usize = 255;
+pub(super) const COLORS: usize = 255;
 /// Colours are told apart by so many bits a channel.
 const BITS: usize = 5;
 const SIDE: usize = 1 << BITS;
@@ -18,8 +18,8 @@ const ROUNDS: usize = 4;
 
 /// Up to 255 colours, and which of them is nearest to every colour.
 #[derive(Debug, Clone)]
-pub struct ColourTable {
-    colours: Vec<[u8; 3]>,
+pub struct ColorTable {
+    colors: Vec<[u8; 3]>,
     /// The index of the nearest colour, by the upper bits of red, green, blue.
     nearest: Vec<u8>,
 }
@@ -52,7 +52,7 @@ impl Census {
     }
 }
 
-impl ColourTable {
+impl ColorTable {
     /// The table for `frames`, which are gone through once, one at a time.
     ///
     /// # Errors
@@ -75,40 +75,38 @@ impl ColourTable {
                 ([0, 1, 2].map(|i| sums[i] as f32 / count), count)
             })
             .collect();
-        let mut colours = boxes(&mut found);
+        let mut colors = boxes(&mut found);
         for _ in 0..ROUNDS {
             let nearest: Vec<usize> =
-                found.par_iter().map(|(colour, _)| nearest(&colours, *colour)).collect();
-            let mut sums = vec![[0.0f64; 4]; colours.len()];
-            for ((colour, count), index) in found.iter().zip(nearest) {
+                found.par_iter().map(|(color, _)| nearest(&colors, *color)).collect();
+            let mut sums = vec![[0.0f64; 4]; colors.len()];
+            for ((color, count), index) in found.iter().zip(nearest) {
                 let count = f64::from(*count);
-                for (sum, value) in sums[index].iter_mut().zip(colour) {
+                for (sum, value) in sums[index].iter_mut().zip(color) {
                     *sum += f64::from(*value) * count;
                 }
                 sums[index][3] += count;
             }
-            for (colour, sums) in colours.iter_mut().zip(sums) {
+            for (color, sums) in colors.iter_mut().zip(sums) {
                 if sums[3] > 0.0 {
-                    *colour = [0, 1, 2].map(|i| (sums[i] / sums[3]) as f32);
+                    *color = [0, 1, 2].map(|i| (sums[i] / sums[3]) as f32);
                 }
             }
         }
         let bytes: Vec<[u8; 3]> =
-            colours.iter().map(|colour| colour.map(|value| value.round() as u8)).collect();
+            colors.iter().map(|color| color.map(|value| value.round() as u8)).collect();
         let middle = |i: usize| ((i % SIDE) << (8 - BITS)) as f32 + 3.5;
         let nearest = (0..SIDE.pow(3))
             .into_par_iter()
-            .map(|i| {
-                nearest(&colours, [middle(i / SIDE / SIDE), middle(i / SIDE), middle(i)]) as u8
-            })
+            .map(|i| nearest(&colors, [middle(i / SIDE / SIDE), middle(i / SIDE), middle(i)]) as u8)
             .collect();
-        Self { colours: bytes, nearest }
+        Self { colors: bytes, nearest }
     }
 
     /// The colours, encoded sRGB.
     #[must_use]
-    pub fn colours(&self) -> &[[u8; 3]] {
-        &self.colours
+    pub fn colors(&self) -> &[[u8; 3]] {
+        &self.colors
     }
 
     /// The index of the colour that stands for `pixel`.
@@ -123,52 +121,52 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     [2.0, 4.0, 1.0].iter().zip(a).zip(b).map(|((weight, a), b)| weight * (a - b) * (a - b)).sum()
 }
 
-fn nearest(colours: &[[f32; 3]], wanted: [f32; 3]) -> usize {
-    let distances = colours.iter().map(|&colour| distance(colour, wanted));
+fn nearest(colors: &[[f32; 3]], wanted: [f32; 3]) -> usize {
+    let distances = colors.iter().map(|&color| distance(color, wanted));
     distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
 /// The means of up to [`COLOURS`] boxes.
 fn boxes(found: &mut [([f32; 3], f32)]) -> Vec<[f32; 3]> {
     let mut open: Vec<&mut [([f32; 3], f32)]> = vec![found];
-    while open.len() < COLOURS {
-        let widest = open.iter().enumerate().map(|(i, colours)| (i, spread(colours)));
+    while open.len() < COLORS {
+        let widest = open.iter().enumerate().map(|(i, colors)| (i, spread(colors)));
         let Some((index, (channel, spread))) = widest.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
             break;
         };
         if spread <= 0.0 {
             break;
         }
-        let colours = open.swap_remove(index);
-        colours.sort_by(|a, b| a.0[channel].total_cmp(&b.0[channel]));
-        let half = colours.iter().map(|colour| colour.1).sum::<f32>() / 2.0;
+        let colors = open.swap_remove(index);
+        colors.sort_by(|a, b| a.0[channel].total_cmp(&b.0[channel]));
+        let half = colors.iter().map(|color| color.1).sum::<f32>() / 2.0;
         let mut before = 0.0;
-        let cut = colours.iter().position(|colour| {
-            before += colour.1;
+        let cut = colors.iter().position(|color| {
+            before += color.1;
             before >= half
         });
-        let cut = cut.unwrap_or(0).clamp(1, colours.len() - 1);
-        let (lower, upper) = colours.split_at_mut(cut);
+        let cut = cut.unwrap_or(0).clamp(1, colors.len() - 1);
+        let (lower, upper) = colors.split_at_mut(cut);
         open.extend([lower, upper]);
     }
-    let means = open.iter().filter(|colours| !colours.is_empty()).map(|colours| mean(colours));
+    let means = open.iter().filter(|colors| !colors.is_empty()).map(|colors| mean(colors));
     means.collect()
 }
 
-fn mean(colours: &[([f32; 3], f32)]) -> [f32; 3] {
-    let count: f32 = colours.iter().map(|colour| colour.1).sum();
-    [0, 1, 2].map(|i| colours.iter().map(|colour| colour.0[i] * colour.1).sum::<f32>() / count)
+fn mean(colors: &[([f32; 3], f32)]) -> [f32; 3] {
+    let count: f32 = colors.iter().map(|color| color.1).sum();
+    [0, 1, 2].map(|i| colors.iter().map(|color| color.0[i] * color.1).sum::<f32>() / count)
 }
 
 /// The channel in which a box is widest, and by how much it errs there; 0 for a
 /// box that cannot be cut.
-fn spread(colours: &[([f32; 3], f32)]) -> (usize, f32) {
-    if colours.len() < 2 {
+fn spread(colors: &[([f32; 3], f32)]) -> (usize, f32) {
+    if colors.len() < 2 {
         return (0, 0.0);
     }
-    let mean = mean(colours);
+    let mean = mean(colors);
     let errors = [0, 1, 2].map(|i| {
-        let squares = colours.iter().map(|(colour, count)| count * (colour[i] - mean[i]).powi(2));
+        let squares = colors.iter().map(|(color, count)| count * (color[i] - mean[i]).powi(2));
         squares.sum::<f32>() * [2.0, 4.0, 1.0][i]
     });
     let widest = (0..3).max_by(|&a, &b| errors[a].total_cmp(&errors[b])).unwrap_or(0);
@@ -180,30 +178,30 @@ mod tests {
     use super::*;
     use crate::field::Field;
 
-    fn table(pixels: Vec<[u8; 3]>) -> ColourTable {
+    fn table(pixels: Vec<[u8; 3]>) -> ColorTable {
         let frame = Field::from_values(pixels.len(), 1, pixels);
-        ColourTable::of::<()>([Ok(frame)]).unwrap()
+        ColorTable::of::<()>([Ok(frame)]).unwrap()
     }
 
     #[test]
-    fn few_colours_are_kept_as_they_are() {
+    fn few_colors_are_kept_as_they_are() {
         let few = vec![[0, 0, 0], [255, 255, 255], [200, 10, 30], [200, 10, 30], [7, 90, 250]];
         let table = table(few.clone());
-        assert_eq!(table.colours().len(), 4);
+        assert_eq!(table.colors().len(), 4);
         for pixel in few {
-            assert_eq!(table.colours()[usize::from(table.index(pixel))], pixel);
+            assert_eq!(table.colors()[usize::from(table.index(pixel))], pixel);
         }
     }
 
     #[test]
-    fn many_colours_are_near_their_own() {
+    fn many_colors_are_near_their_own() {
         let many: Vec<[u8; 3]> = (0..10_000u32)
             .map(|i| [(i % 100) as u8 + 100, (i / 100) as u8 + 60, (i % 37) as u8 + 20])
             .collect();
         let table = table(many.clone());
-        assert_eq!(table.colours().len(), COLOURS);
+        assert_eq!(table.colors().len(), COLORS);
         let error = |pixel: &[u8; 3]| {
-            let found = table.colours()[usize::from(table.index(*pixel))];
+            let found = table.colors()[usize::from(table.index(*pixel))];
             (0..3).map(|i| f64::from(found[i].abs_diff(pixel[i])).powi(2)).sum::<f64>()
         };
         let rms = (many.iter().map(error).sum::<f64>() / 30_000.0).sqrt();

@@ -10,7 +10,7 @@ use crate::observer::Observer;
 
 /// The correlated colour temperature of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ColourTemperature {
+pub struct ColorTemperature {
     /// The temperature of the black body of the nearest colour, in kelvin, 1000 to
     /// 50000.
     pub kelvin: f64,
@@ -28,7 +28,7 @@ const MIREDS: (f64, f64) = (20.0, 1000.0);
 /// Steps of the first, coarse search.
 const STEPS: usize = 49;
 
-impl ColourTemperature {
+impl ColorTemperature {
     /// The temperature of the black body nearest to `light` in CIE 1960 u, v
     /// (CIE 15:2018, section 9.5), for the observer of 1931.
     /// `None` for a light that is farther than 0.05 from all of them, or beyond
@@ -36,7 +36,7 @@ impl ColourTemperature {
     ///
     /// ```
     /// let light = spectra::Illuminant::named("A").unwrap();
-    /// let temperature = spectra::ColourTemperature::of(&light).unwrap();
+    /// let temperature = spectra::ColorTemperature::of(&light).unwrap();
     /// assert_eq!(temperature.kelvin.round(), 2856.0);
     /// ```
     #[must_use]
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn temperatures_are_those_that_the_cie_prints() {
         for &(name, wanted) in PUBLISHED {
-            let found = ColourTemperature::of(&Illuminant::named(name).unwrap()).unwrap();
+            let found = ColorTemperature::of(&Illuminant::named(name).unwrap()).unwrap();
             let off = (found.kelvin / wanted - 1.0).abs();
             // The CIE prints three digits of FL1 to FL12, and sums at 5 nm.
             assert!(off < 2e-3, "{name}: {found:?} for {wanted}");
@@ -119,13 +119,13 @@ mod tests {
     #[test]
     fn a_black_body_has_its_own_temperature_and_lies_on_the_locus() {
         for kelvin in [1001.0, 1800.0, 3200.0, 6500.0, 24000.0, 49000.0] {
-            let found = ColourTemperature::of(&black_body(kelvin).unwrap()).unwrap();
+            let found = ColorTemperature::of(&black_body(kelvin).unwrap()).unwrap();
             assert!((found.kelvin / kelvin - 1.0).abs() < 1e-4, "{found:?} for {kelvin}");
             assert!(found.duv.abs() < 1e-6, "{found:?}");
         }
-        let daylight = ColourTemperature::of(&Illuminant::d65()).unwrap();
+        let daylight = ColorTemperature::of(&Illuminant::d65()).unwrap();
         assert!((daylight.duv - 0.0032).abs() < 1e-4, "daylight is greener: {daylight:?}");
-        let pink = ColourTemperature::of(&Illuminant::named("LED-V1").unwrap()).unwrap();
+        let pink = ColorTemperature::of(&Illuminant::named("LED-V1").unwrap()).unwrap();
         assert!(pink.duv < -1e-3, "{pink:?}");
     }
 
@@ -138,9 +138,9 @@ mod tests {
                     if (nm - 532.0).abs() < 1.0 { 1.0 } else { 0.0 }
                 },
             );
-        assert_eq!(ColourTemperature::of(&laser.unwrap()), None);
+        assert_eq!(ColorTemperature::of(&laser.unwrap()), None);
         for kelvin in [900.0, 80000.0] {
-            assert_eq!(ColourTemperature::of(&black_body(kelvin).unwrap()), None, "{kelvin} K");
+            assert_eq!(ColorTemperature::of(&black_body(kelvin).unwrap()), None, "{kelvin} K");
         }
     }
 }

@@ -36,7 +36,7 @@ fn errors(document: &Document, name: &str) -> Vec<f64> {
 }
 
 #[test]
-fn eight_wavelengths_keep_the_colour_of_a_painting() {
+fn eight_wavelengths_keep_the_color_of_a_painting() {
     let document = glazes_over_mixtures();
     for light in ["D65", "A", "D50", "LED-B3"] {
         let errors = errors(&document, light);
@@ -48,7 +48,7 @@ fn eight_wavelengths_keep_the_colour_of_a_painting() {
 }
 
 #[test]
-fn the_spectrum_at_the_nodes_has_the_colour_of_the_picture() {
+fn the_spectrum_at_the_nodes_has_the_color_of_the_picture() {
     let document = glazes_over_mixtures();
     let light = light(&document.library, "D65");
     let at_nodes = Spectral::at_nodes(&document, &light.quadrature);
@@ -158,7 +158,7 @@ fn a_thin_glaze_shows_its_ground_and_a_thick_film_hides_it() {
 }
 
 #[test]
-fn a_bare_ground_shows_its_measured_colour() {
+fn a_bare_ground_shows_its_measured_color() {
     let library = crate::made_up::oils();
     for pigment in ["Zinc White", "Vermilion", "Bone Black"] {
         let mut document = document(1, 1, &[]);

@@ -16,7 +16,7 @@ const WHITES: [[f64; 3]; 3] =
     [[95.04, 100.0, 108.88], [109.85, 100.0, 35.58], [100.96, 100.0, 64.37]];
 
 #[test]
-fn a_colour_does_not_differ_from_itself() {
+fn a_color_does_not_differ_from_itself() {
     for (seed, lab, _) in random_pairs() {
         let differences = [
             delta_e_cie76(lab, lab),
@@ -89,7 +89,7 @@ fn slopes_of_lab_are_the_limit_of_difference_quotients() {
 }
 
 #[test]
-fn adaptation_there_and_back_is_the_same_colour() {
+fn adaptation_there_and_back_is_the_same_color() {
     for adaptation in [Adaptation::Bradford, Adaptation::Cat16] {
         for from in WHITES.map(Xyz::from) {
             for to in WHITES.map(Xyz::from) {
@@ -133,8 +133,8 @@ fn what_lies_outside_the_gamut_is_told_and_cut_off() {
 
 #[test]
 fn a_pair_that_matches_under_both_lights_is_no_metamer() {
-    let colour = [[20.0, 30.0, 40.0], [25.0, 28.0, 10.0]].map(Xyz::from);
-    assert_eq!(metamerism_index(colour, colour, WHITES[1].into()), Ok(0.0), "{colour:?}");
+    let color = [[20.0, 30.0, 40.0], [25.0, 28.0, 10.0]].map(Xyz::from);
+    assert_eq!(metamerism_index(color, color, WHITES[1].into()), Ok(0.0), "{color:?}");
 }
 
 #[test]

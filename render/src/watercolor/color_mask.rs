@@ -11,7 +11,7 @@ use graphics::image::{OnGpu, Plane};
 
 /// A colour and what counts as like it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ColourRange {
+pub struct ColorRange {
     /// CIELAB, seen under D65.
     pub lab: [f32; 3],
     /// Up to this difference (CIE 1976) a colour is alike; at 1.5 times as much it is
@@ -27,11 +27,11 @@ fn relative_xyz() -> [[f32; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| (columns[j][i] / white[i]) as f32))
 }
 
-impl ColourRange {
+impl ColorRange {
     /// Around an encoded sRGB colour.
     #[must_use]
-    pub fn around(colour: Rgb, tolerance: f32) -> Self {
-        let lab = lab(&relative_xyz(), colour.0.map(|value| value as f32));
+    pub fn around(color: Rgb, tolerance: f32) -> Self {
+        let lab = lab(&relative_xyz(), color.0.map(|value| value as f32));
         Self { lab, tolerance }
     }
 
@@ -54,34 +54,34 @@ fn lab(matrix: &[[f32; 3]; 3], encoded: [f32; 3]) -> [f32; 3] {
 }
 
 /// Masks by colour.
-pub trait ColourMask: Backend {
-    /// 1 where `colour` is alike, 0 where it is not, by straight lines between; times
+pub trait ColorMask: Backend {
+    /// 1 where `color` is alike, 0 where it is not, by straight lines between; times
     /// `mask`.
     ///
     /// # Errors
-    /// As [`Backend::colour_of`].
+    /// As [`Backend::color_of`].
     ///
     /// # Panics
     /// If sizes differ.
-    fn colour_mask(
+    fn color_mask(
         &mut self,
-        colour: &Self::Colour,
-        range: ColourRange,
+        color: &Self::Color,
+        range: ColorRange,
         mask: Option<&Self::Grey>,
     ) -> Result<Self::Grey, GpuError>;
 }
 
-impl ColourMask for OnCpu {
-    fn colour_mask(
+impl ColorMask for OnCpu {
+    fn color_mask(
         &mut self,
-        colour: &Field<[f32; 4]>,
-        range: ColourRange,
+        color: &Field<[f32; 4]>,
+        range: ColorRange,
         mask: Option<&Field<f32>>,
     ) -> Result<Field<f32>, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         let matrix = relative_xyz();
-        let held = |&colour: &[f32; 4]| range.holds(&matrix, colour);
-        let mut found: Vec<f32> = colour.values().par_iter().with_min_len(1024).map(held).collect();
+        let held = |&color: &[f32; 4]| range.holds(&matrix, color);
+        let mut found: Vec<f32> = color.values().par_iter().with_min_len(1024).map(held).collect();
         if let Some(mask) = mask {
             assert_eq!((mask.width(), mask.height()), (width, height), "a mask's size");
             found.iter_mut().zip(mask.values()).for_each(|(found, mask)| *found *= mask);
@@ -93,7 +93,7 @@ impl ColourMask for OnCpu {
 /// What the kernel is told.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct ColourMaskNow {
+struct ColorMaskNow {
     /// Columns of relative XYZ, by red, green and blue.
     xyz: [[f32; 4]; 3],
     /// CIELAB, then the tolerance.
@@ -103,26 +103,26 @@ struct ColourMaskNow {
     spare: u32,
 }
 
-pub(super) static COLOUR_MASK: Kernel = Kernel {
+pub(super) static COLOR_MASK: Kernel = Kernel {
     name: "watercolor_colour_mask",
-    source: include_str!("colour_mask.wgsl"),
-    parameters: layout!(ColourMaskNow { xyz, range, size, masked, spare }),
+    source: include_str!("color_mask.wgsl"),
+    parameters: layout!(ColorMaskNow { xyz, range, size, masked, spare }),
     structs: &[],
     storage: &[Storage::Read, Storage::Read, Storage::Write],
 };
 
-impl ColourMask for OnGpu {
-    fn colour_mask(
+impl ColorMask for OnGpu {
+    fn color_mask(
         &mut self,
-        colour: &Plane,
-        range: ColourRange,
+        color: &Plane,
+        range: ColorRange,
         mask: Option<&Plane>,
     ) -> Result<Plane, GpuError> {
-        let (width, height) = (colour.width(), colour.height());
+        let (width, height) = (color.width(), color.height());
         let rows = relative_xyz();
         let found = self.plane(width, height, size_of::<f32>())?;
         let [l, a, b] = range.lab;
-        let now = ColourMaskNow {
+        let now = ColorMaskNow {
             xyz: std::array::from_fn(|j| [rows[0][j], rows[1][j], rows[2][j], 0.0]),
             range: [l, a, b, range.tolerance],
             size: [width as u32, height as u32],
@@ -132,8 +132,8 @@ impl ColourMask for OnGpu {
         if let Some(mask) = mask {
             assert_eq!((mask.width(), mask.height()), (width, height), "a mask's size");
         }
-        let buffers = [colour.buffer(), mask.unwrap_or(colour).buffer(), found.buffer()];
-        self.recording.dispatch(&COLOUR_MASK, &now, &buffers, [groups(width), groups(height), 1]);
+        let buffers = [color.buffer(), mask.unwrap_or(color).buffer(), found.buffer()];
+        self.recording.dispatch(&COLOR_MASK, &now, &buffers, [groups(width), groups(height), 1]);
         Ok(found)
     }
 }

@@ -1,6 +1,6 @@
 // Where a picture is of about one colour; twin of colour_mask.rs.
 
-struct ColourMaskNow {
+struct ColorMaskNow {
     xyz: array<vec4<f32>, 3>,
     range: vec4<f32>,
     size: vec2<u32>,
@@ -8,18 +8,18 @@ struct ColourMaskNow {
     spare: u32,
 }
 
-@group(0) @binding(0) var<uniform> now: ColourMaskNow;
-@group(0) @binding(1) var<storage, read> colours: array<vec4<f32>>;
+@group(0) @binding(0) var<uniform> now: ColorMaskNow;
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> mask: array<f32>;
 @group(0) @binding(3) var<storage, read_write> found: array<f32>;
 
 @compute @workgroup_size(8, 8)
-fn watercolor_colour_mask(@builtin(global_invocation_id) id: vec3<u32>) {
+fn watercolor_color_mask(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= now.size) {
         return;
     }
     let i = id.y * now.size.x + id.x;
-    let v = colours[i].xyz;
+    let v = colors[i].xyz;
     let bright = pow((v + 0.055) / 1.055, vec3(2.4));
     let linear = select(bright, v / 12.92, v <= vec3(0.04045));
     let t = (linear.x * now.xyz[0] + linear.y * now.xyz[1] + linear.z * now.xyz[2]).xyz;
