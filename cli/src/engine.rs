@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use render::field::Field;
-use render::gpu::{BackendChoice, Device, GpuError, choose};
+use render::gpu::{BackendChoice, Device, DeviceError, choose};
 use render::paint::Engine;
 use render::paint::on_cpu::OnCpu;
 use render::paint::on_gpu::OnGpu;
@@ -30,7 +30,7 @@ pub(crate) struct BackendOption {
 
 impl BackendOption {
     /// The device to compute on; none where it is the processor.
-    pub(crate) fn device(&self) -> Result<Option<Device>, GpuError> {
+    pub(crate) fn device(&self) -> Result<Option<Device>, DeviceError> {
         choose(match self.backend {
             BackendName::Auto => BackendChoice::Auto,
             BackendName::Cpu => BackendChoice::Cpu,

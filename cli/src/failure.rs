@@ -12,10 +12,9 @@ use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
 use render::camera::CameraPathError;
 use render::export::{FrameError, SequenceError};
-use render::gpu::GpuError;
+use render::gpu::DeviceError;
 use render::light::LightFailure;
 use render::mesh::MeshError;
-use render::paint::EngineError;
 use render::paint::easel::EaselError;
 use render::paint::file::PaintingFileError;
 use render::paint::ground::GroundError;
@@ -152,10 +151,8 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<GroundError>() {
         return error.hint();
     }
-    if let Some(error) = cause.downcast_ref::<EngineError>() {
-        return Some(error.hint().to_owned());
-    }
-    if cause.is::<GpuError>() || matches!(cause.downcast_ref(), Some(ModelPainterError::Gpu(_))) {
+    if cause.is::<DeviceError>() || matches!(cause.downcast_ref(), Some(ModelPainterError::Gpu(_)))
+    {
         return Some("paint on the processor: --backend cpu".to_owned());
     }
     if let Some(error) = cause.downcast_ref::<PhotographError>() {

@@ -9,6 +9,7 @@ use super::motion::Motion;
 use crate::layer::Layer;
 use crate::optics::Scene;
 use graphics::field::Field;
+use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
 
 /// The paint on the head of one brush.
@@ -43,72 +44,72 @@ pub trait Engine: std::fmt::Debug + Send {
     /// Plays sub-steps of one brush, in order.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
+    /// [`DeviceError`] if the device was lost.
     fn play(
         &mut self,
         brush: BrushId,
         motion: &Motion,
         contacts: &[Contact],
-    ) -> Result<(), EngineError>;
+    ) -> Result<(), DeviceError>;
 
     /// A new brush whose head has `width` x `height` cells, without paint.
     ///
     /// # Errors
-    /// [`EngineError`] if it does not fit the device.
-    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, EngineError>;
+    /// [`DeviceError`] if it does not fit the device.
+    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, DeviceError>;
 
     /// The paint on a brush.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn brush(&mut self, brush: BrushId) -> Result<Layer, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn brush(&mut self, brush: BrushId) -> Result<Layer, DeviceError>;
 
     /// Puts `paint` on a brush, in place of what it had.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), DeviceError>;
 
     /// The wet paint.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn wet(&mut self) -> Result<Layer, EngineError> {
+    /// [`DeviceError`] if the device was lost.
+    fn wet(&mut self) -> Result<Layer, DeviceError> {
         self.wet_in(self.bounds())
     }
 
     /// The wet paint in `rect`; costs what `rect` holds.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, DeviceError>;
 
     /// Puts `paint` on the canvas in place of the wet paint there.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn set_wet(&mut self, paint: &Layer) -> Result<(), EngineError> {
+    /// [`DeviceError`] if the device was lost.
+    fn set_wet(&mut self, paint: &Layer) -> Result<(), DeviceError> {
         self.set_wet_in(self.bounds(), paint)
     }
 
     /// Puts `paint` in place of the wet paint in `rect`; costs what `rect` holds.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), DeviceError>;
 
     /// The tiles that have wet paint.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn painted(&mut self) -> Result<TileSet, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn painted(&mut self) -> Result<TileSet, DeviceError>;
 
     /// Dries `share` of 65536 parts of all wet paint, from the bottom: it
     /// becomes the topmost dry layer.
     ///
     /// # Errors
-    /// [`EngineError`] if there is no memory for it.
-    fn dry(&mut self, share: u32) -> Result<(), EngineError>;
+    /// [`DeviceError`] if there is no memory for it.
+    fn dry(&mut self, share: u32) -> Result<(), DeviceError>;
 
     /// How many dry layers there are.
     fn dry_count(&self) -> usize;
@@ -116,120 +117,77 @@ pub trait Engine: std::fmt::Debug + Send {
     /// A dry layer, counted from the lowest.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn dry_layer(&mut self, index: usize) -> Result<Layer, EngineError> {
+    /// [`DeviceError`] if the device was lost.
+    fn dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
         self.dry_in(index, self.bounds())
     }
 
     /// A dry layer in `rect`; costs what `rect` holds.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, DeviceError>;
 
     /// Puts a dry layer on top.
     ///
     /// # Errors
-    /// [`EngineError`] if there is no memory for it.
-    fn push_dry(&mut self, layer: &Layer) -> Result<(), EngineError>;
+    /// [`DeviceError`] if there is no memory for it.
+    fn push_dry(&mut self, layer: &Layer) -> Result<(), DeviceError>;
 
     /// Takes the topmost dry layer away.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn pop_dry(&mut self) -> Result<Layer, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn pop_dry(&mut self) -> Result<Layer, DeviceError>;
 
     /// The height of ground and dry paint, in quanta over the plane of the
     /// canvas.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn floor(&mut self) -> Result<Field<i32>, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn floor(&mut self) -> Result<Field<i32>, DeviceError>;
 
     /// Keeps the wet paint of a tile in `slot`.
     ///
     /// # Errors
-    /// [`EngineError`] if there is no memory for it.
-    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError>;
+    /// [`DeviceError`] if there is no memory for it.
+    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError>;
 
     /// Exchanges the wet paint of a tile with what `slot` keeps.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError>;
 
     /// Computes the light of a view anew: of `baked` tiles everything, of `shown`
     /// tiles only the wet layer over what is baked; costs what they hold. A
     /// change of `scene` other than of its lamp wants all tiles baked.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost, or has no memory for the view.
+    /// [`DeviceError`] if the device was lost, or has no memory for the view.
     fn light(
         &mut self,
         view: View,
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
-    ) -> Result<(), EngineError>;
+    ) -> Result<(), DeviceError>;
 
     /// The picture as last computed: linear sRGB, white at 1, and 1.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn picture(&mut self) -> Result<Field<[f32; 4]>, EngineError> {
+    /// [`DeviceError`] if the device was lost.
+    fn picture(&mut self) -> Result<Field<[f32; 4]>, DeviceError> {
         self.picture_in(View::First, self.bounds())
     }
 
     /// A view as last computed, in `rect`; costs what `rect` holds.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError>;
+    /// [`DeviceError`] if the device was lost.
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, DeviceError>;
 
     /// Gives the memory of a view back; all of its tiles are baked before it is
     /// shown again.
     fn forget_view(&mut self, view: View);
-}
-
-/// Why a backend could not go on.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum EngineError {
-    /// The device went away; what was on it is lost.
-    #[error("the graphics device was lost: {reason}")]
-    Lost {
-        /// As the driver tells it.
-        reason: String,
-    },
-    /// More memory than the device lends.
-    #[error("{what} takes {bytes} bytes, the device lends {limit}")]
-    TooLarge {
-        /// What was to be kept.
-        what: &'static str,
-        /// What it takes.
-        bytes: u64,
-        /// What there is.
-        limit: u64,
-    },
-    /// Within what one buffer may take, but there is no such memory left.
-    #[error("{what} takes {bytes} bytes, more than the device has left")]
-    OutOfMemory {
-        /// What was to be kept.
-        what: &'static str,
-        /// What it takes.
-        bytes: u64,
-    },
-    /// No adapter that computes.
-    #[error("no graphics adapter: {reason}")]
-    NoAdapter {
-        /// Why not.
-        reason: String,
-    },
-}
-
-impl EngineError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        "paint on the CPU: --backend cpu"
-    }
 }

@@ -61,4 +61,4 @@ pub mod file;
 
 pub mod export;
 
-pub use engine::{BrushId, Engine, EngineError, Slot, View};
+pub use engine::{BrushId, Engine, Slot, View};

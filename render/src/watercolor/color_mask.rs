@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -68,7 +68,7 @@ pub trait ColorMask: Backend {
         color: &Self::Color,
         range: ColorRange,
         mask: Option<&Self::Grey>,
-    ) -> Result<Self::Grey, GpuError>;
+    ) -> Result<Self::Grey, DeviceError>;
 }
 
 impl ColorMask for OnCpu {
@@ -77,7 +77,7 @@ impl ColorMask for OnCpu {
         color: &Field<[f32; 4]>,
         range: ColorRange,
         mask: Option<&Field<f32>>,
-    ) -> Result<Field<f32>, GpuError> {
+    ) -> Result<Field<f32>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         let matrix = relative_xyz();
         let held = |&color: &[f32; 4]| range.holds(&matrix, color);
@@ -117,7 +117,7 @@ impl ColorMask for OnGpu {
         color: &Plane,
         range: ColorRange,
         mask: Option<&Plane>,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         let rows = relative_xyz();
         let found = self.plane(width, height, size_of::<f32>())?;

@@ -10,7 +10,7 @@ use pulp::Simd;
 use rayon::prelude::*;
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -44,7 +44,7 @@ pub trait Density: Backend {
         overall: f32,
         layers: &[DensityLayer<'_, Self::Grey>],
         mask: Option<&Self::Grey>,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 }
 
 /// d - 1 of a pixel.
@@ -60,7 +60,7 @@ impl Density for OnCpu {
         overall: f32,
         layers: &[DensityLayer<'_, Field<f32>>],
         mask: Option<&Field<f32>>,
-    ) -> Result<Field<[f32; 4]>, GpuError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         for grey in layers.iter().map(|layer| layer.texture).chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "a texture's size");
@@ -183,7 +183,7 @@ impl Density for OnGpu {
         overall: f32,
         layers: &[DensityLayer<'_, Plane>],
         mask: Option<&Plane>,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         for grey in layers.iter().map(|layer| layer.texture).chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "a texture's size");

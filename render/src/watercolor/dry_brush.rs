@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -59,7 +59,7 @@ pub trait DryBrush: Backend {
         flow: &Self::Grey,
         reach: DryBrushReach,
         mask: Option<&Self::Grey>,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 }
 
 impl DryBrush for OnCpu {
@@ -70,7 +70,7 @@ impl DryBrush for OnCpu {
         flow: &Field<f32>,
         reach: DryBrushReach,
         mask: Option<&Field<f32>>,
-    ) -> Result<Field<[f32; 4]>, GpuError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         for grey in [heights, flow].into_iter().chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "the paper's size");
@@ -118,7 +118,7 @@ impl DryBrush for OnGpu {
         flow: &Plane,
         reach: DryBrushReach,
         mask: Option<&Plane>,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         for grey in [heights, flow].into_iter().chain(mask) {
             assert_eq!((grey.width(), grey.height()), (width, height), "the paper's size");

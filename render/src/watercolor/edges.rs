@@ -11,7 +11,7 @@ use pulp::Simd;
 use rayon::prelude::*;
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -24,7 +24,7 @@ pub trait Edges: Backend {
     ///
     /// # Errors
     /// As [`Backend::color_of`].
-    fn edges(&mut self, color: &Self::Color, width_px: f32) -> Result<Self::Grey, GpuError>;
+    fn edges(&mut self, color: &Self::Color, width_px: f32) -> Result<Self::Grey, DeviceError>;
 }
 
 /// Half of a Gaussian, from its middle outwards; whole, it sums to 1.
@@ -43,7 +43,7 @@ fn half_gaussian(sigma: f32) -> Vec<f32> {
 const BAND: usize = 24;
 
 impl Edges for OnCpu {
-    fn edges(&mut self, color: &Field<[f32; 4]>, width_px: f32) -> Result<Field<f32>, GpuError> {
+    fn edges(&mut self, color: &Field<[f32; 4]>, width_px: f32) -> Result<Field<f32>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         let mut edges = Field::filled(width, height, 0.0);
         if width == 0 || height == 0 {
@@ -198,7 +198,7 @@ pub(super) static EDGES: Kernel = Kernel {
 };
 
 impl Edges for OnGpu {
-    fn edges(&mut self, color: &Plane, width_px: f32) -> Result<Plane, GpuError> {
+    fn edges(&mut self, color: &Plane, width_px: f32) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         let half = half_gaussian(width_px);
         let first = self.recording.batch(&half);

@@ -13,7 +13,7 @@ use graphics::coherence::{
     AnchoredNoise, Anchoring, Depths, FeatureNoise, Features, Hierarchy, Particles, Sight,
     Splatting, repeating_pigment,
 };
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use graphics::mesh::Mesh;
 use graphics::surface::PackedMesh;
 use graphics::tones::{Tones, TonesError};
@@ -117,7 +117,7 @@ impl<B: MovingBackend> ModelPainter<B> {
     ///
     /// # Errors
     /// As [`super::Backend::color_of`].
-    pub fn moment(&mut self, backend: &mut B, camera: &Camera) -> Result<Moment<B>, GpuError> {
+    pub fn moment(&mut self, backend: &mut B, camera: &Camera) -> Result<Moment<B>, DeviceError> {
         let Self { model, toon, noise, width, height, .. } = self;
         let samples = toon.samples;
         let seen = backend.seen(model, camera, *width * samples, *height * samples)?;
@@ -142,7 +142,7 @@ impl<B: MovingBackend> ModelPainter<B> {
         &mut self,
         backend: &mut B,
         camera: &Camera,
-    ) -> Result<(Wash, Textures), GpuError> {
+    ) -> Result<(Wash, Textures), DeviceError> {
         let Moment { color, noise } = self.moment(backend, camera)?;
         let TexturesOn { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
@@ -159,7 +159,7 @@ impl<B: MovingBackend> ModelPainter<B> {
     ///
     /// # Errors
     /// As [`super::Backend::color_of`].
-    pub fn flat(&mut self, backend: &mut B, camera: &Camera) -> Result<B::Color, GpuError> {
+    pub fn flat(&mut self, backend: &mut B, camera: &Camera) -> Result<B::Color, DeviceError> {
         let (width, height) = (self.width * self.toon.samples, self.height * self.toon.samples);
         let seen = backend.seen(&mut self.model, camera, width, height)?;
         let flat = Toon { strength: 0.0, ..self.toon.clone() };
@@ -175,7 +175,7 @@ impl<B: MovingBackend> ModelPainter<B> {
         backend: &mut B,
         camera: &Camera,
         watcher: Option<Watcher<'_, B>>,
-    ) -> Result<B::Color, GpuError> {
+    ) -> Result<B::Color, DeviceError> {
         let Moment { color, noise } = self.moment(backend, camera)?;
         let TexturesOn { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] =
@@ -189,7 +189,7 @@ impl<B: MovingBackend> ModelPainter<B> {
 }
 
 impl<B: MovingBackend> Noise<B> {
-    fn new(backend: &mut B, mesh: &Mesh, settings: &Settings) -> Result<Self, GpuError> {
+    fn new(backend: &mut B, mesh: &Mesh, settings: &Settings) -> Result<Self, DeviceError> {
         let CoherenceSettings { method, particles, octaves, feature_px, features_per_place } =
             settings.coherence;
         let seeds = [settings.flow.seed, settings.dispersion.seed];
@@ -238,7 +238,7 @@ impl<B: MovingBackend> Noise<B> {
         backend: &mut B,
         depth: &B::Grey,
         sight: &Sight,
-    ) -> Result<Option<[B::Grey; 2]>, GpuError> {
+    ) -> Result<Option<[B::Grey; 2]>, DeviceError> {
         match self {
             Self::Static => Ok(None),
             Self::Particles { particles, waves, textures } => {
@@ -270,5 +270,5 @@ pub enum ModelPainterError {
     Tones(#[from] TonesError),
     /// The device.
     #[error(transparent)]
-    Gpu(#[from] GpuError),
+    Gpu(#[from] DeviceError),
 }

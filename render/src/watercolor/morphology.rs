@@ -11,7 +11,7 @@
 
 use super::octagon::{Brush, Extreme, extreme};
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -22,21 +22,21 @@ pub trait Morphology: Backend {
     /// which is of the same size, may be used for it.
     ///
     /// # Errors
-    /// [`GpuError`] if the device has no room or is lost; never on the processor.
+    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
     fn extreme(
         &mut self,
         color: &Self::Color,
         brush: Brush,
         which: Extreme,
         spare: Option<Self::Color>,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 
     /// Without light details into which a brush of `radius_px` does not fit; with 0 as
     /// it is. Nowhere lighter than before; once more changes nothing.
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn opened(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
+    fn opened(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, DeviceError> {
         let brush = Brush::round(radius_px);
         let least = self.extreme(color, brush, Extreme::Least, None)?;
         self.extreme(&least, brush, Extreme::Greatest, None)
@@ -47,7 +47,7 @@ pub trait Morphology: Backend {
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn closed(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
+    fn closed(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, DeviceError> {
         let brush = Brush::round(radius_px);
         let greatest = self.extreme(color, brush, Extreme::Greatest, None)?;
         self.extreme(&greatest, brush, Extreme::Least, None)
@@ -57,7 +57,11 @@ pub trait Morphology: Backend {
     ///
     /// # Errors
     /// As [`Morphology::extreme`].
-    fn smoothed(&mut self, color: &Self::Color, radius_px: u32) -> Result<Self::Color, GpuError> {
+    fn smoothed(
+        &mut self,
+        color: &Self::Color,
+        radius_px: u32,
+    ) -> Result<Self::Color, DeviceError> {
         let brush = Brush::round(radius_px);
         let least = self.extreme(color, brush, Extreme::Least, None)?;
         // The last pass of the opening and the first of the closing are one.
@@ -73,7 +77,7 @@ impl Morphology for OnCpu {
         brush: Brush,
         which: Extreme,
         spare: Option<Self::Color>,
-    ) -> Result<Self::Color, GpuError> {
+    ) -> Result<Self::Color, DeviceError> {
         let fresh = || Field::filled(color.width(), color.height(), [0.0; 4]);
         let mut result = spare.unwrap_or_else(fresh);
         extreme(color, brush, which, &mut result);
@@ -122,7 +126,7 @@ impl Morphology for OnGpu {
         brush: Brush,
         which: Extreme,
         _: Option<Plane>,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         let crossings = brush.crossings();
         // Segments between may lie outside of the picture.

@@ -4,7 +4,7 @@ use super::morphology::Morphology;
 use super::segmentation::{SegmentationError, SegmentationSettings, segment};
 use super::wash::{Controls, Wash};
 use graphics::field::Field;
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use graphics::picture::{Framing, Photograph};
 
 /// How a photograph is abstracted.
@@ -101,7 +101,7 @@ pub enum PhotographDoorError {
     Segmentation(#[from] SegmentationError),
     /// The device fails.
     #[error(transparent)]
-    Gpu(#[from] GpuError),
+    Gpu(#[from] DeviceError),
 }
 
 impl PhotographDoorError {

@@ -14,7 +14,7 @@ use super::sheet::{OnSheet, Sheet};
 use super::textures::{PaperOn, PaperTexture};
 use super::wash::Wash;
 use super::wobble::Wobble;
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use graphics::image::Backend;
 
 /// A backend that does all that watercolor needs.
@@ -88,7 +88,7 @@ impl Wash {
     ///
     /// # Errors
     /// As [`Backend::color_of`].
-    pub fn on<B: Backend>(&self, backend: &mut B) -> Result<WashOn<B>, GpuError> {
+    pub fn on<B: Backend>(&self, backend: &mut B) -> Result<WashOn<B>, DeviceError> {
         let mut grey = |field: &Option<_>| field.as_ref().map(|f| backend.grey_of(f)).transpose();
         let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
         Ok(WashOn { color: backend.color_of(&self.color)?, dry_brush, density })
@@ -97,7 +97,7 @@ impl Wash {
 
 /// Told of every stage: the picture is only lent, and later stages change it.
 pub type Watcher<'a, B> =
-    &'a mut dyn FnMut(&mut B, Stage, &<B as Backend>::Color) -> Result<(), GpuError>;
+    &'a mut dyn FnMut(&mut B, Stage, &<B as Backend>::Color) -> Result<(), DeviceError>;
 
 /// Paints `wash` with clouds and grains of this moment on `paper`; the picture on its
 /// sheet. Settings are those for its size ([`Settings::for_size`]). All stages are as
@@ -117,7 +117,7 @@ pub fn paint<B: Watercolor>(
     paper: &PaperOn<B>,
     settings: &Settings,
     mut watcher: Option<Watcher<'_, B>>,
-) -> Result<B::Color, GpuError> {
+) -> Result<B::Color, DeviceError> {
     let WashOn { color, dry_brush, density } = wash;
     tell(&mut watcher, backend, Stage::Wash, &color)?;
     let heights = &paper.heights;
@@ -175,7 +175,7 @@ fn tell<B: Backend>(
     backend: &mut B,
     stage: Stage,
     color: &B::Color,
-) -> Result<(), GpuError> {
+) -> Result<(), DeviceError> {
     match watcher {
         Some(watcher) => watcher(backend, stage, color),
         None => Ok(()),

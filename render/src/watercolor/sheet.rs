@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -49,7 +49,7 @@ pub trait OnSheet: Backend {
         color: Self::Color,
         heights: &Self::Grey,
         sheet: Sheet,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 }
 
 impl OnSheet for OnCpu {
@@ -58,7 +58,7 @@ impl OnSheet for OnCpu {
         mut color: Field<[f32; 4]>,
         heights: &Field<f32>,
         sheet: Sheet,
-    ) -> Result<Field<[f32; 4]>, GpuError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if width == 0 {
@@ -123,7 +123,12 @@ pub(super) static SHEET: Kernel = Kernel {
 };
 
 impl OnSheet for OnGpu {
-    fn on_sheet(&mut self, color: Plane, heights: &Plane, sheet: Sheet) -> Result<Plane, GpuError> {
+    fn on_sheet(
+        &mut self,
+        color: Plane,
+        heights: &Plane,
+        sheet: Sheet,
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         let seen = self.plane(width, height, size_of::<[f32; 4]>())?;

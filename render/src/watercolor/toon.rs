@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use graphics::camera::Camera;
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::OnCpu;
 use graphics::image::{CpuModel, GpuModel, Models};
 use graphics::image::{OnGpu, Plane};
@@ -96,7 +96,7 @@ pub trait Shading: Models {
         visible: &Self::Visible,
         camera: &Camera,
         toon: &Toon,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 }
 
 /// The picture's size, of what is seen.
@@ -116,7 +116,7 @@ impl Shading for OnCpu {
         visible: &Arc<Visible>,
         camera: &Camera,
         toon: &Toon,
-    ) -> Result<Field<[f32; 4]>, GpuError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let (width, height) = size((visible.width(), visible.height()), toon.samples);
         let mut color = Field::filled(width, height, PAPER);
         if width == 0 {
@@ -207,7 +207,7 @@ impl Shading for OnGpu {
         visible: &Plane,
         camera: &Camera,
         toon: &Toon,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = size((visible.width(), visible.height()), toon.samples);
         let now = ToonNow {
             eye: camera.eye.into(),

@@ -9,7 +9,7 @@ use pulp::Simd;
 use rayon::prelude::*;
 
 use graphics::field::Field;
-use graphics::gpu::{GpuError, Kernel, Storage, groups, layout};
+use graphics::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use graphics::image::Backend;
 use graphics::image::OnCpu;
 use graphics::image::{OnGpu, Plane};
@@ -31,7 +31,7 @@ pub trait Wobble: Backend {
         color: Self::Color,
         heights: &Self::Grey,
         px_per_slope: f32,
-    ) -> Result<Self::Color, GpuError>;
+    ) -> Result<Self::Color, DeviceError>;
 }
 
 impl Wobble for OnCpu {
@@ -40,7 +40,7 @@ impl Wobble for OnCpu {
         color: Field<[f32; 4]>,
         heights: &Field<f32>,
         px_per_slope: f32,
-    ) -> Result<Field<[f32; 4]>, GpuError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if px_per_slope == 0.0 || width == 0 {
@@ -153,7 +153,7 @@ impl Wobble for OnGpu {
         color: Plane,
         heights: &Plane,
         px_per_slope: f32,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (color.width(), color.height());
         assert_eq!((heights.width(), heights.height()), (width, height), "the paper's size");
         if px_per_slope == 0.0 {

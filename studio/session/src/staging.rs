@@ -157,7 +157,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     use render::gpu::BackendChoice;
-    use render::paint::EngineError;
+    use render::gpu::DeviceError;
     use render::paint::painting::PaintingError;
     use render::paint::strokes::{Action, Squeeze, Surface};
 
@@ -192,7 +192,7 @@ mod tests {
         // As on a device.
         workshop.kept = saved.then(|| snapshot.clone());
         told.borrow_mut().clear();
-        let gone = EngineError::Lost { reason: "it was pulled out".to_owned() };
+        let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
         workshop.failed(&EaselError::Painting(PaintingError::Engine(gone)));
         let found = workshop.stage.as_mut().map(|stage| stage.opened.easel.documents().unwrap());
         if let Some((canvas, palette)) = found {

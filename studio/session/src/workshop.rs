@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use render::paint::EngineError;
+use render::gpu::DeviceError;
 use render::paint::easel::EaselError;
 use render::paint::painting::PaintingError;
 
@@ -195,7 +195,10 @@ impl<'a> Workshop<'a> {
     pub(super) fn failed(&mut self, error: &EaselError) {
         self.say(error.to_string(), error.hint(), true);
         self.stale = true;
-        if let EaselError::Painting(PaintingError::Engine(EngineError::Lost { .. })) = error {
+        if let EaselError::Painting(PaintingError::Engine(
+            DeviceError::Lost { .. } | DeviceError::Refused { .. },
+        )) = error
+        {
             self.recover();
         }
     }

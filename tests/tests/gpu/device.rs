@@ -1,10 +1,11 @@
 //! What a device cannot is an error.
 
 use render::field::Field;
-use render::gpu::GpuError;
+use render::gpu::DeviceError;
 use render::layer::Layer;
+use render::paint::Engine;
 use render::paint::on_gpu::OnGpu;
-use render::paint::{Engine, EngineError};
+use spectra::hint::Explain;
 
 #[test]
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
@@ -17,8 +18,8 @@ fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     }
     let error = OnGpu::new(device, &Field::filled(cells, 1, 0)).unwrap_err();
     let bytes = 32 * cells as u64;
-    assert_eq!(error, EngineError::TooLarge { what: "the canvas", bytes, limit });
-    assert_eq!(error.hint(), "paint on the CPU: --backend cpu");
+    assert_eq!(error, DeviceError::TooLarge { what: "the canvas", bytes, limit });
+    assert_eq!(error.hint().unwrap().to_string(), "paint on the processor: `backend = cpu`");
 }
 
 #[test]
@@ -27,8 +28,8 @@ fn a_lost_device_is_an_error_of_every_call() {
     let mut engine = OnGpu::new(device, &Field::filled(70, 70, 0)).unwrap();
     let brush = engine.add_brush(4, 4).unwrap();
     engine.device().close();
-    let lost = |found: Result<(), EngineError>| {
-        assert!(matches!(found, Err(EngineError::Lost { .. })), "{found:?}");
+    let lost = |found: Result<(), DeviceError>| {
+        assert!(matches!(found, Err(DeviceError::Lost { .. })), "{found:?}");
     };
     lost(engine.set_wet(&Layer::empty(70, 70)));
     lost(engine.set_brush(brush, &Layer::empty(4, 4)));
@@ -46,5 +47,5 @@ fn a_buffer_beyond_the_limit_is_refused() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
     let error = device.buffer("a test", limit + 1).unwrap_err();
-    assert_eq!(error, GpuError::TooLarge { what: "a test", bytes: limit + 1, limit });
+    assert_eq!(error, DeviceError::TooLarge { what: "a test", bytes: limit + 1, limit });
 }

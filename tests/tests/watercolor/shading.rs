@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use render::camera::{Camera, Framing};
 use render::field::Field;
-use render::gpu::GpuError;
+use render::gpu::DeviceError;
 use render::mesh::{Material, Mesh, Texture};
 use render::surface::{NOTHING, PackedMesh, RASTER, Visible, position_at};
 use render::watercolor::{
@@ -225,7 +225,7 @@ fn a_picture_that_no_device_draws_is_refused() {
     let mut model = on_gpu.model(PackedMesh::new(&Mesh::sphere(100))).unwrap();
     for (width, height) in [(1 << 20, 4), (0, 4)] {
         let error = on_gpu.seen(&mut model, &inside_them(), width, height).unwrap_err();
-        assert!(matches!(error, GpuError::Refused { .. }), "{error}");
+        assert!(matches!(error, DeviceError::Refused { .. }), "{error}");
     }
     assert!(on_gpu.seen(&mut model, &inside_them(), 8, 4).is_ok());
 }

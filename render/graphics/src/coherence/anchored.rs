@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::particles::{Anchor, Anchors, MOST_OCTAVES};
 use crate::field::Field;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
+use crate::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use crate::image::Backend;
 use crate::image::OnCpu;
 use crate::image::{OnGpu, Plane};
@@ -23,7 +23,7 @@ pub trait Anchoring: Backend {
     /// 1995).
     ///
     /// # Errors
-    /// [`GpuError`] if the device has no room or is lost; never on the processor.
+    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
     ///
     /// # Panics
     /// If the sides of the texture, which repeats, are not powers of two, or
@@ -33,7 +33,7 @@ pub trait Anchoring: Backend {
         depth: &Self::Grey,
         texture: &Self::Grey,
         anchors: &Anchors,
-    ) -> Result<Self::Grey, GpuError>;
+    ) -> Result<Self::Grey, DeviceError>;
 }
 
 fn check(depth: (usize, usize), texture: (usize, usize), anchors: &Anchors) {
@@ -78,7 +78,7 @@ impl Anchoring for OnCpu {
         depth: &Field<f32>,
         texture: &Field<f32>,
         anchors: &Anchors,
-    ) -> Result<Field<f32>, GpuError> {
+    ) -> Result<Field<f32>, DeviceError> {
         let size = (depth.width(), depth.height());
         check(size, (texture.width(), texture.height()), anchors);
         let mut blended = Field::filled(size.0, size.1, 0.5);
@@ -166,7 +166,7 @@ impl Anchoring for OnGpu {
         depth: &Plane,
         texture: &Plane,
         anchors: &Anchors,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let (width, height) = (depth.width(), depth.height());
         check((width, height), (texture.width(), texture.height()), anchors);
         let blended = self.plane(width, height, size_of::<f32>())?;

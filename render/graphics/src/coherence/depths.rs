@@ -1,7 +1,7 @@
 //! How far away each pixel is, wherever pictures live.
 
 use super::sight::depth_of;
-use crate::gpu::{GpuError, Kernel, Storage, groups, layout};
+use crate::gpu::{DeviceError, Kernel, Storage, groups, layout};
 use crate::image::Models;
 use crate::image::OnCpu;
 use crate::image::{OnGpu, Plane};
@@ -12,12 +12,12 @@ pub trait Depths: Models {
     /// The depth of every pixel: 0 near to 1, where nothing is seen.
     ///
     /// # Errors
-    /// [`GpuError`] if the device has no room or is lost; never on the processor.
-    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, GpuError>;
+    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
+    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, DeviceError>;
 }
 
 impl Depths for OnCpu {
-    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, GpuError> {
+    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, DeviceError> {
         Ok(depth_of(visible))
     }
 }
@@ -40,7 +40,7 @@ pub static DEPTHS: Kernel = Kernel {
 };
 
 impl Depths for OnGpu {
-    fn depths(&mut self, visible: &Plane) -> Result<Plane, GpuError> {
+    fn depths(&mut self, visible: &Plane) -> Result<Plane, DeviceError> {
         let (width, height) = (visible.width(), visible.height());
         let depths = self.plane(width, height, size_of::<f32>())?;
         let now = DepthsNow { size: [width as u32, height as u32], spare: [0; 2] };

@@ -9,7 +9,7 @@ use pulp::Simd;
 use rayon::prelude::*;
 
 use crate::field::Field;
-use crate::gpu::{GROUP, GpuError, Kernel, Storage, groups, layout};
+use crate::gpu::{DeviceError, GROUP, Kernel, Storage, groups, layout};
 use crate::image::Backend;
 use crate::image::OnCpu;
 use crate::image::{OnGpu, Plane};
@@ -44,8 +44,9 @@ pub trait Splatting: Backend {
     /// is seen, which `depth` (0 near to 1, nothing) tells.
     ///
     /// # Errors
-    /// [`GpuError`] if the device has no room or is lost; never on the processor.
-    fn splatted(&mut self, depth: &Self::Grey, splats: &[Splat]) -> Result<Self::Grey, GpuError>;
+    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
+    fn splatted(&mut self, depth: &Self::Grey, splats: &[Splat])
+    -> Result<Self::Grey, DeviceError>;
 }
 
 /// Side of a square of pixels that gathers from one list.
@@ -100,7 +101,11 @@ impl Lists {
 }
 
 impl Splatting for OnCpu {
-    fn splatted(&mut self, depth: &Field<f32>, splats: &[Splat]) -> Result<Field<f32>, GpuError> {
+    fn splatted(
+        &mut self,
+        depth: &Field<f32>,
+        splats: &[Splat],
+    ) -> Result<Field<f32>, DeviceError> {
         let (width, height) = (depth.width(), depth.height());
         let mut sums = Field::filled(width, height, 0.5);
         let lists = Lists::new(width, height, splats);
@@ -210,7 +215,7 @@ pub static GATHER_SPLATS: Kernel = Kernel {
 };
 
 impl Splatting for OnGpu {
-    fn splatted(&mut self, depth: &Plane, splats: &[Splat]) -> Result<Plane, GpuError> {
+    fn splatted(&mut self, depth: &Plane, splats: &[Splat]) -> Result<Plane, DeviceError> {
         let (width, height) = (depth.width(), depth.height());
         let lists = Lists::new(width, height, splats);
         let sums = self.plane(width, height, size_of::<f32>())?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::device::Device;
-use super::error::GpuError;
+use super::error::DeviceError;
 
 /// What computes, as the user asks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -170,9 +170,9 @@ fn hardware_is_possible() -> bool {
 /// The device to paint on; none for the processor.
 ///
 /// # Errors
-/// For [`BackendChoice::Gpu`]: [`GpuError::NoAdapter`] where there is none, and
+/// For [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] where there is none, and
 /// the driver's error where it does not open. `Auto` then takes the processor.
-pub fn choose(choice: BackendChoice) -> Result<Option<Device>, GpuError> {
+pub fn choose(choice: BackendChoice) -> Result<Option<Device>, DeviceError> {
     let skipped = match choice {
         BackendChoice::Auto => !hardware_is_possible(),
         BackendChoice::Cpu => true,
@@ -187,7 +187,7 @@ pub fn choose(choice: BackendChoice) -> Result<Option<Device>, GpuError> {
         (BackendChoice::Gpu, Ok(None)) => {
             let unfit = adapters.first().and_then(|adapter| adapter.unfit.clone());
             let reason = unfit.unwrap_or_else(|| "no driver offers one".to_owned());
-            Err(GpuError::NoAdapter { reason })
+            Err(DeviceError::NoAdapter { reason })
         }
         (BackendChoice::Gpu, opened) => opened,
         (_, opened) => Ok(opened.ok().flatten()),

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::adapter::Adapter;
 use super::drawing::RasterPipeline;
-use super::error::GpuError;
+use super::error::DeviceError;
 use super::pipeline::Pipeline;
 use super::transfer::Rows;
 
@@ -52,10 +52,10 @@ impl Device {
     /// Opens `adapter`, with all that it lends to buffers.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] if it is unfit or the driver does not open it.
-    pub fn open(adapter: &Adapter) -> Result<Self, GpuError> {
+    /// [`DeviceError::NoAdapter`] if it is unfit or the driver does not open it.
+    pub fn open(adapter: &Adapter) -> Result<Self, DeviceError> {
         if let Some(reason) = &adapter.unfit {
-            return Err(GpuError::NoAdapter { reason: format!("{}: {reason}", adapter.name) });
+            return Err(DeviceError::NoAdapter { reason: format!("{}: {reason}", adapter.name) });
         }
         let own = adapter.inner.limits();
         let limits = wgpu::Limits {
@@ -71,7 +71,7 @@ impl Device {
             ..wgpu::DeviceDescriptor::default()
         };
         let opened = pollster::block_on(adapter.inner.request_device(&asked));
-        let (inner, queue) = opened.map_err(|error| GpuError::NoAdapter {
+        let (inner, queue) = opened.map_err(|error| DeviceError::NoAdapter {
             reason: format!("{}: {error}", adapter.name),
         })?;
         let reported = Arc::new(Mutex::new(Reported::default()));
@@ -115,13 +115,13 @@ impl Device {
     }
 
     /// What the driver has reported since the last call.
-    pub(super) fn check(&self, what: &str) -> Result<(), GpuError> {
+    pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
         if let Some(reason) = reported.lost.clone() {
-            return Err(GpuError::Lost { reason });
+            return Err(DeviceError::Lost { reason });
         }
         match reported.refused.take() {
-            Some(reason) => Err(GpuError::Refused { what: what.to_owned(), reason }),
+            Some(reason) => Err(DeviceError::Refused { what: what.to_owned(), reason }),
             None => Ok(()),
         }
     }
@@ -129,11 +129,11 @@ impl Device {
     /// Whether `bytes` fit one buffer.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] if they do not.
-    pub fn check_size(&self, what: &'static str, bytes: u64) -> Result<(), GpuError> {
+    /// [`DeviceError::TooLarge`] if they do not.
+    pub fn check_size(&self, what: &'static str, bytes: u64) -> Result<(), DeviceError> {
         let limit = self.adapter.limits.binding_bytes;
         if bytes > limit {
-            return Err(GpuError::TooLarge { what, bytes, limit });
+            return Err(DeviceError::TooLarge { what, bytes, limit });
         }
         Ok(())
     }
@@ -141,9 +141,9 @@ impl Device {
     /// A buffer of `bytes` zeros for `what`.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] beyond the adapter's limit,
-    /// [`GpuError::OutOfMemory`] if it has no more.
-    pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, GpuError> {
+    /// [`DeviceError::TooLarge`] beyond the adapter's limit,
+    /// [`DeviceError::OutOfMemory`] if it has no more.
+    pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, DeviceError> {
         self.check_size(what, bytes)?;
         let usage = wgpu::BufferUsages::STORAGE
             | wgpu::BufferUsages::UNIFORM
@@ -157,7 +157,7 @@ impl Device {
         what: &'static str,
         bytes: u64,
         usage: wgpu::BufferUsages,
-    ) -> Result<Buffer, GpuError> {
+    ) -> Result<Buffer, DeviceError> {
         let memory = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let inner = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
@@ -166,7 +166,7 @@ impl Device {
             mapped_at_creation: false,
         });
         if pollster::block_on(memory.pop()).is_some() {
-            return Err(GpuError::OutOfMemory { what, bytes });
+            return Err(DeviceError::OutOfMemory { what, bytes });
         }
         self.check(what)?;
         Ok(Buffer { inner, number: MADE.fetch_add(1, Ordering::Relaxed) })
@@ -175,25 +175,25 @@ impl Device {
     /// A buffer of `values`.
     ///
     /// # Errors
-    /// As [`Device::buffer`], and [`GpuError::Lost`].
+    /// As [`Device::buffer`], and [`DeviceError::Lost`].
     pub fn buffer_of<T: bytemuck::Pod>(
         &mut self,
         what: &'static str,
         values: &[T],
-    ) -> Result<Buffer, GpuError> {
+    ) -> Result<Buffer, DeviceError> {
         let buffer = self.buffer(what, size_of_val(values) as u64)?;
         self.write(&buffer, Rows::start(values.len()), values)?;
         Ok(buffer)
     }
 
     /// Waits until a submission is done.
-    pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+    pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
         self.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None })
     }
 
     /// Hands finished memory back. wgpu panics where a device is lost during a
     /// wait; that is caught here.
-    fn poll(&self, how: wgpu::PollType) -> Result<(), GpuError> {
+    fn poll(&self, how: wgpu::PollType) -> Result<(), DeviceError> {
         self.check("a submission")?;
         let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
         if !matches!(polled, Ok(Ok(_))) {
@@ -203,7 +203,7 @@ impl Device {
     }
 
     /// Follows a submission, so that only a few wait on the device.
-    pub(super) fn follow(&mut self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+    pub(super) fn follow(&mut self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
         self.in_flight.push_back(index);
         match self.in_flight.len() > IN_FLIGHT {
             true => self.in_flight.pop_front().map_or(Ok(()), |oldest| self.wait(oldest)),
@@ -214,8 +214,8 @@ impl Device {
     /// Waits until all that was submitted is done.
     ///
     /// # Errors
-    /// [`GpuError::Lost`], or what the driver refused.
-    pub fn finish(&mut self) -> Result<(), GpuError> {
+    /// [`DeviceError::Lost`], or what the driver refused.
+    pub fn finish(&mut self) -> Result<(), DeviceError> {
         let last = self.in_flight.pop_back();
         self.in_flight.clear();
         match last {

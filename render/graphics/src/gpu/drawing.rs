@@ -1,7 +1,7 @@
 //! Raster shaders made ready, and triangles drawn.
 
 use super::device::{Buffer, Device, one_line};
-use super::error::GpuError;
+use super::error::DeviceError;
 use super::raster::RasterShader;
 use super::recording::Draw;
 use super::target::{DEPTH, TEXEL, TEXEL_BYTES};
@@ -17,12 +17,12 @@ impl Device {
     /// Compiles `shader` unless it is; by itself when first drawn with.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] if the driver does not take it.
+    /// [`DeviceError::Refused`] if the driver does not take it.
     pub(super) fn prepare_raster(
         &mut self,
         shader: &'static RasterShader,
         front_only: bool,
-    ) -> Result<(), GpuError> {
+    ) -> Result<(), DeviceError> {
         if self.raster_pipelines.contains_key(&(shader.name, front_only)) {
             return Ok(());
         }
@@ -32,7 +32,7 @@ impl Device {
         for scope in scopes.into_iter().rev() {
             if let Some(error) = pollster::block_on(scope.pop()) {
                 let what = format!("raster shader `{}`", shader.name);
-                return Err(GpuError::Refused { what, reason: one_line(&error) });
+                return Err(DeviceError::Refused { what, reason: one_line(&error) });
             }
         }
         self.check(shader.name)?;

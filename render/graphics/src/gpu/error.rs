@@ -1,8 +1,10 @@
-//! What a graphics device can refuse.
+//! Why a graphics device failed.
 
-/// Why the device could not.
+use spectra::hint::{Explain, Fault, Hint};
+
+/// Why a graphics device failed. The processor never fails so.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum GpuError {
+pub enum DeviceError {
     /// None that computes.
     #[error("no graphics adapter: {reason}")]
     NoAdapter {
@@ -41,4 +43,14 @@ pub enum GpuError {
         /// As the driver tells it.
         reason: String,
     },
+}
+
+impl Explain for DeviceError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new("paint on the processor: [backend=cpu]"))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Environment
+    }
 }

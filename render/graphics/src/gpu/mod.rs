@@ -28,7 +28,7 @@ mod drawing;
 
 pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best, choose};
 pub use device::{Buffer, Device};
-pub use error::GpuError;
+pub use error::DeviceError;
 pub use kernel::{GROUP, Kernel, Storage, groups};
 pub use layout::Layout;
 pub use layout::layout;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::device::{Buffer, Device, one_line};
-use super::error::GpuError;
+use super::error::DeviceError;
 use super::kernel::{Kernel, Storage};
 use super::recording::{Command, Recording};
 
@@ -22,8 +22,8 @@ impl Device {
     /// Compiles `kernel` unless it is; by itself when first dispatched.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] if the driver does not take it.
-    pub fn prepare(&mut self, kernel: &'static Kernel) -> Result<(), GpuError> {
+    /// [`DeviceError::Refused`] if the driver does not take it.
+    pub fn prepare(&mut self, kernel: &'static Kernel) -> Result<(), DeviceError> {
         if self.pipelines.contains_key(kernel.name) {
             return Ok(());
         }
@@ -33,7 +33,7 @@ impl Device {
         for scope in scopes.into_iter().rev() {
             if let Some(error) = pollster::block_on(scope.pop()) {
                 let what = format!("kernel `{}`", kernel.name);
-                return Err(GpuError::Refused { what, reason: one_line(&error) });
+                return Err(DeviceError::Refused { what, reason: one_line(&error) });
             }
         }
         self.check(kernel.name)?;
@@ -87,11 +87,11 @@ impl Device {
     /// recording. Does not wait.
     ///
     /// # Errors
-    /// [`GpuError::Lost`]; what the driver refuses of this or an earlier one.
+    /// [`DeviceError::Lost`]; what the driver refuses of this or an earlier one.
     ///
     /// # Panics
     /// If a kernel was recorded with fewer or more buffers than it has.
-    pub fn submit(&mut self, recording: &mut Recording) -> Result<(), GpuError> {
+    pub fn submit(&mut self, recording: &mut Recording) -> Result<(), DeviceError> {
         let recording = std::mem::take(recording);
         self.check("a submission")?;
         if recording.is_empty() {
@@ -131,7 +131,7 @@ impl Device {
         found: Option<Buffer>,
         content: &[u8],
         bytes: usize,
-    ) -> Result<Buffer, GpuError> {
+    ) -> Result<Buffer, DeviceError> {
         let bytes = bytes as u64;
         let buffer = match found {
             Some(buffer) if buffer.inner.size() >= bytes => buffer,

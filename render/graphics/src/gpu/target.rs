@@ -1,7 +1,7 @@
 //! Pictures that triangles are drawn into: four numbers and a depth a pixel.
 
 use super::device::{Device, one_line};
-use super::error::GpuError;
+use super::error::DeviceError;
 
 /// What a pixel of a [`Target`] holds.
 pub(super) const TEXEL: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -34,12 +34,12 @@ impl Device {
     /// A target of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] beyond what the adapter draws, or without a pixel;
-    /// [`GpuError::OutOfMemory`].
-    pub fn target(&self, width: usize, height: usize) -> Result<Target, GpuError> {
+    /// [`DeviceError::Refused`] beyond what the adapter draws, or without a pixel;
+    /// [`DeviceError::OutOfMemory`].
+    pub fn target(&self, width: usize, height: usize) -> Result<Target, DeviceError> {
         let most = self.inner.limits().max_texture_dimension_2d as usize;
         if width.max(height) > most || width.min(height) == 0 {
-            return Err(GpuError::Refused {
+            return Err(DeviceError::Refused {
                 what: format!("a target of {width} x {height} pixels"),
                 reason: format!("its sides may be of 1 to {most}"),
             });
@@ -67,11 +67,11 @@ impl Device {
                 None => {}
                 Some(wgpu::Error::OutOfMemory { .. }) => {
                     let bytes = u64::from(width) * u64::from(height) * u64::from(TEXEL_BYTES + 4);
-                    return Err(GpuError::OutOfMemory { what: "a target", bytes });
+                    return Err(DeviceError::OutOfMemory { what: "a target", bytes });
                 }
                 Some(error) => {
                     let what = format!("a target of {width} x {height} pixels");
-                    return Err(GpuError::Refused { what, reason: one_line(&error) });
+                    return Err(DeviceError::Refused { what, reason: one_line(&error) });
                 }
             }
         }

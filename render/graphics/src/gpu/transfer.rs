@@ -3,7 +3,7 @@
 use std::sync::mpsc::channel;
 
 use super::device::{Buffer, Device};
-use super::error::GpuError;
+use super::error::DeviceError;
 use crate::tile::Rect;
 
 /// The most that is moved between processor and device at a time.
@@ -56,13 +56,13 @@ impl Device {
     /// Puts `values` into `rows` of `buffer`, after all that was submitted.
     ///
     /// # Errors
-    /// [`GpuError::Lost`], or what the driver refuses.
+    /// [`DeviceError::Lost`], or what the driver refuses.
     pub fn write<T: bytemuck::Pod>(
         &mut self,
         buffer: &Buffer,
         rows: Rows,
         values: &[T],
-    ) -> Result<(), GpuError> {
+    ) -> Result<(), DeviceError> {
         let mut rest: &[u8] = bytemuck::cast_slice(values);
         let mut waiting = 0;
         for (start, length) in rows.pieces(size_of::<T>()) {
@@ -83,12 +83,12 @@ impl Device {
     /// they are carried.
     ///
     /// # Errors
-    /// [`GpuError::Lost`], or [`GpuError::OutOfMemory`] for what carries them.
+    /// [`DeviceError::Lost`], or [`DeviceError::OutOfMemory`] for what carries them.
     pub fn read<T: bytemuck::Pod>(
         &mut self,
         buffer: &Buffer,
         rows: Rows,
-    ) -> Result<Vec<T>, GpuError> {
+    ) -> Result<Vec<T>, DeviceError> {
         let mut values = vec![T::zeroed(); rows.length * rows.count];
         let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);
         let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
@@ -110,7 +110,7 @@ impl Device {
                 let _ = tell.send(mapped.is_ok());
             });
             self.wait(index)?;
-            let lost = || GpuError::Lost { reason: "its memory cannot be read".to_owned() };
+            let lost = || DeviceError::Lost { reason: "its memory cannot be read".to_owned() };
             if !told.try_recv().unwrap_or(false) {
                 return Err(lost());
             }

@@ -7,7 +7,7 @@ use super::on_cpu::OnCpu;
 use super::on_gpu::{OnGpu, Plane};
 use crate::camera::Camera;
 use crate::field::Field;
-use crate::gpu::{Buffer, GpuError, Target, Triangles};
+use crate::gpu::{Buffer, DeviceError, Target, Triangles};
 use crate::surface::{PackedMesh, RASTER, Rasteriser, Seen, Sides, View, Visible};
 
 /// Keeps meshes, and tells what a camera sees of them.
@@ -21,7 +21,7 @@ pub trait Models: Backend {
     ///
     /// # Errors
     /// As [`Backend::color_of`].
-    fn model(&mut self, mesh: PackedMesh) -> Result<Self::Model, GpuError>;
+    fn model(&mut self, mesh: PackedMesh) -> Result<Self::Model, DeviceError>;
 
     /// What `camera` sees at the middle of every pixel: both sides of all triangles.
     ///
@@ -34,13 +34,13 @@ pub trait Models: Backend {
         camera: &Camera,
         width: usize,
         height: usize,
-    ) -> Result<Self::Visible, GpuError>;
+    ) -> Result<Self::Visible, DeviceError>;
 
     /// The same with the processor.
     ///
     /// # Errors
     /// As [`Backend::color_of`].
-    fn visible_field(&mut self, visible: &Self::Visible) -> Result<Visible, GpuError>;
+    fn visible_field(&mut self, visible: &Self::Visible) -> Result<Visible, DeviceError>;
 }
 
 /// From outside a closed mesh only fronts are seen.
@@ -66,7 +66,7 @@ impl Models for OnCpu {
     type Model = CpuModel;
     type Visible = Arc<Visible>;
 
-    fn model(&mut self, mesh: PackedMesh) -> Result<CpuModel, GpuError> {
+    fn model(&mut self, mesh: PackedMesh) -> Result<CpuModel, DeviceError> {
         let last = Arc::new(Field::filled(0, 0, Seen::EMPTY));
         Ok(CpuModel { mesh, rasteriser: Rasteriser::default(), last })
     }
@@ -77,7 +77,7 @@ impl Models for OnCpu {
         camera: &Camera,
         width: usize,
         height: usize,
-    ) -> Result<Arc<Visible>, GpuError> {
+    ) -> Result<Arc<Visible>, DeviceError> {
         let CpuModel { mesh, rasteriser, last } = model;
         let fits = (last.width(), last.height()) == (width, height);
         if !fits || Arc::get_mut(last).is_none() {
@@ -91,7 +91,7 @@ impl Models for OnCpu {
         Ok(Arc::clone(last))
     }
 
-    fn visible_field(&mut self, visible: &Arc<Visible>) -> Result<Visible, GpuError> {
+    fn visible_field(&mut self, visible: &Arc<Visible>) -> Result<Visible, DeviceError> {
         Ok(Visible::clone(visible))
     }
 }
@@ -117,7 +117,7 @@ impl Models for OnGpu {
     type Model = GpuModel;
     type Visible = Plane;
 
-    fn model(&mut self, mesh: PackedMesh) -> Result<GpuModel, GpuError> {
+    fn model(&mut self, mesh: PackedMesh) -> Result<GpuModel, DeviceError> {
         let device = &mut self.device;
         Ok(GpuModel {
             vertices: device.buffer_of("vertices", &mesh.vertices)?,
@@ -137,7 +137,7 @@ impl Models for OnGpu {
         camera: &Camera,
         width: usize,
         height: usize,
-    ) -> Result<Plane, GpuError> {
+    ) -> Result<Plane, DeviceError> {
         let target = match model.target.take() {
             Some(target) if target.size() == (width, height) => target,
             _ => self.device.target(width, height)?,
@@ -156,7 +156,7 @@ impl Models for OnGpu {
         Ok(plane)
     }
 
-    fn visible_field(&mut self, visible: &Plane) -> Result<Visible, GpuError> {
+    fn visible_field(&mut self, visible: &Plane) -> Result<Visible, DeviceError> {
         self.given(visible)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::backend::Backend;
 use crate::field::Field;
-use crate::gpu::GpuError;
+use crate::gpu::DeviceError;
 
 /// The processor: rows of pixels on all cores.
 #[derive(Debug, Default)]
@@ -16,19 +16,19 @@ impl Backend for OnCpu {
         "cpu".to_owned()
     }
 
-    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Color, GpuError> {
+    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Self::Color, DeviceError> {
         Ok(field.clone())
     }
 
-    fn grey_of(&mut self, field: &Field<f32>) -> Result<Self::Grey, GpuError> {
+    fn grey_of(&mut self, field: &Field<f32>) -> Result<Self::Grey, DeviceError> {
         Ok(field.clone())
     }
 
-    fn color_field(&mut self, color: &Self::Color) -> Result<Field<[f32; 4]>, GpuError> {
+    fn color_field(&mut self, color: &Self::Color) -> Result<Field<[f32; 4]>, DeviceError> {
         Ok(color.clone())
     }
 
-    fn grey_field(&mut self, grey: &Self::Grey) -> Result<Field<f32>, GpuError> {
+    fn grey_field(&mut self, grey: &Self::Grey) -> Result<Field<f32>, DeviceError> {
         Ok(grey.clone())
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::backend::Backend;
 use crate::field::Field;
-use crate::gpu::{Buffer, Device, GpuError, Recording, Rows};
+use crate::gpu::{Buffer, Device, DeviceError, Recording, Rows};
 
 /// A device, with what is to be done next and memory to be used again.
 #[derive(Debug)]
@@ -53,7 +53,12 @@ impl OnGpu {
     }
 
     /// A plane whose values are anything yet, `bytes` a pixel.
-    pub fn plane(&mut self, width: usize, height: usize, bytes: usize) -> Result<Plane, GpuError> {
+    pub fn plane(
+        &mut self,
+        width: usize,
+        height: usize,
+        bytes: usize,
+    ) -> Result<Plane, DeviceError> {
         let bytes = (width * height * bytes) as u64;
         let free =
             |(size, buffer): &&(u64, Arc<Buffer>)| *size == bytes && Arc::strong_count(buffer) == 1;
@@ -66,18 +71,22 @@ impl OnGpu {
     }
 
     /// Sends what was recorded.
-    pub fn send(&mut self) -> Result<(), GpuError> {
+    pub fn send(&mut self) -> Result<(), DeviceError> {
         self.device.submit(&mut self.recording)
     }
 
     /// Puts `values` at the beginning of a plane, before all that is recorded next.
-    pub fn fill<T: bytemuck::Pod>(&mut self, plane: &Plane, values: &[T]) -> Result<(), GpuError> {
+    pub fn fill<T: bytemuck::Pod>(
+        &mut self,
+        plane: &Plane,
+        values: &[T],
+    ) -> Result<(), DeviceError> {
         // A free plane may still be read by steps not sent yet.
         self.send()?;
         self.device.write(&plane.buffer, Rows::start(values.len()), values)
     }
 
-    fn taken<T: bytemuck::Pod>(&mut self, field: &Field<T>) -> Result<Plane, GpuError> {
+    fn taken<T: bytemuck::Pod>(&mut self, field: &Field<T>) -> Result<Plane, DeviceError> {
         let plane = self.plane(field.width(), field.height(), size_of::<T>())?;
         self.fill(&plane, field.values())?;
         Ok(plane)
@@ -86,8 +95,8 @@ impl OnGpu {
     /// Downloads the values of a plane.
     ///
     /// # Errors
-    /// [`GpuError`] if the device is lost.
-    pub fn given<T: bytemuck::Pod>(&mut self, plane: &Plane) -> Result<Field<T>, GpuError> {
+    /// [`DeviceError`] if the device is lost.
+    pub fn given<T: bytemuck::Pod>(&mut self, plane: &Plane) -> Result<Field<T>, DeviceError> {
         self.send()?;
         let count = plane.width * plane.height;
         let values = self.device.read(&plane.buffer, Rows::start(count))?;
@@ -103,19 +112,19 @@ impl Backend for OnGpu {
         self.device.adapter().name.clone()
     }
 
-    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Plane, GpuError> {
+    fn color_of(&mut self, field: &Field<[f32; 4]>) -> Result<Plane, DeviceError> {
         self.taken(field)
     }
 
-    fn grey_of(&mut self, field: &Field<f32>) -> Result<Plane, GpuError> {
+    fn grey_of(&mut self, field: &Field<f32>) -> Result<Plane, DeviceError> {
         self.taken(field)
     }
 
-    fn color_field(&mut self, color: &Plane) -> Result<Field<[f32; 4]>, GpuError> {
+    fn color_field(&mut self, color: &Plane) -> Result<Field<[f32; 4]>, DeviceError> {
         self.given(color)
     }
 
-    fn grey_field(&mut self, grey: &Plane) -> Result<Field<f32>, GpuError> {
+    fn grey_field(&mut self, grey: &Plane) -> Result<Field<f32>, DeviceError> {
         self.given(grey)
     }
 }

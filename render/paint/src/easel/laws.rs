@@ -5,12 +5,12 @@ use pigment::library::PigmentLibrary;
 use super::failure::EaselError;
 use super::record::Limits;
 use super::state::Easel;
-use crate::EngineError;
 use crate::brush::HeadShape;
 use crate::on_cpu::OnCpu;
 use crate::painting::Painting;
 use crate::pose::Sample;
 use crate::strokes::{Action, BrushSpec, Strokes, Surface};
+use graphics::gpu::DeviceError;
 
 fn recorded() -> Easel {
     let library = PigmentLibrary::van_gogh_oils();
@@ -104,7 +104,7 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     dab(&mut easel);
     dab(&mut easel);
     easel.undo().unwrap();
-    let reason = EngineError::NoAdapter { reason: "it burnt".to_owned() };
+    let reason = DeviceError::NoAdapter { reason: "it burnt".to_owned() };
     let failed = easel.followed::<()>(Err(EaselError::Painting(reason.into())));
     assert!(failed.is_err(), "it is told");
     assert_eq!(easel.history(), (Vec::new(), 0));

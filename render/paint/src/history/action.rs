@@ -1,8 +1,9 @@
 //! What one action keeps, and its exchange with what is there.
 
+use graphics::gpu::DeviceError;
 use std::collections::BTreeMap;
 
-use crate::engine::{BrushId, Engine, EngineError, Slot};
+use crate::engine::{BrushId, Engine, Slot};
 use crate::layer::{Layer, SLOTS};
 use graphics::tile::{TILE, Tile, TileSet};
 
@@ -61,7 +62,7 @@ impl<T> Action<T> {
         &mut self,
         engine: &mut dyn Engine,
         current: T,
-    ) -> Result<Restored<T>, EngineError> {
+    ) -> Result<Restored<T>, DeviceError> {
         let mut tiles = TileSet::default();
         for (&tile, &slot) in &self.tiles {
             engine.swap(tile, slot)?;

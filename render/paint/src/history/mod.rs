@@ -15,11 +15,12 @@ mod action;
 #[cfg(test)]
 mod laws;
 
+use graphics::gpu::DeviceError;
 use std::collections::VecDeque;
 
 use self::action::{Action, DryChange, bytes_of};
 pub use self::action::{Restored, TILE_BYTES};
-use super::engine::{BrushId, Engine, EngineError, Slot};
+use super::engine::{BrushId, Engine, Slot};
 use crate::layer::Layer;
 use graphics::tile::{Rect, TileSet};
 
@@ -85,11 +86,11 @@ impl<T> History<T> {
     /// Those kept already in this action cost nothing.
     ///
     /// # Errors
-    /// [`EngineError`] if the engine has no memory for it.
+    /// [`DeviceError`] if the engine has no memory for it.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn touch(&mut self, engine: &mut dyn Engine, rect: Rect) -> Result<(), EngineError> {
+    pub fn touch(&mut self, engine: &mut dyn Engine, rect: Rect) -> Result<(), DeviceError> {
         let mut touched = TileSet::default();
         touched.insert(rect.intersection(engine.bounds()));
         for tile in touched.iter() {
@@ -112,7 +113,7 @@ impl<T> History<T> {
     /// Keeps the paint of a brush, before it changes.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
+    /// [`DeviceError`] if the device was lost.
     ///
     /// # Panics
     /// If no action is open.
@@ -120,7 +121,7 @@ impl<T> History<T> {
         &mut self,
         engine: &mut dyn Engine,
         brush: BrushId,
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         if self.kept().is_none_or(|action| action.brushes.contains_key(&brush)) {
             return Ok(());
         }
@@ -135,11 +136,11 @@ impl<T> History<T> {
     /// wet paint.
     ///
     /// # Errors
-    /// [`EngineError`] if there is no memory for it.
+    /// [`DeviceError`] if there is no memory for it.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn dry(&mut self, engine: &mut dyn Engine, share: u32) -> Result<(), EngineError> {
+    pub fn dry(&mut self, engine: &mut dyn Engine, share: u32) -> Result<(), DeviceError> {
         let bounds = engine.bounds();
         for tile in engine.painted()?.iter() {
             self.touch(engine, tile.rect(bounds))?;
@@ -152,11 +153,11 @@ impl<T> History<T> {
     /// [`Engine::push_dry`] as part of the open action.
     ///
     /// # Errors
-    /// [`EngineError`] if there is no memory for it.
+    /// [`DeviceError`] if there is no memory for it.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn push_dry(&mut self, engine: &mut dyn Engine, layer: &Layer) -> Result<(), EngineError> {
+    pub fn push_dry(&mut self, engine: &mut dyn Engine, layer: &Layer) -> Result<(), DeviceError> {
         engine.push_dry(layer)?;
         self.kept().into_iter().for_each(|action| action.dry.push(DryChange::Pushed));
         Ok(())
@@ -165,11 +166,11 @@ impl<T> History<T> {
     /// [`Engine::pop_dry`] as part of the open action.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
+    /// [`DeviceError`] if the device was lost.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn pop_dry(&mut self, engine: &mut dyn Engine) -> Result<(), EngineError> {
+    pub fn pop_dry(&mut self, engine: &mut dyn Engine) -> Result<(), DeviceError> {
         let layer = engine.pop_dry()?;
         if self.kept().is_some() && self.make_room(bytes_of(&layer)) {
             let action = self.kept().expect("there was room");
@@ -206,7 +207,7 @@ impl<T> History<T> {
     /// gives back. Nothing if there is none.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost, and all paint with it.
+    /// [`DeviceError`] if the device was lost, and all paint with it.
     ///
     /// # Panics
     /// If an action is open.
@@ -214,7 +215,7 @@ impl<T> History<T> {
         &mut self,
         engine: &mut dyn Engine,
         current: T,
-    ) -> Result<Option<Restored<T>>, EngineError> {
+    ) -> Result<Option<Restored<T>>, DeviceError> {
         assert!(self.open.is_none(), "an action is open");
         let Some(mut action) = self.done.pop_back() else { return Ok(None) };
         self.bytes -= action.bytes();
@@ -229,7 +230,7 @@ impl<T> History<T> {
     /// Nothing if there is none.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost, and all paint with it.
+    /// [`DeviceError`] if the device was lost, and all paint with it.
     ///
     /// # Panics
     /// If an action is open.
@@ -237,7 +238,7 @@ impl<T> History<T> {
         &mut self,
         engine: &mut dyn Engine,
         current: T,
-    ) -> Result<Option<Restored<T>>, EngineError> {
+    ) -> Result<Option<Restored<T>>, DeviceError> {
         assert!(self.open.is_none(), "an action is open");
         let Some(mut action) = self.undone.pop() else { return Ok(None) };
         self.bytes -= action.bytes();

@@ -31,11 +31,12 @@ use self::lighting::Lit;
 use self::play::Player;
 use self::sparse::SparseLayer;
 use super::contact::Contact;
-use super::engine::{BrushId, Engine, EngineError, Slot, View};
+use super::engine::{BrushId, Engine, Slot, View};
 use super::motion::Motion;
 use crate::layer::Layer;
 use crate::optics::Scene;
 use graphics::field::Field;
+use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
 
 /// The paint of one painting, in the machine's memory.
@@ -85,43 +86,43 @@ impl Engine for OnCpu {
         brush: BrushId,
         motion: &Motion,
         contacts: &[Contact],
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         let brush = &mut self.brushes[brush.0];
         self.player.play(motion, contacts, &self.floor, &mut self.wet, brush);
         Ok(())
     }
 
-    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, EngineError> {
+    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, DeviceError> {
         self.brushes.push(Columns::new(Layer::empty(width, height)));
         Ok(BrushId(self.brushes.len() - 1))
     }
 
-    fn brush(&mut self, brush: BrushId) -> Result<Layer, EngineError> {
+    fn brush(&mut self, brush: BrushId) -> Result<Layer, DeviceError> {
         Ok(self.brushes[brush.0].layer().clone())
     }
 
-    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), EngineError> {
+    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), DeviceError> {
         let brush = &mut self.brushes[brush.0];
         assert_eq!(paint.vehicle.bounds(), brush.layer().vehicle.bounds(), "cells of the brush");
         *brush = Columns::new(paint.clone());
         Ok(())
     }
 
-    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError> {
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, DeviceError> {
         Ok(self.wet.layer().part(rect))
     }
 
-    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError> {
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), DeviceError> {
         assert_eq!((paint.width(), paint.height()), (rect.width, rect.height), "cells of {rect:?}");
         self.wet.put((rect.x, rect.y), paint);
         Ok(())
     }
 
-    fn painted(&mut self) -> Result<TileSet, EngineError> {
+    fn painted(&mut self) -> Result<TileSet, DeviceError> {
         Ok(TileSet::with(self.bounds(), |index| self.wet.volume()[index] > 0))
     }
 
-    fn dry(&mut self, share: u32) -> Result<(), EngineError> {
+    fn dry(&mut self, share: u32) -> Result<(), DeviceError> {
         let bounds = self.bounds();
         let mut layer = SparseLayer::empty(bounds);
         for tile in self.painted()?.iter() {
@@ -144,36 +145,36 @@ impl Engine for OnCpu {
         self.dry.len()
     }
 
-    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError> {
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, DeviceError> {
         let bounds = self.bounds();
         assert_eq!(rect.intersection(bounds), rect, "cells of {bounds:?}");
         Ok(self.dry[index].part(rect))
     }
 
-    fn push_dry(&mut self, layer: &Layer) -> Result<(), EngineError> {
+    fn push_dry(&mut self, layer: &Layer) -> Result<(), DeviceError> {
         assert_eq!(layer.vehicle.bounds(), self.bounds(), "cells of the canvas");
         self.lay(SparseLayer::from_layer(layer));
         Ok(())
     }
 
-    fn pop_dry(&mut self) -> Result<Layer, EngineError> {
+    fn pop_dry(&mut self) -> Result<Layer, DeviceError> {
         let layer = self.dry.pop().expect("a dry layer is there, as the caller must know");
         layer.on_floor(&mut self.floor, |floor, volume| floor - volume as i32);
         Ok(layer.part(self.bounds()))
     }
 
-    fn floor(&mut self) -> Result<Field<i32>, EngineError> {
+    fn floor(&mut self) -> Result<Field<i32>, DeviceError> {
         Ok(self.floor.clone())
     }
 
-    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError> {
+    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError> {
         let rect = self.rect_of(tile);
         self.slots.resize(self.slots.len().max(slot.0 + 1), None);
         self.slots[slot.0] = Some(self.wet.layer().part(rect));
         Ok(())
     }
 
-    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError> {
+    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError> {
         let (rect, bounds) = (self.rect_of(tile), self.bounds());
         let kept = self.slots.get_mut(slot.0).and_then(Option::as_mut);
         let kept = kept.expect("a slot is saved to before it is exchanged");
@@ -193,7 +194,7 @@ impl Engine for OnCpu {
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         let Self { ground, floor, wet, dry, lit, .. } = self;
         lit[view as usize].light(
             scene,
@@ -204,7 +205,7 @@ impl Engine for OnCpu {
         Ok(())
     }
 
-    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError> {
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, DeviceError> {
         let bounds = self.bounds();
         Ok(self.lit[view as usize].picture(bounds).part(rect))
     }

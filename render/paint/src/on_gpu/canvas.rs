@@ -2,7 +2,7 @@
 
 use crate::layer::{Layer, SLOTS};
 use graphics::field::Field;
-use graphics::gpu::{Buffer, Device, GpuError, Rows};
+use graphics::gpu::{Buffer, Device, DeviceError, Rows};
 use graphics::tile::{Rect, TILE};
 
 /// Bytes of pigments in a cell.
@@ -27,7 +27,7 @@ impl Paint {
         device: &Device,
         what: &'static str,
         cells: usize,
-    ) -> Result<Self, GpuError> {
+    ) -> Result<Self, DeviceError> {
         Ok(Self {
             pigments: device.buffer(what, PIGMENTS * cells as u64)?,
             vehicle: device.buffer(what, 4 * cells as u64)?,
@@ -40,7 +40,7 @@ impl Paint {
         device: &mut Device,
         (rect, width): (Rect, usize),
         layer: &Layer,
-    ) -> Result<(), GpuError> {
+    ) -> Result<(), DeviceError> {
         let rows = Rows::of(rect, width);
         device.write(&self.pigments, rows, layer.pigments.values())?;
         device.write(&self.vehicle, rows, layer.vehicle.values())
@@ -51,7 +51,7 @@ impl Paint {
         &self,
         device: &mut Device,
         (rect, width): (Rect, usize),
-    ) -> Result<Layer, GpuError> {
+    ) -> Result<Layer, DeviceError> {
         let rows = Rows::of(rect, width);
         let pigments = device.read(&self.pigments, rows)?;
         let vehicle = device.read(&self.vehicle, rows)?;
@@ -70,7 +70,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, GpuError> {
+    pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, DeviceError> {
         let cells = size.0 * size.1;
         Ok(Self { size, paint: Paint::empty(device, "the head of a brush", cells)? })
     }
@@ -101,7 +101,7 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    pub(super) fn new(device: &Device, cells: usize) -> Result<Self, GpuError> {
+    pub(super) fn new(device: &Device, cells: usize) -> Result<Self, DeviceError> {
         let buffer = |bytes| device.buffer("the paint in motion", bytes * cells as u64);
         Ok(Self {
             cells,
@@ -122,7 +122,11 @@ pub(super) struct Stores {
 impl Stores {
     /// The store that has slot number `slot`, and the slot's first cell there;
     /// made if it is new.
-    pub(super) fn place(&mut self, device: &Device, slot: usize) -> Result<(Paint, u32), GpuError> {
+    pub(super) fn place(
+        &mut self,
+        device: &Device,
+        slot: usize,
+    ) -> Result<(Paint, u32), DeviceError> {
         while self.stores.len() <= slot / STORE {
             self.stores.push(Paint::empty(device, "the undo history", STORE * TILE_CELLS)?);
         }

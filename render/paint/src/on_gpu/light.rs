@@ -6,11 +6,11 @@
 use super::OnGpu;
 use super::canvas::Paint;
 use crate::amount::QUANTA_PER_CELL;
-use crate::engine::{EngineError, View};
+use crate::engine::View;
 use crate::layer::SLOTS;
 use crate::optics::{Gloss, Lamp, NODES, Scene};
 use graphics::field::Field;
-use graphics::gpu::{Buffer, Device, GROUP, GpuError, Kernel, Layout, Rows, Storage, layout};
+use graphics::gpu::{Buffer, Device, DeviceError, GROUP, Kernel, Layout, Rows, Storage, layout};
 use graphics::tile::{Rect, TILE, TileSet};
 
 /// As many tiles as one dispatch may have in a direction.
@@ -137,7 +137,7 @@ pub(super) struct Lit {
 }
 
 impl Lit {
-    fn new(device: &Device, cells: usize) -> Result<Self, GpuError> {
+    fn new(device: &Device, cells: usize) -> Result<Self, DeviceError> {
         let cells = cells as u64;
         Ok(Self {
             baked: device.buffer("the light of dry layers", 4 * NODES as u64 * cells)?,
@@ -173,7 +173,7 @@ impl Bumps {
 
 impl OnGpu {
     /// Makes the light's buffers unless they are there.
-    fn lit(&mut self, view: View) -> Result<Lit, EngineError> {
+    fn lit(&mut self, view: View) -> Result<Lit, DeviceError> {
         if let Some(lit) = &self.lit[view as usize] {
             return Ok(lit.clone());
         }
@@ -188,7 +188,7 @@ impl OnGpu {
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         let found = scene.dry.len();
         assert_eq!(found, self.dry.len(), "a coat for each dry layer, found {found}");
         let lit = self.lit(view)?;
@@ -252,7 +252,7 @@ impl OnGpu {
         &mut self,
         view: View,
         rect: Rect,
-    ) -> Result<Field<[f32; 4]>, EngineError> {
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let lit = self.lit(view)?;
         let (rect, width) = self.rows(rect);
         let values = self.device.read(&lit.picture, Rows::of(rect, width))?;

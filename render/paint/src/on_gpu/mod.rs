@@ -21,12 +21,12 @@ use motion::Step;
 use rest::{Drying, Keeping};
 
 use super::contact::{Contact, Touch};
-use super::engine::{BrushId, Engine, EngineError, Slot, View};
+use super::engine::{BrushId, Engine, Slot, View};
 use super::motion::Motion;
 use crate::layer::Layer;
 use crate::optics::Scene;
 use graphics::field::Field;
-use graphics::gpu::{Adapter, Buffer, Device, GpuError, Recording, Rows, groups};
+use graphics::gpu::{Adapter, Buffer, Device, DeviceError, Recording, Rows, groups};
 use graphics::tile::{Rect, TILE, Tile, TileSet};
 
 /// Bytes and commands from which on what was written down is sent.
@@ -48,20 +48,6 @@ pub struct OnGpu {
     lit: [Option<Lit>; 2],
 }
 
-impl From<GpuError> for EngineError {
-    fn from(error: GpuError) -> Self {
-        match error {
-            GpuError::NoAdapter { reason } => Self::NoAdapter { reason },
-            GpuError::Lost { reason } => Self::Lost { reason },
-            GpuError::TooLarge { what, bytes, limit } => Self::TooLarge { what, bytes, limit },
-            GpuError::OutOfMemory { what, bytes } => Self::OutOfMemory { what, bytes },
-            GpuError::Refused { what, reason } => {
-                Self::Lost { reason: format!("the driver refuses {what}: {reason}") }
-            }
-        }
-    }
-}
-
 /// How many cells the largest canvas has that one buffer of `adapter` holds; its
 /// memory may end before.
 #[must_use]
@@ -73,8 +59,8 @@ impl OnGpu {
     /// A canvas without paint, on `device`, over a ground of height `floor`.
     ///
     /// # Errors
-    /// [`EngineError::TooLarge`] if the device lends less than the canvas takes.
-    pub fn new(mut device: Device, floor: &Field<i32>) -> Result<Self, EngineError> {
+    /// [`DeviceError::TooLarge`] if the device lends less than the canvas takes.
+    pub fn new(mut device: Device, floor: &Field<i32>) -> Result<Self, DeviceError> {
         let bounds = floor.bounds();
         let cells = bounds.width * bounds.height;
         // The largest of all buffers: what does not fit is refused before any is made.
@@ -102,8 +88,8 @@ impl OnGpu {
     /// Sends what waits, and waits until the device has done all.
     ///
     /// # Errors
-    /// [`EngineError`] if the device was lost.
-    pub fn finish(&mut self) -> Result<(), EngineError> {
+    /// [`DeviceError`] if the device was lost.
+    pub fn finish(&mut self) -> Result<(), DeviceError> {
         self.send()?;
         Ok(self.device.finish()?)
     }
@@ -122,11 +108,11 @@ impl OnGpu {
         [self.bounds.width as u32, self.bounds.height as u32]
     }
 
-    fn send(&mut self) -> Result<(), EngineError> {
+    fn send(&mut self) -> Result<(), DeviceError> {
         Ok(self.device.submit(&mut self.waiting)?)
     }
 
-    fn send_if_full(&mut self) -> Result<(), EngineError> {
+    fn send_if_full(&mut self) -> Result<(), DeviceError> {
         if self.waiting.bytes() >= FULL_BYTES || self.waiting.len() >= FULL_COMMANDS {
             self.send()?;
         }
@@ -138,7 +124,7 @@ impl OnGpu {
         brush: BrushId,
         motion: &Motion,
         contact: &Contact,
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         let head = &self.brushes[brush.0];
         check_contact(contact, self.bounds, head.cells());
         let region = contact.rect.grown(2, self.bounds);
@@ -169,7 +155,7 @@ impl OnGpu {
         self.send_if_full()
     }
 
-    fn keep(&mut self, tile: Tile, slot: Slot, exchange: bool) -> Result<(), EngineError> {
+    fn keep(&mut self, tile: Tile, slot: Slot, exchange: bool) -> Result<(), DeviceError> {
         let rect = tile.rect(self.bounds);
         assert!(!rect.is_empty(), "{tile:?} lies outside {:?}", self.bounds);
         let (store, first_cell) = self.kept.place(&self.device, slot.0)?;
@@ -193,7 +179,7 @@ impl OnGpu {
         self.waiting.dispatch(kernel, &drying, &buffers, over);
     }
 
-    fn empty_dry(&self) -> Result<Paint, EngineError> {
+    fn empty_dry(&self) -> Result<Paint, DeviceError> {
         let cells = self.bounds.width * self.bounds.height;
         Ok(Paint::empty(&self.device, "a dry layer", cells)?)
     }
@@ -214,50 +200,50 @@ impl Engine for OnGpu {
         brush: BrushId,
         motion: &Motion,
         contacts: &[Contact],
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         for contact in contacts.iter().filter(|contact| !contact.rect.is_empty()) {
             self.step(brush, motion, contact)?;
         }
         Ok(())
     }
 
-    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, EngineError> {
+    fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, DeviceError> {
         self.brushes.push(Head::new(&self.device, (width, height))?);
         Ok(BrushId(self.brushes.len() - 1))
     }
 
-    fn brush(&mut self, brush: BrushId) -> Result<Layer, EngineError> {
+    fn brush(&mut self, brush: BrushId) -> Result<Layer, DeviceError> {
         self.send()?;
         let head = &self.brushes[brush.0];
         Ok(head.paint.read(&mut self.device, head.whole())?)
     }
 
-    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), EngineError> {
+    fn set_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), DeviceError> {
         self.send()?;
         let head = &self.brushes[brush.0];
         assert_eq!((paint.width(), paint.height()), head.size, "the cells of {brush:?}");
         Ok(head.paint.write(&mut self.device, head.whole(), paint)?)
     }
 
-    fn wet_in(&mut self, rect: Rect) -> Result<Layer, EngineError> {
+    fn wet_in(&mut self, rect: Rect) -> Result<Layer, DeviceError> {
         self.send()?;
         let rows = self.rows(rect);
         Ok(self.wet.read(&mut self.device, rows)?)
     }
 
-    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), EngineError> {
+    fn set_wet_in(&mut self, rect: Rect, paint: &Layer) -> Result<(), DeviceError> {
         self.send()?;
         assert_eq!((paint.width(), paint.height()), (rect.width, rect.height), "cells of {rect:?}");
         let rows = self.rows(rect);
         Ok(self.wet.write(&mut self.device, rows, paint)?)
     }
 
-    fn painted(&mut self) -> Result<TileSet, EngineError> {
+    fn painted(&mut self) -> Result<TileSet, DeviceError> {
         let wet = self.wet()?;
         Ok(TileSet::with(self.bounds, |index| wet.cell(index).volume() > 0))
     }
 
-    fn dry(&mut self, share: u32) -> Result<(), EngineError> {
+    fn dry(&mut self, share: u32) -> Result<(), DeviceError> {
         assert!(share <= 65536, "a share of 65536 parts, found {share}");
         let layer = self.empty_dry()?;
         let drying = Drying { canvas: self.canvas(), parts: share, rise: 1 };
@@ -270,13 +256,13 @@ impl Engine for OnGpu {
         self.dry.len()
     }
 
-    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, EngineError> {
+    fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, DeviceError> {
         self.send()?;
         let rows = self.rows(rect);
         Ok(self.dry[index].read(&mut self.device, rows)?)
     }
 
-    fn push_dry(&mut self, layer: &Layer) -> Result<(), EngineError> {
+    fn push_dry(&mut self, layer: &Layer) -> Result<(), DeviceError> {
         assert_eq!((layer.width(), layer.height()), self.size(), "the cells of the canvas");
         self.send()?;
         let paint = self.empty_dry()?;
@@ -287,7 +273,7 @@ impl Engine for OnGpu {
         self.send()
     }
 
-    fn pop_dry(&mut self) -> Result<Layer, EngineError> {
+    fn pop_dry(&mut self) -> Result<Layer, DeviceError> {
         assert!(!self.dry.is_empty(), "a dry layer to take away, found none");
         let layer = self.dry_layer(self.dry.len() - 1)?;
         if let Some(paint) = self.dry.pop() {
@@ -298,18 +284,18 @@ impl Engine for OnGpu {
         Ok(layer)
     }
 
-    fn floor(&mut self) -> Result<Field<i32>, EngineError> {
+    fn floor(&mut self) -> Result<Field<i32>, DeviceError> {
         self.send()?;
         let (width, height) = self.size();
         let values = self.device.read(&self.floor, Rows::start(width * height))?;
         Ok(Field::from_values(width, height, values))
     }
 
-    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError> {
+    fn save(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError> {
         self.keep(tile, slot, false)
     }
 
-    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), EngineError> {
+    fn swap(&mut self, tile: Tile, slot: Slot) -> Result<(), DeviceError> {
         self.keep(tile, slot, true)
     }
 
@@ -319,11 +305,11 @@ impl Engine for OnGpu {
         scene: &Scene,
         baked: &TileSet,
         shown: &TileSet,
-    ) -> Result<(), EngineError> {
+    ) -> Result<(), DeviceError> {
         self.light_tiles(view, scene, baked, shown)
     }
 
-    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, EngineError> {
+    fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, DeviceError> {
         self.send()?;
         self.read_picture(view, rect)
     }

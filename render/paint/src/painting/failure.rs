@@ -1,16 +1,17 @@
 //! Why a painting refuses something.
 
 use crate::brush::BrushError;
-use crate::engine::EngineError;
 use crate::light::LightFailure;
 use crate::stroke::StrokeError;
+use graphics::gpu::DeviceError;
+use spectra::hint::Explain;
 
 /// What a painting refuses.
 #[derive(Debug, thiserror::Error)]
 pub enum PaintingError {
     /// The backend could not go on.
     #[error(transparent)]
-    Engine(#[from] EngineError),
+    Engine(#[from] DeviceError),
     /// No such light.
     #[error(transparent)]
     Light(#[from] LightFailure),
@@ -160,7 +161,9 @@ impl PaintingError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Engine(error) => Some(error.hint().to_owned()),
+            Self::Engine(error) => error.hint().map(|hint| {
+                hint.with_settings(|name, value| format!("--{name} {}", value.unwrap_or_default()))
+            }),
             Self::Light(error) => error.hint(),
             Self::Brush(error) => Some(error.hint().to_owned()),
             Self::Stroke(error) => Some(error.hint().to_owned()),

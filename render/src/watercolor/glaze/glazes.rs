@@ -8,7 +8,7 @@ use super::thickness::thickness;
 use crate::watercolor::textures::PaperTexture;
 use crate::watercolor::{Settings, Textures, Wash, Wobble};
 use graphics::field::Field;
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use graphics::image::OnCpu;
 use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
@@ -134,7 +134,7 @@ impl Glazes {
         textures: &Textures,
         settings: &Settings,
         lighting: Lighting,
-    ) -> Result<Document, GpuError> {
+    ) -> Result<Document, DeviceError> {
         let heights = &textures.paper.heights;
         let displaced = textures.paper.per_slope(settings.wobble.amount_px);
         let color = OnCpu.wobbled(wash.color.clone(), heights, displaced)?;

@@ -8,7 +8,7 @@ use crate::watercolor::{
     Backend, ColorMask, ColorRange, Controls, Edges, OnCpu, Settings, Textures,
 };
 use graphics::field::Field;
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use spectra::color::Rgb;
 
 /// What a glaze's height is multiplied with, pixel by pixel: the product of all
@@ -26,7 +26,7 @@ pub fn thickness(
     controls: &Controls,
     textures: &Textures,
     settings: &Settings,
-) -> Result<Field<f32>, GpuError> {
+) -> Result<Field<f32>, DeviceError> {
     let (width, height) = (color.width(), color.height());
     let Textures { flow, dispersion, paper } = textures;
     let Controls { dry_brush, density } = controls;

@@ -3,7 +3,7 @@
 use super::{PaperTexture, PaperTextureError, dispersion, turbulent_flow};
 use crate::watercolor::Settings;
 use graphics::field::Field;
-use graphics::gpu::GpuError;
+use graphics::gpu::DeviceError;
 use graphics::image::Backend;
 
 /// The textures of a picture that stands still.
@@ -38,7 +38,7 @@ impl Textures {
     ///
     /// # Errors
     /// As [`Backend::grey_of`].
-    pub fn on<B: Backend>(self, backend: &mut B) -> Result<TexturesOn<B>, GpuError> {
+    pub fn on<B: Backend>(self, backend: &mut B) -> Result<TexturesOn<B>, DeviceError> {
         Ok(TexturesOn {
             flow: backend.grey_of(&self.flow)?,
             dispersion: backend.grey_of(&self.dispersion)?,
