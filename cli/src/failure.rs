@@ -15,11 +15,11 @@ use render::export::{FrameError, SequenceError};
 use render::gpu::DeviceError;
 use render::light::LightFailure;
 use render::mesh::MeshError;
-use render::paint::easel::EaselError;
 use render::paint::file::PaintingFileError;
 use render::paint::ground::GroundError;
 use render::paint::painting::PaintingError;
-use render::paint::strokes::{BeginningError, StrokesError};
+use render::paint::session::SessionError;
+use render::paint::strokes::{ScriptError, ScriptStartError};
 use render::photograph::{PhotographError, SeparationError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
@@ -133,16 +133,16 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<PaintingError>() {
         return error.hint();
     }
-    if let Some(error) = cause.downcast_ref::<EaselError>() {
+    if let Some(error) = cause.downcast_ref::<SessionError>() {
         return error.hint();
     }
-    if let Some(error) = cause.downcast_ref::<BeginningError>() {
+    if let Some(error) = cause.downcast_ref::<ScriptStartError>() {
         return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<LightFailure>() {
         return error.hint();
     }
-    if let Some(error) = cause.downcast_ref::<StrokesError>() {
+    if let Some(error) = cause.downcast_ref::<ScriptError>() {
         return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<PaintingFileError>() {
@@ -202,7 +202,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         return Some(refusal.status);
     }
     let painting = match cause.downcast_ref() {
-        Some(EaselError::Painting(error)) => Some(error),
+        Some(SessionError::Painting(error)) => Some(error),
         _ => cause.downcast_ref::<PaintingError>(),
     };
     if let Some(PaintingError::Engine(_)) = painting {
@@ -224,9 +224,9 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SwatchFileError>()
         || cause.is::<LampError>()
         || cause.is::<PaintingError>()
-        || cause.is::<EaselError>()
-        || cause.is::<BeginningError>()
-        || cause.is::<StrokesError>()
+        || cause.is::<SessionError>()
+        || cause.is::<ScriptStartError>()
+        || cause.is::<ScriptError>()
         || cause.is::<PaintingFileError>()
         || cause.is::<GroundError>()
         || cause.is::<PhotographError>()

@@ -13,7 +13,7 @@ use crate::arguments::Start;
 use crate::files::{FileFailure, Files};
 use crate::pen::{Pen, PenSettings};
 use crate::view;
-use session::fresh;
+use session::initial_commands;
 
 /// The smallest window in which everything is within reach, in points.
 const SMALLEST: [f32; 2] = [900.0, 600.0];
@@ -25,7 +25,7 @@ const SMALLEST: [f32; 2] = [900.0, 600.0];
 /// with.
 pub fn run(start: Start) -> Result<(), FileFailure> {
     // Both at once: the canvas is made while the window opens.
-    let begun = Begun::new(start.worker, fresh());
+    let begun = Begun::new(start.worker, initial_commands());
     let options = options(start.window);
     let made = eframe::run_native(
         "impasto-studio",

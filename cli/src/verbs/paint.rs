@@ -8,10 +8,10 @@ use anyhow::Context;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::paint::document::Document;
-use render::paint::easel::{Easel, ReplayReport};
 use render::paint::ground::GroundRelief;
 use render::paint::painting::Painting;
-use render::paint::strokes::{Action, Strokes};
+use render::paint::session::{PaintingSession, ReplayReport};
+use render::paint::strokes::{Action, StrokeScript};
 use serde_json::json;
 
 use super::paint_photograph::PhotographOptions;
@@ -74,7 +74,7 @@ impl Paint {
     fn script(self, path: &Path, console: &mut Console<'_>) -> anyhow::Result<()> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
-        let mut script = Strokes::from_json(&name, &bytes)?;
+        let mut script = StrokeScript::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
         let start = self.start(&script, &folder)?;
@@ -103,11 +103,11 @@ impl Paint {
         let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
         let exports = self.exports.open(&inputs)?;
         check_saves(&script, &folder, &inputs).with_context(|| name.clone())?;
-        let mut easel = set_up(&self.engine, canvas, palette, console)?;
+        let mut session = set_up(&self.engine, canvas, palette, console)?;
         let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
         let mut remarks = Vec::new();
         let report = script.replay(
-            &mut easel,
+            &mut session,
             |path, painting| save(&folder, path, &inputs, painting, &mut remarks).map_err(Saving),
             || {
                 bar.step();
@@ -122,14 +122,14 @@ impl Paint {
             Ok(report) => report,
             Err(error) => return Err(anyhow::Error::new(error).context(name)),
         };
-        exports.write(easel.canvas_mut(), console)?;
-        tell(&report, easel.canvas(), self.json, console)
+        exports.write(session.canvas_mut(), console)?;
+        tell(&report, session.canvas(), self.json, console)
     }
 
     /// The painting that the script goes on with, if with one.
     fn start(
         &self,
-        script: &Strokes,
+        script: &StrokeScript,
         folder: &Path,
     ) -> anyhow::Result<Option<(PathBuf, Document)>> {
         let Some(start) = &script.start else { return Ok(None) };
@@ -147,7 +147,7 @@ impl Paint {
 
     fn script_library(
         &self,
-        script: &Strokes,
+        script: &StrokeScript,
         folder: &Path,
         console: &mut Console<'_>,
     ) -> anyhow::Result<PigmentLibrary> {
@@ -176,16 +176,16 @@ fn set_up(
     canvas: Document,
     palette: Option<Document>,
     console: &mut Console<'_>,
-) -> anyhow::Result<Easel> {
+) -> anyhow::Result<PaintingSession> {
     let undo_bytes = engine.undo_bytes();
     let backend = engine.engine(&canvas.ground.height, console)?;
     let canvas = Painting::open(canvas, backend, undo_bytes)?;
-    let Some(palette) = palette else { return Ok(Easel::new(canvas, None)?) };
+    let Some(palette) = palette else { return Ok(PaintingSession::new(canvas, None)?) };
     let backend = engine.engine(&palette.ground.height, console)?;
     let palette = Painting::open_under(palette, canvas.light().clone(), backend, undo_bytes)?;
-    let mut easel = Easel::new(canvas, Some(palette))?;
-    easel.set_undo_bytes(undo_bytes);
-    Ok(easel)
+    let mut session = PaintingSession::new(canvas, Some(palette))?;
+    session.set_undo_bytes(undo_bytes);
+    Ok(session)
 }
 
 /// An error of saving, with all its causes.
@@ -194,7 +194,7 @@ fn set_up(
 struct Saving(anyhow::Error);
 
 /// Checks, before the slow part, that all that the script saves can be written.
-fn check_saves(script: &Strokes, folder: &Path, inputs: &[PathBuf]) -> anyhow::Result<()> {
+fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> anyhow::Result<()> {
     let mut checked = BTreeSet::new();
     for (index, action) in script.actions.iter().enumerate() {
         if let Action::Save { path } = action

@@ -6,10 +6,10 @@ use calibrate::library::PigmentLibrary;
 use clap::{Args, ValueEnum};
 use render::light::Light;
 use render::paint::document::{Lighting, Medium, Slots};
-use render::paint::easel::Easel;
 use render::paint::ground::{GroundRelief, GroundSpec, Linen, Panel, Paper};
 use render::paint::painting::Painting;
-use render::paint::strokes::{Canvas, MOST_CELLS, Palette, Strokes};
+use render::paint::session::PaintingSession;
+use render::paint::strokes::{Canvas, MAX_CELLS, PaletteSpec, StrokeScript};
 use render::photograph::{
     Framing, LevelReport, Materials, PaintFilm, Painted, Painter, Photograph, Picture, Plan,
     Separation, SeparationSettings, black_compensated, choose_palette,
@@ -131,8 +131,8 @@ impl PhotographOptions {
             }
         }
         let title = from.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let palette = Palette::of(start.names.iter().map(String::as_str));
-        let mut script = Strokes::new(&title.unwrap_or_default(), "", start.canvas, palette);
+        let palette = PaletteSpec::from_names(start.names.iter().map(String::as_str));
+        let mut script = StrokeScript::new(&title.unwrap_or_default(), "", start.canvas, palette);
         script.library =
             Some(library_path.map_or(library.title.clone(), |path| path.display().to_string()));
         let resolved = script.resolve(&library)?;
@@ -141,11 +141,11 @@ impl PhotographOptions {
         let backend = engine.engine(&ground.height, console)?;
         // Nothing is ever taken back here.
         let canvas = Painting::open(script.bare(&library, &resolved, ground), backend, 0)?;
-        let mut easel = Easel::new(canvas, None)?;
+        let mut session = PaintingSession::new(canvas, None)?;
         let plan = self.plan();
         let painter = Painter { target: &start.target, separation: &start.separation, plan: &plan };
         let bar = Progress::new(0, "painting", console.screen.progress);
-        let levels = painter.paint(&mut easel, &mut script, |painted| match painted {
+        let levels = painter.paint(&mut session, &mut script, |painted| match painted {
             Painted::Planned(strokes) => bar.expect(strokes),
             Painted::Stroke => bar.step(),
         });
@@ -154,8 +154,8 @@ impl PhotographOptions {
         if let Some(output) = strokes_out {
             output.write(script.to_json()?)?;
         }
-        exports.write(easel.canvas_mut(), console)?;
-        tell(&painter, &levels, easel.canvas_mut(), &start.names, as_json, console)
+        exports.write(session.canvas_mut(), console)?;
+        tell(&painter, &levels, session.canvas_mut(), &start.names, as_json, console)
     }
 
     /// Refuses numbers that no painting has.
@@ -182,9 +182,9 @@ impl PhotographOptions {
     fn canvas(&self, (width, height): (usize, usize)) -> anyhow::Result<Canvas> {
         let columns = (self.width_mm / self.cell_mm).round().max(1.0);
         let rows = (columns * height as f64 / width as f64).round().max(1.0);
-        if columns * rows > MOST_CELLS as f64 {
+        if columns * rows > MAX_CELLS as f64 {
             return Err(Refusal::usage(
-                format!("a canvas has at most {MOST_CELLS} cells, found `{columns} x {rows}`"),
+                format!("a canvas has at most {MAX_CELLS} cells, found `{columns} x {rows}`"),
                 "take larger cells (--cell-mm) or a smaller painting (--width-mm)",
             ));
         }

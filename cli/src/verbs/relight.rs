@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 use render::light::Light;
 use render::paint::document::Lighting;
-use render::paint::painting::{Coating, Painting};
+use render::paint::painting::{LayerRef, Painting};
 use serde_json::json;
 
 use crate::console::Console;
@@ -113,14 +113,14 @@ fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
     let from = painting.library().find(from)?;
     let to = painting.library().find(to)?;
     let coatings = match layer.trim() {
-        "wet" => vec![Coating::Wet],
+        "wet" => vec![LayerRef::Wet],
         "all" => {
-            let dry = (0..painting.state().dry.len()).map(Coating::Dry);
-            let all: Vec<Coating> = dry.chain([Coating::Wet]).collect();
-            let has = |coating: &Coating| {
+            let dry = (0..painting.state().dry.len()).map(LayerRef::Dry);
+            let all: Vec<LayerRef> = dry.chain([LayerRef::Wet]).collect();
+            let has = |coating: &LayerRef| {
                 painting.slots(*coating).is_ok_and(|slots| slots.contains(&Some(from)))
             };
-            let found: Vec<Coating> = all.into_iter().filter(has).collect();
+            let found: Vec<LayerRef> = all.into_iter().filter(has).collect();
             if found.is_empty() {
                 return Err(Refusal::data(
                     format!("no layer has {}", painting.library().pigments[from].name),
@@ -129,7 +129,7 @@ fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
             }
             found
         }
-        number => vec![Coating::Dry(number.parse().map_err(|_| wrong())?)],
+        number => vec![LayerRef::Dry(number.parse().map_err(|_| wrong())?)],
     };
     for coating in coatings {
         painting.swap_pigment(coating, from, to)?;
@@ -145,7 +145,7 @@ fn opacity(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
     let (layer, value) = text.split_once('=').ok_or_else(wrong)?;
     let layer = layer.trim().parse().map_err(|_| wrong())?;
     let value = value.trim().parse().map_err(|_| wrong())?;
-    Ok(painting.set_opacity(Coating::Dry(layer), value)?)
+    Ok(painting.set_opacity(LayerRef::Dry(layer), value)?)
 }
 
 fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
@@ -157,9 +157,9 @@ fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> an
     };
     let mut layers = Vec::new();
     for (index, dry) in painting.state().dry.iter().enumerate() {
-        layers.push((format!("dry {index}"), dry.opacity, names(Coating::Dry(index))?));
+        layers.push((format!("dry {index}"), dry.opacity, names(LayerRef::Dry(index))?));
     }
-    layers.push(("wet".to_owned(), 1.0, names(Coating::Wet)?));
+    layers.push(("wet".to_owned(), 1.0, names(LayerRef::Wet)?));
     let lighting = &painting.state().lighting;
     let nodes = &painting.light().quadrature.nodes_nm;
     if as_json {

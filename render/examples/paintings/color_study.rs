@@ -4,12 +4,12 @@
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
 use render::paint::ground::{GroundRelief, Linen};
-use render::paint::strokes::{Canvas, Strokes};
+use render::paint::strokes::{Canvas, StrokeScript};
 
 use super::easel::Easel;
 
 /// The script.
-pub(crate) fn script() -> Strokes {
+pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 3, threads_per_cm: 16.0, relief_mm: 0.06 };
     let ground = GroundRelief::Linen(linen).into();
     let canvas = Canvas { width_mm: 150.0, height_mm: 100.0, cell_mm: 0.2, ground };

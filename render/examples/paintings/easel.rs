@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use render::paint::brush::HeadShape;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, Load, Palette, Recipe, Stroke, Strokes, Surface,
+    Action, BrushSpec, Canvas, Load, PaletteSpec, Recipe, Stroke, StrokeScript, SurfaceId,
 };
 
 /// A place on the canvas in mm.
@@ -20,7 +20,7 @@ const FRESH: usize = 5;
 /// A script at work.
 pub(crate) struct Easel {
     /// What was done so far.
-    pub(crate) script: Strokes,
+    pub(crate) script: StrokeScript,
     random: ChaCha8Rng,
     /// What each brush was loaded with last, and the strokes since.
     laden: BTreeMap<String, (String, usize)>,
@@ -29,7 +29,7 @@ pub(crate) struct Easel {
 impl Easel {
     /// A canvas without paint; `seed` is that of the hand.
     pub(crate) fn new(title: &str, canvas: Canvas, pigments: &[(&str, &str)], seed: u64) -> Self {
-        let mut script = Strokes::new(title, "CC0-1.0", canvas, palette(pigments));
+        let mut script = StrokeScript::new(title, "CC0-1.0", canvas, palette(pigments));
         script.library = Some("Van Gogh's oils".to_owned());
         Self { script, random: ChaCha8Rng::seed_from_u64(seed), laden: BTreeMap::new() }
     }
@@ -119,7 +119,7 @@ impl Easel {
         }
         self.script.actions.push(Action::Stroke(Stroke {
             brush: brush.to_owned(),
-            on: Surface::Canvas,
+            on: SurfaceId::Canvas,
             samples,
         }));
     }
@@ -138,15 +138,15 @@ impl Easel {
         let brush = brush.to_owned();
         self.script.actions.push(Action::Stroke(Stroke {
             brush,
-            on: Surface::Canvas,
+            on: SurfaceId::Canvas,
             samples: vec![sample],
         }));
     }
 }
 
-fn palette(pigments: &[(&str, &str)]) -> Palette {
+fn palette(pigments: &[(&str, &str)]) -> PaletteSpec {
     let named = |(short, name): &(&str, &str)| (Some((*short).to_owned()), (*name).to_owned());
-    Palette { pigments: pigments.iter().map(named).collect() }
+    PaletteSpec { pigments: pigments.iter().map(named).collect() }
 }
 
 /// `W10C1.5` as parts.

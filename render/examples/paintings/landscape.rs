@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
 use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
-use render::paint::strokes::{Canvas, Strokes};
+use render::paint::strokes::{Canvas, StrokeScript};
 
 use super::easel::{Easel, Place};
 use super::growth::{bowed, bushes, cypress, poppies, shadows, wheat};
@@ -43,7 +43,7 @@ const EARTH: [(&str, &str); 8] = [
 ];
 
 /// The script.
-pub(crate) fn script() -> Strokes {
+pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06 };
     let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };

@@ -23,13 +23,13 @@ use divan::counter::{CyclesCount, ItemsCount};
 use paint::amount::QUANTA_PER_CELL;
 use paint::brush::HeadShape;
 use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
-use paint::easel::Easel;
 use paint::ground::GroundSpec;
 use paint::layer::{Cell, Layer, SLOTS};
 use paint::on_cpu::OnCpu;
 use paint::painting::Painting;
 use paint::pose::Sample;
-use paint::strokes::Strokes;
+use paint::session::PaintingSession;
+use paint::strokes::StrokeScript;
 use pigment::library::PigmentLibrary;
 
 fn main() {
@@ -135,7 +135,8 @@ fn relight(bencher: Bencher<'_, '_>, side: usize, mut lighting: impl FnMut() -> 
 #[divan::bench(sample_count = 5)]
 fn replay_the_color_study(bencher: Bencher<'_, '_>) {
     let text = include_str!("../../../paintings/colour-study.json");
-    let script = Strokes::from_json("colour-study.json", text.as_bytes()).expect("it is sound");
+    let script =
+        StrokeScript::from_json("colour-study.json", text.as_bytes()).expect("it is sound");
     let library = oils();
     let (bare, _) = script.surfaces(&library, None).expect("bare linen");
     let strokes = script.actions.iter().filter(|action| action.kind() == "stroke").count();
@@ -144,11 +145,11 @@ fn replay_the_color_study(bencher: Bencher<'_, '_>) {
         .with_inputs(|| {
             let engine = Box::new(OnCpu::new(bare.ground.height.clone()));
             let canvas = Painting::open(bare.clone(), engine, UNDO_BYTES).expect("a painting");
-            Easel::new(canvas, None).expect("a canvas alone")
+            PaintingSession::new(canvas, None).expect("a canvas alone")
         })
-        .bench_values(|mut easel| {
+        .bench_values(|mut session| {
             let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-            script.replay(&mut easel, save, || ControlFlow::Continue(())).expect("played");
-            easel
+            script.replay(&mut session, save, || ControlFlow::Continue(())).expect("played");
+            session
         });
 }

@@ -55,7 +55,7 @@ pub mod painting;
 
 pub mod strokes;
 
-pub mod easel;
+pub mod session;
 
 pub mod file;
 

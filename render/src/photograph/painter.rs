@@ -12,11 +12,11 @@ use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::brush::HeadShape;
-use paint::easel::{Easel, ReplayError, ReplayReport};
 use paint::painting::{Painting, PaintingError};
 use paint::separation::ColorErrors;
 use paint::separation::Separation;
-use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, Strokes, Surface};
+use paint::session::{PaintingSession, ReplayError, ReplayReport};
+use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, SurfaceId};
 
 /// Brushes below this width in mm are rounds, those from it on filberts.
 const ROUND_BELOW_MM: f64 = 3.0;
@@ -64,7 +64,7 @@ pub enum Painted {
 }
 
 impl Painter<'_> {
-    /// Paints on the canvas of `easel`, which is bare and that of `script`; what
+    /// Paints on the canvas of `session`, which is bare and that of `script`; what
     /// is done is added to the script, whose file gives the same painting, bit
     /// for bit.
     ///
@@ -76,8 +76,8 @@ impl Painter<'_> {
     /// If the target has not the canvas's size, or the plan fails [`Plan::check`].
     pub fn paint(
         &self,
-        easel: &mut Easel,
-        script: &mut Strokes,
+        session: &mut PaintingSession,
+        script: &mut StrokeScript,
         mut told: impl FnMut(Painted),
     ) -> Result<Vec<LevelReport>, PainterError> {
         let mut reports = Vec::with_capacity(self.plan.sizes_mm.len());
@@ -92,22 +92,22 @@ impl Painter<'_> {
             };
             let mut laydown = None;
             for round in 0..ROUNDS {
-                let planned = self.planned(easel.canvas_mut(), level, round)?;
+                let planned = self.planned(session.canvas_mut(), level, round)?;
                 if planned.is_empty() {
                     break;
                 }
                 told(Painted::Planned(planned.len()));
                 let laydown = match &laydown {
                     Some(laydown) => laydown,
-                    None => laydown.insert(self.tried(easel.canvas(), &brush, &planned)?),
+                    None => laydown.insert(self.tried(session.canvas(), &brush, &planned)?),
                 };
                 let done = round_of(script, level, &brush, &planned, laydown);
-                let played = play(done, easel, script, &mut told)?;
+                let played = play(done, session, script, &mut told)?;
                 report.strokes += played.strokes;
                 report.substeps += played.substeps;
             }
-            let sight = SIGHT * size_mm / easel.canvas().cell_mm();
-            report.mean_error = self.errors(easel.canvas_mut(), sight)?.mean;
+            let sight = SIGHT * size_mm / session.canvas().cell_mm();
+            report.mean_error = self.errors(session.canvas_mut(), sight)?.mean;
             reports.push(report);
         }
         Ok(reports)
@@ -171,14 +171,18 @@ fn colors(painting: &mut Painting) -> Result<Picture, PaintingError> {
 
 /// A script of one round alone.
 fn round_of(
-    script: &Strokes,
+    script: &StrokeScript,
     level: usize,
     spec: &BrushSpec,
     planned: &[PlannedStroke],
     laydown: &Laydown,
-) -> Strokes {
-    let mut round =
-        Strokes::new(&script.title, &script.licence, script.canvas.clone(), script.palette.clone());
+) -> StrokeScript {
+    let mut round = StrokeScript::new(
+        &script.title,
+        &script.licence,
+        script.canvas.clone(),
+        script.palette.clone(),
+    );
     let brush = format!("{}-{}", level + 1, spec.shape);
     for stroke in planned {
         let length = stroke.amount_mm / stroke.height_mm - 1.0;
@@ -197,7 +201,7 @@ fn round_of(
                 vehicle: 0.0,
                 amount_mm: touch.load_mm,
             }),
-            Action::Stroke(Stroke { brush: brush.clone(), on: Surface::Canvas, samples }),
+            Action::Stroke(Stroke { brush: brush.clone(), on: SurfaceId::Canvas, samples }),
         ]);
     }
     round.actions.push(Action::Dry { fraction: 1.0 });
@@ -207,9 +211,9 @@ fn round_of(
 
 /// Plays a round and adds it to the script.
 fn play(
-    round: Strokes,
-    easel: &mut Easel,
-    script: &mut Strokes,
+    round: StrokeScript,
+    session: &mut PaintingSession,
+    script: &mut StrokeScript,
     told: &mut impl FnMut(Painted),
 ) -> Result<ReplayReport, PainterError> {
     let mut kinds = round.actions.iter().map(Action::kind);
@@ -219,7 +223,7 @@ fn play(
         }
         ControlFlow::Continue(())
     };
-    let report = round.replay(easel, |_, _| Ok(()), step)?;
+    let report = round.replay(session, |_, _| Ok(()), step)?;
     script.brushes.extend(round.brushes);
     script.actions.extend(round.actions);
     Ok(report)

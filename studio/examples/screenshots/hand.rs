@@ -1,7 +1,7 @@
 //! A hand that writes down what it does.
 
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, Load, Recipe, Squeeze, Stroke, Surface};
+use render::paint::strokes::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
 
 /// Millimetres a second.
 const SPEED: f64 = 60.0;
@@ -49,21 +49,21 @@ impl Hand {
 
     /// A heap on the palette.
     pub(crate) fn squeeze(&mut self, parts: &str, (x_mm, y_mm): Place, volume_mm3: f64) {
-        let (on, recipe, vehicle) = (Surface::Palette, recipe(parts), 0.1);
+        let (on, recipe, vehicle) = (SurfaceId::Palette, recipe(parts), 0.1);
         self.actions.push(Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 }));
     }
 
     /// A stroke on the canvas.
     pub(crate) fn stroke(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let stroke = Stroke { brush: brush.to_owned(), on: Surface::Canvas, samples };
+        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, samples };
         self.actions.push(Action::Stroke(stroke));
     }
 
     /// A stroke on the palette.
     pub(crate) fn mix(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let stroke = Stroke { brush: brush.to_owned(), on: Surface::Palette, samples };
+        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Palette, samples };
         self.actions.push(Action::Stroke(stroke));
     }
 }

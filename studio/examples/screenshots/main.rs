@@ -22,7 +22,7 @@ use eframe::egui::{Event, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use render::paint::document::Lighting;
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, Surface};
+use render::paint::strokes::{Action, SurfaceId};
 use session::{Command, PenSample};
 use studio::app::Tab;
 use studio::panels::Mode;
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     window.settle();
     two_lights(&mut window);
     save(&mut window, &folder, "studio-lights")?;
-    window.studio_mut().ask(Command::SecondLight(None));
+    window.studio_mut().ask(Command::SetSecondLight(None));
     colors(&mut window)?;
     save(&mut window, &folder, "studio-colour")?;
     window.studio_mut().panels.reference.close();
@@ -72,7 +72,7 @@ fn at_work(window: &mut Window) {
     carry_out(window, hand);
     window.studio_mut().tools.brush = "round".to_owned();
     let brush = "round".to_owned();
-    window.studio_mut().ask(Command::PenDown { surface: Surface::Canvas, brush });
+    window.studio_mut().ask(Command::PenDown { surface: SurfaceId::Canvas, brush });
     let mut led = samples(&study::AT_WORK, 0.55);
     // Before it is lifted.
     led.truncate(led.len() * 4 / 5);
@@ -86,7 +86,7 @@ fn at_work(window: &mut Window) {
 
 fn carry_out(window: &mut Window, hand: Hand) {
     for action in hand.actions {
-        window.studio_mut().ask(Command::Act(action));
+        window.studio_mut().ask(Command::Apply(action));
         window.settle();
     }
 }
@@ -94,7 +94,7 @@ fn carry_out(window: &mut Window, hand: Hand) {
 /// Daylight and a lamp, side by side.
 fn two_lights(window: &mut Window) {
     let lamp = Lighting { illuminant: "A".to_owned(), ..study::light() };
-    window.studio_mut().ask(Command::SecondLight(Some(lamp)));
+    window.studio_mut().ask(Command::SetSecondLight(Some(lamp)));
     window.studio_mut().panels.bring(Tab::Light);
     window.studio_mut().tools.split = 0.5;
     window.settle();
@@ -108,7 +108,7 @@ fn colors(window: &mut Window) -> Result<(), Box<dyn Error>> {
     wait_for(window, "Reference picture")?;
     window.settle();
     window.studio_mut().tools.mode = Mode::Pick;
-    let there = window.point(Surface::Canvas, 55.5, 34.0);
+    let there = window.point(SurfaceId::Canvas, 55.5, 34.0);
     window.pen_stroke(&[there, there]);
     window.settle();
     let picture = window.harness().get_by_label("Reference picture").rect();

@@ -7,7 +7,7 @@ use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
 use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{BrushSpec, Canvas};
-use session::{Command, Origin, bare};
+use session::{Command, Origin, blank_canvas};
 
 use crate::hand::{Hand, Place};
 
@@ -19,8 +19,8 @@ const EDGE: f64 = 31.0;
 
 /// A toned linen, stiff paint, and light from low at the left.
 pub(crate) fn begun() -> Command {
-    let Origin::Bare { mut script, library } =
-        bare(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
+    let Origin::Blank { mut script, library } =
+        blank_canvas(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
     else {
         unreachable!("a bare canvas is bare");
     };
@@ -41,7 +41,7 @@ pub(crate) fn begun() -> Command {
     ] {
         script.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
     }
-    Command::Open(Origin::Bare { script, library })
+    Command::Open(Origin::Blank { script, library })
 }
 
 /// Daylight that shows every ridge.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use pigment::library::PigmentLibrary;
 use render::paint::document::{Document, Lighting};
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, BrushSpec, Recipe, Strokes, Surface};
+use render::paint::strokes::{Action, BrushSpec, Recipe, StrokeScript, SurfaceId};
 
 use super::event::Picked;
 
@@ -31,9 +31,9 @@ pub enum Pace {
 #[derive(Debug, Clone)]
 pub enum Origin {
     /// A canvas without paint: the header of a script, its actions not played.
-    Bare {
+    Blank {
         /// Canvas, palette, medium, light.
-        script: Box<Strokes>,
+        script: Box<StrokeScript>,
         /// The pigments that it names.
         library: Box<PigmentLibrary>,
     },
@@ -41,7 +41,7 @@ pub enum Origin {
     /// may be saved again.
     Painting(Box<Document>),
     /// A painting and the palette beside it, as recovered.
-    Session {
+    Recovered {
         /// The canvas.
         canvas: Box<Document>,
         /// The palette.
@@ -56,7 +56,7 @@ pub enum Command {
     Open(Origin),
     /// Takes a brush into the stand under a name, or exchanges the one of that
     /// name for another.
-    TakeBrush {
+    SetBrush {
         /// Its name in recordings.
         name: String,
         /// Its head.
@@ -65,7 +65,7 @@ pub enum Command {
     /// Sets a brush down; samples follow.
     PenDown {
         /// Where.
-        surface: Surface,
+        surface: SurfaceId,
         /// Which brush.
         brush: String,
     },
@@ -74,20 +74,20 @@ pub enum Command {
     /// Lifts the brush.
     PenUp,
     /// One action of the history. A stroke that is open ends first.
-    Act(Action),
+    Apply(Action),
     /// As `Act` while a control is being dragged: of light, gloss or opacity. All
-    /// until [`Command::Settle`] are one action.
+    /// until [`Command::EndAdjustment`] are one action.
     Adjust(Action),
     /// The control was let go.
-    Settle,
+    EndAdjustment,
     /// Goes to a place in the history: so many actions done.
-    Travel(usize),
+    GoTo(usize),
     /// A second light for the split view, or none.
-    SecondLight(Option<Lighting>),
+    SetSecondLight(Option<Lighting>),
     /// What lies at a place; the answer is [`Event::Picked`](super::Event::Picked).
     Pick {
         /// Where.
-        surface: Surface,
+        surface: SurfaceId,
         /// From the left edge, in mm.
         x_mm: f64,
         /// From the upper edge, in mm.
@@ -104,7 +104,7 @@ pub enum Command {
     /// Plays a script on the painting that it describes.
     Replay {
         /// The script.
-        script: Box<Strokes>,
+        script: Box<StrokeScript>,
         /// Its pigments.
         library: Box<PigmentLibrary>,
         /// How fast.
@@ -124,7 +124,7 @@ pub enum Command {
     /// Puts a heap of paint on the palette, as [`Action::Squeeze`], at the first of
     /// some places that has no wet paint around it; if none has, where there is the
     /// least.
-    LayOut {
+    SqueezeInFreeSpace {
         /// The paint, by names of the library.
         recipe: Recipe,
         /// Share of the whole that is clear vehicle, 0..1.
@@ -137,7 +137,7 @@ pub enum Command {
         reach_mm: f64,
     },
     /// Bytes that undo may keep from now on.
-    UndoMemory(u64),
+    SetUndoBytes(u64),
     /// Ends the thread.
     Quit,
 }
@@ -147,20 +147,20 @@ impl Command {
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Open(_) => "opening",
-            Self::TakeBrush { .. } => "taking a brush",
+            Self::SetBrush { .. } => "taking a brush",
             Self::PenDown { .. } | Self::PenMove(_) | Self::PenUp => "a stroke",
-            Self::Act(action) | Self::Adjust(action) => action.kind(),
-            Self::Settle => "settling",
-            Self::Travel(_) => "going through the history",
-            Self::SecondLight(_) => "a second light",
+            Self::Apply(action) | Self::Adjust(action) => action.kind(),
+            Self::EndAdjustment => "settling",
+            Self::GoTo(_) => "going through the history",
+            Self::SetSecondLight(_) => "a second light",
             Self::Pick { .. } => "picking a colour",
             Self::Snapshot(_) => "saving",
             Self::Recording(_) => "a recording",
             Self::Replay { .. } => "a replay",
             Self::Cancel => "cancelling",
             Self::LoadPicked { .. } => "loading a brush",
-            Self::LayOut { .. } => "laying paint out",
-            Self::UndoMemory(_) => "the memory of undo",
+            Self::SqueezeInFreeSpace { .. } => "laying paint out",
+            Self::SetUndoBytes(_) => "the memory of undo",
             Self::Quit => "quitting",
         }
     }

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use render::layer::SLOTS;
 use render::paint::document::{Document, Slots};
-use render::paint::strokes::{Strokes, Surface};
+use render::paint::strokes::{StrokeScript, SurfaceId};
 use render::tile::Rect;
 
-use super::state::{EaselState, Figures};
+use super::state::{PaintingState, Performance};
 
 /// A rectangle of the picture, ready for the screen.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub struct PickedLayer {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picked {
     /// Where.
-    pub surface: Surface,
+    pub surface: SurfaceId,
     /// From the left edge, in mm.
     pub x_mm: f64,
     /// From the upper edge, in mm.
@@ -63,13 +63,13 @@ pub struct Snapshot {
 #[derive(Debug, Clone)]
 pub enum Event {
     /// Another painting is there: both pictures follow whole.
-    Opened(Arc<EaselState>),
+    Opened(Arc<PaintingState>),
     /// Something other than pixels changed.
-    State(Arc<EaselState>),
+    State(Arc<PaintingState>),
     /// Part of a picture changed.
     Tiles {
         /// Of which surface.
-        surface: Surface,
+        surface: SurfaceId,
         /// Whether it is the picture under the second light.
         second: bool,
         /// What changed.
@@ -80,7 +80,7 @@ pub enum Event {
     /// The head as it is bent now, or lifted.
     Head(Option<Arc<HeadOnCanvas>>),
     /// How the worker keeps up.
-    Figures(Figures),
+    Performance(Performance),
     /// What lies at a place.
     Picked(Arc<Picked>),
     /// The documents asked for.
@@ -90,7 +90,7 @@ pub enum Event {
         /// As the caller numbered it.
         number: u64,
         /// The script.
-        script: Arc<Strokes>,
+        script: Arc<StrokeScript>,
     },
     /// How far a replay is: actions done, of how many.
     Progress {
@@ -116,7 +116,7 @@ pub enum Event {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadOnCanvas {
     /// Over which surface.
-    pub surface: Surface,
+    pub surface: SurfaceId,
     /// Vertices around the head.
     pub around: usize,
     /// Vertices from the ferrule to the tip.

@@ -10,7 +10,7 @@ use super::command::Command;
 
 /// What reaches the thread.
 #[derive(Debug)]
-pub(super) enum Said {
+pub(super) enum Input {
     /// The window asks for something.
     Command(Command),
     /// The window took this many parts of the picture.
@@ -20,7 +20,7 @@ pub(super) enum Said {
 /// Commands in order, and what cannot wait for its turn.
 #[derive(Debug)]
 pub(super) struct Inbox {
-    heard: Receiver<Said>,
+    heard: Receiver<Input>,
     waiting: VecDeque<Command>,
     /// Parts of pictures that the window took since this was last looked at.
     pub(super) taken: usize,
@@ -31,20 +31,20 @@ pub(super) struct Inbox {
 }
 
 impl Inbox {
-    pub(super) fn new(heard: Receiver<Said>) -> Self {
+    pub(super) fn new(heard: Receiver<Input>) -> Self {
         Self { heard, waiting: VecDeque::new(), taken: 0, cancelled: false, quit: false }
     }
 
     /// Takes in all that was said; with `patience` waits for something, at most
     /// so long.
-    pub(super) fn listen(&mut self, patience: Patience) {
+    pub(super) fn listen(&mut self, patience: Wait) {
         let first = match patience {
-            Patience::None => None,
-            Patience::Forever => match self.heard.recv() {
+            Wait::None => None,
+            Wait::Forever => match self.heard.recv() {
                 Ok(said) => Some(said),
                 Err(_) => return self.quit = true,
             },
-            Patience::Until(then) => {
+            Wait::Until(then) => {
                 match self.heard.recv_timeout(then.saturating_duration_since(Instant::now())) {
                     Ok(said) => Some(said),
                     Err(RecvTimeoutError::Timeout) => None,
@@ -64,12 +64,12 @@ impl Inbox {
         }
     }
 
-    fn take_in(&mut self, said: Said) {
+    fn take_in(&mut self, said: Input) {
         match said {
-            Said::Taken(parts) => self.taken += parts,
-            Said::Command(Command::Quit) => self.quit = true,
-            Said::Command(Command::Cancel) => self.cancelled = true,
-            Said::Command(command) => {
+            Input::Taken(parts) => self.taken += parts,
+            Input::Command(Command::Quit) => self.quit = true,
+            Input::Command(Command::Cancel) => self.cancelled = true,
+            Input::Command(command) => {
                 if let Some(last) = self.waiting.back_mut()
                     && outdated(last, &command)
                 {
@@ -99,7 +99,10 @@ impl Inbox {
     /// Questions that a replay can answer on its way, out of their order.
     pub(super) fn take_questions(&mut self) -> Vec<Command> {
         let is_question = |command: &Command| {
-            matches!(command, Command::Snapshot(_) | Command::Pick { .. } | Command::UndoMemory(_))
+            matches!(
+                command,
+                Command::Snapshot(_) | Command::Pick { .. } | Command::SetUndoBytes(_)
+            )
         };
         let (questions, others) = self.waiting.drain(..).partition(is_question);
         self.waiting = others;
@@ -123,7 +126,7 @@ impl Inbox {
 
 /// How long to wait for something to be said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Patience {
+pub(super) enum Wait {
     /// Not at all: there is work.
     None,
     /// Until then.
@@ -138,7 +141,7 @@ fn outdated(waiting: &Command, new: &Command) -> bool {
     match (waiting, new) {
         (Command::Adjust(Action::Light(_)), Command::Adjust(Action::Light(_)))
         | (Command::Adjust(Action::Gloss { .. }), Command::Adjust(Action::Gloss { .. }))
-        | (Command::SecondLight(_), Command::SecondLight(_)) => true,
+        | (Command::SetSecondLight(_), Command::SetSecondLight(_)) => true,
         (
             Command::Adjust(Action::Opacity { layer, .. }),
             Command::Adjust(Action::Opacity { layer: new, .. }),
@@ -152,7 +155,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     use render::paint::document::Lighting;
-    use render::paint::strokes::LayerName;
+    use render::paint::strokes::LayerRef;
 
     use super::*;
 
@@ -160,9 +163,9 @@ mod tests {
         let (say, heard) = channel();
         let mut inbox = Inbox::new(heard);
         for command in commands {
-            say.send(Said::Command(command)).unwrap();
+            say.send(Input::Command(command)).unwrap();
         }
-        inbox.listen(Patience::None);
+        inbox.listen(Wait::None);
         inbox
     }
 
@@ -173,16 +176,16 @@ mod tests {
     #[test]
     fn of_a_drag_only_the_last_place_is_kept() {
         let opacity =
-            |layer, value| Command::Adjust(Action::Opacity { layer: LayerName::Dry(layer), value });
+            |layer, value| Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value });
         let mut inbox = heard(vec![
             Command::Adjust(light(1.0)),
             Command::Adjust(light(2.0)),
             opacity(0, 0.5),
             opacity(0, 0.6),
             opacity(1, 0.7),
-            Command::Settle,
-            Command::Act(light(3.0)),
-            Command::Act(light(4.0)),
+            Command::EndAdjustment,
+            Command::Apply(light(3.0)),
+            Command::Apply(light(4.0)),
         ]);
         let told: Vec<String> =
             std::iter::from_fn(|| inbox.next()).map(|command| format!("{command:?}")).collect();
@@ -190,9 +193,9 @@ mod tests {
             Command::Adjust(light(2.0)),
             opacity(0, 0.6),
             opacity(1, 0.7),
-            Command::Settle,
-            Command::Act(light(3.0)),
-            Command::Act(light(4.0)),
+            Command::EndAdjustment,
+            Command::Apply(light(3.0)),
+            Command::Apply(light(4.0)),
         ];
         assert_eq!(told, wanted.map(|command| format!("{command:?}")));
     }
@@ -223,10 +226,10 @@ mod tests {
 
     #[test]
     fn a_window_that_is_gone_ends_the_thread() {
-        let (say, heard) = channel::<Said>();
+        let (say, heard) = channel::<Input>();
         drop(say);
         let mut inbox = Inbox::new(heard);
-        inbox.listen(Patience::Forever);
+        inbox.listen(Wait::Forever);
         assert!(inbox.quit, "nobody is left to ask");
     }
 }

@@ -7,14 +7,14 @@ use render::paint::painting::{Painting, PaintingError};
 
 use super::srgb::SrgbBytes;
 use super::state::{LayerState, Thumbnail};
-use super::thumbnail::Glance;
+use super::thumbnail::LayerSummary;
 
 /// One layer.
 #[derive(Debug)]
 struct Known {
     /// Whether it was looked at since dry paint last changed.
     looked: bool,
-    glance: Option<Glance>,
+    glance: Option<LayerSummary>,
     /// As last told, and the light of its thumbnail.
     told: Option<(LayerState, Arc<Light>)>,
 }
@@ -53,7 +53,7 @@ impl Layers {
         let waits = self.known.iter().position(|known| !known.looked);
         let Some(index) = waits else { return Ok(()) };
         let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
-        let glance = Glance::at(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
+        let glance = LayerSummary::at(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
         let told = None;
         self.known[index] = Known { looked: true, glance: Some(glance), told };
         Ok(())
@@ -65,7 +65,7 @@ impl Layers {
         self.follow(painting);
         let light = painting.light();
         let layers = self.known.iter_mut().zip(&painting.state().dry);
-        let state = |(known, dry): (&mut Known, &render::paint::painting::DryState)| {
+        let state = |(known, dry): (&mut Known, &render::paint::painting::DryLayerState)| {
             let Some(glance) = &known.glance else { return blank(dry.slots, dry.opacity) };
             if let Some((told, under)) = &known.told
                 && (told.slots, told.opacity) == (dry.slots, dry.opacity)
@@ -83,5 +83,5 @@ impl Layers {
 
 fn blank(slots: render::paint::document::Slots, opacity: f64) -> LayerState {
     let thumbnail = Arc::new(Thumbnail { width: 1, height: 1, pixels: vec![[0; 4]] });
-    LayerState { slots, opacity, mean_mm: 0.0, most_mm: 0.0, covers: 0.0, thumbnail }
+    LayerState { slots, opacity, mean_mm: 0.0, max_mm: 0.0, coverage: 0.0, thumbnail }
 }

@@ -12,7 +12,7 @@ mod event;
 
 mod state;
 
-mod fresh;
+mod defaults;
 
 mod backend;
 
@@ -28,7 +28,7 @@ mod layers;
 
 mod pick;
 
-mod room;
+mod free_space;
 
 mod meter;
 
@@ -36,19 +36,19 @@ mod inbox;
 
 mod outbox;
 
-mod opening;
+mod prepare;
 
-mod telling;
+mod report;
 
-mod live;
+mod stroke;
 
-mod playing;
+mod replay;
 
-mod workshop;
+mod worker;
 
-mod doing;
+mod dispatch;
 
-mod staging;
+mod open;
 
 mod thread;
 
@@ -58,10 +58,10 @@ pub mod whole;
 
 mod autosave;
 
-pub use autosave::{LostSession, Session, SessionMeta, now};
+pub use autosave::{Autosave, LostSession, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};
+pub use defaults::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
 pub use event::{Event, HeadOnCanvas, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
-pub use fresh::{bare, brushes, fresh, mixing};
-pub use state::{BrushState, EaselState, Figures, LayerState, Thumbnail};
+pub use state::{BrushState, LayerState, PaintingState, Performance, Thumbnail};
 pub use thread::{Worker, WorkerOptions};

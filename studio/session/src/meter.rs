@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use super::state::Figures;
+use super::state::Performance;
 
 /// What the figures look back on.
 const SPAN: Duration = Duration::from_secs(1);
@@ -59,7 +59,7 @@ impl Meter {
     }
 
     /// The figures of the last second, with `behind` sub-steps that wait.
-    pub(super) fn figures(&mut self, now: Instant, behind: usize) -> Figures {
+    pub(super) fn figures(&mut self, now: Instant, behind: usize) -> Performance {
         let old = |at: Instant| now.saturating_duration_since(at) > SPAN;
         while self.played.front().is_some_and(|(at, ..)| old(*at)) {
             self.played.pop_front();
@@ -69,11 +69,11 @@ impl Meter {
         }
         let substeps: usize = self.played.iter().map(|(_, substeps, _)| substeps).sum();
         let total_ms: f64 = self.shown.iter().map(|(_, ms)| ms).sum();
-        Figures {
-            substeps_a_second: substeps as f64 / SPAN.as_secs_f64(),
-            behind,
-            to_tiles_ms: total_ms / self.shown.len().max(1) as f64,
-            worst_ms: self.shown.iter().map(|(_, ms)| *ms).fold(0.0, f64::max),
+        Performance {
+            substeps_per_second: substeps as f64 / SPAN.as_secs_f64(),
+            waiting_substeps: behind,
+            mean_latency_ms: total_ms / self.shown.len().max(1) as f64,
+            max_latency_ms: self.shown.iter().map(|(_, ms)| *ms).fold(0.0, f64::max),
         }
     }
 }
@@ -94,10 +94,10 @@ mod tests {
         meter.shown(at(900), at(890));
         meter.shown(at(950), at(890));
         let figures = meter.figures(at(1100), 7);
-        assert_eq!((figures.substeps_a_second, figures.behind), (300.0, 7));
-        assert_eq!((figures.to_tiles_ms, figures.worst_ms), (30.0, 60.0));
+        assert_eq!((figures.substeps_per_second, figures.waiting_substeps), (300.0, 7));
+        assert_eq!((figures.mean_latency_ms, figures.max_latency_ms), (30.0, 60.0));
         let later = meter.figures(at(5000), 0);
-        assert_eq!(later, Figures::default(), "nothing happened for a second");
+        assert_eq!(later, Performance::default(), "nothing happened for a second");
     }
 
     #[test]

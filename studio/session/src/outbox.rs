@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use render::paint::easel::Easel;
 use render::paint::painting::{Painting, PaintingError};
-use render::paint::strokes::Surface;
+use render::paint::session::PaintingSession;
+use render::paint::strokes::SurfaceId;
 use render::tile::{Rect, TileSet};
 
 use super::event::{Event, HeadOnCanvas};
@@ -30,7 +30,7 @@ const SLOWEST: Duration = Duration::from_millis(33);
 /// One picture, and what of it the window has not been told.
 #[derive(Debug)]
 struct View {
-    surface: Surface,
+    surface: SurfaceId,
     second: bool,
     unsent: TileSet,
 }
@@ -52,9 +52,9 @@ impl Outbox {
         Self {
             bytes: SrgbBytes::new(),
             views: [
-                view(Surface::Canvas, false),
-                view(Surface::Palette, false),
-                view(Surface::Canvas, true),
+                view(SurfaceId::Canvas, false),
+                view(SurfaceId::Palette, false),
+                view(SurfaceId::Canvas, true),
             ],
             untaken: 0,
             next: Instant::now(),
@@ -111,13 +111,13 @@ impl Outbox {
     /// [`PaintingError`] if the device was lost.
     pub(super) fn show(
         &mut self,
-        easel: &mut Easel,
+        session: &mut PaintingSession,
         meter: &mut Meter,
         tell: &dyn Fn(Event),
     ) -> Result<(), PaintingError> {
         let began = Instant::now();
         for view in &mut self.views {
-            let painting = easel.painting_mut(view.surface);
+            let painting = session.painting_mut(view.surface);
             let seen = |painting: &&mut Painting| !view.second || painting.second_light().is_some();
             let Some(painting) = painting.filter(seen) else {
                 view.unsent = TileSet::default();

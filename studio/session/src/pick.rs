@@ -3,7 +3,7 @@
 use render::amount::mm_from_quanta;
 use render::layer::{Layer, SLOTS};
 use render::paint::painting::{Painting, PaintingError};
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 use render::tile::Rect;
 
 use super::event::{Picked, PickedLayer};
@@ -11,7 +11,7 @@ use super::event::{Picked, PickedLayer};
 /// A place on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    pub(super) surface: Surface,
+    pub(super) surface: SurfaceId,
     pub(super) x_mm: f64,
     pub(super) y_mm: f64,
     pub(super) radius_mm: f64,
@@ -101,7 +101,7 @@ mod tests {
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 40, height: 30 };
 
     fn cells(x_mm: f64, y_mm: f64, radius_mm: f64) -> Vec<(usize, usize)> {
-        let place = Place { surface: Surface::Canvas, x_mm, y_mm, radius_mm };
+        let place = Place { surface: SurfaceId::Canvas, x_mm, y_mm, radius_mm };
         let rows = rows(BOUNDS, 0.1, place);
         rows.iter().flat_map(|row| (row.x..row.x + row.width).map(|x| (x, row.y))).collect()
     }

@@ -28,9 +28,9 @@ pub struct LayerState {
     /// Mean height where it has paint, in mm.
     pub mean_mm: f64,
     /// Greatest height, in mm.
-    pub most_mm: f64,
+    pub max_mm: f64,
     /// Share of the canvas that it covers, 0..1.
-    pub covers: f64,
+    pub coverage: f64,
     /// The layer alone over the ground.
     pub thumbnail: Arc<Thumbnail>,
 }
@@ -54,7 +54,7 @@ pub struct BrushState {
 
 /// Everything about the painting but its pixels.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EaselState {
+pub struct PaintingState {
     /// What it is called.
     pub title: String,
     /// Cells of the canvas.
@@ -78,16 +78,16 @@ pub struct EaselState {
     /// The same with its curve and wavelengths.
     pub light: Arc<Light>,
     /// The second light of the split view.
-    pub second: Option<Lighting>,
+    pub second_lighting: Option<Lighting>,
     /// The binder.
     pub medium: Medium,
     /// The reflectance of the ground, on the library's grid.
-    pub ground: Arc<Vec<f64>>,
+    pub ground_reflectance: Arc<Vec<f64>>,
     /// What each action of the history was, oldest first; those after `done` were
     /// taken back.
     pub history: Vec<String>,
     /// How many of them are done.
-    pub done: usize,
+    pub history_done: usize,
     /// Bytes that undo keeps, and may keep.
     pub undo_bytes: (u64, u64),
     /// The stand.
@@ -97,19 +97,19 @@ pub struct EaselState {
     /// Counts changes of paint.
     pub revision: u64,
     /// Whether a stroke is open.
-    pub painting: bool,
+    pub stroke_open: bool,
 }
 
 /// How the worker keeps up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Figures {
+pub struct Performance {
     /// Sub-steps of the last second.
-    pub substeps_a_second: f64,
+    pub substeps_per_second: f64,
     /// Sub-steps that wait.
-    pub behind: usize,
+    pub waiting_substeps: usize,
     /// From the arrival of a sample to its tiles being ready, in ms, the mean of
     /// the last second.
-    pub to_tiles_ms: f64,
+    pub mean_latency_ms: f64,
     /// The longest of the last second.
-    pub worst_ms: f64,
+    pub max_latency_ms: f64,
 }

@@ -10,8 +10,8 @@ use render::paint::painting::UNDO_BYTES;
 use super::backend::Backend;
 use super::command::Command;
 use super::event::Event;
-use super::inbox::{Inbox, Said};
-use super::workshop::Workshop;
+use super::inbox::{Inbox, Input};
+use super::worker::WorkerLoop;
 
 /// What a worker is told once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Default for WorkerOptions {
 /// The thread that owns the paint.
 #[derive(Debug)]
 pub struct Worker {
-    said: Sender<Said>,
+    said: Sender<Input>,
     events: Receiver<Event>,
 }
 
@@ -55,7 +55,7 @@ impl Worker {
             };
             watched(&tell, || {
                 let backend = Backend::new(options.backend);
-                Workshop::new(Inbox::new(heard), backend, options.undo_bytes, &tell).run();
+                WorkerLoop::new(Inbox::new(heard), backend, options.undo_bytes, &tell).run();
             });
         });
         Self { said, events }
@@ -63,7 +63,7 @@ impl Worker {
 
     /// Asks for something. A worker that ended takes no more.
     pub fn ask(&self, command: Command) {
-        let _ = self.said.send(Said::Command(command));
+        let _ = self.said.send(Input::Command(command));
     }
 
     /// What was told since the last call.
@@ -72,7 +72,7 @@ impl Worker {
         let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
         let taken = events.iter().filter(paced).count();
         if taken > 0 {
-            let _ = self.said.send(Said::Taken(taken));
+            let _ = self.said.send(Input::Taken(taken));
         }
         events.into_iter()
     }

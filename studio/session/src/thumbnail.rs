@@ -20,15 +20,15 @@ const PROBES: usize = 2;
 
 /// What is kept of a dry layer's paint.
 #[derive(Debug, Clone)]
-pub(super) struct Glance {
+pub(super) struct LayerSummary {
     mean_mm: f64,
-    most_mm: f64,
-    covers: f64,
+    max_mm: f64,
+    coverage: f64,
     /// `PROBES` x `PROBES` cells of every pixel.
     cells: Layer,
 }
 
-impl Glance {
+impl LayerSummary {
     /// Looks at a layer of `bounds`, whose paint `read` gives; it is asked for
     /// rows of tiles.
     ///
@@ -68,8 +68,8 @@ impl Glance {
         let mm = |quanta: f64| quanta * render::amount::mm_from_quanta(1, cell_mm);
         Ok(Self {
             mean_mm: mm(sum as f64 / painted.max(1) as f64),
-            most_mm: mm(f64::from(most)),
-            covers: painted as f64 / (bounds.width * bounds.height).max(1) as f64,
+            max_mm: mm(f64::from(most)),
+            coverage: painted as f64 / (bounds.width * bounds.height).max(1) as f64,
             cells,
         })
     }
@@ -87,8 +87,8 @@ impl Glance {
             slots,
             opacity,
             mean_mm: self.mean_mm,
-            most_mm: self.most_mm,
-            covers: self.covers,
+            max_mm: self.max_mm,
+            coverage: self.coverage,
             thumbnail: Arc::new(self.thumbnail(slots, opacity, painting, bytes)),
         }
     }

@@ -1,7 +1,7 @@
 //! What is asked for is done.
 
 use eframe::egui::{Context, ViewportCommand};
-use render::paint::strokes::{Action, Surface};
+use render::paint::strokes::{Action, SurfaceId};
 
 use super::Studio;
 use super::intent::Intent;
@@ -45,7 +45,7 @@ impl Studio {
             Intent::Dry => self.with_desk(|_, desk| dry(desk)),
             Intent::Wash => self.with_desk(|_, desk| wash(desk)),
             Intent::Wipe => self.with_desk(|_, desk| wipe(desk)),
-            Intent::ScrapePalette => self.action(Action::Scrape { on: Surface::Palette }),
+            Intent::ScrapePalette => self.action(Action::Scrape { on: SurfaceId::Palette }),
             Intent::OtherLight => self.with_desk(|panels, desk| panels.light.exchange(desk)),
             Intent::Larger => self.with_desk(|panels, desk| panels.brushes.resize(STEP, desk)),
             Intent::Smaller => {
@@ -90,7 +90,7 @@ impl Studio {
     }
 
     fn action(&mut self, action: Action) {
-        self.asked.push(Request::Worker(Command::Act(action)));
+        self.asked.push(Request::Worker(Command::Apply(action)));
     }
 
     fn file(&mut self, request: FileRequest) {

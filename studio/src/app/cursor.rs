@@ -3,7 +3,7 @@
 
 use eframe::egui::{Color32, CursorIcon, Pos2, Stroke, Ui};
 use render::paint::brush::{Head, Relief};
-use render::paint::strokes::{BrushSpec, Surface};
+use render::paint::strokes::{BrushSpec, SurfaceId};
 use render::tile::Rect;
 
 use super::Studio;
@@ -11,7 +11,7 @@ use super::surfaces::Hover;
 use crate::panels::Mode;
 use crate::theme;
 use crate::view::HeadLook;
-use session::{EaselState, HeadOnCanvas};
+use session::{HeadOnCanvas, PaintingState};
 
 /// Radius of the ring around the colour below the eyedropper, in points.
 const RING: f32 = 24.0;
@@ -56,7 +56,7 @@ impl Studio {
     }
 
     /// The head: bent as the worker has it, or straight above the surface.
-    fn brush(&mut self, ui: &Ui, easel: &EaselState) {
+    fn brush(&mut self, ui: &Ui, easel: &PaintingState) {
         let look = |name: &str| {
             let brush = easel.brushes.iter().find(|brush| brush.name == name);
             HeadLook::under(&easel.lighting, brush.and_then(|brush| brush.color))
@@ -85,7 +85,7 @@ impl Studio {
     /// A ring of the colour below the pointer, within a neutral one.
     fn ring(&self, ui: &Ui) {
         let Some(point) = ui.input(|input| input.pointer.hover_pos()) else { return };
-        let over = |surface: &Surface| self.view(*surface).place(point).is_some();
+        let over = |surface: &SurfaceId| self.view(*surface).place(point).is_some();
         let Some(surface) = self.surfaces_shown().into_iter().find(over) else { return };
         let Some(color) = self.color_at(surface, point) else { return };
         let painter = ui.painter_at(self.view(surface).room());
@@ -95,7 +95,7 @@ impl Studio {
     }
 
     /// The colour on the screen of the cell at a point of the window.
-    fn color_at(&self, surface: Surface, point: Pos2) -> Option<Color32> {
+    fn color_at(&self, surface: SurfaceId, point: Pos2) -> Option<Color32> {
         let view = self.view(surface);
         let [x, y] = view.place(point)?;
         let beyond = x >= f64::from(self.tools.split) * view.cells().0 as f64;

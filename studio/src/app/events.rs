@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::Studio;
 use super::side::Tab;
 use super::status::Message;
-use session::{EaselState, Event};
+use session::{Event, PaintingState};
 
 impl Studio {
     /// Takes in what the worker told.
@@ -28,8 +28,8 @@ impl Studio {
             Event::State(state) => self.know(state),
             Event::Tiles { surface, second, tiles, newest } => {
                 let view = match surface {
-                    Surface::Canvas => &mut self.canvas,
-                    Surface::Palette => &mut self.palette,
+                    SurfaceId::Canvas => &mut self.canvas,
+                    SurfaceId::Palette => &mut self.palette,
                 };
                 for tile in &tiles {
                     view.write(second, tile);
@@ -39,7 +39,7 @@ impl Studio {
                 }
             }
             Event::Head(head) => self.head = head,
-            Event::Figures(figures) => self.figures = figures,
+            Event::Performance(figures) => self.figures = figures,
             Event::Picked(picked) => {
                 self.tools.picked = Some(picked);
                 self.panels.bring(Tab::Color);
@@ -52,7 +52,7 @@ impl Studio {
     }
 
     /// Another painting is there.
-    fn take_up(&mut self, state: Arc<EaselState>) {
+    fn take_up(&mut self, state: Arc<PaintingState>) {
         self.canvas.take_up(state.canvas_cells);
         self.palette.take_up(state.palette_cells);
         self.head = None;
@@ -65,8 +65,8 @@ impl Studio {
         }
     }
 
-    fn know(&mut self, state: Arc<EaselState>) {
-        self.canvas.set_second(state.second.is_some());
+    fn know(&mut self, state: Arc<PaintingState>) {
+        self.canvas.set_second(state.second_lighting.is_some());
         self.easel = Some(state);
     }
 

@@ -16,9 +16,9 @@ impl Studio {
         let context = ui.ctx().clone();
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
         let easel = self.easel.clone();
-        let history = easel
-            .as_ref()
-            .map_or((false, false), |easel| (easel.done > 0, easel.done < easel.history.len()));
+        let history = easel.as_ref().map_or((false, false), |easel| {
+            (easel.history_done > 0, easel.history_done < easel.history.len())
+        });
         let mirror = self.canvas.view.mirror;
         let mut asked = None;
         if self.shown.panels {
@@ -81,7 +81,8 @@ impl Studio {
         let turn = (view.caught_turn().to_degrees().round() as i64).rem_euclid(360);
         let turn = if turn == 0 { String::new() } else { format!(", {turn} degrees") };
         let mirrored = if view.mirror { ", mirrored" } else { "" };
-        let second = easel.second.as_ref().map(|second| format!(" | {}", second.illuminant));
+        let second =
+            easel.second_lighting.as_ref().map(|second| format!(" | {}", second.illuminant));
         let light = &easel.lighting;
         let state = status::State {
             message: self.message.as_ref().filter(|message| message.stays(now)),

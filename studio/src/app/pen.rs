@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use eframe::egui::{Context, Order, Popup, RawInput, Ui};
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::Studio;
 use super::surfaces::Hover;
@@ -92,8 +92,8 @@ impl Studio {
     }
 
     /// The surfaces in the window, those on top first.
-    pub(super) fn surfaces_shown(&self) -> Vec<Surface> {
+    pub(super) fn surfaces_shown(&self) -> Vec<SurfaceId> {
         let palette = self.shown.palette && self.shown.panels;
-        if palette { vec![Surface::Palette, Surface::Canvas] } else { vec![Surface::Canvas] }
+        if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Context, Ui};
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::cursor::Hovering;
 use super::frames::Frames;
@@ -20,7 +20,7 @@ use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
-use session::{Command, EaselState, Figures, HeadOnCanvas, Worker};
+use session::{Command, HeadOnCanvas, PaintingState, Performance, Worker};
 
 /// The program's window: everything but the window system.
 #[derive(Debug)]
@@ -40,10 +40,10 @@ pub struct Studio {
     /// All about files.
     pub files: Files,
     pub(super) worker: Worker,
-    pub(super) easel: Option<Arc<EaselState>>,
+    pub(super) easel: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
     pub(super) frames: Frames,
-    pub(super) figures: Figures,
+    pub(super) figures: Performance,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
     pub(super) hover: Option<Hover>,
     pub(super) hovering: Option<Hovering>,
@@ -52,7 +52,7 @@ pub struct Studio {
     pub(super) heard: u64,
     pub(super) answered: Option<u64>,
     /// Where the eyedropper last asked, so that it asks once.
-    pub(super) asked_at: Option<(Surface, u64, u64)>,
+    pub(super) asked_at: Option<(SurfaceId, u64, u64)>,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
 }
@@ -104,7 +104,7 @@ impl Studio {
             easel: None,
             keys: Keys::default(),
             frames: Frames::default(),
-            figures: Figures::default(),
+            figures: Performance::default(),
             head: None,
             hover: None,
             hovering: None,
@@ -120,13 +120,13 @@ impl Studio {
 
     /// What the worker last told of the painting.
     #[must_use]
-    pub fn easel(&self) -> Option<&EaselState> {
+    pub fn easel(&self) -> Option<&PaintingState> {
         self.easel.as_deref()
     }
 
     /// How the worker keeps up.
     #[must_use]
-    pub fn figures(&self) -> Figures {
+    pub fn figures(&self) -> Performance {
         self.figures
     }
 

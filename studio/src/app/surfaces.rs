@@ -7,7 +7,7 @@ use eframe::egui::{
     UiBuilder, pos2, vec2,
 };
 use render::paint::pose::Sample;
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::Studio;
 use super::side::Tab;
@@ -24,7 +24,7 @@ const SHELF: f32 = 640.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
     /// Over which surface.
-    pub(super) surface: Surface,
+    pub(super) surface: SurfaceId,
     /// How it is held.
     pub(super) sample: Sample,
     /// Which brush.
@@ -70,12 +70,12 @@ impl Studio {
         let room = ui.available_rect_before_wrap();
         let easel = self.easel.clone();
         let lights = easel.as_ref().and_then(|easel| {
-            let second = easel.second.as_ref()?;
+            let second = easel.second_lighting.as_ref()?;
             Some([easel.lighting.illuminant.as_str(), second.illuminant.as_str()])
         });
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
         let response = self.canvas.show(ui, room, hand, split);
-        self.used(ui, Surface::Canvas, &response, mode);
+        self.used(ui, SurfaceId::Canvas, &response, mode);
         self.lead(ui, mode);
         self.cursor(ui, mode);
         if self.tools.figures {
@@ -94,7 +94,7 @@ impl Studio {
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
         let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
         let response = self.palette.show(ui, room, hand, None);
-        self.used(ui, Surface::Palette, &response, mode);
+        self.used(ui, SurfaceId::Palette, &response, mode);
         let right = whole.right().min(room.right() + SHELF);
         let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
         let beside = beside.shrink2(vec2(6.0, 8.0));
@@ -116,7 +116,7 @@ impl Studio {
     }
 
     /// What tools other than the brush do on a surface.
-    fn used(&mut self, ui: &Ui, surface: Surface, response: &Response, mode: Mode) {
+    fn used(&mut self, ui: &Ui, surface: SurfaceId, response: &Response, mode: Mode) {
         let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let Some(place) = pointer.and_then(|point| self.view(surface).place(point)) else { return };
@@ -140,10 +140,10 @@ impl Studio {
     }
 
     /// Where a surface is in the window.
-    pub(super) fn view(&self, surface: Surface) -> &crate::view::SurfaceView {
+    pub(super) fn view(&self, surface: SurfaceId) -> &crate::view::SurfaceView {
         match surface {
-            Surface::Canvas => &self.canvas,
-            Surface::Palette => &self.palette,
+            SurfaceId::Canvas => &self.canvas,
+            SurfaceId::Palette => &self.palette,
         }
     }
 }

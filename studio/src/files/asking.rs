@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::Ui;
 use pigment::library::PigmentLibrary;
 use render::export::PictureFormat;
-use render::paint::strokes::Palette;
+use render::paint::strokes::PaletteSpec;
 
 use super::browser::{Answer, Browser, Filter, Wanted};
 use super::dialogs::{self, Choice, NewPainting};
@@ -14,7 +14,7 @@ use super::notices::Notice;
 use super::revisions;
 use super::state::{Files, Reference, Then};
 use super::work::name;
-use session::{EaselState, Origin, bare};
+use session::{Origin, PaintingState, blank_canvas};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
@@ -32,7 +32,7 @@ pub(super) enum Dialog {
     Unsaved(Then),
     Delete(PathBuf),
     Export(Export),
-    New(NewPainting, Box<Palette>, Box<PigmentLibrary>),
+    New(NewPainting, Box<PaletteSpec>, Box<PigmentLibrary>),
     Preferences,
 }
 
@@ -104,8 +104,8 @@ impl Files {
                     let same = painting.same_pigments;
                     let library =
                         if same { (**library).clone() } else { PigmentLibrary::van_gogh_oils() };
-                    if let Origin::Bare { mut script, library } =
-                        bare(library, width, height, canvas.cell_mm)
+                    if let Origin::Blank { mut script, library } =
+                        blank_canvas(library, width, height, canvas.cell_mm)
                     {
                         script.canvas = canvas;
                         if same && !palette.pigments.is_empty() {
@@ -213,10 +213,10 @@ impl Files {
         self.browse(wanted, ForWhat::Export(export));
     }
 
-    pub(super) fn ask_for_new(&mut self, easel: &EaselState) {
+    pub(super) fn ask_for_new(&mut self, easel: &PaintingState) {
         let names = easel.slots.iter().flatten();
         let names = names.filter_map(|&index| easel.library.pigments.get(index));
-        let palette = Palette::of(names.map(|pigment| pigment.name.as_str()));
+        let palette = PaletteSpec::from_names(names.map(|pigment| pigment.name.as_str()));
         let library = Box::new((*easel.library).clone());
         self.dialogs.push(Dialog::New(NewPainting::default(), Box::new(palette), library));
     }

@@ -156,7 +156,7 @@ impl Default for NewPainting {
 
 /// The most cells of a canvas that the dialog lets pass: 64 million, of which a
 /// layer takes 2.3 GB.
-const MOST_CELLS: usize = 64 << 20;
+const MAX_CELLS: usize = 64 << 20;
 
 impl NewPainting {
     /// The canvas that was described.
@@ -174,7 +174,7 @@ impl NewPainting {
     /// Whether the canvas is not too large.
     pub(super) fn fits(&self) -> bool {
         let (width, height) = self.canvas().cells();
-        width.saturating_mul(height) <= MOST_CELLS
+        width.saturating_mul(height) <= MAX_CELLS
     }
 
     /// Asks for it.

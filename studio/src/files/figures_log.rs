@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use session::Figures;
 use session::FileFailure;
+use session::Performance;
 
 /// One line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -65,7 +65,7 @@ impl FiguresLog {
 
     /// Writes a line if a second has passed since the last. A line that cannot be
     /// written is left out.
-    pub fn tell(&mut self, now: Instant, frames: &FrameFigures, figures: &Figures) {
+    pub fn tell(&mut self, now: Instant, frames: &FrameFigures, figures: &Performance) {
         if self.told.is_some_and(|told| now.duration_since(told) < Duration::from_secs(1)) {
             return;
         }
@@ -75,8 +75,8 @@ impl FiguresLog {
             frames_a_second: frames.frames_a_second,
             latency_ms: frames.latency_ms,
             worst_latency_ms: frames.worst_latency_ms,
-            substeps_a_second: figures.substeps_a_second,
-            behind: figures.behind,
+            substeps_a_second: figures.substeps_per_second,
+            behind: figures.waiting_substeps,
             canvas_px: frames.canvas_px,
         };
         if let Ok(mut text) = serde_json::to_string(&line) {
@@ -96,7 +96,7 @@ mod tests {
         let path = folder.path().join("figures.jsonl");
         std::fs::write(&path, "{\"before\": 1}\n").unwrap();
         let mut log = FiguresLog::append(&path).unwrap();
-        let figures = Figures { behind: 3, ..Figures::default() };
+        let figures = Performance { waiting_substeps: 3, ..Performance::default() };
         let start = Instant::now();
         for ms in [0, 400, 900, 1100, 1500, 2200] {
             let now = start + Duration::from_millis(ms);

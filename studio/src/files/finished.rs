@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use pigment::library::PigmentLibrary;
-use render::paint::strokes::{Action, Strokes};
+use render::paint::strokes::{Action, StrokeScript};
 
 use super::job::Stopped;
 use super::notices::Notice;
@@ -11,7 +11,7 @@ use super::opened::Opened;
 use super::state::{Files, Opening, Reference, Replacement, Then};
 use super::work::{Done, WorkKind, name};
 use session::FileFailure;
-use session::{Command, Origin, Pace, bare};
+use session::{Command, Origin, Pace, blank_canvas};
 
 impl Files {
     /// Takes up the results of all jobs that ended.
@@ -52,7 +52,7 @@ impl Files {
                 self.go_on(Then::Replace(Replacement { commands, opening }));
             }
             Done::Recovered { canvas, palette, lost } => {
-                let commands = vec![Command::Open(Origin::Session { canvas, palette })];
+                let commands = vec![Command::Open(Origin::Recovered { canvas, palette })];
                 let path = lost.meta.path.clone();
                 let opening = Opening { path, lost: Some(lost), start: None };
                 self.go_on(Then::Replace(Replacement { commands, opening }));
@@ -122,7 +122,7 @@ impl Files {
             Opened::Library(library) => {
                 self.preferences.remember(&path);
                 let opening = Opening::default();
-                let origin = bare(*library, 192.0, 108.0, 0.1);
+                let origin = blank_canvas(*library, 192.0, 108.0, 0.1);
                 Replacement { commands: vec![Command::Open(origin)], opening }
             }
             Opened::Recording { script, library, remarks } => {
@@ -154,12 +154,12 @@ impl Files {
         };
         let mut lighting = easel.lighting.clone();
         lighting.illuminant = text.to_owned();
-        self.commands.push(Command::Act(Action::Light(lighting)));
+        self.commands.push(Command::Apply(Action::Light(lighting)));
     }
 
     /// A new painting on the canvas of `script`.
-    pub(super) fn begin(&mut self, script: Strokes, library: PigmentLibrary) {
-        let origin = Origin::Bare { script: Box::new(script), library: Box::new(library) };
+    pub(super) fn begin(&mut self, script: StrokeScript, library: PigmentLibrary) {
+        let origin = Origin::Blank { script: Box::new(script), library: Box::new(library) };
         let commands = vec![Command::Open(origin)];
         self.go_on(Then::Replace(Replacement { commands, opening: Opening::default() }));
     }

@@ -46,5 +46,5 @@ pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use request::FileRequest;
 pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
-pub use session::{FileFailure, LostSession, Session, SessionMeta};
+pub use session::{Autosave, FileFailure, LostSession, SessionMeta};
 pub use state::{Files, Reference};

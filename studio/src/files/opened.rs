@@ -8,7 +8,7 @@ use std::sync::Arc;
 use pigment::library::PigmentLibrary;
 use render::paint::document::Document;
 use render::paint::ground::GroundRelief;
-use render::paint::strokes::Strokes;
+use render::paint::strokes::StrokeScript;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
@@ -25,7 +25,7 @@ pub enum Opened {
     /// Strokes to be played.
     Recording {
         /// The script; files that it names are told from the root.
-        script: Box<Strokes>,
+        script: Box<StrokeScript>,
         /// Its pigments.
         library: Box<PigmentLibrary>,
         /// What the painter should know.
@@ -167,8 +167,8 @@ fn library(name: &str, text: &str) -> Result<Opened, FileFailure> {
 }
 
 fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailure> {
-    let mut script =
-        Strokes::from_json(name, bytes).map_err(|error| FileFailure::told(&error, error.hint()))?;
+    let mut script = StrokeScript::from_json(name, bytes)
+        .map_err(|error| FileFailure::told(&error, error.hint()))?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let mut remarks = Vec::new();
     let library = named_library(&script, &folder, &mut remarks)?;
@@ -189,7 +189,7 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailur
 /// The library that a script names: the built-in one by its title, else a file
 /// beside the script, else the built-in one, which is said.
 fn named_library(
-    script: &Strokes,
+    script: &StrokeScript,
     folder: &Path,
     remarks: &mut Vec<FileFailure>,
 ) -> Result<PigmentLibrary, FileFailure> {
@@ -211,7 +211,7 @@ fn named_library(
 
 #[cfg(test)]
 mod tests {
-    use render::paint::strokes::{Canvas, Palette};
+    use render::paint::strokes::{Canvas, PaletteSpec};
 
     use super::*;
 
@@ -229,15 +229,15 @@ mod tests {
         }
     }
 
-    fn script() -> Strokes {
+    fn script() -> StrokeScript {
         let canvas = Canvas {
             width_mm: 12.0,
             height_mm: 8.0,
             cell_mm: 0.5,
             ground: render::paint::ground::GroundSpec::default(),
         };
-        let palette = Palette::of(["Zinc White", "Prussian Blue"]);
-        Strokes::new("A study", "CC0-1.0", canvas, palette)
+        let palette = PaletteSpec::from_names(["Zinc White", "Prussian Blue"]);
+        StrokeScript::new("A study", "CC0-1.0", canvas, palette)
     }
 
     #[test]
@@ -289,7 +289,7 @@ mod tests {
         let mut script = script();
         script.library = Some("mine.json".to_owned());
         let path = folder.path().join("strokes.json");
-        let told = |script: &Strokes| {
+        let told = |script: &StrokeScript| {
             std::fs::write(&path, script.to_json().unwrap()).unwrap();
             match read(&path, &Progress::default()) {
                 Ok(Opened::Recording { script, library, remarks }) => (script, library, remarks),

@@ -15,8 +15,8 @@ use super::request::FileRequest;
 use super::revision_list::RevisionList;
 use super::work::{Purpose, Work};
 use session::FileFailure;
-use session::{Command, EaselState, Event, Pace};
-use session::{LostSession, Session};
+use session::{Autosave, LostSession};
+use session::{Command, Event, Pace, PaintingState};
 
 /// What happens to the picture beside the canvas.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub struct Files {
     pub(super) written: Preferences,
     /// How recordings are played, whatever the preferences say.
     pub pace: Option<Pace>,
-    pub(super) easel: Option<Arc<EaselState>>,
+    pub(super) easel: Option<Arc<PaintingState>>,
     pub(super) path: Option<PathBuf>,
     /// The file that it was read from, as it was then.
     pub(super) start: Option<Arc<Vec<u8>>>,
@@ -82,7 +82,7 @@ pub struct Files {
     pub(super) lost: Vec<LostSession>,
     /// What was recovered, until it is safe again.
     pub(super) recovered: Option<LostSession>,
-    pub(super) session: Arc<Mutex<Option<Session>>>,
+    pub(super) session: Arc<Mutex<Option<Autosave>>>,
     /// When the last autosave was asked for, and what it kept.
     pub(super) autosaved: (Instant, Option<u64>),
     /// Whether autosave failed, which is said once.
@@ -103,7 +103,7 @@ impl Files {
     pub fn new(ctx: &Context, home: Home, preferences: Preferences) -> Self {
         let mut notices = Vec::new();
         let lost = LostSession::all(&home.sessions());
-        let session = Session::begin(&home.sessions());
+        let session = Autosave::begin(&home.sessions());
         let mut failed = |failure: FileFailure| notices.push(Notice::failed(failure));
         let lost = lost.map_err(&mut failed).unwrap_or_default();
         let session = session.map_err(&mut failed).ok();
@@ -161,8 +161,8 @@ impl Files {
     /// Whether there is something that is in no file.
     #[must_use]
     pub fn unsaved(&self) -> bool {
-        let changed = |easel: &Arc<EaselState>| {
-            self.recovered.is_some() || easel.painting || self.saved != Some(easel.revision)
+        let changed = |easel: &Arc<PaintingState>| {
+            self.recovered.is_some() || easel.stroke_open || self.saved != Some(easel.revision)
         };
         self.easel.as_ref().is_some_and(changed)
     }
@@ -200,7 +200,7 @@ impl Files {
         }
     }
 
-    fn opened(&mut self, easel: &Arc<EaselState>) {
+    fn opened(&mut self, easel: &Arc<PaintingState>) {
         let Opening { path, lost, start } = self.opening.take().unwrap_or_default();
         self.epoch += 1;
         self.start = start;
@@ -305,7 +305,7 @@ impl Files {
     }
 
     /// Asks for something.
-    pub fn request(&mut self, request: FileRequest, easel: &EaselState) {
+    pub fn request(&mut self, request: FileRequest, easel: &PaintingState) {
         match request {
             FileRequest::Open(Some(path)) => self.read(path),
             FileRequest::Open(None) => self.ask_for_file(),

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use render::light::Light;
 use render::paint::document::Document;
-use render::paint::strokes::Strokes;
+use render::paint::strokes::StrokeScript;
 
 use super::exporting::{self, Export};
 use super::job::{Job, Progress, Stopped};
@@ -165,7 +165,7 @@ impl Files {
         }
     }
 
-    pub(super) fn begin_recording(&mut self, path: PathBuf, script: Arc<Strokes>) {
+    pub(super) fn begin_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
         let label = format!("saving {}", name(&path));
         let start = self.start.clone();
         self.begin_work(WorkKind::Shown, label, move |_| {
@@ -254,7 +254,7 @@ impl Files {
         let Some(easel) = self.easel.clone() else { return };
         let busy = self.works.iter().any(|work| work.kind == WorkKind::Autosave)
             || self.awaiting.iter().any(|(_, purpose)| matches!(purpose, Purpose::Autosave));
-        let changed = easel.painting || self.autosaved.1 != Some(easel.revision);
+        let changed = easel.stroke_open || self.autosaved.1 != Some(easel.revision);
         if busy || !changed || !self.unsaved() || self.opening.is_some() {
             return;
         }
@@ -315,9 +315,9 @@ impl Files {
 /// painting as it was at first: it is put beside the script, `NAME.start.exr`.
 fn with_its_start(
     path: &Path,
-    script: &Strokes,
+    script: &StrokeScript,
     start: Option<Arc<Vec<u8>>>,
-) -> Result<Strokes, FileFailure> {
+) -> Result<StrokeScript, FileFailure> {
     let mut script = script.clone();
     let Some(named) = &script.start else { return Ok(script) };
     let bytes = match start {

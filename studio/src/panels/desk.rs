@@ -4,7 +4,7 @@ use render::paint::strokes::Action;
 
 use super::tools::Tools;
 use crate::files::FileRequest;
-use session::{Command, EaselState};
+use session::{Command, PaintingState};
 
 /// What a panel asks for.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub enum Request {
 #[derive(Debug)]
 pub struct Desk<'a> {
     /// The painting.
-    pub easel: &'a EaselState,
+    pub easel: &'a PaintingState,
     /// What the painter has in hand.
     pub tools: &'a mut Tools,
     /// What is asked for, in order.
@@ -34,7 +34,7 @@ impl Desk<'_> {
 
     /// Asks the worker for one action of the history.
     pub fn act(&mut self, action: Action) {
-        self.command(Command::Act(action));
+        self.command(Command::Apply(action));
     }
 
     /// Asks for something about files.

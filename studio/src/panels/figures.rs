@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Color32, FontId, Rect, Ui, vec2};
 
 use crate::theme;
-use session::Figures;
+use session::Performance;
 
 /// How the window kept up in the last second.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,7 +19,7 @@ pub struct FrameRate {
 
 /// What is told of window and worker, as name and value.
 #[must_use]
-pub fn lines(rate: FrameRate, worker: Figures, backend: &str) -> Vec<(&'static str, String)> {
+pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'static str, String)> {
     let ms = |mean: f64, worst: f64| match worst {
         0.0 => "-".to_owned(),
         _ => format!("{mean:.1} ms, worst {worst:.1}"),
@@ -27,15 +27,15 @@ pub fn lines(rate: FrameRate, worker: Figures, backend: &str) -> Vec<(&'static s
     vec![
         ("frames a second", format!("{:.0}", rate.frames_a_second)),
         ("pen to screen", ms(rate.latency_ms, rate.worst_ms)),
-        ("pen to paint", ms(worker.to_tiles_ms, worker.worst_ms)),
-        ("sub-steps a second", format!("{:.0}", worker.substeps_a_second)),
-        ("steps behind", worker.behind.to_string()),
+        ("pen to paint", ms(worker.mean_latency_ms, worker.max_latency_ms)),
+        ("sub-steps a second", format!("{:.0}", worker.substeps_per_second)),
+        ("steps behind", worker.waiting_substeps.to_string()),
         ("paint computed by", backend.to_owned()),
     ]
 }
 
 /// Draws them over the upper left corner of `over`.
-pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Figures, backend: &str) {
+pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backend: &str) {
     let (size, row, value_at) = (12.0, 16.0, 128.0);
     let font = FontId::proportional(size);
     let painter = ui.painter().with_clip_rect(over);
@@ -60,8 +60,12 @@ mod tests {
     #[test]
     fn each_figure_is_told_with_its_unit() {
         let rate = FrameRate { frames_a_second: 59.6, latency_ms: 21.44, worst_ms: 33.0 };
-        let worker =
-            Figures { substeps_a_second: 1012.4, behind: 17, to_tiles_ms: 8.04, worst_ms: 12.26 };
+        let worker = Performance {
+            substeps_per_second: 1012.4,
+            waiting_substeps: 17,
+            mean_latency_ms: 8.04,
+            max_latency_ms: 12.26,
+        };
         let told = lines(rate, worker, "CPU, 2 threads");
         let values: Vec<&str> = told.iter().map(|(_, value)| value.as_str()).collect();
         let wanted =
@@ -71,7 +75,7 @@ mod tests {
 
     #[test]
     fn without_a_sample_there_is_no_latency() {
-        let told = lines(FrameRate::default(), Figures::default(), "CPU");
+        let told = lines(FrameRate::default(), Performance::default(), "CPU");
         assert_eq!((told[1].1.as_str(), told[2].1.as_str()), ("-", "-"));
     }
 }

@@ -29,7 +29,7 @@ impl History {
     }
 
     fn list(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        let (done, count) = (desk.easel.done, desk.easel.history.len());
+        let (done, count) = (desk.easel.history_done, desk.easel.history.len());
         let moved = self.shown != Some(done);
         self.shown = Some(done);
         let mut wanted = None;
@@ -64,13 +64,13 @@ impl History {
             }
         });
         if let Some(place) = wanted {
-            desk.command(Command::Travel(place));
+            desk.command(Command::GoTo(place));
         }
     }
 }
 
 fn buttons(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let (done, count) = (desk.easel.done, desk.easel.history.len());
+    let (done, count) = (desk.easel.history_done, desk.easel.history.len());
     ui.horizontal(|ui| {
         let nothing = (done == 0).then_some("there is nothing to take back");
         let tip = match done {
@@ -112,7 +112,7 @@ fn memory(ui: &mut Ui, desk: &mut Desk<'_>) {
             .accessible_name("Memory allowed")
             .on_hover_text("How much undo may keep");
         if response.changed() {
-            desk.command(Command::UndoMemory((mebibytes * MIB).round() as u64));
+            desk.command(Command::SetUndoBytes((mebibytes * MIB).round() as u64));
         }
     });
 }

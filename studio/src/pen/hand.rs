@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use eframe::CreationContext;
 use eframe::egui::{self, Event, Modifiers, RawInput};
 use render::paint::pose::Sample;
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::pointer::Pointer;
 use super::report::{Device, Hold, Report, What};
@@ -25,7 +25,7 @@ pub enum PenEvent {
     /// It sets down; samples follow.
     Down {
         /// Where.
-        surface: Surface,
+        surface: SurfaceId,
         /// By what.
         device: Device,
     },
@@ -37,7 +37,7 @@ pub enum PenEvent {
     /// It is over a surface.
     Hover {
         /// Which.
-        surface: Surface,
+        surface: SurfaceId,
         /// How it is held; pressure and seconds are 0.
         sample: Sample,
         /// What is there.
@@ -74,7 +74,7 @@ pub struct Pen {
     hovers: Option<(Device, Hold)>,
     hovered: Option<PenEvent>,
     /// Where the last stroke ended, in mm.
-    ended: Option<(Surface, (f64, f64))>,
+    ended: Option<(SurfaceId, (f64, f64))>,
 }
 
 impl Pen {

@@ -1,13 +1,13 @@
 //! Where a surface lies in the window.
 
 use eframe::egui::{Pos2, Rect, pos2};
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 /// A surface in the window: an affine map from points of the window to mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sight {
     /// Which surface.
-    pub surface: Surface,
+    pub surface: SurfaceId,
     /// Where in the window the pen may set down on it.
     pub area: Rect,
     origin: (f64, f64),
@@ -18,7 +18,7 @@ pub struct Sight {
 impl Sight {
     /// A surface seen through `mm`, an affine map from points of the window to mm
     /// of the surface; it is asked at three places.
-    pub fn new(surface: Surface, area: Rect, mm: impl Fn(Pos2) -> (f64, f64)) -> Self {
+    pub fn new(surface: SurfaceId, area: Rect, mm: impl Fn(Pos2) -> (f64, f64)) -> Self {
         // Far apart, so that the rounding of f32 stays small.
         const SPAN: f32 = 1024.0;
         let origin = mm(Pos2::ZERO);
@@ -86,7 +86,7 @@ impl View<'_> {
     }
 
     /// Where a surface is, if it is seen.
-    pub(super) fn of(&self, surface: Surface) -> Option<&Sight> {
+    pub(super) fn of(&self, surface: SurfaceId) -> Option<&Sight> {
         self.surfaces.iter().find(|sight| sight.surface == surface)
     }
 }
@@ -98,7 +98,7 @@ mod tests {
     /// Turned by `degrees` clockwise, 4 points a mm, perhaps mirrored.
     fn turned(degrees: f64, mirrored: bool) -> Sight {
         let area = Rect::from_min_max(Pos2::ZERO, pos2(800.0, 600.0));
-        Sight::new(Surface::Canvas, area, |at| {
+        Sight::new(SurfaceId::Canvas, area, |at| {
             let (x, y) = (f64::from(at.x) - 300.0, f64::from(at.y) - 200.0);
             let x = if mirrored { -x } else { x };
             let (sin, cos) = degrees.to_radians().sin_cos();
@@ -140,13 +140,13 @@ mod tests {
     #[test]
     fn the_first_surface_under_a_point_takes_it_unless_covered() {
         let mut palette = turned(0.0, false);
-        palette.surface = Surface::Palette;
+        palette.surface = SurfaceId::Palette;
         palette.area = Rect::from_min_max(pos2(700.0, 0.0), pos2(800.0, 600.0));
         let surfaces = [palette, turned(0.0, false)];
         let view = View { surfaces: &surfaces, covered: &|at| at.y > 500.0 };
         let under = |x, y| view.under(pos2(x, y)).map(|sight| sight.surface);
-        assert_eq!(under(750.0, 10.0), Some(Surface::Palette));
-        assert_eq!(under(650.0, 10.0), Some(Surface::Canvas));
+        assert_eq!(under(750.0, 10.0), Some(SurfaceId::Palette));
+        assert_eq!(under(650.0, 10.0), Some(SurfaceId::Canvas));
         assert_eq!(under(650.0, 510.0), None);
         assert_eq!(under(850.0, 10.0), None);
     }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::Pos2;
 use render::paint::pose::Sample;
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::report::{Device, Hold};
 use super::settings::PenSettings;
@@ -80,7 +80,7 @@ impl Stroke {
     }
 
     /// On which surface.
-    pub(super) fn surface(&self) -> Surface {
+    pub(super) fn surface(&self) -> SurfaceId {
         self.sight.surface
     }
 

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2};
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::{Device, Hold, Pen, PenEvent, PenSettings, Report, Script, Sight, View, What};
 use session::PenSample;
@@ -14,8 +14,8 @@ fn sights() -> [Sight; 2] {
     let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
     let palette = move |at: Pos2| mm(at - eframe::egui::vec2(800.0, 0.0));
     [
-        Sight::new(Surface::Canvas, area(0.0, 800.0), mm),
-        Sight::new(Surface::Palette, area(800.0, 200.0), palette),
+        Sight::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
+        Sight::new(SurfaceId::Palette, area(800.0, 200.0), palette),
     ]
 }
 
@@ -132,7 +132,7 @@ fn a_mouse_paints_with_the_grip_and_pressure_from_speed() {
     let lifted = last.last().map(|told| told.sample.pressure);
     assert_eq!(lifted, Some(0.0));
     let PenEvent::Hover { surface, .. } = told[2] else { panic!("{told:?}") };
-    assert_eq!(surface, Surface::Palette);
+    assert_eq!(surface, SurfaceId::Palette);
 }
 
 #[test]
@@ -248,7 +248,7 @@ fn a_view_that_moves_takes_the_pen_along() {
     assert_eq!(letters(&trial.frame(1, &[])), "H");
     assert_eq!(letters(&trial.frame(2, &[])), "");
     let mirrored = |at: Pos2| (100.0 - f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    trial.sights[0] = Sight::new(Surface::Canvas, trial.sights[0].area, mirrored);
+    trial.sights[0] = Sight::new(SurfaceId::Canvas, trial.sights[0].area, mirrored);
     let told = trial.frame(3, &[]);
     let [PenEvent::Hover { sample, .. }] = told[..] else { panic!("{told:?}") };
     assert_eq!((sample.x_mm, sample.tilt_x_deg, sample.tilt_y_deg), (90.0, -20.0, -10.0));

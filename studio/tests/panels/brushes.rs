@@ -16,12 +16,12 @@ fn brushes() -> Harness<'static, Table<Brushes>> {
 }
 
 fn act(action: Action) -> Request {
-    Request::Worker(Command::Act(action))
+    Request::Worker(Command::Apply(action))
 }
 
 fn take(name: &str, shape: HeadShape, size_mm: f64) -> Request {
     let spec = BrushSpec { shape, size_mm };
-    Request::Worker(Command::TakeBrush { name: name.to_owned(), spec })
+    Request::Worker(Command::SetBrush { name: name.to_owned(), spec })
 }
 
 /// The paint that the round brush of the made painting holds.

@@ -12,8 +12,8 @@ use pigment::evaluate::Viewing;
 use pigment::matching::{FilmKind, MatchRequest, Recipe, Sight, Target, recipes};
 use render::layer::SLOTS;
 use render::paint::document::Lighting;
-use render::paint::strokes::{Action, Surface};
-use session::{Command, EaselState, Picked, PickedLayer};
+use render::paint::strokes::{Action, SurfaceId};
+use session::{Command, PaintingState, Picked, PickedLayer};
 use spectra::color::{Adaptation, Lab, RgbSpace};
 use spectra::{Illuminant, Observer};
 use studio::panels::Mode;
@@ -22,12 +22,12 @@ use studio::view::Outline;
 
 use super::stage::{Stage, made_easel};
 
-fn stage(easel: EaselState) -> Stage<Eyedropper> {
+fn stage(easel: PaintingState) -> Stage<Eyedropper> {
     Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), easel, Eyedropper::show)
 }
 
 /// Three parts of white and one of ultramarine, wet, over a dry yellow.
-fn picked(easel: &EaselState) -> Picked {
+fn picked(easel: &PaintingState) -> Picked {
     let library = &easel.library;
     let find = |name: &str| library.find(name).unwrap();
     let layer = |paint: &[(usize, f64)], vehicle: f64| {
@@ -42,7 +42,7 @@ fn picked(easel: &EaselState) -> Picked {
     let (white, blue) = (find("Zinc White"), find("Ultramarine"));
     let mixture = library.mix(&[(white, 3.0), (blue, 1.0)]).unwrap();
     Picked {
-        surface: Surface::Canvas,
+        surface: SurfaceId::Canvas,
         x_mm: 103.24,
         y_mm: 54.11,
         reflectance: mixture.hiding(library.saunderson),
@@ -122,7 +122,7 @@ fn the_eyedropper_is_taken_up_and_put_back() {
 }
 
 /// What calibrate itself finds with the palette of `easel` in up to 40 parts.
-fn by_calibrate(easel: &EaselState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
+fn by_calibrate(easel: &PaintingState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
     let mut request = MatchRequest::new(&easel.library, sights, FilmKind::Hiding);
     request.allowed = easel.slots.iter().copied().flatten().collect();
     request.allowed.sort_unstable();
@@ -131,7 +131,7 @@ fn by_calibrate(easel: &EaselState, target: &Target, sights: Vec<Sight>) -> Vec<
     recipes(&easel.library, target, &request).unwrap()
 }
 
-fn sights(easel: &EaselState) -> Vec<Sight> {
+fn sights(easel: &PaintingState) -> Vec<Sight> {
     vec![Sight { viewing: easel.light.viewing.clone(), weight: 1.0 }]
 }
 
@@ -178,12 +178,13 @@ fn a_typed_color_is_matched_as_calibrate_matches_it() {
         let all = all.collect();
         stage.click(&format!("Load recipe {}", index + 1));
         let commands = stage.commands();
-        let [Command::Act(Action::Load(load))] = &commands[..] else { panic!("{commands:?}") };
+        let [Command::Apply(Action::Load(load))] = &commands[..] else { panic!("{commands:?}") };
         assert_eq!((&load.recipe, load.brush.as_str()), (&all, "round"));
         assert_eq!((load.vehicle, load.amount_mm), (0.15, 0.3));
         stage.click(&format!("Lay recipe {}", index + 1));
         let commands = stage.commands();
-        let [Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm }] = &commands[..]
+        let [Command::SqueezeInFreeSpace { recipe, vehicle, volume_mm3, places, reach_mm }] =
+            &commands[..]
         else {
             panic!("{commands:?}");
         };
@@ -207,7 +208,8 @@ fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
     answered(&mut stage);
     stage.click("Load recipe 1");
     let commands = stage.commands();
-    let [Command::Act(Action::Wash { brush }), Command::Act(Action::Load(load))] = &commands[..]
+    let [Command::Apply(Action::Wash { brush }), Command::Apply(Action::Load(load))] =
+        &commands[..]
     else {
         panic!("{commands:?}");
     };
@@ -233,7 +235,7 @@ fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
     add.click();
     stage.run();
     let commands = stage.commands();
-    let [Command::Act(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
+    let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     assert_eq!(names, ["Zinc White", &name]);
     let slots = [0, 1].map(|at| stage.scene().easel.library.find(names[at]).ok());
@@ -270,7 +272,7 @@ fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_u
     entry.click();
     stage.run();
     let commands = stage.commands();
-    let [Command::Act(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
+    let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     let mut wanted: Vec<&str> =
         full.iter().map(|slot| library.pigments[slot.unwrap()].name.as_str()).collect();
@@ -298,7 +300,7 @@ fn a_color_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
 #[test]
 fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
     let mut easel = made_easel();
-    easel.second = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
+    easel.second_lighting = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
     let found = picked(&easel);
     let mut stage = stage(easel);
     stage.scene().tools.picked = Some(Arc::new(found));

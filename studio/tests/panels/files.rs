@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Event as Input, Key, ViewportCommand, ViewportEvent, ViewportId};
 use render::export::{self, Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
 use render::paint::document::Document;
-use render::paint::strokes::{Action, Strokes};
+use render::paint::strokes::{Action, StrokeScript};
 use session::{Command, Origin};
 use studio::files::{FileRequest, Preferences, Reference};
 
@@ -296,7 +296,7 @@ fn recordings_are_saved_and_played() {
     click(&mut window, "Save");
     let path = folder.path().join("strokes.json");
     until(&mut window, "the recording", |_| path.is_file());
-    let read = Strokes::from_json("strokes.json", &std::fs::read(&path).unwrap()).unwrap();
+    let read = StrokeScript::from_json("strokes.json", &std::fs::read(&path).unwrap()).unwrap();
     assert_eq!(read, window.state().script());
     ask(&mut window, FileRequest::Open(Some(path)));
     until(&mut window, "the replay", |window| !window.state().commands.is_empty());
@@ -314,7 +314,7 @@ fn a_recording_keeps_the_painting_that_it_began_with() {
     let mut window = window(folder.path(), painted("B"));
     ask(&mut window, FileRequest::Open(Some(path.clone())));
     until(&mut window, "the painting", |window| window.state().canvas.title == "A");
-    let script = Strokes::going_on("A.exr", &window.state().canvas);
+    let script = StrokeScript::continue_from("A.exr", &window.state().canvas);
     window.state_mut().recorded = Some(script);
     change(&mut window);
     ask(&mut window, FileRequest::Save);
@@ -325,7 +325,8 @@ fn a_recording_keeps_the_painting_that_it_began_with() {
     click(&mut window, "Save");
     let recording = folder.path().join("strokes.json");
     until(&mut window, "the recording", |_| recording.is_file());
-    let read = Strokes::from_json("strokes.json", &std::fs::read(&recording).unwrap()).unwrap();
+    let read =
+        StrokeScript::from_json("strokes.json", &std::fs::read(&recording).unwrap()).unwrap();
     assert_eq!(read.start.as_deref(), Some("strokes.start.exr"));
     assert!(std::fs::read(folder.path().join("strokes.start.exr")).unwrap() == first, "not it");
 }
@@ -347,7 +348,7 @@ fn pictures_and_lamps_find_their_place() {
     std::fs::write(&lamp, "nm,power\n400,1\n500,2\n700,3\n").unwrap();
     ask(&mut window, FileRequest::Open(Some(lamp.clone())));
     until(&mut window, "the light", |window| !window.state().commands.is_empty());
-    let [Command::Act(Action::Light(lighting))] = &window.state().commands[..] else {
+    let [Command::Apply(Action::Light(lighting))] = &window.state().commands[..] else {
         panic!("{:?}", window.state().commands)
     };
     assert_eq!(Path::new(&lighting.illuminant), lamp);
@@ -369,7 +370,7 @@ fn a_new_painting_takes_the_canvas_that_was_described() {
     picture(&mut window, "new");
     click(&mut window, "Begin");
     until(&mut window, "the canvas", |window| !window.state().commands.is_empty());
-    let [Command::Open(Origin::Bare { script, .. })] = &window.state().commands[..] else {
+    let [Command::Open(Origin::Blank { script, .. })] = &window.state().commands[..] else {
         panic!("{:?}", window.state().commands)
     };
     assert_eq!(script.canvas.cells(), (1920, 1080));

@@ -10,8 +10,8 @@ use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
 use pigment::library::PigmentLibrary;
 use render::gpu::{BackendChoice, choose};
-use render::paint::strokes::Surface;
-use session::{Command, WorkerOptions, bare};
+use render::paint::strokes::SurfaceId;
+use session::{Command, WorkerOptions, blank_canvas};
 use studio::app::{Begun, Parts, Studio};
 use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
@@ -41,7 +41,8 @@ impl Window {
 
     /// The same in another size and density.
     pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
-        let begin = vec![Command::Open(bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
+        let begin =
+            vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
         Self::begun(name, size, density, begin)
     }
 
@@ -168,11 +169,11 @@ impl Window {
     }
 
     /// Where a place of a surface, in mm, is in the window.
-    pub(crate) fn point(&self, surface: Surface, x_mm: f64, y_mm: f64) -> Pos2 {
+    pub(crate) fn point(&self, surface: SurfaceId, x_mm: f64, y_mm: f64) -> Pos2 {
         let studio = self.studio();
         let view = match surface {
-            Surface::Canvas => &studio.canvas,
-            Surface::Palette => &studio.palette,
+            SurfaceId::Canvas => &studio.canvas,
+            SurfaceId::Palette => &studio.palette,
         };
         let cell_mm = studio.easel().map_or(1.0, |easel| easel.cell_mm);
         view.placement().point([x_mm / cell_mm, y_mm / cell_mm])

@@ -4,18 +4,18 @@ use eframe::egui::accesskit::Toggled;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::paint::strokes::Action;
-use session::{Command, EaselState};
+use session::{Command, PaintingState};
 use studio::panels::Request;
 use studio::panels::history::History;
 
 use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
 
-fn history(easel: EaselState) -> Harness<'static, Table<History>> {
+fn history(easel: PaintingState) -> Harness<'static, Table<History>> {
     shown(History::default(), easel, History::show)
 }
 
 fn travel(place: usize) -> Request {
-    Request::Worker(Command::Travel(place))
+    Request::Worker(Command::GoTo(place))
 }
 
 #[test]
@@ -36,13 +36,13 @@ fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
     let mut harness = history(easel());
     click(&mut harness, "Undo");
     click(&mut harness, "Redo");
-    let step = |action| Request::Worker(Command::Act(action));
+    let step = |action| Request::Worker(Command::Apply(action));
     asks(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
 
-    harness.state_mut().easel.done = 4;
+    harness.state_mut().easel.history_done = 4;
     harness.run();
     assert!(is_disabled(&harness, "Redo") && !is_disabled(&harness, "Undo"), "all is done");
-    harness.state_mut().easel.done = 0;
+    harness.state_mut().easel.history_done = 0;
     harness.run();
     assert!(is_disabled(&harness, "Undo") && !is_disabled(&harness, "Redo"), "nothing is done");
     harness.state_mut().easel.history.clear();
@@ -54,14 +54,14 @@ fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
 fn a_long_list_shows_where_the_painting_is() {
     let mut long = easel();
     long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
-    long.done = 1500;
+    long.history_done = 1500;
     let mut harness = history(long);
     let there = |harness: &Harness<'_, Table<History>>, place: usize| {
         harness.query_by_label(&format!("{place} stroke {place}")).is_some()
     };
     assert!(there(&harness, 1500), "the present place is in sight");
     assert!(!there(&harness, 1), "rows out of sight are not laid out");
-    harness.state_mut().easel.done = 40;
+    harness.state_mut().easel.history_done = 40;
     harness.run();
     assert!(there(&harness, 40) && !there(&harness, 1500), "the list follows");
 }
@@ -73,7 +73,7 @@ fn memory_is_told_in_mebibytes_and_can_be_changed() {
     assert_eq!(bar.accesskit_node().numeric_value(), Some(18.0), "96 of 512 MiB, in percent");
     harness.get_by_label("Memory allowed").set_value_accesskit(1024.0);
     harness.run();
-    asks(&mut harness, &[Request::Worker(Command::UndoMemory(1 << 30))]);
+    asks(&mut harness, &[Request::Worker(Command::SetUndoBytes(1 << 30))]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use eframe::egui::{accesskit::Role, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use render::paint::strokes::{Action, LayerName};
+use render::paint::strokes::{Action, LayerRef};
 use session::Command;
 use studio::panels::Request;
 use studio::panels::layers::Layers;
@@ -15,11 +15,11 @@ fn layers() -> Harness<'static, Table<Layers>> {
 }
 
 fn act(action: Action) -> Request {
-    Request::Worker(Command::Act(action))
+    Request::Worker(Command::Apply(action))
 }
 
 fn opacity(layer: usize, value: f64) -> Action {
-    Action::Opacity { layer: LayerName::Dry(layer), value }
+    Action::Opacity { layer: LayerRef::Dry(layer), value }
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn a_drag_of_the_opacity_adjusts_and_settles_once() {
     for request in &adjusted {
         match request {
             Request::Worker(Command::Adjust(Action::Opacity {
-                layer: LayerName::Dry(0),
+                layer: LayerRef::Dry(0),
                 value,
             })) => values.push(*value),
             other => panic!("not an adjustment of the lower layer: {other:?}"),
@@ -87,7 +87,7 @@ fn a_drag_of_the_opacity_adjusts_and_settles_once() {
     // The worker is behind: the slider shows what was asked for, and asks no more.
     harness.drop_at(start + vec2(30.0, 0.0));
     harness.run();
-    asks(&mut harness, &[Request::Worker(Command::Settle)]);
+    asks(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
     let shown = |harness: &Harness<'_, Table<Layers>>| {
         let slider = harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
         slider.accesskit_node().numeric_value().unwrap()
@@ -150,8 +150,8 @@ fn a_hidden_layer_above_a_merge_keeps_what_it_had() {
 fn a_pigment_of_one_layer_is_exchanged() {
     let mut harness = layers();
     for (button, layer) in [
-        ("exchange in dry layer 2", LayerName::Dry(1)),
-        ("exchange in the wet layer", LayerName::Wet),
+        ("exchange in dry layer 2", LayerRef::Dry(1)),
+        ("exchange in the wet layer", LayerRef::Wet),
     ] {
         click(&mut harness, button);
         assert!(is_disabled(&harness, "Vermilion"), "the layer has it already");

@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 use egui_kittest::kittest::Queryable;
 use render::paint::document::Lighting;
-use render::paint::strokes::{Action, Load, Surface};
+use render::paint::strokes::{Action, Load, SurfaceId};
 use render::tile;
 use session::{Command, Event, TilePixels};
 use std::f64::consts::TAU;
@@ -25,11 +25,13 @@ fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
     easel.palette_cells = (640, 420);
     let studio = window.studio_mut();
     studio.hear(Event::Opened(Arc::new(easel)));
-    for (surface, width, height) in [(Surface::Canvas, 1920, 1080), (Surface::Palette, 640, 420)] {
+    for (surface, width, height) in
+        [(SurfaceId::Canvas, 1920, 1080), (SurfaceId::Palette, 640, 420)]
+    {
         let rect = tile::Rect { x: 0, y: 0, width, height };
         let grey = |x: usize| match surface {
-            Surface::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
-            Surface::Palette => [120 + (x % 23) as u8, 84, 52, 255],
+            SurfaceId::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
+            SurfaceId::Palette => [120 + (x % 23) as u8, 84, 52, 255],
         };
         let pixels = (0..width * height).map(|at| grey(at % width)).collect();
         let tiles = vec![TilePixels { rect, pixels }];
@@ -160,7 +162,7 @@ fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
         window.studio_mut().canvas.view.turn = turn;
         window.studio_mut().canvas.view.mirror = mirror;
         window.harness().run_ok();
-        let at = window.point(Surface::Canvas, 96.0, 54.0);
+        let at = window.point(SurfaceId::Canvas, 96.0, 54.0);
         let before = window.picture();
         window.frame(vec![UiEvent::PointerMoved(at)]);
         window.frame(Vec::new());
@@ -191,15 +193,16 @@ fn loaded(name: &'static str) -> Window {
         vehicle: 0.1,
         amount_mm: 0.4,
     };
-    window.studio_mut().ask(Command::Act(Action::Load(paint)));
+    window.studio_mut().ask(Command::Apply(Action::Load(paint)));
     window.settle();
     window
 }
 
 /// From the left to the right in the middle of the canvas.
 fn stroke(window: &mut Window) {
-    let along: Vec<Pos2> =
-        (0..=40).map(|at| window.point(Surface::Canvas, 8.0 + 0.4 * f64::from(at), 10.0)).collect();
+    let along: Vec<Pos2> = (0..=40)
+        .map(|at| window.point(SurfaceId::Canvas, 8.0 + 0.4 * f64::from(at), 10.0))
+        .collect();
     window.pen_stroke(&along);
     window.settle();
 }
@@ -233,7 +236,7 @@ fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
         window.save(&format!("stroke-{turn}"));
         let Some(picture) = window.picture() else { continue };
         let reddest = (-8..8).map(|step| {
-            let at = window.point(Surface::Canvas, 16.0, 10.0 + 0.1 * f64::from(step));
+            let at = window.point(SurfaceId::Canvas, 16.0, 10.0 + 0.1 * f64::from(step));
             let [red, green, _] = window.color(&picture, at);
             i64::from(red) - i64::from(green)
         });
@@ -246,12 +249,12 @@ fn keys_take_back_dry_and_choose_brushes() {
     let mut window = loaded("history");
     let bare = seen(&window, false, 16.0, 10.0);
     stroke(&mut window);
-    let done = window.studio().easel().unwrap().done;
+    let done = window.studio().easel().unwrap().history_done;
     let painted = seen(&window, false, 16.0, 10.0);
     assert_ne!(bare, painted);
     window.key(Modifiers::COMMAND, Key::Z);
     window.settle();
-    assert_eq!(window.studio().easel().unwrap().done, done - 1);
+    assert_eq!(window.studio().easel().unwrap().history_done, done - 1);
     assert_eq!(seen(&window, false, 16.0, 10.0), bare, "taken back");
     let held = Modifiers { shift: true, ..Modifiers::COMMAND };
     window.key(held, Key::Z);
@@ -270,15 +273,15 @@ fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
     let mut window = loaded("split");
     stroke(&mut window);
     let second = Lighting { illuminant: "A".to_owned(), ..Lighting::default() };
-    window.studio_mut().ask(Command::SecondLight(Some(second)));
+    window.studio_mut().ask(Command::SetSecondLight(Some(second)));
     window.settle();
     assert_ne!(seen(&window, false, 20.0, 10.0), seen(&window, true, 20.0, 10.0));
     let knob = window.studio().canvas.knob().unwrap().center();
-    let done = window.studio().easel().unwrap().done;
+    let done = window.studio().easel().unwrap().history_done;
     let to = knob + vec2(120.0, 0.0);
     window.pen_stroke(&[knob, knob + vec2(60.0, 0.0), to, to]);
     window.settle();
-    assert_eq!(window.studio().easel().unwrap().done, done, "the line is no paint");
+    assert_eq!(window.studio().easel().unwrap().history_done, done, "the line is no paint");
     let wanted = window.studio().canvas.placement().cell(to)[0] / 320.0;
     assert!((f64::from(window.studio().tools.split) - wanted).abs() < 0.02, "{wanted}");
     window.save("split");

@@ -5,21 +5,21 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use render::optics::Gloss;
 use render::paint::document::Lighting;
 use render::paint::strokes::Action;
-use session::{Command, EaselState};
+use session::{Command, PaintingState};
 use spectra::ColorTemperature;
 use studio::panels::FileRequest;
 use studio::panels::light::LightPanel;
 
 use super::stage::{Stage, made_easel};
 
-fn stage(easel: EaselState) -> Stage<LightPanel> {
+fn stage(easel: PaintingState) -> Stage<LightPanel> {
     Stage::new(LightPanel::default(), vec2(300.0, 660.0), easel, LightPanel::show)
 }
 
 /// The light of the only command, which is one action.
 fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
     let commands = stage.commands();
-    let [Command::Act(Action::Light(lighting))] = &commands[..] else {
+    let [Command::Apply(Action::Light(lighting))] = &commands[..] else {
         panic!("one change of light: {commands:?}");
     };
     lighting.clone()
@@ -113,7 +113,7 @@ fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
             _ => None,
         })
         .collect();
-    assert!(matches!(commands.last(), Some(Command::Settle)), "{commands:?}");
+    assert!(matches!(commands.last(), Some(Command::EndAdjustment)), "{commands:?}");
     assert_eq!(lights.len(), commands.len() - 1, "{commands:?}");
     assert_eq!(lights[0].elevation_deg, 90.0, "the middle is straight above");
     assert!(lights.iter().any(|light| light.azimuth_deg == 90.0), "{lights:?}");
@@ -152,7 +152,8 @@ fn sliders_of_ambient_and_relief_adjust_and_settle() {
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
         stage.drag(&[rect.center(), rect.right_center() + vec2(30.0, 0.0)]);
         let commands = stage.commands();
-        let [.., Command::Adjust(Action::Light(last)), Command::Settle] = &commands[..] else {
+        let [.., Command::Adjust(Action::Light(last)), Command::EndAdjustment] = &commands[..]
+        else {
             panic!("{name} adjusts and settles: {commands:?}");
         };
         let (moved, other) = match name {
@@ -172,7 +173,8 @@ fn gloss_is_dragged_for_wet_and_for_dry() {
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
         stage.drag(&[rect.center(), rect.right_top() + vec2(9.0, -9.0)]);
         let commands = stage.commands();
-        let [.., Command::Adjust(Action::Gloss { wet, dry }), Command::Settle] = &commands[..]
+        let [.., Command::Adjust(Action::Gloss { wet, dry }), Command::EndAdjustment] =
+            &commands[..]
         else {
             panic!("{name} adjusts and settles: {commands:?}");
         };
@@ -191,9 +193,9 @@ fn the_second_light_goes_on_and_off_and_changes_places() {
     let first = stage.scene().easel.lighting.clone();
     let second = Lighting { illuminant: "A".to_owned(), ..first.clone() };
     let commands = stage.commands();
-    let [Command::SecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
+    let [Command::SetSecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(*asked, second);
-    stage.scene().easel.second = Some(second.clone());
+    stage.scene().easel.second_lighting = Some(second.clone());
     stage.run();
     stage.save("light-split");
     stage.click("Second illuminant: A");
@@ -201,31 +203,32 @@ fn the_second_light_goes_on_and_off_and_changes_places() {
     stage.run();
     stage.click("FL11");
     let commands = stage.commands();
-    let [Command::SecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
+    let [Command::SetSecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(*asked, Lighting { illuminant: "FL11".to_owned(), ..first.clone() });
     stage.click("Swap");
     let commands = stage.commands();
-    let [Command::SecondLight(Some(to_second)), Command::Act(Action::Light(to_first))] =
+    let [Command::SetSecondLight(Some(to_second)), Command::Apply(Action::Light(to_first))] =
         &commands[..]
     else {
         panic!("both change places: {commands:?}");
     };
     assert_eq!((to_first, to_second), (&second, &first));
     stage.click("Second light");
-    assert!(matches!(stage.commands()[..], [Command::SecondLight(None)]));
+    assert!(matches!(stage.commands()[..], [Command::SetSecondLight(None)]));
 }
 
 #[test]
 fn the_second_light_stands_where_the_first_is_moved_to() {
     let mut easel = made_easel();
-    easel.second = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
+    easel.second_lighting = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
     let mut stage = stage(easel);
     stage.harness.get_by_label("Light direction").focus();
     stage.run();
     stage.harness.key_press_modifiers(Modifiers::NONE, Key::ArrowLeft);
     stage.harness.step();
     let commands = stage.commands();
-    let [Command::Act(Action::Light(first)), Command::SecondLight(Some(second))] = &commands[..]
+    let [Command::Apply(Action::Light(first)), Command::SetSecondLight(Some(second))] =
+        &commands[..]
     else {
         panic!("both are moved: {commands:?}");
     };

@@ -14,7 +14,7 @@ use render::light::Light;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium, Slots};
 use render::paint::strokes::BrushSpec;
-use session::{BrushState, EaselState, LayerState, Thumbnail};
+use session::{BrushState, LayerState, PaintingState, Thumbnail};
 use studio::panels::{Desk, Request, Tools};
 use studio::theme;
 
@@ -32,7 +32,7 @@ pub(crate) const PIGMENTS: [&str; 7] = [
 ];
 
 /// A painting with seven tubes, three brushes, two dry layers and a history.
-pub(crate) fn easel() -> EaselState {
+pub(crate) fn easel() -> PaintingState {
     static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
     let (library, light) = LIBRARY.get_or_init(|| {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
@@ -49,7 +49,7 @@ pub(crate) fn easel() -> EaselState {
         let encoded = palette.look(recipe).srgb;
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
-    EaselState {
+    PaintingState {
         title: "made".to_owned(),
         canvas_cells: (320, 200),
         palette_cells: (160, 120),
@@ -61,13 +61,13 @@ pub(crate) fn easel() -> EaselState {
         layers: vec![layer(slots, 1.0), layer(slots, 0.5)],
         lighting: Lighting::default(),
         light: Arc::clone(light),
-        second: None,
+        second_lighting: None,
         medium: Medium::default(),
-        ground: Arc::new(vec![0.8; library.grid.count()]),
+        ground_reflectance: Arc::new(vec![0.8; library.grid.count()]),
         history: ["load round", "stroke, round", "dry 50 %", "stroke, flat"]
             .map(str::to_owned)
             .to_vec(),
-        done: 3,
+        history_done: 3,
         undo_bytes: (96 << 20, 512 << 20),
         brushes: vec![
             brush("round", HeadShape::Round, 6.0, Some(srgb(&[(slots[2].unwrap(), 1.0)]))),
@@ -76,7 +76,7 @@ pub(crate) fn easel() -> EaselState {
         ],
         backend: "cpu".to_owned(),
         revision: 1,
-        painting: false,
+        stroke_open: false,
     }
 }
 
@@ -99,13 +99,13 @@ fn layer(slots: Slots, opacity: f64) -> LayerState {
     let pixel = |index: usize| [(index * 7 % 256) as u8, 90, 60, 255];
     let thumbnail = Thumbnail { width: 24, height: 15, pixels: (0..360).map(pixel).collect() };
     let thumbnail = Arc::new(thumbnail);
-    LayerState { slots, opacity, mean_mm: 0.123, most_mm: 0.81, covers: 0.34, thumbnail }
+    LayerState { slots, opacity, mean_mm: 0.123, max_mm: 0.81, coverage: 0.34, thumbnail }
 }
 
 /// A panel, what it sees, and what it has asked for.
 pub(crate) struct Table<P> {
     pub(crate) panel: P,
-    pub(crate) easel: EaselState,
+    pub(crate) easel: PaintingState,
     pub(crate) tools: Tools,
     pub(crate) asked: Vec<Request>,
 }
@@ -121,7 +121,7 @@ impl<P> Table<P> {
 /// The panel alone in a window as wide as panels are.
 pub(crate) fn shown<P: 'static>(
     panel: P,
-    easel: EaselState,
+    easel: PaintingState,
     show: impl Fn(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
 ) -> Harness<'static, Table<P>> {
     let table = Table { panel, easel, tools: Tools::default(), asked: Vec::new() };

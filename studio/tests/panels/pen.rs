@@ -4,14 +4,14 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, Pos2};
 use image::RgbaImage;
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 use studio::pen::{Device, Hold, Report, Script, What};
 
 use super::harness::{Window, button};
 
 /// A hold at a place of the canvas, in mm.
 fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> Hold {
-    let at = window.point(Surface::Canvas, x_mm, y_mm);
+    let at = window.point(SurfaceId::Canvas, x_mm, y_mm);
     Hold { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
 }
 
@@ -38,8 +38,8 @@ fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
 
 /// Pixels that differ, of rows around a place of the canvas.
 fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) -> usize {
-    let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(Surface::Canvas, 2.0, y));
-    let right = window.point(Surface::Canvas, 30.0, y_mm).x as u32;
+    let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(SurfaceId::Canvas, 2.0, y));
+    let right = window.point(SurfaceId::Canvas, 30.0, y_mm).x as u32;
     let rows = from.y as u32..to.y as u32;
     let differs = |&(x, y): &(u32, u32)| before.get_pixel(x, y) != after.get_pixel(x, y);
     rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y))).filter(differs).count()

@@ -7,7 +7,7 @@ use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::layer::SLOTS;
-use session::{BrushState, Command, EaselState};
+use session::{BrushState, Command, PaintingState};
 use studio::panels::{Desk, FileRequest, Request, Tools};
 use studio::theme;
 
@@ -17,7 +17,7 @@ use super::made::easel;
 /// A panel with what it sees and asks for.
 pub(crate) struct Scene<P> {
     pub(crate) panel: P,
-    pub(crate) easel: EaselState,
+    pub(crate) easel: PaintingState,
     pub(crate) tools: Tools,
     pub(crate) asked: Vec<Request>,
 }
@@ -32,7 +32,7 @@ impl<P> Stage<P> {
     pub(crate) fn new(
         panel: P,
         size: Vec2,
-        easel: EaselState,
+        easel: PaintingState,
         mut show: impl FnMut(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
     ) -> Self {
         let scene = Scene { panel, easel, tools: Tools::default(), asked: Vec::new() };
@@ -128,7 +128,7 @@ impl<P> Stage<P> {
 }
 
 /// Van Gogh's oils on a bare canvas of 1920 x 1080 cells, a clean round brush.
-pub(crate) fn made_easel() -> EaselState {
+pub(crate) fn made_easel() -> PaintingState {
     let made = easel();
     let mut slots = [None; SLOTS];
     for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
@@ -141,7 +141,7 @@ pub(crate) fn made_easel() -> EaselState {
         color: None,
         ..made.brushes[0].clone()
     };
-    EaselState {
+    PaintingState {
         canvas_cells: (1920, 1080),
         palette_cells: (640, 420),
         slots,
@@ -149,7 +149,7 @@ pub(crate) fn made_easel() -> EaselState {
         tints: [None; SLOTS],
         layers: Vec::new(),
         history: Vec::new(),
-        done: 0,
+        history_done: 0,
         brushes: vec![round],
         ..made
     }

@@ -4,7 +4,7 @@ use eframe::egui::{Event, PointerButton, Pos2, accesskit::Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use pigment::palette::{Cards, Palette as Mixable};
-use render::paint::strokes::{Action, LayerName, Load, Palette, Recipe, Squeeze, Surface};
+use render::paint::strokes::{Action, LayerRef, Load, PaletteSpec, Recipe, Squeeze, SurfaceId};
 use session::Command;
 use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
 use studio::panels::{FileRequest, Mode, Request};
@@ -16,7 +16,7 @@ fn tubes() -> Harness<'static, Table<Tubes>> {
 }
 
 fn act(action: Action) -> Request {
-    Request::Worker(Command::Act(action))
+    Request::Worker(Command::Apply(action))
 }
 
 fn pure(name: &str) -> Recipe {
@@ -58,10 +58,10 @@ fn squeezing_gives_the_amount_of_the_slider_where_it_was_asked() {
     slider.set_value_accesskit(125.0);
     harness.run();
     let table = harness.state_mut();
-    table.with_desk(|_, desk| squeeze(desk, 3, Surface::Palette, 4.5, 7.25));
-    table.with_desk(|_, desk| squeeze(desk, 7, Surface::Palette, 4.5, 7.25));
+    table.with_desk(|_, desk| squeeze(desk, 3, SurfaceId::Palette, 4.5, 7.25));
+    table.with_desk(|_, desk| squeeze(desk, 7, SurfaceId::Palette, 4.5, 7.25));
     let heap = Squeeze {
-        on: Surface::Palette,
+        on: SurfaceId::Palette,
         recipe: pure("Eosin Lake"),
         vehicle: 0.0,
         x_mm: 4.5,
@@ -96,18 +96,21 @@ fn another_pigment_takes_a_slot_and_all_others_stay() {
     pick(&mut harness, "Prussian Blue");
     let mut names = PIGMENTS;
     names[4] = "Prussian Blue";
-    asks(&mut harness, &[act(Action::Palette(Palette::of(names)))]);
+    asks(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
 
     assert!(is_disabled(&harness, "Vermilion"), "it is on the palette already");
     click(&mut harness, "slot 8");
     assert!(is_disabled(&harness, "Take off"), "slot 8 is empty");
     pick(&mut harness, "Cobalt Blue");
     let names = PIGMENTS.into_iter().chain(["Cobalt Blue"]);
-    asks(&mut harness, &[act(Action::Palette(Palette::of(names)))]);
+    asks(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
 
     click(&mut harness, "slot 1");
     click(&mut harness, "Take off");
-    asks(&mut harness, &[act(Action::Palette(Palette::of(PIGMENTS.into_iter().skip(1))))]);
+    asks(
+        &mut harness,
+        &[act(Action::Palette(PaletteSpec::from_names(PIGMENTS.into_iter().skip(1))))],
+    );
     click(&mut harness, "Open another library...");
     asks(&mut harness, &[Request::File(FileRequest::Open(None))]);
 }
@@ -137,7 +140,7 @@ fn a_tube_is_exchanged_in_every_layer_that_has_it_and_can() {
         let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
         act(Action::Swap { layer, from, to })
     };
-    asks(&mut harness, &[swap(LayerName::Dry(0)), swap(LayerName::Wet)]);
+    asks(&mut harness, &[swap(LayerRef::Dry(0)), swap(LayerRef::Wet)]);
     assert!(harness.query_by_label("Search").is_none(), "the window is closed");
 }
 

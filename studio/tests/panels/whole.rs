@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::egui::{DroppedFile, Role};
 use egui_kittest::kittest::Queryable;
 use image::{Rgb, RgbImage};
-use render::paint::strokes::{Action, Load, Squeeze, Surface};
+use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
 use session::Command;
 use studio::app::Tab;
 use studio::panels::Mode;
@@ -14,7 +14,7 @@ use studio::panels::Mode;
 use super::harness::Window;
 
 /// Presses and releases the mouse at a place of a surface.
-fn press(window: &mut Window, surface: Surface, x_mm: f64, y_mm: f64) {
+fn press(window: &mut Window, surface: SurfaceId, x_mm: f64, y_mm: f64) {
     let place = window.point(surface, x_mm, y_mm);
     window.pen_stroke(&[place, place]);
     window.settle();
@@ -54,9 +54,9 @@ fn drop_file(window: &mut Window, path: &Path) {
 
 fn squeeze(window: &mut Window, recipe: &[(&str, f64)]) {
     let recipe = recipe.iter().map(|(name, parts)| ((*name).to_owned(), *parts)).collect();
-    let on = Surface::Palette;
+    let on = SurfaceId::Palette;
     let heap = Squeeze { on, recipe, vehicle: 0.2, x_mm: 20.0, y_mm: 15.0, volume_mm3: 60.0 };
-    window.studio_mut().ask(Command::Act(Action::Squeeze(heap)));
+    window.studio_mut().ask(Command::Apply(Action::Squeeze(heap)));
     window.settle();
 }
 
@@ -65,7 +65,7 @@ fn a_place_of_the_palette_is_picked_matched_loaded_and_laid_out() {
     let mut window = Window::open("picked-and-matched");
     squeeze(&mut window, &[("Zinc White", 3.0), ("Ultramarine", 1.0)]);
     window.studio_mut().tools.mode = Mode::Pick;
-    press(&mut window, Surface::Palette, 20.0, 15.0);
+    press(&mut window, SurfaceId::Palette, 20.0, 15.0);
     // The eyedropper comes to the front and tells the mixture.
     wait_for(&mut window, "Copy Wet");
     assert!(window.harness().query_by_label_contains("20 % medium").is_some(), "its medium");
@@ -106,7 +106,7 @@ fn another_illuminant_is_chosen_and_the_brush_shows_it() {
         vehicle: 0.0,
         amount_mm: 0.3,
     };
-    window.studio_mut().ask(Command::Act(Action::Load(load)));
+    window.studio_mut().ask(Command::Apply(Action::Load(load)));
     window.studio_mut().panels.bring(Tab::Light);
     window.settle();
     let color = |window: &Window| {
@@ -154,11 +154,11 @@ fn a_color_of_the_reference_picture_finds_recipes() {
     let easel = window.studio().easel().unwrap();
     let shown = wanted.shown(easel.library.grid, &easel.light.viewing);
     assert_eq!(shown.to_bytes(), [196, 140, 70]);
-    let done = easel.done;
+    let done = easel.history_done;
     window.click("Close picture");
     window.settle();
     assert!(window.harness().query_by_label("Reference picture").is_none(), "it is gone");
-    assert_eq!(window.studio().easel().unwrap().done, done, "nothing was painted by it");
+    assert_eq!(window.studio().easel().unwrap().history_done, done, "nothing was painted by it");
 }
 
 #[test]

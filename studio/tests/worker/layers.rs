@@ -2,7 +2,7 @@
 
 use render::amount::mm_from_quanta;
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, LayerName, Surface};
+use render::paint::strokes::{Action, LayerRef, SurfaceId};
 
 use super::pen::{load, wander};
 use super::window::Window;
@@ -12,15 +12,15 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
     let samples = wander(41, 80, 32.0, 20.0);
-    window.stroke(Surface::Canvas, "flat", [&samples[..]]);
+    window.stroke(SurfaceId::Canvas, "flat", [&samples[..]]);
     window.act(Action::Dry { fraction: 1.0 });
     window.act(load("round", "Ultramarine"));
-    window.stroke(Surface::Canvas, "round", [&wander(42, 50, 32.0, 20.0)[..]]);
+    window.stroke(SurfaceId::Canvas, "round", [&wander(42, 50, 32.0, 20.0)[..]]);
     window.act(Action::Dry { fraction: 0.5 });
     let snapshot = window.snapshot();
     let looked = |window: &Window| {
         let layers = &window.state().layers;
-        layers.len() == 2 && layers.iter().all(|layer| layer.most_mm > 0.0)
+        layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
     };
     window.wait_until("both layers", looked);
     for (told, layer) in window.state().layers.iter().zip(&snapshot.canvas.dry) {
@@ -30,21 +30,21 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
         let mm = |quanta: f64| quanta * mm_from_quanta(1, 0.1);
         let sum: f64 = painted.iter().map(|&volume| f64::from(volume)).sum();
         assert!((told.mean_mm - mm(sum / painted.len() as f64)).abs() < 1e-9, "{}", told.mean_mm);
-        assert_eq!(told.most_mm, mm(f64::from(*painted.iter().max().unwrap())));
-        assert!((told.covers - painted.len() as f64 / cells as f64).abs() < 1e-12, "its share");
+        assert_eq!(told.max_mm, mm(f64::from(*painted.iter().max().unwrap())));
+        assert!((told.coverage - painted.len() as f64 / cells as f64).abs() < 1e-12, "its share");
         let thumbnail = &told.thumbnail;
         assert_eq!((thumbnail.width, thumbnail.height), (96, 60));
         assert_eq!(thumbnail.pixels.len(), 96 * 60);
         let opaque = thumbnail.pixels.iter().filter(|pixel| pixel[3] > 0).count();
         let share = opaque as f64 / thumbnail.pixels.len() as f64;
-        assert!((share - told.covers).abs() < 0.05, "{share} of {}", told.covers);
+        assert!((share - told.coverage).abs() < 0.05, "{share} of {}", told.coverage);
     }
     let reddest = |window: &Window| {
         let pixels = &window.state().layers[0].thumbnail.pixels;
         pixels.iter().filter(|p| p[3] == 255).map(|p| i32::from(p[0]) - i32::from(p[2])).max()
     };
     assert!(reddest(&window) > Some(40), "vermilion is red: {:?}", reddest(&window));
-    let layer = LayerName::Dry(0);
+    let layer = LayerRef::Dry(0);
     let (from, to) = ("Vermilion".to_owned(), "Emerald Green".to_owned());
     window.act(Action::Swap { layer, from, to });
     window.wait_until("another colour", |window| reddest(window) < Some(0));
@@ -59,18 +59,18 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
 fn a_layer_whose_paint_became_another_is_looked_at_again() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
-    window.stroke(Surface::Canvas, "flat", [&wander(44, 60, 32.0, 20.0)[..]]);
+    window.stroke(SurfaceId::Canvas, "flat", [&wander(44, 60, 32.0, 20.0)[..]]);
     window.act(Action::Dry { fraction: 0.5 });
     window.act(Action::Dry { fraction: 1.0 });
     window.wait_until("both layers", |window| {
         let layers = &window.state().layers;
-        layers.len() == 2 && layers.iter().all(|layer| layer.most_mm > 0.0)
+        layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
     });
-    let most: f64 = window.state().layers.iter().map(|layer| layer.most_mm).sum();
+    let most: f64 = window.state().layers.iter().map(|layer| layer.max_mm).sum();
     window.act(Action::Merge { layer: 1 });
     window.wait_until("one layer as thick as both", |window| {
         let layers = &window.state().layers;
-        layers.len() == 1 && (layers[0].most_mm - most).abs() < 1e-6
+        layers.len() == 1 && (layers[0].max_mm - most).abs() < 1e-6
     });
 }
 
@@ -93,7 +93,7 @@ fn brushes_and_tubes_are_told() {
     assert!((loaded.vehicle - 0.1).abs() < 1e-4, "{}", loaded.vehicle);
     let slot = loaded.parts.iter().position(|&part| part == 1.0).expect("one pigment");
     assert_eq!(loaded.color, window.state().masstones[slot]);
-    window.stroke(Surface::Palette, "round", [&wander(43, 40, 10.0, 8.0)[..]]);
+    window.stroke(SurfaceId::Palette, "round", [&wander(43, 40, 10.0, 8.0)[..]]);
     window.wait_until("less paint", |window| {
         (1e-3..loaded.amount_mm).contains(&round(window).amount_mm)
     });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use render::gpu::BackendChoice;
 use render::paint::brush::HeadShape;
 use render::paint::document::Lighting;
-use render::paint::strokes::{Action, BrushSpec, LayerName, Surface};
+use render::paint::strokes::{Action, BrushSpec, LayerRef, SurfaceId};
 use session::{Command, Event, Origin};
 
 use super::pen::{load, wander};
@@ -15,23 +15,23 @@ use super::window::{Window, small};
 fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("round", "Ultramarine"));
-    window.stroke(Surface::Canvas, "round", [&wander(31, 40, 32.0, 20.0)[..]]);
+    window.stroke(SurfaceId::Canvas, "round", [&wander(31, 40, 32.0, 20.0)[..]]);
     let before = window.snapshot();
     let moon = Lighting { illuminant: "moonlight".to_owned(), ..Lighting::default() };
-    let other = Action::Palette(render::paint::strokes::Palette::of(["Zinc White"]));
+    let other = Action::Palette(render::paint::strokes::PaletteSpec::from_names(["Zinc White"]));
     let broom = BrushSpec { shape: HeadShape::Round, size_mm: 4000.0 };
-    let missing = |layer| Action::Opacity { layer: LayerName::Dry(layer), value: 0.5 };
+    let missing = |layer| Action::Opacity { layer: LayerRef::Dry(layer), value: 0.5 };
     let refused = [
-        (Command::Act(load("rond", "Ultramarine")), "rond", Some("round")),
-        (Command::Act(load("round", "Ultramarin Blau")), "Ultramarin Blau", Some("Ultramarine")),
-        (Command::Act(missing(2)), "dry layers", None),
+        (Command::Apply(load("rond", "Ultramarine")), "rond", Some("round")),
+        (Command::Apply(load("round", "Ultramarin Blau")), "Ultramarin Blau", Some("Ultramarine")),
+        (Command::Apply(missing(2)), "dry layers", None),
         (Command::Adjust(missing(2)), "dry layers", None),
-        (Command::Act(Action::Light(moon.clone())), "moonlight", None),
-        (Command::SecondLight(Some(moon)), "moonlight", None),
-        (Command::Act(other), "Ultramarine is still wet", Some("dry the painting")),
-        (Command::TakeBrush { name: "broom".to_owned(), spec: broom }, "4000", None),
+        (Command::Apply(Action::Light(moon.clone())), "moonlight", None),
+        (Command::SetSecondLight(Some(moon)), "moonlight", None),
+        (Command::Apply(other), "Ultramarine is still wet", Some("dry the painting")),
+        (Command::SetBrush { name: "broom".to_owned(), spec: broom }, "4000", None),
         (
-            Command::PenDown { surface: Surface::Canvas, brush: "fann".to_owned() },
+            Command::PenDown { surface: SurfaceId::Canvas, brush: "fann".to_owned() },
             "fann",
             Some("fan"),
         ),
@@ -76,9 +76,9 @@ fn without_a_painting_it_says_so_and_a_painting_that_fails_to_open_leaves_the_la
     window.ask(Command::Open(small()));
     window.wait("a painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     let before = window.snapshot();
-    let Origin::Bare { mut script, library } = small() else { panic!("a bare canvas") };
+    let Origin::Blank { mut script, library } = small() else { panic!("a bare canvas") };
     script.canvas.width_mm = 1e5;
-    window.ask(Command::Open(Origin::Bare { script, library }));
+    window.ask(Command::Open(Origin::Blank { script, library }));
     let (text, _, failed) = window.message();
     assert!(failed && text.contains("canvas"), "{text}");
     assert!(Arc::clone(&window.snapshot().canvas) == before.canvas, "the last one is still there");
@@ -104,7 +104,7 @@ fn a_painting_whose_lamp_is_gone_opens_under_daylight() {
     let palette = Box::new((*window.snapshot().palette).clone());
     document.lighting = Lighting::default();
     let canvas = Box::new(document);
-    window.ask(Command::Open(Origin::Session { canvas, palette }));
+    window.ask(Command::Open(Origin::Recovered { canvas, palette }));
     window.wait("the session", |event| matches!(event, Event::Opened(_)).then_some(()));
     window.ask(Command::Recording(7));
     let (text, _, _) = window.message();

@@ -1,7 +1,7 @@
 //! Strokes of a made-up hand.
 
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, Load, Stroke, Surface};
+use render::paint::strokes::{Action, Load, Stroke, SurfaceId};
 
 /// A hand that wanders over `width_mm` x `height_mm`, as `seed` tells: 120 samples
 /// a second, a stroke of `count`.
@@ -32,6 +32,6 @@ pub(crate) fn load(brush: &str, pigment: &str) -> Action {
     })
 }
 
-pub(crate) fn stroke(surface: Surface, brush: &str, samples: &[Sample]) -> Action {
+pub(crate) fn stroke(surface: SurfaceId, brush: &str, samples: &[Sample]) -> Action {
     Action::Stroke(Stroke { brush: brush.to_owned(), on: surface, samples: samples.to_vec() })
 }

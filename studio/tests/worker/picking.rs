@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use render::gpu::BackendChoice;
 use render::paint::scene::Spectral;
-use render::paint::strokes::{Action, Surface};
+use render::paint::strokes::{Action, SurfaceId};
 use session::{Command, Event, Picked};
 
 use super::pen::{load, wander};
 use super::window::Window;
 
 fn pick(window: &mut Window, x_mm: f64, y_mm: f64, radius_mm: f64) -> Arc<Picked> {
-    window.ask(Command::Pick { surface: Surface::Canvas, x_mm, y_mm, radius_mm });
+    window.ask(Command::Pick { surface: SurfaceId::Canvas, x_mm, y_mm, radius_mm });
     window.wait("what was picked", |event| match event {
         Event::Picked(picked) => Some(Arc::clone(picked)),
         _ => None,
@@ -22,11 +22,11 @@ fn pick(window: &mut Window, x_mm: f64, y_mm: f64, radius_mm: f64) -> Arc<Picked
 fn a_pick_is_what_an_instrument_would_read() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
-    window.stroke(Surface::Canvas, "flat", [&wander(51, 80, 32.0, 20.0)[..]]);
+    window.stroke(SurfaceId::Canvas, "flat", [&wander(51, 80, 32.0, 20.0)[..]]);
     window.act(Action::Dry { fraction: 1.0 });
     window.act(load("round", "Ultramarine"));
     let over = wander(51, 60, 32.0, 20.0);
-    window.stroke(Surface::Canvas, "round", [&over[..]]);
+    window.stroke(SurfaceId::Canvas, "round", [&over[..]]);
     let (x_mm, y_mm) = (over[30].x_mm, over[30].y_mm);
     let snapshot = window.snapshot();
     let spectral = Spectral::full(&snapshot.canvas);

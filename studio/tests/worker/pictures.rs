@@ -5,7 +5,7 @@ use render::gpu::BackendChoice;
 use render::light::Light;
 use render::paint::document::{Document, Lighting};
 use render::paint::scene::{picture, scene};
-use render::paint::strokes::{Action, LayerName, Surface};
+use render::paint::strokes::{Action, LayerRef, SurfaceId};
 use session::{Command, Snapshot};
 
 use super::pen::{load, wander};
@@ -46,29 +46,29 @@ fn tiles_cover_every_change() {
     let near = wander(12, 80, 10.0, 8.0);
     window.act(load("round", "Ultramarine"));
     window.act(load("flat", "Chrome Yellow"));
-    let opacity = Action::Opacity { layer: LayerName::Dry(0), value: 0.3 };
+    let opacity = Action::Opacity { layer: LayerRef::Dry(0), value: 0.3 };
     let swap = Action::Swap {
-        layer: LayerName::Dry(0),
+        layer: LayerRef::Dry(0),
         from: "Ultramarine".to_owned(),
         to: "Emerald Green".to_owned(),
     };
     let steps: [(&str, Step<'_>); 12] = [
-        ("a stroke", &|w| w.stroke(Surface::Canvas, "round", far.chunks(9))),
-        ("mixing", &|w| w.stroke(Surface::Palette, "flat", near.chunks(4))),
+        ("a stroke", &|w| w.stroke(SurfaceId::Canvas, "round", far.chunks(9))),
+        ("mixing", &|w| w.stroke(SurfaceId::Palette, "flat", near.chunks(4))),
         ("drying", &|w| w.act(Action::Dry { fraction: 0.6 })),
-        ("a stroke over it", &|w| w.stroke(Surface::Canvas, "flat", far.chunks(50))),
+        ("a stroke over it", &|w| w.stroke(SurfaceId::Canvas, "flat", far.chunks(50))),
         ("undo", &|w| w.act(Action::Undo {})),
         ("another lamp", &|w| w.act(Action::Light(lamp.clone()))),
         ("a thinner layer", &|w| w.act(opacity.clone())),
         ("other pigments", &|w| w.act(swap.clone())),
-        ("the first state", &|w| w.ask(Command::Travel(1))),
-        ("the last state", &|w| w.ask(Command::Travel(6))),
+        ("the first state", &|w| w.ask(Command::GoTo(1))),
+        ("the last state", &|w| w.ask(Command::GoTo(6))),
         ("a lamp that turns", &|w| {
             w.ask(Command::Adjust(Action::Light(turned(10.0))));
             w.ask(Command::Adjust(Action::Light(turned(120.0))));
-            w.ask(Command::Settle);
+            w.ask(Command::EndAdjustment);
         }),
-        ("scraping", &|w| w.act(Action::Scrape { on: Surface::Palette })),
+        ("scraping", &|w| w.act(Action::Scrape { on: SurfaceId::Palette })),
     ];
     for (what, step) in steps {
         println!("after {what}");
@@ -91,11 +91,11 @@ fn a_second_light_has_a_picture_of_its_own() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("round", "Vermilion"));
     let lamp = Lighting { illuminant: "FL11".to_owned(), ..Lighting::default() };
-    window.ask(Command::SecondLight(Some(lamp.clone())));
+    window.ask(Command::SetSecondLight(Some(lamp.clone())));
     let samples = wander(13, 100, 32.0, 20.0);
-    window.stroke(Surface::Canvas, "round", samples.chunks(10));
+    window.stroke(SurfaceId::Canvas, "round", samples.chunks(10));
     let snapshot = window.snapshot();
-    window.wait_until("the state", |window| window.state().second.as_ref() == Some(&lamp));
+    window.wait_until("the state", |window| window.state().second_lighting.as_ref() == Some(&lamp));
     assert_pictures(&mut window, &snapshot);
     let Lighting { illuminant, observer, .. } = &lamp;
     let light = Light::named(&snapshot.canvas.library, illuminant, observer).unwrap();
@@ -103,6 +103,6 @@ fn a_second_light_has_a_picture_of_its_own() {
     let second = exported(&under, &light);
     window.wait_until("the second picture", |window| window.pictures.second == second);
     assert!(second != window.pictures.canvas, "the lights differ");
-    window.ask(Command::SecondLight(None));
-    window.wait_until("no second light", |window| window.state().second.is_none());
+    window.ask(Command::SetSecondLight(None));
+    window.wait_until("no second light", |window| window.state().second_lighting.is_none());
 }

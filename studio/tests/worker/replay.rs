@@ -5,16 +5,16 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, Load, Strokes, Surface};
+use render::paint::strokes::{Action, Load, StrokeScript, SurfaceId};
 use session::{Command, Event, Origin, Pace};
 
 use super::pen::{load, stroke, wander};
-use super::strokes::{assert_same, easel};
+use super::strokes::{assert_same, session};
 use super::window::{Window, small};
 
 /// Strokes on both surfaces, and what else there is.
-fn script(actions: Vec<Action>) -> (Box<Strokes>, Box<pigment::library::PigmentLibrary>) {
-    let Origin::Bare { mut script, library } = small() else { panic!("a bare canvas") };
+fn script(actions: Vec<Action>) -> (Box<StrokeScript>, Box<pigment::library::PigmentLibrary>) {
+    let Origin::Blank { mut script, library } = small() else { panic!("a bare canvas") };
     script.actions = actions;
     (script, library)
 }
@@ -22,22 +22,22 @@ fn script(actions: Vec<Action>) -> (Box<Strokes>, Box<pigment::library::PigmentL
 fn lively() -> Vec<Action> {
     vec![
         load("round", "Ultramarine"),
-        stroke(Surface::Canvas, "round", &wander(21, 90, 32.0, 20.0)),
+        stroke(SurfaceId::Canvas, "round", &wander(21, 90, 32.0, 20.0)),
         Action::Save { path: "half.png".to_owned() },
         Action::Dry { fraction: 1.0 },
         load("knife", "Vermilion"),
-        stroke(Surface::Palette, "knife", &wander(22, 50, 10.0, 8.0)),
-        stroke(Surface::Canvas, "knife", &wander(23, 40, 32.0, 20.0)),
+        stroke(SurfaceId::Palette, "knife", &wander(22, 50, 10.0, 8.0)),
+        stroke(SurfaceId::Canvas, "knife", &wander(23, 40, 32.0, 20.0)),
         Action::Undo {},
-        stroke(Surface::Palette, "round", &wander(24, 30, 10.0, 8.0)),
+        stroke(SurfaceId::Palette, "round", &wander(24, 30, 10.0, 8.0)),
     ]
 }
 
 fn played(pace: Pace) {
     let (script, library) = script(lively());
-    let mut easel = easel();
+    let mut session = session();
     let saved = |_: &str, _: &mut _| Ok::<_, Infallible>(());
-    script.replay(&mut easel, saved, || ControlFlow::Continue(())).unwrap();
+    script.replay(&mut session, saved, || ControlFlow::Continue(())).unwrap();
     let mut window = Window::new(BackendChoice::Cpu);
     let of = script.actions.len();
     let began = Instant::now();
@@ -55,14 +55,14 @@ fn played(pace: Pace) {
         assert!(began.elapsed().as_secs_f64() >= 206.0 / 120.0, "it takes its time");
     }
     let snapshot = window.snapshot();
-    assert_same(&snapshot, &mut easel, "after a replay");
+    assert_same(&snapshot, &mut session, "after a replay");
     window.wait_until("the state", |window| window.state().revision == snapshot.revision);
     super::pictures::assert_pictures(&mut window, &snapshot);
     // And one can go on with it.
     let samples = wander(25, 30, 32.0, 20.0);
-    easel.act(&stroke(Surface::Canvas, "knife", &samples)).unwrap();
-    window.stroke(Surface::Canvas, "knife", [&samples[..]]);
-    assert_same(&window.snapshot(), &mut easel, "painted on");
+    session.apply(&stroke(SurfaceId::Canvas, "knife", &samples)).unwrap();
+    window.stroke(SurfaceId::Canvas, "knife", [&samples[..]]);
+    assert_same(&window.snapshot(), &mut session, "painted on");
 }
 
 #[test]
@@ -88,8 +88,9 @@ fn a_recording_of_the_worker_plays_to_the_same_painting() {
         }
     }
     let (snapshot, script) = (window.snapshot(), window.recording());
-    let script = Strokes::from_json("recording", script.to_json().unwrap().as_bytes()).unwrap();
-    let Origin::Bare { library, .. } = small() else { panic!("a bare canvas") };
+    let script =
+        StrokeScript::from_json("recording", script.to_json().unwrap().as_bytes()).unwrap();
+    let Origin::Blank { library, .. } = small() else { panic!("a bare canvas") };
     let pace = Pace::Fast;
     window.ask(Command::Replay { script: Box::new(script), library, pace });
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
@@ -101,7 +102,7 @@ fn a_recording_of_the_worker_plays_to_the_same_painting() {
 fn a_replay_can_be_cancelled_and_answers_on_its_way() {
     let mut actions = vec![load("flat", "Vermilion")];
     for seed in 0..200 {
-        actions.push(stroke(Surface::Canvas, "flat", &wander(seed, 600, 32.0, 20.0)));
+        actions.push(stroke(SurfaceId::Canvas, "flat", &wander(seed, 600, 32.0, 20.0)));
     }
     let (script, library) = script(actions);
     let mut window = Window::new(BackendChoice::Cpu);
@@ -132,7 +133,7 @@ fn an_action_that_is_refused_ends_the_replay_there() {
     };
     let (script, library) = script(vec![
         load("round", "Vermilion"),
-        Action::Opacity { layer: render::paint::strokes::LayerName::Dry(3), value: 0.5 },
+        Action::Opacity { layer: render::paint::strokes::LayerRef::Dry(3), value: 0.5 },
         load("round", "Vermilion"),
     ]);
     let mut window = Window::open(BackendChoice::Cpu);

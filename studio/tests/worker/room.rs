@@ -1,13 +1,13 @@
 //! Paint laid on the palette where there is room.
 
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, Squeeze, Surface};
+use render::paint::strokes::{Action, Squeeze, SurfaceId};
 use session::Command;
 
 use super::window::Window;
 
 fn lay(window: &mut Window, pigment: &str, places: &[[f64; 2]]) {
-    window.ask(Command::LayOut {
+    window.ask(Command::SqueezeInFreeSpace {
         recipe: [(pigment.to_owned(), 1.0)].into(),
         vehicle: 0.0,
         volume_mm3: 0.5,
@@ -20,7 +20,7 @@ fn lay(window: &mut Window, pigment: &str, places: &[[f64; 2]]) {
 fn heaps(window: &mut Window) -> Vec<[f64; 2]> {
     let recording = window.recording();
     let heaps = recording.actions.iter().filter_map(|action| match action {
-        Action::Squeeze(Squeeze { on: Surface::Palette, x_mm, y_mm, .. }) => Some([*x_mm, *y_mm]),
+        Action::Squeeze(Squeeze { on: SurfaceId::Palette, x_mm, y_mm, .. }) => Some([*x_mm, *y_mm]),
         _ => None,
     });
     heaps.collect()

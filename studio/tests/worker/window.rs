@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, Strokes, Surface};
+use render::paint::strokes::{Action, StrokeScript, SurfaceId};
 use session::{
-    Command, EaselState, Event, Figures, Origin, PenSample, Snapshot, Worker, WorkerOptions,
-    brushes, mixing,
+    Command, Event, Origin, PaintingState, PenSample, Performance, Snapshot, Worker, WorkerOptions,
+    default_brushes, default_mixing_canvas,
 };
 
 /// Longer than anything here takes.
@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub(crate) struct Window {
     worker: Worker,
     woken: Receiver<()>,
-    pub(crate) state: Option<Arc<EaselState>>,
+    pub(crate) state: Option<Arc<PaintingState>>,
     pub(crate) pictures: Pictures,
     pub(crate) told: Vec<Event>,
     numbers: u64,
@@ -65,13 +65,13 @@ impl Window {
     }
 
     pub(crate) fn act(&mut self, action: Action) {
-        self.ask(Command::Act(action));
+        self.ask(Command::Apply(action));
     }
 
     /// Leads a brush through samples, told in pieces.
     pub(crate) fn stroke<'a>(
         &mut self,
-        surface: Surface,
+        surface: SurfaceId,
         brush: &str,
         pieces: impl IntoIterator<Item = &'a [render::paint::pose::Sample]>,
     ) {
@@ -102,13 +102,13 @@ impl Window {
                 Event::Tiles { surface, second, tiles, .. } => {
                     let state = self.state.as_ref().expect("a painting was opened first");
                     let (picture, width) = match (surface, second) {
-                        (Surface::Canvas, false) => {
+                        (SurfaceId::Canvas, false) => {
                             (&mut self.pictures.canvas, state.canvas_cells.0)
                         }
-                        (Surface::Canvas, true) => {
+                        (SurfaceId::Canvas, true) => {
                             (&mut self.pictures.second, state.canvas_cells.0)
                         }
-                        (Surface::Palette, _) => {
+                        (SurfaceId::Palette, _) => {
                             (&mut self.pictures.palette, state.palette_cells.0)
                         }
                     };
@@ -169,7 +169,7 @@ impl Window {
     }
 
     /// The recording after all that was asked so far.
-    pub(crate) fn recording(&mut self) -> Strokes {
+    pub(crate) fn recording(&mut self) -> StrokeScript {
         self.numbers += 1;
         let wanted = self.numbers;
         self.ask(Command::Recording(wanted));
@@ -188,27 +188,31 @@ impl Window {
     }
 
     /// Figures that have something in them.
-    pub(crate) fn figures(&mut self) -> Figures {
+    pub(crate) fn figures(&mut self) -> Performance {
         self.wait("figures", |event| match event {
-            Event::Figures(figures) if figures.to_tiles_ms > 0.0 => Some(*figures),
+            Event::Performance(figures) if figures.mean_latency_ms > 0.0 => Some(*figures),
             _ => None,
         })
     }
 
-    pub(crate) fn state(&self) -> &EaselState {
+    pub(crate) fn state(&self) -> &PaintingState {
         self.state.as_ref().expect("a painting was opened")
     }
 }
 
 /// 320 x 200 cells of linen, and a palette of 100 x 80.
 pub(crate) fn small() -> Origin {
-    let Origin::Bare { mut script, library } =
-        session::bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)
+    let Origin::Blank { mut script, library } =
+        session::blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)
     else {
         panic!("a bare canvas");
     };
-    let mixing = render::paint::strokes::Canvas { width_mm: 10.0, height_mm: 8.0, ..mixing(0.1) };
+    let mixing = render::paint::strokes::Canvas {
+        width_mm: 10.0,
+        height_mm: 8.0,
+        ..default_mixing_canvas(0.1)
+    };
     script.mixing = Some(mixing);
-    script.brushes = brushes();
-    Origin::Bare { script, library }
+    script.brushes = default_brushes();
+    Origin::Blank { script, library }
 }

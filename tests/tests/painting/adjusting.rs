@@ -3,7 +3,7 @@
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::Lighting;
-use render::paint::painting::{Coating, PaintingError};
+use render::paint::painting::{LayerRef, PaintingError};
 
 use super::studio::{WHITE, along, bare, crossing, loaded, on_both, pure};
 
@@ -17,7 +17,7 @@ fn a_slider_that_is_dragged_is_one_action_and_shows_every_state() {
         painting.begin_adjusting();
         let mut seen = vec![before.1.clone()];
         for share in 1..4 {
-            painting.set_opacity(Coating::Dry(0), 1.0 + f64::from(share)).unwrap();
+            painting.set_opacity(LayerRef::Dry(0), 1.0 + f64::from(share)).unwrap();
             seen.push(painting.picture().unwrap());
             let azimuth_deg = 30.0 * f64::from(share);
             painting.relight(Lighting { azimuth_deg, ..Lighting::default() }).unwrap();
@@ -26,7 +26,7 @@ fn a_slider_that_is_dragged_is_one_action_and_shows_every_state() {
             painting.set_gloss(shine, shine).unwrap();
             seen.push(painting.picture().unwrap());
         }
-        assert!(painting.set_opacity(Coating::Dry(0), -1.0).is_err(), "an opacity below 0");
+        assert!(painting.set_opacity(LayerRef::Dry(0), -1.0).is_err(), "an opacity below 0");
         painting.end_adjusting();
         assert!(seen.windows(2).all(|pair| pair[0] != pair[1]), "a state was not shown");
         assert_eq!(painting.undo_count(), actions + 1);

@@ -4,7 +4,7 @@
 use calibrate::evaluate::Viewing;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::painting::{Coating, Painting};
+use render::paint::painting::{LayerRef, Painting};
 use render::paint::scene::Spectral;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
@@ -23,8 +23,8 @@ fn finished(painting: &mut Painting) {
     painting.load(glaze, &recipe, 0.9, 0.05).unwrap();
     painting.stroke(glaze, &along(&[(2.0, 7.0), (22.0, 7.0), (22.0, 12.0)], 0.5)).unwrap();
     painting.dry(0.5).unwrap();
-    painting.set_opacity(Coating::Dry(1), 1.5).unwrap();
-    painting.swap_pigment(Coating::Dry(0), pigment("Chrome Yellow"), pigment("Minium")).unwrap();
+    painting.set_opacity(LayerRef::Dry(1), 1.5).unwrap();
+    painting.swap_pigment(LayerRef::Dry(0), pigment("Chrome Yellow"), pigment("Minium")).unwrap();
     let red = loaded(painting, HeadShape::Bright, 4.0, RED, 0.4);
     painting.stroke(red, &along(&[(2.0, 14.0), (14.0, 13.0), (22.0, 3.0)], 0.7)).unwrap();
     painting.undo().unwrap();

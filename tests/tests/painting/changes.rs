@@ -2,7 +2,7 @@
 
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting, Slots};
-use render::paint::painting::{Coating, Painting, PaintingError, UNDO_BYTES};
+use render::paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
 
 use super::studio::{
     RED, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu, pigment, pure,
@@ -58,16 +58,16 @@ fn a_swapped_pigment_looks_as_if_it_had_been_painted_with() {
     }) {
         let mut painting = layered(painting);
         let before = painting.picture().unwrap();
-        painting.swap_pigment(Coating::Dry(1), vermilion, minium).unwrap();
-        painting.swap_pigment(Coating::Dry(0), vermilion, minium).unwrap();
-        painting.swap_pigment(Coating::Wet, vermilion, minium).unwrap();
+        painting.swap_pigment(LayerRef::Dry(1), vermilion, minium).unwrap();
+        painting.swap_pigment(LayerRef::Dry(0), vermilion, minium).unwrap();
+        painting.swap_pigment(LayerRef::Wet, vermilion, minium).unwrap();
         assert!(painting.picture().unwrap() != before, "minium is no vermilion");
         other = layered(other);
         assert!(painting.picture().unwrap() == other.picture().unwrap(), "not the same picture");
         assert!(painting.document().unwrap() == other.document().unwrap(), "not the same painting");
-        let error = painting.swap_pigment(Coating::Wet, vermilion, minium).unwrap_err();
+        let error = painting.swap_pigment(LayerRef::Wet, vermilion, minium).unwrap_err();
         assert!(matches!(error, PaintingError::AlreadyThere { .. }), "{error}");
-        let error = painting.swap_pigment(Coating::Wet, vermilion, pigment("Eosin Lake"));
+        let error = painting.swap_pigment(LayerRef::Wet, vermilion, pigment("Eosin Lake"));
         assert!(matches!(error, Err(PaintingError::NotThere { .. })), "{error:?}");
     }
 }
@@ -80,7 +80,7 @@ fn exchanged(slots: Slots, from: usize, to: usize) -> Slots {
 fn a_layer_of_no_opacity_is_as_good_as_not_there() {
     for painting in on_both(&bare(130, 100)) {
         let mut painting = layered(painting);
-        painting.set_opacity(Coating::Dry(1), 0.0).unwrap();
+        painting.set_opacity(LayerRef::Dry(1), 0.0).unwrap();
         let hidden = painting.flat_picture().unwrap();
         let mut document: Document = painting.document().unwrap();
         document.dry.remove(1);
@@ -88,11 +88,11 @@ fn a_layer_of_no_opacity_is_as_good_as_not_there() {
             let off = differences(&hidden, &without);
             off[off.len() - 1] < 0.01
         }));
-        painting.set_opacity(Coating::Dry(1), 1.0).unwrap();
+        painting.set_opacity(LayerRef::Dry(1), 1.0).unwrap();
         let off = differences(&hidden, &painting.flat_picture().unwrap());
         assert!(off[off.len() - 1] > 5.0, "{:?}", off.last());
         for wrong in [f64::NAN, -0.1, 1001.0] {
-            let error = painting.set_opacity(Coating::Dry(0), wrong).unwrap_err();
+            let error = painting.set_opacity(LayerRef::Dry(0), wrong).unwrap_err();
             assert!(matches!(error, PaintingError::Opacity { .. }), "{error}");
         }
     }
@@ -110,7 +110,7 @@ fn a_palette_changes_only_where_nothing_wet_would_be_left_behind() {
     );
     painting.wash(brush).unwrap();
     painting.set_palette(&without).unwrap();
-    let slots = painting.slots(Coating::Wet).unwrap();
+    let slots = painting.slots(LayerRef::Wet).unwrap();
     assert_eq!(slots.iter().flatten().count(), 2);
     assert_eq!(slots[0], Some(pigment("Lead White")), "who stays keeps the slot");
     let error = painting.load(brush, &pure(RED), 0.0, 0.1).unwrap_err();

@@ -35,10 +35,10 @@ mod hostile;
 
 mod killed;
 
-mod easels;
+mod painted_sessions;
 
-mod easel;
+mod surfaces;
 
 mod recording;
 
-mod sessions;
+mod script_surfaces;

@@ -1,6 +1,6 @@
 //! Looking at one place of a painting, and not at the rest.
 
-use render::paint::painting::{Coating, PaintingError};
+use render::paint::painting::{LayerRef, PaintingError};
 use render::paint::scene::Spectral;
 use render::tile::Rect;
 
@@ -38,7 +38,7 @@ fn the_reflectance_of_a_place_is_the_mean_of_its_cells() {
     for mut painting in on_both(&bare(130, 100)) {
         crossing(&mut painting);
         painting.dry(0.6).unwrap();
-        painting.set_opacity(Coating::Dry(0), 1.7).unwrap();
+        painting.set_opacity(LayerRef::Dry(0), 1.7).unwrap();
         crossing(&mut painting);
         let document = painting.document().unwrap();
         let spectral = Spectral::full(&document);

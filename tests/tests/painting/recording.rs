@@ -7,25 +7,25 @@ use rand::RngExt;
 use render::layer::SLOTS;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::easel::{Easel, ReplayReport};
 use render::paint::painting::Painting;
-use render::paint::strokes::{Action, LayerName, Load, Strokes, Surface};
+use render::paint::session::{PaintingSession, ReplayReport};
+use render::paint::strokes::{Action, LayerRef, Load, StrokeScript, SurfaceId};
 
-use super::easels::{
+use super::painted_sessions::{
     BACKENDS, Backend, Whole, header, live, load, loaded, seeded, set_up, something, spec, squeeze,
     surface, whole,
 };
 use super::studio::{PALETTE, oils, on_cpu};
 
 /// What was recorded, written and read.
-fn read(easel: &Easel) -> Strokes {
-    let text = easel.recording().unwrap().to_json().unwrap();
-    Strokes::from_json("recording.json", text.as_bytes()).unwrap()
+fn read(session: &PaintingSession) -> StrokeScript {
+    let text = session.recording().unwrap().to_json().unwrap();
+    StrokeScript::from_json("recording.json", text.as_bytes()).unwrap()
 }
 
-fn replayed(script: &Strokes, easel: &mut Easel) -> ReplayReport {
+fn replayed(script: &StrokeScript, session: &mut PaintingSession) -> ReplayReport {
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    script.replay(easel, save, || ControlFlow::Continue(())).unwrap()
+    script.replay(session, save, || ControlFlow::Continue(())).unwrap()
 }
 
 /// The paint on each brush by its name in the recording.
@@ -38,77 +38,77 @@ fn assert_same(painted: &mut Whole, played: &mut Whole, what: &str) {
     assert!(painted.iter().all(|paint| played.contains(paint)), "{what}: other paint on a brush");
 }
 
-/// An hour at the easel in little.
-fn session(easel: &mut Easel, seed: u64, actions: usize) {
+/// An hour at the session in little.
+fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
     let mut random = seeded(seed);
-    loaded(easel);
+    loaded(session);
     for pigment in &PALETTE[..4] {
         let place = (random.random_range(2.0..16.0), random.random_range(2.0..12.0));
-        easel.act(&squeeze(Surface::Palette, pigment, place)).unwrap();
+        session.apply(&squeeze(SurfaceId::Palette, pigment, place)).unwrap();
     }
     let knife = || "knife".to_owned();
     for _ in 0..actions {
         match random.random_range(0..12) {
-            0 => _ = easel.undo().unwrap(),
-            1 => _ = easel.redo().unwrap(),
+            0 => _ = session.undo().unwrap(),
+            1 => _ = session.redo().unwrap(),
             2 => {
                 let recipe = [("Lead White".to_owned(), 1.0 / 3.0), ("Viridian".to_owned(), 0.1)];
                 let (recipe, vehicle) = (recipe.into(), random.random_range(0.0..1.0));
                 let amount_mm = random.random_range(0.0..0.4);
                 // A palette may lack it, or the brush be full.
                 let load = Load { brush: knife(), recipe, vehicle, amount_mm };
-                let _ = easel.act(&Action::Load(load));
+                let _ = session.apply(&Action::Load(load));
             }
             3 => {
                 let keep = random.random_range(0.0..1.0);
-                easel.act(&Action::Wipe { brush: "flat".to_owned(), keep }).unwrap();
+                session.apply(&Action::Wipe { brush: "flat".to_owned(), keep }).unwrap();
             }
-            4 => _ = easel.act(&Action::Wash { brush: knife() }).unwrap(),
+            4 => _ = session.apply(&Action::Wash { brush: knife() }).unwrap(),
             5 => {
                 // Another head under the same name, or an earlier one again.
                 let size_mm = [4.0, 2.5, 10.0 / 3.0][random.random_range(0..3)];
-                easel.take_brush("knife", &spec(HeadShape::Knife, size_mm)).unwrap();
+                session.set_brush("knife", &spec(HeadShape::Knife, size_mm)).unwrap();
             }
             6 => {
                 for _ in 0..random.random_range(1..4) {
                     let azimuth_deg = random.random_range(0.0..360.0);
                     let lamp = Lighting { azimuth_deg, ..Lighting::default() };
-                    easel.adjust(&Action::Light(lamp)).unwrap();
+                    session.adjust(&Action::Light(lamp)).unwrap();
                 }
                 let value = random.random_range(0.0..2.0);
-                let _ = easel.adjust(&Action::Opacity { layer: LayerName::Dry(0), value });
+                let _ = session.adjust(&Action::Opacity { layer: LayerRef::Dry(0), value });
             }
             7 => {
                 let on = surface(&mut random);
-                live(easel, on, "knife", &mut random);
+                live(session, on, "knife", &mut random);
             }
             8 => {
-                let (_, done) = easel.history();
-                easel.travel(random.random_range(done.saturating_sub(4)..done + 3)).unwrap();
+                let (_, done) = session.history();
+                session.go_to(random.random_range(done.saturating_sub(4)..done + 3)).unwrap();
             }
-            _ => _ = something(easel, &mut random),
+            _ => _ = something(session, &mut random),
         }
     }
-    easel.settle();
+    session.end_adjustment();
 }
 
 fn assert_replays(backend: Backend, seed: u64, actions: usize) {
-    let Some(mut easel) = set_up(&header(), backend) else { return };
-    session(&mut easel, seed, actions);
-    let script = read(&easel);
-    assert_eq!(easel.recording_stopped(), None, "it is short");
+    let Some(mut session) = set_up(&header(), backend) else { return };
+    paint_at_random(&mut session, seed, actions);
+    let script = read(&session);
+    assert_eq!(session.recording_stopped(), None, "it is short");
     assert!(script.brushes.len() > 2, "exchanged heads have names of their own");
     let mut other = set_up(&script, backend).unwrap();
     let report = replayed(&script, &mut other);
     let what = format!("seed {seed}");
     assert_eq!((report.actions, report.idle), (script.actions.len() as u64, 0), "{what}");
-    let history = |easel: &Easel| (easel.history().0.len(), easel.history().1);
-    assert_eq!(history(&other), history(&easel), "{what}");
-    assert_same(&mut whole(&mut easel), &mut whole(&mut other), &what);
+    let history = |session: &PaintingSession| (session.history().0.len(), session.history().1);
+    assert_eq!(history(&other), history(&session), "{what}");
+    assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
     // All that was taken back, on both.
-    easel.travel(0).unwrap();
-    other.travel(0).unwrap();
-    assert_same(&mut whole(&mut easel), &mut whole(&mut other), &what);
+    session.go_to(0).unwrap();
+    other.go_to(0).unwrap();
+    assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
     // The replay was recorded as well: it is the same recording.
     let again = read(&other);
     assert_eq!(again.actions[..script.actions.len()], script.actions, "{what}");
@@ -128,25 +128,25 @@ fn a_recording_replays_bit_for_bit_on_the_device() {
 
 #[test]
 fn a_session_may_go_on_with_a_painting() {
-    let mut easel = set_up(&header(), BACKENDS[0]).unwrap();
-    session(&mut easel, 21, 20);
-    easel.act(&Action::Dry { fraction: 0.5 }).unwrap();
-    let (mut start, _) = easel.documents().unwrap();
+    let mut session = set_up(&header(), BACKENDS[0]).unwrap();
+    paint_at_random(&mut session, 21, 20);
+    session.apply(&Action::Dry { fraction: 0.5 }).unwrap();
+    let (mut start, _) = session.documents().unwrap();
     start.title = "went on".to_owned();
-    let mut script = Strokes::going_on("study.exr", &start);
+    let mut script = StrokeScript::continue_from("study.exr", &start);
     script.mixing = header().mixing;
-    let set_up = |script: &Strokes, start: &Document| {
+    let set_up = |script: &StrokeScript, start: &Document| {
         let (canvas, palette) = script.surfaces(oils(), Some(start.clone())).unwrap();
         let (canvas, palette) = (on_cpu_lit(canvas), palette.map(on_cpu_lit));
-        Easel::recorded(canvas, palette, script).unwrap()
+        PaintingSession::recorded(canvas, palette, script).unwrap()
     };
-    let mut easel = set_up(&script, &start);
-    session(&mut easel, 22, 30);
-    let script = read(&easel);
+    let mut session = set_up(&script, &start);
+    paint_at_random(&mut session, 22, 30);
+    let script = read(&session);
     assert_eq!(script.start.as_deref(), Some("study.exr"));
     let mut other = set_up(&script, &start);
     replayed(&script, &mut other);
-    let mut painted = whole(&mut easel);
+    let mut painted = whole(&mut session);
     assert_ne!(painted.0.wet.totals(), [0; SLOTS + 1]);
     assert_same(&mut painted, &mut whole(&mut other), "gone on");
 }
@@ -159,9 +159,9 @@ fn on_cpu_lit(document: Document) -> Painting {
 
 #[test]
 fn a_replay_ends_where_it_is_told_to() {
-    let mut easel = set_up(&header(), BACKENDS[0]).unwrap();
-    session(&mut easel, 5, 20);
-    let script = read(&easel);
+    let mut session = set_up(&header(), BACKENDS[0]).unwrap();
+    paint_at_random(&mut session, 5, 20);
+    let script = read(&session);
     let mut other = set_up(&script, BACKENDS[0]).unwrap();
     let mut left = 9;
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
@@ -181,40 +181,42 @@ fn a_replay_ends_where_it_is_told_to() {
 
 #[test]
 fn only_what_was_done_is_recorded() {
-    let mut easel = set_up(&header(), BACKENDS[0]).unwrap();
-    loaded(&mut easel);
-    easel.take_brush("mop", &spec(HeadShape::Mop, 3.0)).unwrap();
-    assert!(!easel.undo().unwrap() && !easel.redo().unwrap(), "nothing to take back");
-    easel.act(&Action::Dry { fraction: 1.0 }).unwrap();
-    assert!(easel.act(&load("flat", "Octarine", 0.1)).is_err());
-    assert!(easel.act(&load("flat", "Lead White", 50.0)).is_err(), "too much");
-    easel.begin_stroke(Surface::Canvas, "mop").unwrap();
-    easel.end_stroke().unwrap();
-    let script = read(&easel);
+    let mut session = set_up(&header(), BACKENDS[0]).unwrap();
+    loaded(&mut session);
+    session.set_brush("mop", &spec(HeadShape::Mop, 3.0)).unwrap();
+    assert!(!session.undo().unwrap() && !session.redo().unwrap(), "nothing to take back");
+    session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
+    assert!(session.apply(&load("flat", "Octarine", 0.1)).is_err());
+    assert!(session.apply(&load("flat", "Lead White", 50.0)).is_err(), "too much");
+    session.begin_stroke(SurfaceId::Canvas, "mop").unwrap();
+    session.end_stroke().unwrap();
+    let script = read(&session);
     let kinds: Vec<&str> = script.actions.iter().map(Action::kind).collect();
     assert_eq!(kinds, ["load", "load"]);
     assert_eq!(script.brushes.keys().collect::<Vec<_>>(), ["flat", "knife"], "the mop is unused");
     assert_eq!(script.title, "a session");
     assert_eq!(script.library.as_deref(), Some(oils().title.as_str()));
     // Refused at its first use, a brush is there none the less.
-    assert!(easel.act(&load("mop", "Lead White", 50.0)).is_err(), "too much");
-    let script = read(&easel);
+    assert!(session.apply(&load("mop", "Lead White", 50.0)).is_err(), "too much");
+    let script = read(&session);
     assert_eq!(script.actions[2], Action::Wash { brush: "mop".to_owned() });
 }
 
 #[test]
 fn a_header_must_describe_what_is_there() {
     let (canvas, palette) = header().surfaces(oils(), None).unwrap();
-    let refused = |change: fn(&mut Strokes)| {
+    let refused = |change: fn(&mut StrokeScript)| {
         let mut script = header();
         change(&mut script);
         let (canvas, palette) = (on_cpu(canvas.clone()), palette.clone().map(on_cpu));
-        Easel::recorded(canvas, palette, &script).map(|_| ()).map_err(|error| error.to_string())
+        PaintingSession::recorded(canvas, palette, &script)
+            .map(|_| ())
+            .map_err(|error| error.to_string())
     };
     assert_eq!(refused(|_| ()), Ok(()));
     for (change, wanted) in [
         (
-            (|script| script.canvas.width_mm = 20.0) as fn(&mut Strokes),
+            (|script| script.canvas.width_mm = 20.0) as fn(&mut StrokeScript),
             "canvas: as many cells as the painting has, 130 x 100, found `100 x 100`",
         ),
         (|script| script.palette.pigments.truncate(3), "palette: that of the painting, "),

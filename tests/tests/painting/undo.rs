@@ -9,7 +9,7 @@ use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
 use render::paint::history::TILE_BYTES;
 use render::paint::on_cpu::OnCpu;
-use render::paint::painting::{Coating, Painting};
+use render::paint::painting::{LayerRef, Painting};
 
 use super::studio::{
     BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,
@@ -25,18 +25,18 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
 }
 
 /// One action, chosen by `random`; whether something was done that can be undone.
-fn act(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
+fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
     match random.random_range(0..13) {
         0 => painting.dry(random.random_range(0.1..=1.0)).unwrap(),
         1 if layers > 0 => {
             let opacity = random.random_range(0.0..2.0);
-            painting.set_opacity(Coating::Dry(random.random_range(0..layers)), opacity).unwrap();
+            painting.set_opacity(LayerRef::Dry(random.random_range(0..layers)), opacity).unwrap();
             true
         }
         2 => {
             let layer = random.random_range(0..=layers);
-            let coating = if layer == layers { Coating::Wet } else { Coating::Dry(layer) };
+            let coating = if layer == layers { LayerRef::Wet } else { LayerRef::Dry(layer) };
             let (a, b) = (pigment("Vermilion"), pigment("Minium"));
             painting.swap_pigment(coating, a, b).is_ok()
                 || painting.swap_pigment(coating, b, a).is_ok()
@@ -87,7 +87,7 @@ fn any_sequence_of_actions_is_undone_and_redone_to_the_bit() {
         let _ = loaded(&mut painting, HeadShape::Round, 3.0, BLUE, 0.6);
         let mut past = vec![whole(&mut painting, 2)];
         for round in 0..24 {
-            if act(&mut painting, &mut random) {
+            if apply(&mut painting, &mut random) {
                 past.push(whole(&mut painting, 2));
             } else {
                 let same = whole(&mut painting, 2) == past[past.len() - 1];

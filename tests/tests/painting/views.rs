@@ -3,7 +3,7 @@
 use render::field::Field;
 use render::paint::brush::HeadShape;
 use render::paint::document::Lighting;
-use render::paint::painting::{Coating, Painting};
+use render::paint::painting::{LayerRef, Painting};
 use render::tile::{Rect, TileSet};
 
 use super::studio::{
@@ -90,10 +90,10 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 12, "redo");
         painting.dry(0.5).unwrap();
         check(&mut painting, 12, "drying");
-        painting.set_opacity(Coating::Dry(0), 0.5).unwrap();
+        painting.set_opacity(LayerRef::Dry(0), 0.5).unwrap();
         check(&mut painting, 15, "opacity");
         let (from, to) = (pigment("Lead White"), pigment("Zinc White"));
-        painting.swap_pigment(Coating::Wet, from, to).unwrap();
+        painting.swap_pigment(LayerRef::Wet, from, to).unwrap();
         check(&mut painting, 15, "another pigment");
         painting.undo().unwrap();
         check(&mut painting, 15, "undoing that");

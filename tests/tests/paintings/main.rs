@@ -21,28 +21,28 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use render::field::Field;
-use render::paint::easel::{Easel, ReplayReport};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::{Painting, UNDO_BYTES};
-use render::paint::strokes::Strokes;
+use render::paint::session::{PaintingSession, ReplayReport};
+use render::paint::strokes::StrokeScript;
 use suite::program::repository;
 
 fn shipped(name: &str) -> String {
     std::fs::read_to_string(repository(&format!("paintings/{name}.json"))).unwrap()
 }
 
-fn painted(script: &Strokes) -> (ReplayReport, Easel) {
+fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     let (document, _) = script.surfaces(&suite::oils::library(), None).unwrap();
     let engine = Box::new(OnCpu::new(document.ground.height.clone()));
     let canvas = Painting::open(document, engine, UNDO_BYTES).unwrap();
-    let mut easel = Easel::new(canvas, None).unwrap();
+    let mut easel = PaintingSession::new(canvas, None).unwrap();
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
     let report = script.replay(&mut easel, save, || ControlFlow::Continue(())).unwrap();
     (report, easel)
 }
 
 /// Its first actions only.
-fn begun(script: &Strokes, actions: usize) -> Strokes {
+fn begun(script: &StrokeScript, actions: usize) -> StrokeScript {
     let mut begun = script.clone();
     begun.actions.truncate(actions);
     begun
@@ -58,7 +58,7 @@ fn every_script_is_what_its_program_makes() {
         let made = script.to_json().unwrap();
         assert!(made == shipped(name), "{name}: run the example `paintings` again");
         assert_eq!(script.licence, "CC0-1.0");
-        let read = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+        let read = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
         assert_eq!(read.actions.len(), script.actions.len(), "{name}");
     }
 }
@@ -66,7 +66,7 @@ fn every_script_is_what_its_program_makes() {
 #[test]
 fn the_long_ones_begin_well() {
     for name in ["glaze", "landscape"] {
-        let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+        let script = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
         let (report, mut easel) = painted(&begun(&script, 60));
         assert_eq!((report.actions, report.idle), (60, 0), "{name}");
         let wet = easel.canvas_mut().wet().unwrap();
@@ -81,7 +81,7 @@ fn the_long_ones_begin_well() {
 #[test]
 fn the_study_is_the_same_twice_and_yellow_meets_blue_through_green() {
     let name = "colour-study";
-    let script = Strokes::from_json(name, shipped(name).as_bytes()).unwrap();
+    let script = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
     let picture = || painted(&script).1.canvas_mut().picture().unwrap();
     let first: Field<[f32; 4]> = picture();
     assert!(first.values() == picture().values(), "another picture");

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 
 use render::field::Field;
 use render::paint::document::Document;
-use render::paint::easel::{Easel, ReplayReport};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
-use render::paint::strokes::{Action, Canvas, Palette, Strokes};
+use render::paint::session::{PaintingSession, ReplayReport};
+use render::paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
 use render::photograph::{
     LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuilt,
 };
@@ -36,15 +36,15 @@ fn plan() -> Plan {
 }
 
 /// A script without strokes on a smooth panel.
-fn bare_script() -> Strokes {
+fn bare_script() -> StrokeScript {
     let canvas =
         r#"{"width_mm": 24, "height_mm": 18, "cell_mm": 0.5, "ground": {"kind": "panel"}}"#;
     let canvas: Canvas = serde_json::from_str(canvas).unwrap();
     let names = STUDIO.slots.iter().flatten().map(|&i| STUDIO.library.pigments[i].name.as_str());
-    Strokes::new("disc", "CC0-1.0", canvas, Palette::of(names))
+    StrokeScript::new("disc", "CC0-1.0", canvas, PaletteSpec::from_names(names))
 }
 
-fn opened(script: &Strokes) -> Painting {
+fn opened(script: &StrokeScript) -> Painting {
     let resolved = script.resolve(&STUDIO.library).unwrap();
     let (width, height) = script.canvas.cells();
     let ground = script.canvas.ground.ground(width, height, CELL_MM, &STUDIO.library).unwrap();
@@ -54,8 +54,8 @@ fn opened(script: &Strokes) -> Painting {
 
 /// What a painter made of the target.
 struct Finished {
-    script: Strokes,
-    easel: Easel,
+    script: StrokeScript,
+    session: PaintingSession,
     levels: Vec<LevelReport>,
     /// Strokes that were announced, and strokes that were told as laid.
     told: (usize, usize),
@@ -63,25 +63,25 @@ struct Finished {
 
 fn painted(plan: &Plan) -> Finished {
     let mut script = bare_script();
-    let mut easel = Easel::new(opened(&script), None).unwrap();
+    let mut session = PaintingSession::new(opened(&script), None).unwrap();
     let mut told = (0, 0);
     let target = target();
     let painter = Painter { target: &target, separation: &HIDING, plan };
     let levels = painter
-        .paint(&mut easel, &mut script, |painted| match painted {
+        .paint(&mut session, &mut script, |painted| match painted {
             Painted::Planned(strokes) => told.0 += strokes,
             Painted::Stroke => told.1 += 1,
         })
         .unwrap();
-    Finished { script, easel, levels, told }
+    Finished { script, session, levels, told }
 }
 
 fn replayed(text: &str) -> (Document, ReplayReport) {
-    let script = Strokes::from_json("disc.json", text.as_bytes()).unwrap();
-    let mut easel = Easel::new(opened(&script), None).unwrap();
+    let script = StrokeScript::from_json("disc.json", text.as_bytes()).unwrap();
+    let mut session = PaintingSession::new(opened(&script), None).unwrap();
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    let report = script.replay(&mut easel, save, || ControlFlow::Continue(())).unwrap();
-    (easel.documents().unwrap().0, report)
+    let report = script.replay(&mut session, save, || ControlFlow::Continue(())).unwrap();
+    (session.documents().unwrap().0, report)
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
     let plan = plan();
     let painter = Painter { target: &target, separation: &HIDING, plan: &plan };
     let before = painter.errors(&mut opened(&bare_script()), 0.0).unwrap();
-    let after = painter.errors(finished.easel.canvas_mut(), 0.0).unwrap();
+    let after = painter.errors(finished.session.canvas_mut(), 0.0).unwrap();
     assert!(after.mean < before.mean / 4.0, "{} of {}", after.mean, before.mean);
     let sizes: Vec<f64> = finished.levels.iter().map(|level| level.size_mm).collect();
     assert_eq!(sizes, plan.sizes_mm);
@@ -99,7 +99,7 @@ fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
         assert!(pair[1].mean_error < 1.2 * pair[0].mean_error, "{:?}", finished.levels);
     }
     assert!(
-        finished.easel.canvas_mut().wet().unwrap().totals().iter().all(|total| *total == 0),
+        finished.session.canvas_mut().wet().unwrap().totals().iter().all(|total| *total == 0),
         "wet"
     );
 }
@@ -113,7 +113,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     assert_eq!((strokes, strokes), finished.told);
     let text = finished.script.to_json().unwrap();
     let (document, report) = replayed(&text);
-    let wanted = finished.easel.canvas_mut().document().unwrap();
+    let wanted = finished.session.canvas_mut().document().unwrap();
     assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
     assert!(document.wet == wanted.wet && document.dry == wanted.dry, "another painting");
     assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, LONGEST_FILE, MOST_SAMPLES, Strokes, StrokesError};
+use render::paint::strokes::{Action, MAX_FILE_BYTES, MAX_SAMPLES, ScriptError, StrokeScript};
 
 use crate::{SOUND, refused};
 
@@ -84,7 +84,7 @@ fn numbers_out_of_range_are_told_with_action_sample_and_field() {
 #[test]
 fn strokes_off_the_canvas_and_without_pressure_are_fine() {
     let far = SOUND.replace("[0.5, 60, 12, 0.6, 10, 0, 45]", "[0, -5000, 9000, 0, -90, 90, -360]");
-    assert!(Strokes::from_json("a.json", far.as_bytes()).is_ok(), "it only misses the canvas");
+    assert!(StrokeScript::from_json("a.json", far.as_bytes()).is_ok(), "it only misses the canvas");
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn a_canvas_beyond_memory_is_told_with_a_way_out() {
     assert_eq!(error.to_string(), wanted);
     let hint = error.hint().unwrap();
     let tried = SOUND.replace("\"cell_mm\": 0.1", &hint);
-    assert!(Strokes::from_json("a.json", tried.as_bytes()).is_ok(), "{hint} helps");
+    assert!(StrokeScript::from_json("a.json", tried.as_bytes()).is_ok(), "{hint} helps");
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn json_that_does_not_fit_is_told_with_line_and_column() {
     ];
     for (from, to, wanted) in cases {
         let error = refused(from, to);
-        assert!(matches!(error, StrokesError::Syntax { .. }), "{error}");
+        assert!(matches!(error, ScriptError::Syntax { .. }), "{error}");
         assert!(error.to_string().contains(wanted), "{error} for {wanted}");
     }
 }
@@ -159,19 +159,19 @@ fn other_formats_versions_and_encodings_are_told() {
     assert_eq!(error.to_string(), wanted);
     assert_eq!(error.hint().unwrap(), "a newer impasto may read it");
     let newer = SOUND.replace("\"version\": 1", "\"smell\": 1, \"version\": 2");
-    let error = Strokes::from_json("a.json", newer.as_bytes()).unwrap_err();
-    assert!(matches!(error, StrokesError::Version { .. }), "{error}");
+    let error = StrokeScript::from_json("a.json", newer.as_bytes()).unwrap_err();
+    assert!(matches!(error, ScriptError::Version { .. }), "{error}");
 
     let mut bytes = SOUND.as_bytes().to_vec();
     let at = SOUND.find("Prussian").unwrap();
     bytes[at] = 0xe9;
-    let error = Strokes::from_json("a.json", &bytes).unwrap_err();
+    let error = StrokeScript::from_json("a.json", &bytes).unwrap_err();
     assert_eq!(error.to_string(), "a.json: line 8: no UTF-8, found byte `0xe9`");
     for text in ["", "[]", "null", "{", "{}"] {
-        assert!(Strokes::from_json("a.json", text.as_bytes()).is_err(), "{text}");
+        assert!(StrokeScript::from_json("a.json", text.as_bytes()).is_err(), "{text}");
     }
     let deep = "[".repeat(100_000);
-    assert!(Strokes::from_json("a.json", deep.as_bytes()).is_err(), "a stack has an end");
+    assert!(StrokeScript::from_json("a.json", deep.as_bytes()).is_err(), "a stack has an end");
 }
 
 #[test]
@@ -187,13 +187,13 @@ fn scripts_save_nowhere_but_below_their_folder() {
 
 #[test]
 fn too_much_is_refused() {
-    let long = vec![b' '; LONGEST_FILE + 1];
-    let error = Strokes::from_json("a.json", &long).unwrap_err();
-    assert!(matches!(error, StrokesError::TooLong { .. }), "{error}");
+    let long = vec![b' '; MAX_FILE_BYTES + 1];
+    let error = StrokeScript::from_json("a.json", &long).unwrap_err();
+    assert!(matches!(error, ScriptError::TooLong { .. }), "{error}");
 
-    let mut script = Strokes::from_json("a.json", SOUND.as_bytes()).unwrap();
+    let mut script = StrokeScript::from_json("a.json", SOUND.as_bytes()).unwrap();
     let Action::Stroke(stroke) = &mut script.actions[1] else { panic!("a stroke") };
-    stroke.samples = vec![stroke.samples[0]; MOST_SAMPLES];
+    stroke.samples = vec![stroke.samples[0]; MAX_SAMPLES];
     assert!(script.check().is_ok(), "the limit itself is fine");
     let Action::Stroke(stroke) = &mut script.actions[1] else { panic!("a stroke") };
     stroke.samples.push(stroke.samples[0]);
@@ -203,7 +203,7 @@ fn too_much_is_refused() {
 
 #[test]
 fn a_script_with_nan_is_not_written() {
-    let sound = Strokes::from_json("a.json", SOUND.as_bytes()).unwrap();
+    let sound = StrokeScript::from_json("a.json", SOUND.as_bytes()).unwrap();
     let fields: [fn(&mut Sample) -> &mut f64; 7] = [
         |s| &mut s.seconds,
         |s| &mut s.x_mm,
@@ -243,7 +243,7 @@ proptest! {
             bytes[at] = byte;
         }
         bytes.truncate(if cut { length.index(bytes.len()) } else { bytes.len() });
-        if let Err(error) = Strokes::from_json("a.json", &bytes) {
+        if let Err(error) = StrokeScript::from_json("a.json", &bytes) {
             prop_assert!(error.to_string().starts_with("a.json: "), "{}", error);
         }
     }

@@ -8,7 +8,7 @@ mod pigments;
 mod round_trip;
 mod surfaces;
 
-use render::paint::strokes::{Strokes, StrokesError};
+use render::paint::strokes::{ScriptError, StrokeScript};
 
 /// A script with every action.
 const SOUND: &str = r##"{
@@ -40,9 +40,9 @@ const SOUND: &str = r##"{
 }"##;
 
 /// The error of [`SOUND`] once `from` reads `to`.
-fn refused(from: &str, to: &str) -> StrokesError {
+fn refused(from: &str, to: &str) -> ScriptError {
     assert_eq!(SOUND.matches(from).count(), 1, "`{from}` stands once");
-    let error = Strokes::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap_err();
+    let error = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap_err();
     assert!(error.to_string().starts_with("a.json: "), "{error}");
     error
 }
@@ -60,7 +60,7 @@ fn the_guide_shows_scripts_that_can_be_painted() {
         mixed[key] = value.clone();
     }
     for text in [script, &mixed.to_string()] {
-        let script = Strokes::from_json("docs/painting.md", text.as_bytes()).unwrap();
+        let script = StrokeScript::from_json("docs/painting.md", text.as_bytes()).unwrap();
         script.resolve(&suite::oils::library()).unwrap();
     }
 }

@@ -1,12 +1,12 @@
 //! Pigments by name.
 
-use render::paint::strokes::{ActionPigments, Strokes};
+use render::paint::strokes::{ActionPigments, StrokeScript};
 use suite::oils::library;
 
 use crate::SOUND;
 
 fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (String, String)> {
-    let script = Strokes::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();
+    let script = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();
     let told = script.resolve(&library());
     told.map_err(|error| (error.to_string(), error.hint().unwrap_or_default()))
 }

@@ -9,7 +9,8 @@ use render::paint::document::{Lighting, Medium};
 use render::paint::ground::GroundSpec;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, LayerName, Load, Palette, Squeeze, Stroke, Strokes, Surface,
+    Action, BrushSpec, Canvas, LayerRef, Load, PaletteSpec, Squeeze, Stroke, StrokeScript,
+    SurfaceId,
 };
 
 use crate::SOUND;
@@ -41,16 +42,16 @@ fn stroke() -> impl Strategy<Value = Action> {
     })
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
-    prop_oneof![Just(Surface::Canvas), Just(Surface::Palette)]
+fn surface() -> impl Strategy<Value = SurfaceId> {
+    prop_oneof![Just(SurfaceId::Canvas), Just(SurfaceId::Palette)]
 }
 
 fn gloss() -> impl Strategy<Value = Gloss> {
     (0.0_f32..=100.0, 0.0_f32..=1e6).prop_map(|(strength, exponent)| Gloss { strength, exponent })
 }
 
-fn layer() -> impl Strategy<Value = LayerName> {
-    prop_oneof![Just(LayerName::Wet), (0_usize..9).prop_map(LayerName::Dry)]
+fn layer() -> impl Strategy<Value = LayerRef> {
+    prop_oneof![Just(LayerRef::Wet), (0_usize..9).prop_map(LayerRef::Dry)]
 }
 
 fn action() -> impl Strategy<Value = Action> {
@@ -75,7 +76,7 @@ fn action() -> impl Strategy<Value = Action> {
         1 => (0.0..=1.0).prop_map(|keep| Action::Wipe { brush: "big".to_owned(), keep }),
         1 => Just(Action::Wash { brush: "big".to_owned() }),
         1 => (0.001..=1.0).prop_map(|fraction| Action::Dry { fraction }),
-        1 => pigments.prop_map(|names| Action::Palette(Palette::of(names.iter().map(String::as_str)))),
+        1 => pigments.prop_map(|names| Action::Palette(PaletteSpec::from_names(names.iter().map(String::as_str)))),
         1 => Just(Action::Undo {}),
         1 => Just(Action::Redo {}),
         1 => (0.0..360.0).prop_map(|azimuth_deg| {
@@ -88,7 +89,7 @@ fn action() -> impl Strategy<Value = Action> {
     ]
 }
 
-fn script() -> impl Strategy<Value = Strokes> {
+fn script() -> impl Strategy<Value = StrokeScript> {
     let canvas = (1.0..300.0, 1.0..300.0, 0.05..2.0, any::<u64>());
     let short = prop::collection::btree_map("[A-Z]", "[a-z ]{1,9}", 1..8);
     let medium = prop::option::of(
@@ -102,7 +103,8 @@ fn script() -> impl Strategy<Value = Strokes> {
             let ground = serde_json::from_value(ground).unwrap();
             let canvas = Canvas { width_mm, height_mm, cell_mm, ground };
             let pigments = short.into_iter().map(|(short, name)| (Some(short), name)).collect();
-            let mut script = Strokes::new("T\u{e9}st \"1\"", "CC0", canvas, Palette { pigments });
+            let mut script =
+                StrokeScript::new("T\u{e9}st \"1\"", "CC0", canvas, PaletteSpec { pigments });
             script.mixing = Some(script.canvas.clone());
             script.medium = medium;
             script.lighting = light.then(Lighting::default);
@@ -119,7 +121,7 @@ fn config() -> ProptestConfig {
 }
 
 /// Every sample of a script, as numbers.
-fn numbers(script: &Strokes) -> Vec<f64> {
+fn numbers(script: &StrokeScript) -> Vec<f64> {
     let strokes = script.actions.iter().filter_map(|action| match action {
         Action::Stroke(stroke) => Some(&stroke.samples),
         _ => None,
@@ -136,12 +138,12 @@ proptest! {
     #[test]
     fn a_script_comes_back_as_it_was_written(script in script()) {
         let text = script.to_json().unwrap();
-        let back = Strokes::from_json("a.json", text.as_bytes()).unwrap();
+        let back = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
         prop_assert_eq!(&back.to_json().unwrap(), &text);
-        let written: Vec<Action> = script.actions.iter().map(Action::as_written).collect();
+        let written: Vec<Action> = script.actions.iter().map(Action::rounded).collect();
         prop_assert_eq!(&back.actions, &written);
         // Once its numbers are short, it is the same script.
-        let again = Strokes::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
+        let again = StrokeScript::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
         prop_assert_eq!(&again, &back);
         prop_assert_eq!(back.actions.len(), script.actions.len());
         for (got, wanted) in numbers(&back).iter().zip(numbers(&script)) {
@@ -152,7 +154,7 @@ proptest! {
 
 #[test]
 fn the_canonical_form_is_short_and_an_action_a_line() {
-    let script = Strokes::from_json("a.json", SOUND.as_bytes()).unwrap();
+    let script = StrokeScript::from_json("a.json", SOUND.as_bytes()).unwrap();
     let text = script.to_json().unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[..3], ["{", "  \"format\": \"strokes\",", "  \"version\": 1,"]);
@@ -167,17 +169,17 @@ fn the_canonical_form_is_short_and_an_action_a_line() {
     assert!(lines.contains(&stroke), "{text}");
     let actions = lines.iter().filter(|line| line.starts_with("    {\"")).count();
     assert_eq!(actions, script.actions.len(), "{text}");
-    assert_eq!(Strokes::from_json("b.json", text.as_bytes()).unwrap(), script);
+    assert_eq!(StrokeScript::from_json("b.json", text.as_bytes()).unwrap(), script);
 }
 
 #[test]
 fn what_may_be_left_out_has_its_usual_value() {
     let text = r#"{"format": "strokes", "version": 1, "canvas": {"width_mm": 10, "height_mm": 5},
         "palette": ["Zinc White"], "brushes": {}, "actions": [{"dry": {}}]}"#;
-    let script = Strokes::from_json("a.json", text.as_bytes()).unwrap();
+    let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
     assert_eq!((script.canvas.cell_mm, script.canvas.cells()), (0.1, (100, 50)));
     assert_eq!(script.canvas.ground, GroundSpec::default());
     assert_eq!(script.actions, [Action::Dry { fraction: 1.0 }]);
     let marked = [&b"\xef\xbb\xbf"[..], text.as_bytes()].concat();
-    assert_eq!(Strokes::from_json("a.json", &marked).unwrap(), script);
+    assert_eq!(StrokeScript::from_json("a.json", &marked).unwrap(), script);
 }

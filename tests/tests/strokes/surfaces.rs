@@ -3,7 +3,9 @@
 use render::layer::SLOTS;
 use render::optics::Gloss;
 use render::paint::document::Document;
-use render::paint::strokes::{Action, BeginningError, Squeeze, Strokes, StrokesError, Surface};
+use render::paint::strokes::{
+    Action, ScriptError, ScriptStartError, Squeeze, StrokeScript, SurfaceId,
+};
 
 use crate::SOUND;
 
@@ -28,7 +30,7 @@ fn mixed() -> String {
 }
 
 fn told(text: &str) -> (String, String) {
-    let error = Strokes::from_json("a.json", text.as_bytes()).unwrap_err();
+    let error = StrokeScript::from_json("a.json", text.as_bytes()).unwrap_err();
     let text = error.to_string();
     (text.strip_prefix("a.json: ").unwrap().to_owned(), error.hint().unwrap_or_default())
 }
@@ -41,22 +43,22 @@ fn changed(from: &str, to: &str) -> String {
 
 #[test]
 fn what_is_done_on_the_palette_is_read_and_written() {
-    let script = Strokes::from_json("a.json", mixed().as_bytes()).unwrap();
+    let script = StrokeScript::from_json("a.json", mixed().as_bytes()).unwrap();
     assert_eq!(script.mixing.as_ref().unwrap().cells(), (640, 420));
     let Action::Squeeze(heap) = &script.actions[14] else { panic!("a heap") };
     let Squeeze { on, vehicle, x_mm, y_mm, volume_mm3, .. } = *heap;
-    assert_eq!((on, vehicle, x_mm, y_mm, volume_mm3), (Surface::Palette, 0.0, 20.0, 15.0, 40.0));
+    assert_eq!((on, vehicle, x_mm, y_mm, volume_mm3), (SurfaceId::Palette, 0.0, 20.0, 15.0, 40.0));
     let Action::Squeeze(heap) = &script.actions[15] else { panic!("a heap") };
-    assert_eq!((heap.on, heap.vehicle), (Surface::Canvas, 0.1));
+    assert_eq!((heap.on, heap.vehicle), (SurfaceId::Canvas, 0.1));
     let Action::Stroke(stroke) = &script.actions[16] else { panic!("a stroke") };
-    assert_eq!(stroke.on, Surface::Palette);
-    assert_eq!(script.actions[17], Action::Scrape { on: Surface::Palette });
-    assert_eq!(script.actions[18], Action::Scrape { on: Surface::Canvas });
+    assert_eq!(stroke.on, SurfaceId::Palette);
+    assert_eq!(script.actions[17], Action::Scrape { on: SurfaceId::Palette });
+    assert_eq!(script.actions[18], Action::Scrape { on: SurfaceId::Canvas });
     let wet = Gloss { strength: 0.3, exponent: 70.0 };
     assert!(matches!(script.actions[19], Action::Gloss { wet: found, .. } if found == wet));
     let written = script.to_json().unwrap();
     assert!(written.contains("{\"scrape\": {}}"), "the canvas is left out: {written}");
-    assert_eq!(Strokes::from_json("b.json", written.as_bytes()).unwrap(), script);
+    assert_eq!(StrokeScript::from_json("b.json", written.as_bytes()).unwrap(), script);
 }
 
 #[test]
@@ -113,7 +115,7 @@ fn there_is_a_palette_only_where_it_is_described() {
 /// A painting of 25 x 20 cells, each a third of a tenth of a millimetre.
 fn painting() -> Document {
     let text = SOUND.replace("\"cell_mm\": 0.1", "\"cell_mm\": 4");
-    let script = Strokes::from_json("a.json", text.as_bytes()).unwrap();
+    let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
     let (mut document, palette) = script.surfaces(&suite::oils::library(), None).unwrap();
     assert!(palette.is_none(), "none is described");
     document.cell_mm = 1.0 / 30.0;
@@ -122,16 +124,16 @@ fn painting() -> Document {
     document
 }
 
-fn going_on() -> Strokes {
-    let mut script = Strokes::going_on("before/study.exr", &painting());
-    script = Strokes::from_json("a.json", script.to_json().unwrap().as_bytes()).unwrap();
+fn continue_from() -> StrokeScript {
+    let mut script = StrokeScript::continue_from("before/study.exr", &painting());
+    script = StrokeScript::from_json("a.json", script.to_json().unwrap().as_bytes()).unwrap();
     script
 }
 
 #[test]
 fn a_script_goes_on_with_a_painting() {
     let (library, painting) = (suite::oils::library(), painting());
-    let script = going_on();
+    let script = continue_from();
     assert_eq!(script.start.as_deref(), Some("before/study.exr"));
     let (canvas, palette) = script.surfaces(&library, Some(painting.clone())).unwrap();
     assert_eq!((canvas, palette), (painting.clone(), None));
@@ -152,7 +154,7 @@ fn any_number_of_cells_comes_back_from_a_script() {
         for cells in (1..3000).step_by(7) {
             let row = render::field::Field::filled(cells, 1, 0);
             document.ground.height = row;
-            let found = Strokes::going_on("a.exr", &document).canvas.cells();
+            let found = StrokeScript::continue_from("a.exr", &document).canvas.cells();
             assert_eq!(found, (cells, 1), "cells of {cell_mm} mm");
         }
     }
@@ -161,16 +163,16 @@ fn any_number_of_cells_comes_back_from_a_script() {
 #[test]
 fn another_painting_is_refused() {
     let library = suite::oils::library();
-    let refused = |script: &Strokes, start: Option<Document>| {
+    let refused = |script: &StrokeScript, start: Option<Document>| {
         let error = script.surfaces(&library, start).unwrap_err();
-        assert!(matches!(error, BeginningError::Strokes(StrokesError::Fault(_))), "{error}");
+        assert!(matches!(error, ScriptStartError::Script(ScriptError::Invalid(_))), "{error}");
         error.to_string()
     };
-    let mut wider = going_on();
+    let mut wider = continue_from();
     wider.canvas.width_mm += wider.canvas.cell_mm;
     let error = refused(&wider, Some(painting()));
     assert_eq!(error, "canvas: as many cells as the painting has, 25 x 20, found `26 x 20`");
-    let mut coarser = going_on();
+    let mut coarser = continue_from();
     coarser.canvas.cell_mm *= 2.0;
     coarser.canvas.width_mm *= 2.0;
     coarser.canvas.height_mm *= 2.0;
@@ -178,19 +180,19 @@ fn another_painting_is_refused() {
     assert!(error.starts_with("canvas.cell_mm: that of the painting, 0.0333333"), "{error}");
     let mut other = painting();
     other.slots[3] = Some(library.find("Viridian").unwrap());
-    let error = refused(&going_on(), Some(other));
+    let error = refused(&continue_from(), Some(other));
     assert!(error.starts_with("palette: that of the painting, "), "{error}");
-    let error = refused(&going_on(), None);
+    let error = refused(&continue_from(), None);
     let wanted = "start: the painting that the script begins on, before/study.exr, found `none`";
     assert_eq!(error, wanted);
-    let bare = Strokes::from_json("a.json", SOUND.as_bytes()).unwrap();
+    let bare = StrokeScript::from_json("a.json", SOUND.as_bytes()).unwrap();
     let error = refused(&bare, Some(painting()));
     assert!(error.starts_with("start: the painting that the script begins on, none"), "{error}");
 }
 
 #[test]
 fn a_start_is_a_painting_with_a_light_of_its_own() {
-    let text = going_on().to_json().unwrap();
+    let text = continue_from().to_json().unwrap();
     for path in ["", "study.png", "a\\nb.exr"] {
         let (error, _) = told(&text.replace("before/study.exr", path));
         assert!(error.starts_with("start: the path of a painting"), "{error}");

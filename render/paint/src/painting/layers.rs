@@ -2,13 +2,13 @@
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
-use super::state::{DryState, HIGHEST, Painting};
+use super::state::{DryLayerState, HIGHEST, Painting};
 use crate::brush::Relief;
 use crate::document::Slots;
 
 /// One layer of a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Coating {
+pub enum LayerRef {
     /// The wet layer.
     Wet,
     /// A dry layer, counted from the lowest.
@@ -32,7 +32,7 @@ impl Painting {
         }
         self.acting(|painting| {
             painting.history.dry(painting.engine.as_mut(), share)?;
-            painting.state.dry.push(DryState { slots: painting.state.slots, opacity: 1.0 });
+            painting.state.dry.push(DryLayerState { slots: painting.state.slots, opacity: 1.0 });
             painting.feel_floor()?;
             painted.iter().for_each(|tile| painting.views.touch_dry(tile));
             Ok(())
@@ -101,7 +101,7 @@ impl Painting {
     /// [`PaintingError`] where the layer lacks the first or has the second.
     pub fn swap_pigment(
         &mut self,
-        coating: Coating,
+        coating: LayerRef,
         from: usize,
         to: usize,
     ) -> Result<(), PaintingError> {
@@ -115,8 +115,8 @@ impl Painting {
             .ok_or_else(|| PaintingError::NotThere { pigment: self.pigment_name(from) })?;
         self.acting(|painting| {
             match coating {
-                Coating::Wet => painting.state.slots[place] = Some(to),
-                Coating::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
+                LayerRef::Wet => painting.state.slots[place] = Some(to),
+                LayerRef::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
             }
             painting.views.unseen();
             Ok(())
@@ -129,8 +129,8 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] for the wet layer, one that is not there, or an opacity
     /// outside 0..1000.
-    pub fn set_opacity(&mut self, coating: Coating, opacity: f64) -> Result<(), PaintingError> {
-        let Coating::Dry(index) = coating else { return Err(PaintingError::WetOpacity) };
+    pub fn set_opacity(&mut self, coating: LayerRef, opacity: f64) -> Result<(), PaintingError> {
+        let LayerRef::Dry(index) = coating else { return Err(PaintingError::WetOpacity) };
         self.slots(coating)?;
         if !(0.0..=1000.0).contains(&opacity) {
             return Err(PaintingError::Opacity { value: opacity });
@@ -146,10 +146,10 @@ impl Painting {
     ///
     /// # Errors
     /// [`PaintingError::NoLayer`] for a layer that is not there.
-    pub fn slots(&self, coating: Coating) -> Result<Slots, PaintingError> {
+    pub fn slots(&self, coating: LayerRef) -> Result<Slots, PaintingError> {
         match coating {
-            Coating::Wet => Ok(self.state.slots),
-            Coating::Dry(index) => match self.state.dry.get(index) {
+            LayerRef::Wet => Ok(self.state.slots),
+            LayerRef::Dry(index) => match self.state.dry.get(index) {
                 Some(state) => Ok(state.slots),
                 None => Err(PaintingError::NoLayer { index, count: self.state.dry.len() }),
             },

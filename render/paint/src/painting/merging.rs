@@ -3,8 +3,8 @@
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 use super::failure::PaintingError;
-use super::layers::Coating;
-use super::state::{DryState, Painting};
+use super::layers::LayerRef;
+use super::state::{DryLayerState, Painting};
 use crate::layer::{Layer, SLOTS};
 use graphics::field::Field;
 
@@ -21,8 +21,8 @@ impl Painting {
     /// [`MERGE_TOLERANCE`], where the two need more than eight pigments, and
     /// for layers that are not there.
     pub fn merge(&mut self, index: usize) -> Result<(), PaintingError> {
-        let upper = self.slots(Coating::Dry(index + 1))?;
-        let lower = self.slots(Coating::Dry(index))?;
+        let upper = self.slots(LayerRef::Dry(index + 1))?;
+        let lower = self.slots(LayerRef::Dry(index))?;
         if self.state.dry[index].opacity != self.state.dry[index + 1].opacity {
             return Err(PaintingError::UnlikeOpacity);
         }
@@ -32,7 +32,7 @@ impl Painting {
         let above = (index + 2..self.engine.dry_count()).map(|i| self.engine.dry_layer(i));
         let above: Vec<Layer> = above.collect::<Result<_, _>>()?;
         let merged: Vec<Layer> = std::iter::once(paint).chain(above).collect();
-        let state = DryState { slots, opacity: self.state.dry[index].opacity };
+        let state = DryLayerState { slots, opacity: self.state.dry[index].opacity };
 
         // Tried first, so that what shows leaves no trace, not even in undo.
         let before = self.picture()?;

@@ -32,7 +32,7 @@ mod sharing;
 
 pub use brushes::Brush;
 pub use failure::PaintingError;
-pub use layers::Coating;
+pub use layers::LayerRef;
 pub use merging::MERGE_TOLERANCE;
-pub use state::{DryState, Painting, State, UNDO_BYTES};
+pub use state::{DryLayerState, Painting, State, UNDO_BYTES};
 pub use strokes::StrokeReport;

@@ -21,7 +21,7 @@ use graphics::tile::Rect;
 
 /// How a dry layer is seen: what can be changed of it later.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DryState {
+pub struct DryLayerState {
     /// Its pigments.
     pub slots: Slots,
     /// What its optical thickness is multiplied with.
@@ -34,7 +34,7 @@ pub struct State {
     /// The pigments of the wet layer.
     pub slots: Slots,
     /// The dry layers, lowest first.
-    pub dry: Vec<DryState>,
+    pub dry: Vec<DryLayerState>,
     /// The light.
     pub lighting: Lighting,
     /// The binder.
@@ -106,7 +106,7 @@ impl Painting {
         let mut states = Vec::with_capacity(dry.len());
         for DryLayer { slots, opacity, paint } in dry {
             engine.push_dry(&paint)?;
-            states.push(DryState { slots, opacity });
+            states.push(DryLayerState { slots, opacity });
         }
         engine.set_wet(&wet)?;
         let relief = Relief::from_floor(&engine.floor()?, cell_mm);

@@ -7,10 +7,11 @@ use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::names::distinct_keys;
-use super::palette::Palette;
+use super::palette::PaletteSpec;
 use super::rows;
 use crate::document::Lighting;
 use crate::optics::Gloss;
+use crate::painting::LayerRef;
 use crate::pose::Sample;
 
 /// Parts by pigment: a name of the library, or a short one of a palette.
@@ -43,7 +44,7 @@ pub enum Action {
         fraction: f64,
     },
     /// Other pigments for the wet layer.
-    Palette(Palette),
+    Palette(PaletteSpec),
     /// Takes the last action back.
     Undo {},
     /// Does again what was taken back.
@@ -53,14 +54,14 @@ pub enum Action {
     /// What a layer's optical thickness is multiplied with.
     Opacity {
         /// The layer.
-        layer: LayerName,
+        layer: LayerRef,
         /// 0 hides it, 1 is as painted; up to 1000.
         value: f64,
     },
     /// Exchanges a pigment of a layer for another.
     Swap {
         /// The layer.
-        layer: LayerName,
+        layer: LayerRef,
         /// The pigment that goes.
         from: String,
         /// The one that takes its place.
@@ -76,8 +77,8 @@ pub enum Action {
     /// Takes all wet paint of a surface away.
     Scrape {
         /// The surface; the canvas if not given.
-        #[serde(default, skip_serializing_if = "Surface::is_canvas")]
-        on: Surface,
+        #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
+        on: SurfaceId,
     },
     /// Another shine of the binder.
     Gloss {
@@ -167,8 +168,8 @@ pub struct Stroke {
     /// The brush.
     pub brush: String,
     /// The surface; the canvas if not given.
-    #[serde(default, skip_serializing_if = "Surface::is_canvas")]
-    pub on: Surface,
+    #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
+    pub on: SurfaceId,
     /// Where it was held, in order of time.
     #[serde(with = "rows")]
     pub samples: Vec<Sample>,
@@ -179,8 +180,8 @@ pub struct Stroke {
 #[serde(deny_unknown_fields)]
 pub struct Squeeze {
     /// The surface; the canvas if not given.
-    #[serde(default, skip_serializing_if = "Surface::is_canvas")]
-    pub on: Surface,
+    #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
+    pub on: SurfaceId,
     /// The paint.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
@@ -198,7 +199,7 @@ pub struct Squeeze {
 /// Where wet paint lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Surface {
+pub enum SurfaceId {
     /// What is painted on.
     #[default]
     Canvas,
@@ -206,7 +207,7 @@ pub enum Surface {
     Palette,
 }
 
-impl Surface {
+impl SurfaceId {
     /// Whether this is the canvas.
     #[must_use]
     pub fn is_canvas(&self) -> bool {
@@ -214,16 +215,7 @@ impl Surface {
     }
 }
 
-/// A layer: `"wet"`, or the number of a dry one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LayerName {
-    /// The wet paint.
-    Wet,
-    /// A dry layer, counted from the lowest, 0.
-    Dry(usize),
-}
-
-impl Serialize for LayerName {
+impl Serialize for LayerRef {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Wet => serializer.serialize_str("wet"),
@@ -232,26 +224,26 @@ impl Serialize for LayerName {
     }
 }
 
-impl<'de> Deserialize<'de> for LayerName {
+impl<'de> Deserialize<'de> for LayerRef {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Name;
 
         impl Visitor<'_> for Name {
-            type Value = LayerName;
+            type Value = LayerRef;
 
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 formatter.write_str("\"wet\" or the number of a dry layer, from 0")
             }
 
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<LayerName, E> {
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<LayerRef, E> {
                 match text {
-                    "wet" => Ok(LayerName::Wet),
+                    "wet" => Ok(LayerRef::Wet),
                     _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
                 }
             }
 
-            fn visit_u64<E: de::Error>(self, index: u64) -> Result<LayerName, E> {
-                let dry = usize::try_from(index).map(LayerName::Dry);
+            fn visit_u64<E: de::Error>(self, index: u64) -> Result<LayerRef, E> {
+                let dry = usize::try_from(index).map(LayerRef::Dry);
                 dry.map_err(|_| E::invalid_value(de::Unexpected::Unsigned(index), &self))
             }
         }

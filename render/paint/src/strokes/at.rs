@@ -1,10 +1,10 @@
 //! Where a check is, and what it tells.
 
-use super::error::{Fault, Place};
+use super::error::{InvalidValue, ValueLocation};
 use super::names::nearest;
 
 /// Nothing is wrong, or this is.
-pub(crate) type Checked = Result<(), Box<Fault>>;
+pub(crate) type Checked = Result<(), Box<InvalidValue>>;
 
 /// Where a check is.
 #[derive(Debug, Clone, Copy, Default)]
@@ -31,9 +31,10 @@ impl At {
         wanted: &str,
         found: &dyn std::fmt::Display,
         hint: Option<String>,
-    ) -> Box<Fault> {
-        let place = Place { action: self.action, sample: self.sample, field: field.to_owned() };
-        Box::new(Fault { place, wanted: wanted.to_owned(), found: found.to_string(), hint })
+    ) -> Box<InvalidValue> {
+        let place =
+            ValueLocation { action: self.action, sample: self.sample, field: field.to_owned() };
+        Box::new(InvalidValue { place, wanted: wanted.to_owned(), found: found.to_string(), hint })
     }
 
     pub(super) fn range(&self, field: &str, value: f64, least: f64, most: f64) -> Checked {

@@ -4,37 +4,37 @@ use pigment::digits::rounded;
 use pigment::library::PigmentLibrary;
 
 use super::at::{At, Checked};
-use super::error::StrokesError;
-use super::palette::Palette;
+use super::error::ScriptError;
+use super::palette::PaletteSpec;
 use super::resolve::Resolved;
-use super::script::{Canvas, Strokes, cells_within};
+use super::script::{Canvas, StrokeScript, cells_within};
 use crate::document::{Document, Ground, Slots};
 use crate::ground::{GroundError, GroundSpec};
 use graphics::tile::Rect;
 
 /// Why a script cannot begin.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BeginningError {
+pub enum ScriptStartError {
     /// The script cannot be played, or not on that painting.
     #[error(transparent)]
-    Strokes(#[from] StrokesError),
+    Script(#[from] ScriptError),
     /// There is no such ground.
     #[error(transparent)]
     Ground(#[from] GroundError),
 }
 
-impl BeginningError {
+impl ScriptStartError {
     /// What to try, where there is something.
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Strokes(error) => error.hint(),
+            Self::Script(error) => error.hint(),
             Self::Ground(error) => error.hint(),
         }
     }
 }
 
-impl Strokes {
+impl StrokeScript {
     /// The bare canvas of this script: its ground, no paint yet.
     #[must_use]
     pub fn bare(&self, library: &PigmentLibrary, resolved: &Resolved, ground: Ground) -> Document {
@@ -54,15 +54,15 @@ impl Strokes {
     /// it names one; the pigments are then those of its own library.
     ///
     /// # Errors
-    /// [`BeginningError`] where the script cannot be played (see
-    /// [`Strokes::resolve`]), where `start` is missing, not asked for, or of
+    /// [`ScriptStartError`] where the script cannot be played (see
+    /// [`StrokeScript::resolve`]), where `start` is missing, not asked for, or of
     /// another size or other pigments, and for grounds that cannot be.
     pub fn surfaces(
         &self,
         library: &PigmentLibrary,
         start: Option<Document>,
-    ) -> Result<(Document, Option<Document>), BeginningError> {
-        let header = self.header_as_written()?;
+    ) -> Result<(Document, Option<Document>), ScriptStartError> {
+        let header = self.rounded_header()?;
         let resolved = header.resolve(start.as_ref().map_or(library, |start| &start.library))?;
         let canvas = match (&self.start, start) {
             (None, None) => {
@@ -74,7 +74,7 @@ impl Strokes {
                 let pigments = (&start.slots, &start.library);
                 header
                     .check_agreement(bounds, start.cell_mm, pigments, &resolved.slots)
-                    .map_err(StrokesError::from)?;
+                    .map_err(ScriptError::from)?;
                 start
             }
             (named, given) => {
@@ -83,7 +83,7 @@ impl Strokes {
                 let wanted = format!("the painting that the script begins on, {named}");
                 let hint = Some("read that painting, or leave `start` out".to_owned());
                 let fault = At::default().fault("start", &wanted, &found, hint);
-                return Err(StrokesError::from(fault).into());
+                return Err(ScriptError::from(fault).into());
             }
         };
         let palette = header.mixing.as_ref().map(|mixing| {
@@ -138,7 +138,7 @@ impl Strokes {
     /// A script without actions that goes on with a painting, which whoever
     /// replays it finds at `start`; without a palette to mix on.
     #[must_use]
-    pub fn going_on(start: &str, painting: &Document) -> Self {
+    pub fn continue_from(start: &str, painting: &Document) -> Self {
         let cell_mm = rounded(painting.cell_mm);
         let side_mm = |cells: usize| {
             // Rounded up, it could be a cell more.
@@ -153,7 +153,7 @@ impl Strokes {
             cell_mm,
             ground: GroundSpec::default(),
         };
-        let palette = Palette::of(names(&painting.slots, &painting.library));
+        let palette = PaletteSpec::from_names(names(&painting.slots, &painting.library));
         let mut script = Self::new(&painting.title, "", canvas, palette);
         script.start = Some(start.to_owned());
         script.library = Some(painting.library.title.clone());

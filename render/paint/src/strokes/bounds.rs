@@ -2,9 +2,9 @@
 
 use spectra::{Observer, light_from_text};
 
-use super::action::{Action, Load, Recipe, Squeeze, Stroke, Surface};
+use super::action::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
 use super::at::{At, Checked, near};
-use super::palette::Palette;
+use super::palette::PaletteSpec;
 use super::rows::numbers;
 use super::saved_path;
 use crate::document::Lighting;
@@ -78,10 +78,10 @@ impl Surfaces {
     }
 
     /// How far from the corner of a surface a sample may be, in mm.
-    pub(crate) fn far_mm(&self, at: &At, on: Surface) -> Result<f64, Box<super::Fault>> {
+    pub(crate) fn far_mm(&self, at: &At, on: SurfaceId) -> Result<f64, Box<super::InvalidValue>> {
         let side_mm = match on {
-            Surface::Canvas => Some(self.canvas_mm),
-            Surface::Palette => self.palette_mm,
+            SurfaceId::Canvas => Some(self.canvas_mm),
+            SurfaceId::Palette => self.palette_mm,
         };
         side_mm.map(|side_mm| FAR * side_mm).ok_or_else(|| {
             let hint = Some("describe it as `mixing`, a second canvas".to_owned());
@@ -160,7 +160,7 @@ pub(super) fn check_light(at: &At, prefix: &str, lighting: &Lighting) -> Checked
     Ok(())
 }
 
-pub(super) fn check_palette(at: &At, palette: &Palette) -> Checked {
+pub(super) fn check_palette(at: &At, palette: &PaletteSpec) -> Checked {
     let count = palette.pigments.len();
     if (1..=SLOTS).contains(&count) {
         return Ok(());

@@ -3,26 +3,26 @@
 use super::action::Action;
 use super::at::{At, Checked};
 use super::bounds::{Surfaces, check_brush, check_gloss, check_light, check_palette, check_size};
-use super::error::StrokesError;
-use super::limits::{MOST_ACTIONS, MOST_CELLS, MOST_SAMPLES};
-use super::script::{Canvas, Strokes};
+use super::error::ScriptError;
+use super::limits::{MAX_ACTIONS, MAX_CELLS, MAX_SAMPLES};
+use super::script::{Canvas, StrokeScript};
 use crate::document::Medium;
 
-impl Strokes {
+impl StrokeScript {
     /// Whether every number is in range and every brush declared. Pigments are
-    /// looked up by [`Strokes::resolve`].
+    /// looked up by [`StrokeScript::resolve`].
     ///
     /// # Errors
-    /// [`StrokesError::Fault`] with action, sample and field.
-    pub fn check(&self) -> Result<(), StrokesError> {
+    /// [`ScriptError::Invalid`] with action, sample and field.
+    pub fn check(&self) -> Result<(), ScriptError> {
         Ok(self.check_values()?)
     }
 
     pub(super) fn check_values(&self) -> Checked {
         self.check_header()?;
         let mut samples = 0;
-        if self.actions.len() > MOST_ACTIONS {
-            let wanted = format!("at most {MOST_ACTIONS}");
+        if self.actions.len() > MAX_ACTIONS {
+            let wanted = format!("at most {MAX_ACTIONS}");
             return Err(At::default().fault("actions", &wanted, &self.actions.len(), None));
         }
         let surfaces = self.sides();
@@ -35,8 +35,8 @@ impl Strokes {
             if let Action::Stroke(stroke) = action {
                 samples += stroke.samples.len();
             }
-            if samples > MOST_SAMPLES {
-                let wanted = format!("at most {MOST_SAMPLES} of all strokes so far");
+            if samples > MAX_SAMPLES {
+                let wanted = format!("at most {MAX_SAMPLES} of all strokes so far");
                 let hint = Some("record fewer samples a second, or several scripts".to_owned());
                 return Err(at.fault("samples", &wanted, &samples, hint));
             }
@@ -98,9 +98,9 @@ fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
         at.range(&format!("{key}.{field}"), side, 0.001, 1e6)?;
     }
     let (width, height) = canvas.cells();
-    if (width as u64).saturating_mul(height as u64) > MOST_CELLS {
-        let wanted = format!("at most {MOST_CELLS} cells, which take 6 GB");
-        let least = (canvas.width_mm * canvas.height_mm / MOST_CELLS as f64).sqrt();
+    if (width as u64).saturating_mul(height as u64) > MAX_CELLS {
+        let wanted = format!("at most {MAX_CELLS} cells, which take 6 GB");
+        let least = (canvas.width_mm * canvas.height_mm / MAX_CELLS as f64).sqrt();
         let hint = format!("\"cell_mm\": {:.3}", (least * 1000.0).ceil() / 1000.0 + 0.001);
         return Err(at.fault(key, &wanted, &format!("{width} x {height}"), Some(hint)));
     }

@@ -13,7 +13,7 @@ impl Action {
     /// The action with its numbers rounded as a file has them: samples to four
     /// decimals, all else to six digits. Written and read it stays as it is.
     #[must_use]
-    pub fn as_written(&self) -> Self {
+    pub fn rounded(&self) -> Self {
         match self {
             Self::Load(load) => Self::Load(Load {
                 brush: load.brush.clone(),
@@ -86,7 +86,7 @@ pub(crate) fn six(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Canvas, LayerName, Palette, Strokes, Surface};
+    use super::super::{Canvas, LayerRef, PaletteSpec, StrokeScript, SurfaceId};
     use super::*;
 
     const ODD: f64 = 0.123_456_789_012;
@@ -106,7 +106,11 @@ mod tests {
         let gloss = Gloss { strength: 0.06, exponent: 20.123_457 };
         vec![
             Action::Load(Load { brush: brush(), recipe: recipe(), vehicle: ODD, amount_mm: ODD }),
-            Action::Stroke(Stroke { brush: brush(), on: Surface::Palette, samples: vec![sample] }),
+            Action::Stroke(Stroke {
+                brush: brush(),
+                on: SurfaceId::Palette,
+                samples: vec![sample],
+            }),
             Action::Wipe { brush: brush(), keep: 2.0 / 3.0 },
             Action::Dry { fraction: ODD },
             Action::Light(Lighting {
@@ -116,16 +120,16 @@ mod tests {
                 relief: 1.0 / 7.0,
                 ..Lighting::default()
             }),
-            Action::Opacity { layer: LayerName::Dry(3), value: 1000.0 / 7.0 },
+            Action::Opacity { layer: LayerRef::Dry(3), value: 1000.0 / 7.0 },
             Action::Squeeze(Squeeze {
-                on: Surface::Palette,
+                on: SurfaceId::Palette,
                 recipe: recipe(),
                 vehicle: ODD,
                 x_mm: -1.0 / 7.0,
                 y_mm: 123.456_789,
                 volume_mm3: ODD,
             }),
-            Action::Scrape { on: Surface::Palette },
+            Action::Scrape { on: SurfaceId::Palette },
             Action::Gloss { wet: gloss, dry: gloss },
         ]
     }
@@ -143,17 +147,18 @@ mod tests {
             cell_mm: 0.1,
             ground: crate::ground::GroundSpec::default(),
         };
-        let mut script = Strokes::new("", "", canvas(), Palette::of(["Zinc White"]));
+        let mut script =
+            StrokeScript::new("", "", canvas(), PaletteSpec::from_names(["Zinc White"]));
         script.mixing = Some(canvas());
         let big = super::super::BrushSpec { shape: crate::brush::HeadShape::Flat, size_mm: 3.0 };
         script.brushes.insert("big".to_owned(), big);
-        script.actions = odd().iter().map(Action::as_written).collect();
+        script.actions = odd().iter().map(Action::rounded).collect();
         let text = script.to_json().expect("it is sound");
-        let read = Strokes::from_json("a.json", text.as_bytes()).expect("it is sound");
+        let read = StrokeScript::from_json("a.json", text.as_bytes()).expect("it is sound");
         assert_eq!(read.actions.len(), script.actions.len());
         for (read, written) in read.actions.iter().zip(&script.actions) {
             assert_eq!(bits(read), bits(written));
-            assert_eq!(bits(&read.as_written()), bits(read), "rounding again changes nothing");
+            assert_eq!(bits(&read.rounded()), bits(read), "rounding again changes nothing");
         }
         for (odd, written) in odd().iter().zip(&script.actions) {
             let scrape = matches!(odd, Action::Scrape { .. });

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where in a script something is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct ValueLocation {
     /// The action, counted from 0, with its key; none outside of the actions.
     pub action: Option<(usize, &'static str)>,
     /// The sample of a stroke, counted from 0.
@@ -13,7 +13,7 @@ pub struct Place {
     pub field: String,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ValueLocation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((index, kind)) = self.action {
             write!(formatter, "action {index} ({kind}), ")?;
@@ -28,9 +28,9 @@ impl fmt::Display for Place {
 /// A value that no script may have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{place}: {wanted}, found `{found}`")]
-pub struct Fault {
+pub struct InvalidValue {
     /// Where.
-    pub place: Place,
+    pub place: ValueLocation,
     /// What was wanted.
     pub wanted: String,
     /// What stands there.
@@ -41,7 +41,7 @@ pub struct Fault {
 
 /// Why a script cannot be replayed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum StrokesError {
+pub enum ScriptError {
     /// Longer than is read.
     #[error("{file}: a script has at most {limit} bytes, found `{bytes}`")]
     TooLong {
@@ -98,14 +98,14 @@ pub enum StrokesError {
         /// The file.
         file: String,
         /// What and where.
-        fault: Box<Fault>,
+        fault: Box<InvalidValue>,
     },
     /// A value out of range in a script at hand.
     #[error(transparent)]
-    Fault(#[from] Box<Fault>),
+    Invalid(#[from] Box<InvalidValue>),
 }
 
-impl StrokesError {
+impl ScriptError {
     /// What to try, where there is something.
     #[must_use]
     pub fn hint(&self) -> Option<String> {
@@ -115,7 +115,7 @@ impl StrokesError {
             }
             Self::Encoding { .. } => Some("save the script as UTF-8".into()),
             Self::Version { .. } => Some("a newer impasto may read it".into()),
-            Self::Value { fault, .. } | Self::Fault(fault) => fault.hint.clone(),
+            Self::Value { fault, .. } | Self::Invalid(fault) => fault.hint.clone(),
             Self::Syntax { .. } | Self::Format { .. } => None,
         }
     }

@@ -4,40 +4,40 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::action::Action;
-use super::error::StrokesError;
-use super::limits::LONGEST_FILE;
-use super::script::{FormatVersion, Strokes};
+use super::error::ScriptError;
+use super::limits::MAX_FILE_BYTES;
+use super::script::{FormatVersion, StrokeScript};
 
-impl Strokes {
+impl StrokeScript {
     /// The script in `bytes`, the content of `file`.
     ///
     /// # Errors
-    /// [`StrokesError`]: too long, no UTF-8, no JSON, another format, a newer
+    /// [`ScriptError`]: too long, no UTF-8, no JSON, another format, a newer
     /// version, unknown, missing or repeated keys, or values out of range
-    /// (see [`Strokes::check`]).
-    pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, StrokesError> {
+    /// (see [`StrokeScript::check`]).
+    pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, ScriptError> {
         let named = || file.to_owned();
-        if bytes.len() > LONGEST_FILE {
-            let (bytes, limit) = (bytes.len(), LONGEST_FILE);
-            return Err(StrokesError::TooLong { file: named(), bytes, limit });
+        if bytes.len() > MAX_FILE_BYTES {
+            let (bytes, limit) = (bytes.len(), MAX_FILE_BYTES);
+            return Err(ScriptError::TooLong { file: named(), bytes, limit });
         }
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let (sound, rest) = bytes.split_at(error.valid_up_to());
             let line = 1 + sound.iter().filter(|byte| **byte == b'\n').count();
-            StrokesError::Encoding { file: named(), line, byte: rest.first().copied().unwrap_or(0) }
+            ScriptError::Encoding { file: named(), line, byte: rest.first().copied().unwrap_or(0) }
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let script: Self =
             serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
-        script.check_values().map_err(|fault| StrokesError::Value { file: named(), fault })?;
+        script.check_values().map_err(|fault| ScriptError::Value { file: named(), fault })?;
         Ok(script)
     }
 
     /// All but the actions, its numbers rounded as a file has them.
     ///
     /// # Errors
-    /// [`StrokesError`] for values out of range, see [`Strokes::check`].
-    pub fn header_as_written(&self) -> Result<Self, StrokesError> {
+    /// [`ScriptError`] for values out of range, see [`StrokeScript::check`].
+    pub fn rounded_header(&self) -> Result<Self, ScriptError> {
         Self::from_json(&self.title, self.header().to_json()?.as_bytes())
     }
 
@@ -46,10 +46,10 @@ impl Strokes {
     /// numbers six digits.
     ///
     /// # Errors
-    /// [`StrokesError`] for values out of range, see [`Strokes::check`].
-    pub fn to_json(&self) -> Result<String, StrokesError> {
+    /// [`ScriptError`] for values out of range, see [`StrokeScript::check`].
+    pub fn to_json(&self) -> Result<String, ScriptError> {
         self.check()?;
-        let unwritable = |error: serde_json::Error| StrokesError::Syntax {
+        let unwritable = |error: serde_json::Error| ScriptError::Syntax {
             file: self.title.clone(),
             line: 0,
             column: 0,
@@ -83,7 +83,7 @@ pub(crate) fn line(action: &Action) -> Result<String, serde_json::Error> {
 }
 
 /// A parser's error, told as another format or version where it is one.
-fn explained(file: &str, text: &str, error: &serde_json::Error) -> StrokesError {
+fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     #[derive(Deserialize)]
     struct Kind {
         #[serde(default)]
@@ -96,18 +96,18 @@ fn explained(file: &str, text: &str, error: &serde_json::Error) -> StrokesError 
         && let Ok(Kind { format, version }) = serde_json::from_str(text)
     {
         if format != "strokes" {
-            return StrokesError::Format { file, found: format.to_string() };
+            return ScriptError::Format { file, found: format.to_string() };
         }
         if version != FormatVersion::NUMBER {
             let newest = FormatVersion::NUMBER;
-            return StrokesError::Version { file, found: version.to_string(), newest };
+            return ScriptError::Version { file, found: version.to_string(), newest };
         }
     }
     // The parser ends with the place, which is told already.
     let reason = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let reason = reason.strip_suffix(&place).unwrap_or(&reason).to_owned();
-    StrokesError::Syntax { file, line: error.line(), column: error.column(), reason }
+    ScriptError::Syntax { file, line: error.line(), column: error.column(), reason }
 }
 
 /// `value` on one line.

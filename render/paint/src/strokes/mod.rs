@@ -65,13 +65,14 @@ mod resolve;
 
 mod beginning;
 
-pub use action::{Action, LayerName, Load, Recipe, Squeeze, Stroke, Surface};
-pub use beginning::BeginningError;
-pub use error::{Fault, Place, StrokesError};
-pub use limits::{LONGEST_FILE, MOST_ACTIONS, MOST_CELLS, MOST_NAMES, MOST_SAMPLES};
-pub use palette::Palette;
+pub use crate::painting::LayerRef;
+pub use action::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
+pub use beginning::ScriptStartError;
+pub use error::{InvalidValue, ScriptError, ValueLocation};
+pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES};
+pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
-pub use script::{BrushSpec, Canvas, Strokes};
+pub use script::{BrushSpec, Canvas, StrokeScript};
 
 pub(super) use at::At;
 pub(super) use beginning::names;

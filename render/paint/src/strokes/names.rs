@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
-use super::limits::MOST_NAMES;
+use super::limits::MAX_NAMES;
 
 /// An object whose keys all differ; plain maps would keep the last silently.
 pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
@@ -27,9 +27,9 @@ pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
                 if entries.contains_key(&key) {
                     return Err(de::Error::custom(format!("duplicate key `{key}`")));
                 }
-                if entries.len() == MOST_NAMES {
+                if entries.len() == MAX_NAMES {
                     return Err(de::Error::custom(format!(
-                        "more than {MOST_NAMES} keys, at `{key}`"
+                        "more than {MAX_NAMES} keys, at `{key}`"
                     )));
                 }
                 entries.insert(key, map.next_value()?);

@@ -11,14 +11,14 @@ use crate::layer::SLOTS;
 /// Up to eight pigments in the order of their slots: a list of names, or an
 /// object of short names (`{"W": "Zinc White"}`).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Palette {
+pub struct PaletteSpec {
     /// Short name, if it has one, and name.
     pub pigments: Vec<(Option<String>, String)>,
 }
 
-impl Palette {
+impl PaletteSpec {
     /// A palette without short names.
-    pub fn of<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+    pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         Self { pigments: names.into_iter().map(|name| (None, name.to_owned())).collect() }
     }
 
@@ -30,7 +30,7 @@ impl Palette {
     }
 }
 
-impl Serialize for Palette {
+impl Serialize for PaletteSpec {
     /// A list, unless every pigment has a short name.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let short: Option<Vec<&String>> =
@@ -54,12 +54,12 @@ impl Serialize for Palette {
     }
 }
 
-impl<'de> Deserialize<'de> for Palette {
+impl<'de> Deserialize<'de> for PaletteSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Pigments;
 
         fn push<E: de::Error>(
-            palette: &mut Palette,
+            palette: &mut PaletteSpec,
             short: Option<String>,
             name: String,
         ) -> Result<(), E> {
@@ -75,22 +75,22 @@ impl<'de> Deserialize<'de> for Palette {
         }
 
         impl<'de> Visitor<'de> for Pigments {
-            type Value = Palette;
+            type Value = PaletteSpec;
 
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(formatter, "a list or an object of up to {SLOTS} pigments")
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Palette, A::Error> {
-                let mut palette = Palette::default();
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<PaletteSpec, A::Error> {
+                let mut palette = PaletteSpec::default();
                 while let Some(name) = list.next_element()? {
                     push(&mut palette, None, name)?;
                 }
                 Ok(palette)
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Palette, A::Error> {
-                let mut palette = Palette::default();
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PaletteSpec, A::Error> {
+                let mut palette = PaletteSpec::default();
                 while let Some((short, name)) = map.next_entry()? {
                     push(&mut palette, Some(short), name)?;
                 }

@@ -4,9 +4,9 @@ use pigment::library::{PigmentLibrary, RecipeError};
 
 use super::action::{Action, Load, Recipe, Squeeze};
 use super::at::{At, near};
-use super::error::{Fault, StrokesError};
-use super::palette::Palette;
-use super::script::Strokes;
+use super::error::{InvalidValue, ScriptError};
+use super::palette::PaletteSpec;
+use super::script::StrokeScript;
 use crate::document::Slots;
 use crate::layer::SLOTS;
 
@@ -37,7 +37,7 @@ pub enum ActionPigments {
     },
 }
 
-impl Strokes {
+impl StrokeScript {
     /// The pigments that the script names, looked up in `library` after it was
     /// checked. Short names are those of the latest palette that has them.
     ///
@@ -46,10 +46,10 @@ impl Strokes {
     /// what was undone, so the painter sees to it.
     ///
     /// # Errors
-    /// [`StrokesError::Fault`] for values out of range (see [`Strokes::check`]),
+    /// [`ScriptError::Invalid`] for values out of range (see [`StrokeScript::check`]),
     /// names that the library has not or that fit several, a pigment named twice
     /// in a palette or a recipe, and recipes beyond the palettes.
-    pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, StrokesError> {
+    pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, ScriptError> {
         self.check()?;
         let (mut scope, slots) = Scope::new(&self.palette, library)?;
         let mut actions = Vec::with_capacity(self.actions.len());
@@ -67,15 +67,15 @@ impl Strokes {
 #[derive(Debug)]
 pub(crate) struct Scope {
     /// Those set so far.
-    palettes: Vec<(Palette, Slots)>,
+    palettes: Vec<(PaletteSpec, Slots)>,
 }
 
 impl Scope {
     /// Before the first action, with the pigments that there are at first.
     pub(crate) fn new(
-        palette: &Palette,
+        palette: &PaletteSpec,
         library: &PigmentLibrary,
-    ) -> Result<(Self, Slots), Box<Fault>> {
+    ) -> Result<(Self, Slots), Box<InvalidValue>> {
         let slots = slots(&At::default(), palette, library)?;
         Ok((Self { palettes: vec![(palette.clone(), slots)] }, slots))
     }
@@ -93,7 +93,7 @@ impl Scope {
         at: &At,
         action: &Action,
         library: &PigmentLibrary,
-    ) -> Result<ActionPigments, Box<Fault>> {
+    ) -> Result<ActionPigments, Box<InvalidValue>> {
         Ok(match action {
             Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
                 ActionPigments::Recipe(self.recipe(at, recipe, library)?)
@@ -112,7 +112,7 @@ impl Scope {
         at: &At,
         recipe: &Recipe,
         library: &PigmentLibrary,
-    ) -> Result<Vec<(usize, f64)>, Box<Fault>> {
+    ) -> Result<Vec<(usize, f64)>, Box<InvalidValue>> {
         let mut parts: Vec<(usize, f64)> = Vec::new();
         for (name, &part) in recipe {
             let index = self.pigment(at, "recipe", name, library)?;
@@ -140,13 +140,17 @@ impl Scope {
         field: &str,
         name: &str,
         library: &PigmentLibrary,
-    ) -> Result<usize, Box<Fault>> {
+    ) -> Result<usize, Box<InvalidValue>> {
         let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.behind(name));
         named(at, field, short.unwrap_or(name), library)
     }
 }
 
-fn slots(at: &At, palette: &Palette, library: &PigmentLibrary) -> Result<Slots, Box<Fault>> {
+fn slots(
+    at: &At,
+    palette: &PaletteSpec,
+    library: &PigmentLibrary,
+) -> Result<Slots, Box<InvalidValue>> {
     let mut slots = [None; SLOTS];
     for (slot, (_, name)) in palette.pigments.iter().enumerate() {
         let index = named(at, "palette", name, library)?;
@@ -158,7 +162,12 @@ fn slots(at: &At, palette: &Palette, library: &PigmentLibrary) -> Result<Slots, 
     Ok(slots)
 }
 
-fn named(at: &At, field: &str, name: &str, library: &PigmentLibrary) -> Result<usize, Box<Fault>> {
+fn named(
+    at: &At,
+    field: &str,
+    name: &str,
+    library: &PigmentLibrary,
+) -> Result<usize, Box<InvalidValue>> {
     library.find(name).map_err(|error| {
         let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
         let hint = match &error {

@@ -7,7 +7,7 @@ use serde::ser::{SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
 use super::action::Action;
-use super::limits::MOST_ACTIONS;
+use super::limits::MAX_ACTIONS;
 use crate::pose::Sample;
 
 /// How many numbers a row has at least: seconds, x, y, pressure.
@@ -121,8 +121,8 @@ pub(super) fn bounded_actions<'de, D: Deserializer<'de>>(
         fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Action>, A::Error> {
             let mut actions = Vec::new();
             while let Some(action) = list.next_element()? {
-                if actions.len() == MOST_ACTIONS {
-                    return Err(de::Error::custom(format!("more than {MOST_ACTIONS} actions")));
+                if actions.len() == MAX_ACTIONS {
+                    return Err(de::Error::custom(format!("more than {MAX_ACTIONS} actions")));
                 }
                 actions.push(action);
             }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::action::Action;
 use super::names::distinct_keys;
-use super::palette::Palette;
+use super::palette::PaletteSpec;
 use crate::brush::HeadShape;
 use crate::document::{Lighting, Medium};
 use crate::ground::GroundSpec;
@@ -14,7 +14,7 @@ use crate::ground::GroundSpec;
 /// A script of strokes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Strokes {
+pub struct StrokeScript {
     /// Always `strokes`.
     pub(super) format: FormatName,
     /// Always 1.
@@ -46,7 +46,7 @@ pub struct Strokes {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<String>,
     /// The pigments at first.
-    pub palette: Palette,
+    pub palette: PaletteSpec,
     /// Brushes by name.
     #[serde(deserialize_with = "distinct_keys")]
     pub brushes: BTreeMap<String, BrushSpec>,
@@ -55,10 +55,10 @@ pub struct Strokes {
     pub actions: Vec<Action>,
 }
 
-impl Strokes {
+impl StrokeScript {
     /// A script without brushes and actions.
     #[must_use]
-    pub fn new(title: &str, licence: &str, canvas: Canvas, palette: Palette) -> Self {
+    pub fn new(title: &str, licence: &str, canvas: Canvas, palette: PaletteSpec) -> Self {
         Self {
             format: FormatName::Strokes,
             version: FormatVersion,

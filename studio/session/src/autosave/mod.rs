@@ -37,7 +37,7 @@ pub struct SessionMeta {
 
 /// The session of this program.
 #[derive(Debug)]
-pub struct Session {
+pub struct Autosave {
     folder: PathBuf,
     /// Locked while this lives.
     _lock: File,
@@ -49,7 +49,7 @@ pub fn now() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
 
-impl Session {
+impl Autosave {
     /// Begins a session in a new folder below `sessions`.
     ///
     /// # Errors
@@ -267,4 +267,4 @@ fn remove(folder: &Path) {
 }
 
 #[cfg(test)]
-mod laws;
+mod tests;

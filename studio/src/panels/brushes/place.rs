@@ -6,7 +6,7 @@ use render::paint::strokes::BrushSpec;
 use super::head;
 use crate::panels::controls::{millimetres, row, text};
 use crate::theme;
-use session::{BrushState, EaselState};
+use session::{BrushState, PaintingState};
 
 /// Height of a row, in points.
 const HEIGHT: f32 = 34.0;
@@ -25,7 +25,7 @@ pub(super) struct Row<'a> {
 
 impl Row<'_> {
     /// Shows it, to be clicked.
-    pub(super) fn show(&self, ui: &mut Ui, easel: &EaselState) -> Response {
+    pub(super) fn show(&self, ui: &mut Ui, easel: &PaintingState) -> Response {
         let response = row(ui, HEIGHT, self.label, self.in_hand);
         let inner = response.rect.shrink2(vec2(6.0, 3.0));
         let between = |left: f32, right: f32| {
@@ -59,7 +59,7 @@ impl Row<'_> {
     }
 
     /// What the brush is and holds, in words.
-    fn words(&self, easel: &EaselState) -> String {
+    fn words(&self, easel: &PaintingState) -> String {
         let BrushSpec { shape, size_mm } = self.spec;
         let cells = size_mm / easel.cell_mm;
         let head = format!("{shape}, {} ({cells:.0} cells)", millimetres(*size_mm));
@@ -71,7 +71,7 @@ impl Row<'_> {
 }
 
 /// The paint on a brush in words: `0.30 mm, 15 % medium: 60 % Zinc White ..`.
-fn paint(easel: &EaselState, state: &BrushState) -> String {
+fn paint(easel: &PaintingState, state: &BrushState) -> String {
     let mut words = millimetres(state.amount_mm);
     if state.vehicle > 0.0 {
         words += &format!(", {:.0} % medium", 100.0 * state.vehicle);

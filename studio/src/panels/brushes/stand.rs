@@ -5,7 +5,7 @@ use render::paint::strokes::{Action, BrushSpec, Load};
 
 use super::care::{in_hand, like};
 use crate::panels::{Desk, Mode};
-use session::{BrushState, Command, EaselState};
+use session::{BrushState, Command, PaintingState};
 
 /// Sizes of heads, in mm.
 pub(super) const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
@@ -75,7 +75,7 @@ impl Stand {
     }
 
     /// The head of a brush, as it was last asked for.
-    pub(super) fn spec(&self, easel: &EaselState, name: &str) -> Option<BrushSpec> {
+    pub(super) fn spec(&self, easel: &PaintingState, name: &str) -> Option<BrushSpec> {
         let asked = self.find(name).and_then(|place| self.places[place].asked.as_ref());
         let told = || easel.brushes.iter().find(|brush| brush.name == name);
         asked.map(|asked| asked.spec.clone()).or_else(|| Some(told()?.spec.clone()))
@@ -96,7 +96,7 @@ impl Stand {
         let after = self.find(&desk.tools.brush).map_or(self.places.len(), |place| place + 1);
         let asked = Some(Asked { spec: spec.clone(), paint: None });
         self.places.insert(after, Place { name: name.clone(), label: name.clone(), asked });
-        desk.command(Command::TakeBrush { name, spec });
+        desk.command(Command::SetBrush { name, spec });
         self.take(after, desk);
     }
 
@@ -132,14 +132,14 @@ impl Stand {
             None => in_hand(desk).and_then(|brush| like(desk, brush)),
         };
         self.places[place].asked = Some(Asked { spec: spec.clone(), paint: paint.clone() });
-        desk.command(Command::TakeBrush { name, spec });
+        desk.command(Command::SetBrush { name, spec });
         if let Some(paint) = paint {
             desk.act(Action::Load(paint));
         }
     }
 
     /// A name that no brush of painting and stand has: `flat`, `flat 2` ..
-    fn free_name(&self, base: &str, easel: &EaselState) -> String {
+    fn free_name(&self, base: &str, easel: &PaintingState) -> String {
         let taken = |name: &str| {
             self.find(name).is_some() || easel.brushes.iter().any(|brush| brush.name == name)
         };

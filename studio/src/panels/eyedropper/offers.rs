@@ -6,14 +6,14 @@ use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
 use pigment::library::PigmentLibrary;
 use pigment::matching::Recipe;
 use render::layer::SLOTS;
-use render::paint::strokes::{Action, Load, Palette, Recipe as Parts};
+use render::paint::strokes::{Action, Load, PaletteSpec, Recipe as Parts};
 use spectra::color::{Rgb, Xyz};
 
 use super::super::desk::Desk;
 use super::swatch::swatch;
 use super::wanted::shown;
 use crate::view::Outline;
-use session::{Command, EaselState};
+use session::{Command, PaintingState};
 
 /// The two colours beside each other, in points.
 const PATCH: Vec2 = vec2(72.0, 40.0);
@@ -79,7 +79,13 @@ impl Offer<'_> {
                 let reach_mm = REACH * volume_mm3.cbrt();
                 let places = places(desk.easel, reach_mm);
                 let recipe = self.parts();
-                desk.command(Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm });
+                desk.command(Command::SqueezeInFreeSpace {
+                    recipe,
+                    vehicle,
+                    volume_mm3,
+                    places,
+                    reach_mm,
+                });
             }
         });
         if !ready {
@@ -125,11 +131,11 @@ impl Offer<'_> {
         let brush = desk.tools.brush.clone();
         let mut brushes = desk.easel.brushes.iter();
         if brushes.any(|one| one.name == brush && one.amount_mm > 0.0) {
-            desk.command(Command::Act(Action::Wash { brush: brush.clone() }));
+            desk.command(Command::Apply(Action::Wash { brush: brush.clone() }));
         }
         let (vehicle, amount_mm) = (desk.tools.vehicle, desk.tools.load_mm);
         let load = Load { brush, recipe: self.parts(), vehicle, amount_mm };
-        desk.command(Command::Act(Action::Load(load)));
+        desk.command(Command::Apply(Action::Load(load)));
     }
 
     /// Its pigments that are not on the palette.
@@ -174,7 +180,7 @@ impl Offer<'_> {
 
     fn ask_palette(&self, desk: &mut Desk<'_>, pigments: impl Iterator<Item = usize>) {
         let name = |pigment: usize| self.library.pigments[pigment].name.as_str();
-        desk.command(Command::Act(Action::Palette(Palette::of(pigments.map(name)))));
+        desk.command(Command::Apply(Action::Palette(PaletteSpec::from_names(pigments.map(name)))));
     }
 }
 
@@ -194,7 +200,7 @@ fn told(ui: &mut Ui, found: &Recipe) {
 
 /// Places of the palette, in mm, that are on its wood as far as `reach_mm`, row by
 /// row from the upper left.
-fn places(easel: &EaselState, reach_mm: f64) -> Vec<[f64; 2]> {
+fn places(easel: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     let cells = easel.palette_cells;
     let (reach, step) = (reach_mm / easel.cell_mm, (reach_mm / easel.cell_mm).max(1.0));
     let along = |size: usize| (size as f64 / step) as usize;

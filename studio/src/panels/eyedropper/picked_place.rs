@@ -2,7 +2,7 @@
 
 use eframe::egui::{Button, Grid, Ui, vec2};
 use pigment::palette::Appearance;
-use render::paint::strokes::Surface;
+use render::paint::strokes::SurfaceId;
 
 use super::super::desk::Desk;
 use super::layer_paint::LayerPaint;
@@ -73,8 +73,8 @@ fn numbers(ui: &mut Ui, look: &Appearance, picked: &Picked) {
         ui.monospace(format!("{}{note}", look.srgb.to_hex()));
         ui.end_row();
         let surface = match picked.surface {
-            Surface::Canvas => "Canvas",
-            Surface::Palette => "Palette",
+            SurfaceId::Canvas => "Canvas",
+            SurfaceId::Palette => "Palette",
         };
         ui.weak(surface).on_hover_text("Where it was picked, from the upper left corner");
         ui.monospace(format!("{:.1}, {:.1} mm", picked.x_mm, picked.y_mm));

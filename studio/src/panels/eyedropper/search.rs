@@ -11,7 +11,7 @@ use super::super::desk::Desk;
 use super::offers::Offer;
 use super::wanted::{Wanted, shown, weights};
 use crate::matching::{Matcher, Question};
-use session::EaselState;
+use session::PaintingState;
 
 /// Recipes shown.
 const BEST: usize = 3;
@@ -38,18 +38,18 @@ impl Default for Search {
 
 impl Search {
     /// Begins to search recipes for `wanted`.
-    pub(super) fn begin(&mut self, ui: &Ui, easel: &EaselState, wanted: &Wanted) {
+    pub(super) fn begin(&mut self, ui: &Ui, easel: &PaintingState, wanted: &Wanted) {
         let question = self.question(easel, wanted);
         let context = ui.ctx().clone();
         self.matcher.ask(question, move || context.request_repaint());
     }
 
     /// What is asked for `wanted`.
-    fn question(&self, easel: &EaselState, wanted: &Wanted) -> Question {
+    fn question(&self, easel: &PaintingState, wanted: &Wanted) -> Question {
         let library = &easel.library;
         let sights = self.sights(easel);
         let target = wanted.target(library.grid, &sights);
-        let film = MatchRequest::usual_film(library, easel.ground.to_vec());
+        let film = MatchRequest::usual_film(library, easel.ground_reflectance.to_vec());
         let mut request = MatchRequest::new(library, sights, film);
         if !self.whole_library {
             request.allowed = easel.slots.iter().copied().flatten().collect();
@@ -63,9 +63,9 @@ impl Search {
         Question { library: Arc::clone(library), target, request }
     }
 
-    fn sights(&self, easel: &EaselState) -> Vec<Sight> {
+    fn sights(&self, easel: &PaintingState) -> Vec<Sight> {
         let mut sights = vec![Sight { viewing: easel.light.viewing.clone(), weight: 1.0 }];
-        if let Some(second) = easel.second.as_ref().filter(|_| self.both_lights) {
+        if let Some(second) = easel.second_lighting.as_ref().filter(|_| self.both_lights) {
             let illuminant = light_from_text(&second.illuminant).ok();
             let viewing = illuminant.zip(Observer::named(&second.observer).ok());
             sights.extend(viewing.map(|(illuminant, observer)| Sight {
@@ -103,7 +103,7 @@ impl Search {
     }
 
     /// Shows the limits; gives whether one was changed.
-    fn limits(&mut self, ui: &mut Ui, easel: &EaselState) -> bool {
+    fn limits(&mut self, ui: &mut Ui, easel: &PaintingState) -> bool {
         let before = (self.whole_library, self.both_lights, self.parts);
         ui.horizontal(|ui| {
             let palette = ui.radio_value(&mut self.whole_library, false, "Palette");
@@ -118,7 +118,7 @@ impl Search {
             let parts = ui.add(parts).accessible_name("Parts at most");
             parts.on_hover_text("Recipes are in whole parts, together at most so many");
         });
-        if easel.second.is_some() {
+        if easel.second_lighting.is_some() {
             let both = ui.checkbox(&mut self.both_lights, "Under both lights");
             both.on_hover_text(
                 "Recipes are to meet the colour under both lights of the split view",

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use eframe::egui::{Slider, SliderClamping, Ui};
-use render::paint::strokes::{Action, LayerName};
+use render::paint::strokes::{Action, LayerRef};
 
 use super::eye::eye;
 use crate::panels::Desk;
@@ -44,7 +44,7 @@ impl Opacity {
             } else {
                 self.before.remove(&layer).unwrap_or(1.0)
             };
-            desk.act(Action::Opacity { layer: LayerName::Dry(layer), value });
+            desk.act(Action::Opacity { layer: LayerRef::Dry(layer), value });
         }
         let tip = if now > 0.0 { "Hides this layer" } else { "Shows this layer again" };
         response.on_hover_text(format!("{tip}; what lies above keeps its relief"));
@@ -69,8 +69,8 @@ impl Opacity {
         let response = response.accessible_name(format!("opacity of dry layer {}", layer + 1));
         let dragged = response.dragged();
         if value != shown {
-            let action = Action::Opacity { layer: LayerName::Dry(layer), value };
-            desk.command(if dragged { Command::Adjust(action) } else { Command::Act(action) });
+            let action = Action::Opacity { layer: LayerRef::Dry(layer), value };
+            desk.command(if dragged { Command::Adjust(action) } else { Command::Apply(action) });
             self.held = Some(Held { layer, value, dragged, until: now + PATIENCE });
         }
         if let Some(held) = self.held.as_mut().filter(|held| held.layer == layer)
@@ -79,7 +79,7 @@ impl Opacity {
         {
             held.dragged = false;
             held.until = now + PATIENCE;
-            desk.command(Command::Settle);
+            desk.command(Command::EndAdjustment);
         }
     }
 

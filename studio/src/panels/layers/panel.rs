@@ -2,7 +2,7 @@
 
 use eframe::egui::{Frame, Margin, RichText, Sense, Ui, vec2};
 use render::paint::document::Slots;
-use render::paint::strokes::{Action, LayerName};
+use render::paint::strokes::{Action, LayerRef};
 
 use super::opacity::Opacity;
 use super::thumbnails::Thumbnails;
@@ -49,7 +49,7 @@ impl Layers {
                 ui.label(RichText::new("Wet").strong());
                 pigments(ui, catalogue, &desk.easel.slots);
             });
-            self.exchange_button(ui, &desk.easel.slots, LayerName::Wet, "the wet layer");
+            self.exchange_button(ui, &desk.easel.slots, LayerRef::Wet, "the wet layer");
         });
     }
 
@@ -62,8 +62,8 @@ impl Layers {
                 self.thumbnails.show(ui, &state.thumbnail, vec2(60.0, 44.0));
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
-                    let [mean, most] = [state.mean_mm, state.most_mm].map(millimetres);
-                    let covers = format!("covers {:.0} %", 100.0 * state.covers);
+                    let [mean, most] = [state.mean_mm, state.max_mm].map(millimetres);
+                    let covers = format!("covers {:.0} %", 100.0 * state.coverage);
                     ui.horizontal(|ui| {
                         ui.label(RichText::new(format!("Dry {}", layer + 1)).strong());
                         ui.weak(covers).on_hover_text("Share of the canvas that has its paint");
@@ -81,12 +81,12 @@ impl Layers {
                     desk.act(Action::Merge { layer });
                     self.opacity.merged(layer);
                 }
-                self.exchange_button(ui, &state.slots, LayerName::Dry(layer), &name);
+                self.exchange_button(ui, &state.slots, LayerRef::Dry(layer), &name);
             });
         });
     }
 
-    fn exchange_button(&mut self, ui: &mut Ui, slots: &Slots, layer: LayerName, name: &str) {
+    fn exchange_button(&mut self, ui: &mut Ui, slots: &Slots, layer: LayerRef, name: &str) {
         let first = slots.iter().flatten().next();
         let none = first.is_none().then_some("it has no pigment");
         let tip = "Changes a pigment of this layer for another, as if painted with that";

@@ -101,7 +101,7 @@ impl LightPanel {
         let now = &desk.easel.lighting;
         let illuminant = std::mem::replace(&mut self.before, now.illuminant.clone());
         let lighting = Lighting { illuminant, ..now.clone() };
-        desk.command(Command::Act(Action::Light(lighting)));
+        desk.command(Command::Apply(Action::Light(lighting)));
     }
 
     fn take(&mut self, ui: &Ui, desk: &mut Desk<'_>, lighting: Lighting) {
@@ -109,7 +109,7 @@ impl LightPanel {
         if lighting.illuminant != desk.easel.lighting.illuminant {
             self.before.clone_from(&desk.easel.lighting.illuminant);
         }
-        desk.command(Command::Act(Action::Light(lighting)));
+        desk.command(Command::Apply(Action::Light(lighting)));
     }
 
     fn spectrum(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
@@ -119,7 +119,10 @@ impl LightPanel {
             let other = name.and_then(|name| light_from_text(&name).ok());
             others.extend(other.map(|other| (other, color)));
         };
-        add(desk.easel.second.as_ref().map(|second| second.illuminant.clone()), theme::FAINT);
+        add(
+            desk.easel.second_lighting.as_ref().map(|second| second.illuminant.clone()),
+            theme::FAINT,
+        );
         add(self.first.wished().or(self.second.wished()), theme::STRONG);
         powers(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
@@ -173,9 +176,9 @@ impl LightPanel {
         let action = Action::Light(lighting.clone());
         adjust(ui, desk, touch, action, &mut self.lighting, lighting.clone());
         let moved = matches!(touch, Touch::LetGo | Touch::Set);
-        if let Some(second) = desk.easel.second.as_ref().filter(|_| moved) {
+        if let Some(second) = desk.easel.second_lighting.as_ref().filter(|_| moved) {
             let illuminant = second.illuminant.clone();
-            desk.command(Command::SecondLight(Some(Lighting { illuminant, ..lighting })));
+            desk.command(Command::SetSecondLight(Some(Lighting { illuminant, ..lighting })));
         }
     }
 
@@ -207,7 +210,7 @@ impl LightPanel {
     }
 
     fn split(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, lighting: &Lighting) {
-        let second = desk.easel.second.clone();
+        let second = desk.easel.second_lighting.clone();
         let mut on = second.is_some();
         ui.horizontal(|ui| {
             let check = ui.checkbox(&mut on, "Second light");
@@ -217,19 +220,22 @@ impl LightPanel {
             if check.changed() {
                 let illuminant = self.kept_second.clone();
                 let second = on.then(|| Lighting { illuminant, ..lighting.clone() });
-                desk.command(Command::SecondLight(second));
+                desk.command(Command::SetSecondLight(second));
             }
             let swap = ui.add_enabled(second.is_some(), Button::new("Swap"));
             let swap = swap.on_hover_text("Exchanges the two lights");
             if let Some(second) = second.clone().filter(|_| swap.clicked()) {
-                desk.command(Command::SecondLight(Some(lighting.clone())));
+                desk.command(Command::SetSecondLight(Some(lighting.clone())));
                 self.take(ui, desk, second);
             }
         });
         let Some(second) = second else { return };
         self.kept_second.clone_from(&second.illuminant);
         if let Some(illuminant) = self.second.show(ui, &second.illuminant) {
-            desk.command(Command::SecondLight(Some(Lighting { illuminant, ..lighting.clone() })));
+            desk.command(Command::SetSecondLight(Some(Lighting {
+                illuminant,
+                ..lighting.clone()
+            })));
         }
     }
 }
@@ -252,9 +258,9 @@ fn adjust<T: Clone>(
         }
         Touch::LetGo => {
             desk.command(Command::Adjust(action));
-            desk.command(Command::Settle);
+            desk.command(Command::EndAdjustment);
         }
-        Touch::Set => desk.command(Command::Act(action)),
+        Touch::Set => desk.command(Command::Apply(action)),
     }
     draft.set(value, now);
 }

@@ -8,7 +8,7 @@ use pigment::palette::{
 };
 use render::light::Light;
 
-use session::EaselState;
+use session::PaintingState;
 
 /// How one pigment looks.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,7 +120,7 @@ pub(in crate::panels) struct Known(Option<Arc<Catalogue>>);
 
 impl Known {
     /// The catalogue as it is now.
-    pub(in crate::panels) fn of(&mut self, easel: &EaselState) -> Arc<Catalogue> {
+    pub(in crate::panels) fn of(&mut self, easel: &PaintingState) -> Arc<Catalogue> {
         self.under(&easel.library, &easel.light)
     }
 

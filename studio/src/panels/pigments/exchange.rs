@@ -2,12 +2,12 @@
 
 use eframe::egui::{ComboBox, Context, Id, Ui, Window};
 use render::paint::document::Slots;
-use render::paint::strokes::{Action, LayerName};
+use render::paint::strokes::{Action, LayerRef};
 
 use super::catalogue::Catalogue;
 use super::list::PigmentList;
 use crate::panels::Desk;
-use session::EaselState;
+use session::PaintingState;
 
 /// Which layers an exchange is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub(in crate::panels) enum Place {
     /// All that have the pigment.
     Everywhere,
     /// One.
-    In(LayerName),
+    In(LayerRef),
 }
 
 /// The window that asks which pigment, where, and for which.
@@ -65,11 +65,11 @@ impl Exchange {
     }
 
     /// Whether layer and pigment are still there.
-    fn fits(&self, easel: &EaselState) -> bool {
+    fn fits(&self, easel: &PaintingState) -> bool {
         pigments(easel, self.place).contains(&self.from)
     }
 
-    fn ask(&mut self, ui: &mut Ui, catalogue: &Catalogue, easel: &EaselState) -> Option<usize> {
+    fn ask(&mut self, ui: &mut Ui, catalogue: &Catalogue, easel: &PaintingState) -> Option<usize> {
         ui.horizontal(|ui| {
             ui.label("In");
             let tip = "Which layers the pigment is exchanged in";
@@ -114,35 +114,35 @@ impl Exchange {
 pub(in crate::panels) fn words(place: Place) -> String {
     match place {
         Place::Everywhere => "all layers".to_owned(),
-        Place::In(LayerName::Wet) => "the wet layer".to_owned(),
-        Place::In(LayerName::Dry(index)) => format!("dry layer {}", index + 1),
+        Place::In(LayerRef::Wet) => "the wet layer".to_owned(),
+        Place::In(LayerRef::Dry(index)) => format!("dry layer {}", index + 1),
     }
 }
 
-fn all_places(easel: &EaselState) -> Vec<Place> {
-    let dry = (0..easel.layers.len()).rev().map(|index| Place::In(LayerName::Dry(index)));
-    [Place::Everywhere, Place::In(LayerName::Wet)].into_iter().chain(dry).collect()
+fn all_places(easel: &PaintingState) -> Vec<Place> {
+    let dry = (0..easel.layers.len()).rev().map(|index| Place::In(LayerRef::Dry(index)));
+    [Place::Everywhere, Place::In(LayerRef::Wet)].into_iter().chain(dry).collect()
 }
 
-fn slots(easel: &EaselState, layer: LayerName) -> Slots {
+fn slots(easel: &PaintingState, layer: LayerRef) -> Slots {
     match layer {
-        LayerName::Wet => easel.slots,
-        LayerName::Dry(index) => easel.layers.get(index).map_or([None; 8], |layer| layer.slots),
+        LayerRef::Wet => easel.slots,
+        LayerRef::Dry(index) => easel.layers.get(index).map_or([None; 8], |layer| layer.slots),
     }
 }
 
-fn asked_layers(easel: &EaselState, place: Place) -> Vec<LayerName> {
+fn asked_layers(easel: &PaintingState, place: Place) -> Vec<LayerRef> {
     match place {
         Place::In(layer) => vec![layer],
         Place::Everywhere => {
-            let dry = (0..easel.layers.len()).map(LayerName::Dry);
-            dry.chain([LayerName::Wet]).collect()
+            let dry = (0..easel.layers.len()).map(LayerRef::Dry);
+            dry.chain([LayerRef::Wet]).collect()
         }
     }
 }
 
 /// The pigments of the layers in question, in order of their slots.
-fn pigments(easel: &EaselState, place: Place) -> Vec<usize> {
+fn pigments(easel: &PaintingState, place: Place) -> Vec<usize> {
     let mut found = Vec::new();
     let layers = asked_layers(easel, place);
     for pigment in layers.into_iter().flat_map(|layer| slots(easel, layer)).flatten() {
@@ -155,7 +155,7 @@ fn pigments(easel: &EaselState, place: Place) -> Vec<usize> {
 
 /// The layers where `from` can become `to`: those that have the first and lack
 /// the second.
-fn layers(easel: &EaselState, place: Place, from: usize, to: usize) -> Vec<LayerName> {
+fn layers(easel: &PaintingState, place: Place, from: usize, to: usize) -> Vec<LayerRef> {
     let mut found = asked_layers(easel, place);
     found.retain(|&layer| {
         let slots = slots(easel, layer);

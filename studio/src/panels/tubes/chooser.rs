@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Context, Sense, TextStyle, Ui, Window, vec2};
 use render::layer::SLOTS;
-use render::paint::strokes::{Action, Palette};
+use render::paint::strokes::{Action, PaletteSpec};
 
 use crate::panels::controls::{back, button, patch, text};
 use crate::panels::pigments::{Catalogue, PigmentList};
@@ -95,5 +95,5 @@ fn put(desk: &mut Desk<'_>, slot: usize, pigment: Option<usize>) {
     slots[slot] = pigment;
     let pigments = &desk.easel.library.pigments;
     let names = slots.iter().flatten().map(|&pigment| pigments[pigment].name.as_str());
-    desk.act(Action::Palette(Palette::of(names)));
+    desk.act(Action::Palette(PaletteSpec::from_names(names)));
 }

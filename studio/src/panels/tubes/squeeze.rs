@@ -1,6 +1,6 @@
 //! Getting paint out of a tube.
 
-use render::paint::strokes::{Action, Load, Recipe, Squeeze, Surface};
+use render::paint::strokes::{Action, Load, Recipe, Squeeze, SurfaceId};
 
 use crate::panels::{Desk, Mode};
 
@@ -13,7 +13,7 @@ pub struct DraggedTube {
 
 /// Squeezes paint of a slot on a surface, as much as the painter has set; nothing
 /// for an empty slot. The place is in mm from the left and the upper edge.
-pub fn squeeze(desk: &mut Desk<'_>, slot: usize, on: Surface, x_mm: f64, y_mm: f64) {
+pub fn squeeze(desk: &mut Desk<'_>, slot: usize, on: SurfaceId, x_mm: f64, y_mm: f64) {
     let Some(recipe) = recipe(desk, slot) else { return };
     let volume_mm3 = desk.tools.squeeze_mm3;
     desk.act(Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 }));

@@ -13,8 +13,8 @@ use render::paint::document::Document;
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
-use render::paint::strokes::Strokes;
-use session::{Command, EaselState, Event, Origin, Snapshot, bare};
+use render::paint::strokes::StrokeScript;
+use session::{Command, Event, Origin, PaintingState, Snapshot, blank_canvas};
 use studio::files::{FileRequest, Files, Home, Preferences};
 use studio::panels::revisions;
 use studio::panels::{Desk, Request, Tools};
@@ -22,8 +22,8 @@ use studio::theme;
 
 /// A painting of some strokes, by the engine.
 pub(super) fn painted(title: &str) -> Document {
-    let Origin::Bare { mut script, library } =
-        bare(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
+    let Origin::Blank { mut script, library } =
+        blank_canvas(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
     else {
         panic!("a bare canvas");
     };
@@ -63,11 +63,11 @@ pub(super) fn opened(document: Document) -> Painting {
 }
 
 /// What the window would know of `document`.
-fn easel(document: &Document, revision: u64) -> Arc<EaselState> {
+fn easel(document: &Document, revision: u64) -> Arc<PaintingState> {
     let lighting = document.lighting.clone();
     let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer).unwrap();
     let cells = (document.wet.width(), document.wet.height());
-    Arc::new(EaselState {
+    Arc::new(PaintingState {
         title: document.title.clone(),
         canvas_cells: cells,
         palette_cells: cells,
@@ -79,16 +79,16 @@ fn easel(document: &Document, revision: u64) -> Arc<EaselState> {
         layers: Vec::new(),
         lighting,
         light: Arc::new(light),
-        second: None,
+        second_lighting: None,
         medium: document.medium.clone(),
-        ground: Arc::new(document.ground.reflectance.clone()),
+        ground_reflectance: Arc::new(document.ground.reflectance.clone()),
         history: Vec::new(),
-        done: 0,
+        history_done: 0,
         undo_bytes: (0, 0),
         brushes: Vec::new(),
         backend: "none".to_owned(),
         revision,
-        painting: false,
+        stroke_open: false,
     })
 }
 
@@ -100,11 +100,11 @@ pub(super) struct Bench {
     tools: Tools,
     pub(super) canvas: Arc<Document>,
     pub(super) palette: Arc<Document>,
-    pub(super) easel: Arc<EaselState>,
+    pub(super) easel: Arc<PaintingState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
     /// What was recorded, if it is not a bare canvas.
-    pub(super) recorded: Option<Strokes>,
+    pub(super) recorded: Option<StrokeScript>,
     /// What the worker was asked for, but for documents.
     pub(super) commands: Vec<Command>,
 }
@@ -159,7 +159,7 @@ impl Bench {
             Command::Open(Origin::Painting(document)) => {
                 self.canvas = Arc::new((**document).clone());
             }
-            Command::Open(Origin::Session { canvas, palette }) => {
+            Command::Open(Origin::Recovered { canvas, palette }) => {
                 self.canvas = Arc::new((**canvas).clone());
                 self.palette = Arc::new((**palette).clone());
             }
@@ -173,11 +173,12 @@ impl Bench {
     }
 
     /// The recording that the worker would tell.
-    pub(super) fn script(&self) -> Strokes {
+    pub(super) fn script(&self) -> StrokeScript {
         if let Some(script) = &self.recorded {
             return script.clone();
         }
-        let Origin::Bare { script, .. } = bare(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
+        let Origin::Blank { script, .. } =
+            blank_canvas(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
         else {
             panic!("a bare canvas");
         };

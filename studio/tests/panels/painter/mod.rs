@@ -9,8 +9,10 @@ use egui_kittest::kittest::Queryable;
 use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
 use render::paint::pose::Sample;
-use render::paint::strokes::Surface;
-use session::{BrushState, Command, EaselState, Event, PenSample, Worker, WorkerOptions, bare};
+use render::paint::strokes::SurfaceId;
+use session::{
+    BrushState, Command, Event, PaintingState, PenSample, Worker, WorkerOptions, blank_canvas,
+};
 use studio::panels::brushes::Brushes;
 use studio::panels::history::History;
 use studio::panels::layers::Layers;
@@ -28,7 +30,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// The four panels side by side, and a worker.
 struct Studio {
     worker: Worker,
-    easel: Option<Arc<EaselState>>,
+    easel: Option<Arc<PaintingState>>,
     tools: Tools,
     asked: Vec<Request>,
     messages: Vec<(String, Option<String>)>,
@@ -40,7 +42,7 @@ impl Studio {
     fn new() -> Self {
         let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
         let worker = Worker::start(options, || {});
-        worker.ask(Command::Open(bare(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)));
+        worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)));
         Self {
             worker,
             easel: None,
@@ -131,7 +133,7 @@ impl Painter {
     /// Waits until the worker tells of a painting that is so: it answers before all
     /// is measured and told.
     #[track_caller]
-    fn sees(&mut self, what: &str, is: impl Fn(&EaselState) -> bool) -> Arc<EaselState> {
+    fn sees(&mut self, what: &str, is: impl Fn(&PaintingState) -> bool) -> Arc<PaintingState> {
         let start = Instant::now();
         loop {
             self.harness.step();
@@ -173,7 +175,7 @@ impl Painter {
     }
 
     /// Squeezes the chosen tube.
-    fn squeeze(&mut self, on: Surface, x_mm: f64, y_mm: f64) {
+    fn squeeze(&mut self, on: SurfaceId, x_mm: f64, y_mm: f64) {
         let Studio { easel, tools, asked, .. } = self.harness.state_mut();
         let easel = easel.clone().unwrap();
         let slot = tools.tube;
@@ -183,7 +185,7 @@ impl Painter {
 
     /// Leads the brush in hand along a line with a pen that tells 200 samples a
     /// second, at 50 mm a second.
-    fn stroke(&mut self, surface: Surface, from: (f64, f64), to: (f64, f64)) {
+    fn stroke(&mut self, surface: SurfaceId, from: (f64, f64), to: (f64, f64)) {
         let studio = self.harness.state();
         let brush = studio.tools.brush.clone();
         studio.worker.ask(Command::PenDown { surface, brush });
@@ -207,7 +209,7 @@ impl Painter {
         self.settle();
     }
 
-    fn easel(&self) -> Arc<EaselState> {
+    fn easel(&self) -> Arc<PaintingState> {
         self.harness.state().easel.clone().unwrap()
     }
 

@@ -11,17 +11,17 @@ fn near(a: f64, b: f64) -> bool {
 fn paint_is_squeezed_mixed_and_taken_up() {
     let mut painter = Painter::new();
     painter.click("tube of Chrome Yellow");
-    painter.squeeze(Surface::Palette, 20.0, 20.0);
+    painter.squeeze(SurfaceId::Palette, 20.0, 20.0);
     painter.click("tube of Ultramarine");
-    painter.squeeze(Surface::Palette, 34.0, 20.0);
+    painter.squeeze(SurfaceId::Palette, 34.0, 20.0);
     painter.sees("two heaps", |easel| easel.history.len() == 2);
     painter.click("knife");
     assert_eq!(painter.brush("knife").amount_mm, 0.0);
     for y_mm in [18.0, 20.0, 22.0] {
-        painter.stroke(Surface::Palette, (14.0, y_mm), (40.0, y_mm));
-        painter.stroke(Surface::Palette, (40.0, y_mm), (14.0, y_mm));
+        painter.stroke(SurfaceId::Palette, (14.0, y_mm), (40.0, y_mm));
+        painter.stroke(SurfaceId::Palette, (40.0, y_mm), (14.0, y_mm));
     }
-    painter.sees("six strokes more", |easel| easel.history.len() == 8 && !easel.painting);
+    painter.sees("six strokes more", |easel| easel.history.len() == 8 && !easel.stroke_open);
     let knife = painter.sees_brush("knife", |knife| knife.amount_mm > 0.0);
     let both = [painter.part("knife", "Chrome Yellow"), painter.part("knife", "Ultramarine")];
     assert!(both[0] > 0.02 && both[1] > 0.02, "both are on the knife: {both:?}, {knife:?}");
@@ -68,7 +68,7 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
     painter.click("tube of Vermilion");
     painter.click("Load brush");
     let loaded = painter.sees_brush("round", |brush| near(brush.amount_mm, 0.3));
-    painter.stroke(Surface::Canvas, (6.0, 6.0), (26.0, 12.0));
+    painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
     painter.sees_brush("round", |brush| brush.amount_mm < loaded.amount_mm);
     painter.slide("Share", 50.0);
     painter.click("Dry share");
@@ -77,8 +77,8 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
         easel.layers.len() == 2 && easel.layers.iter().all(|layer| layer.mean_mm > 0.0)
     });
     for layer in &easel.layers {
-        assert!(layer.mean_mm <= layer.most_mm, "{layer:?}");
-        assert!((0.01..0.6).contains(&layer.covers), "{}", layer.covers);
+        assert!(layer.mean_mm <= layer.max_mm, "{layer:?}");
+        assert!((0.01..0.6).contains(&layer.coverage), "{}", layer.coverage);
     }
     painter.save("painter");
 
@@ -109,22 +109,23 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
     for _ in 0..3 {
         painter.click("Undo");
     }
-    painter
-        .sees("as before the drag", |easel| easel.done == before && easel.layers[0].opacity == 1.0);
+    painter.sees("as before the drag", |easel| {
+        easel.history_done == before && easel.layers[0].opacity == 1.0
+    });
     painter.click("merge dry layer 2 down");
     let both = easel.layers[0].mean_mm + easel.layers[1].mean_mm;
-    let is_merged = |easel: &EaselState| {
+    let is_merged = |easel: &PaintingState| {
         easel.layers.len() == 1 && (easel.layers[0].mean_mm / both - 1.0).abs() < 0.05
     };
     let merged = painter.sees("one layer as high as both", is_merged);
 
     let history = merged.history.clone();
     painter.click("0 beginning");
-    painter.sees("bare", |easel| easel.done == 0 && easel.layers.is_empty());
+    painter.sees("bare", |easel| easel.history_done == 0 && easel.layers.is_empty());
     assert_eq!(painter.brush("round"), loaded, "as before the stroke");
     painter.click(&format!("{} {}", history.len(), history[history.len() - 1]));
-    let again =
-        painter.sees("all done again", |easel| easel.done == history.len() && is_merged(easel));
+    let again = painter
+        .sees("all done again", |easel| easel.history_done == history.len() && is_merged(easel));
     assert_eq!(again.history, history);
     assert_eq!(again.layers[0].mean_mm, merged.layers[0].mean_mm);
     assert_eq!(again.brushes, merged.brushes);
@@ -136,7 +137,7 @@ fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
     let mut painter = Painter::new();
     painter.click("tube of Vermilion");
     painter.click("Load brush");
-    painter.stroke(Surface::Canvas, (6.0, 6.0), (26.0, 12.0));
+    painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
     painter.sees("a stroke", |easel| easel.history.len() == 1);
 
     // A slot whose paint is still wet.

@@ -7,24 +7,24 @@ use render::optics::Gloss;
 use render::paint::Engine;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::easel::{Easel, Outcome};
 use render::paint::on_cpu::OnCpu;
 use render::paint::painting::UNDO_BYTES;
 use render::paint::pose::Sample;
+use render::paint::session::{Outcome, PaintingSession};
 use render::paint::strokes::{
-    Action, BrushSpec, LayerName, Load, Palette, Squeeze, Strokes, Surface,
+    Action, BrushSpec, LayerRef, Load, PaletteSpec, Squeeze, StrokeScript, SurfaceId,
 };
 
 use super::studio::{PALETTE, gpu_engine, oils, open};
 
 /// A canvas of 130 x 100 cells and a palette of 90 x 70.
-pub(crate) fn header() -> Strokes {
+pub(crate) fn header() -> StrokeScript {
     let text = r#"{"format": "strokes", "version": 1, "title": "a session",
         "canvas": {"width_mm": 26, "height_mm": 20, "cell_mm": 0.2},
         "mixing": {"width_mm": 18, "height_mm": 14, "cell_mm": 0.2, "ground": {"kind": "panel"}},
         "palette": ["Lead White"], "brushes": {}, "actions": []}"#;
-    let mut script = Strokes::from_json("header.json", text.as_bytes()).unwrap();
-    script.palette = Palette::of(PALETTE);
+    let mut script = StrokeScript::from_json("header.json", text.as_bytes()).unwrap();
+    script.palette = PaletteSpec::from_names(PALETTE);
     script
 }
 
@@ -36,27 +36,27 @@ pub(crate) const BACKENDS: [Backend; 2] =
     [|document| Some(Box::new(OnCpu::new(document.ground.height.clone()))), gpu_engine];
 
 /// The surfaces that a script describes, and a record of what is done there.
-pub(crate) fn set_up(script: &Strokes, backend: Backend) -> Option<Easel> {
+pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<PaintingSession> {
     let (canvas, palette) = script.surfaces(oils(), None).unwrap();
     let (engine, palette) = (backend(&canvas)?, palette.unwrap());
     let beside = open(palette.clone(), backend(&palette)?, UNDO_BYTES);
-    Some(Easel::recorded(open(canvas, engine, UNDO_BYTES), Some(beside), script).unwrap())
+    Some(PaintingSession::recorded(open(canvas, engine, UNDO_BYTES), Some(beside), script).unwrap())
 }
 
 /// The same on all backends.
-pub(crate) fn easels() -> Vec<Easel> {
+pub(crate) fn sessions() -> Vec<PaintingSession> {
     BACKENDS.into_iter().filter_map(|backend| set_up(&header(), backend)).collect()
 }
 
 /// All that there is: both surfaces, and the paint on the brushes.
 pub(crate) type Whole = (Document, Option<Document>, Vec<Option<Layer>>);
 
-pub(crate) fn whole(easel: &mut Easel) -> Whole {
-    let names: Vec<String> = easel.brushes().map(|(name, _)| name.to_owned()).collect();
-    let brushes = names.iter().map(|name| easel.brush_paint(name).unwrap());
+pub(crate) fn whole(session: &mut PaintingSession) -> Whole {
+    let names: Vec<String> = session.brushes().map(|(name, _)| name.to_owned()).collect();
+    let brushes = names.iter().map(|name| session.brush_paint(name).unwrap());
     // A brush that was never used is as clean as one that was washed.
     let brushes = brushes.map(|paint| paint.filter(|paint| paint.totals() != [0; 9])).collect();
-    let (canvas, palette) = easel.documents().unwrap();
+    let (canvas, palette) = session.documents().unwrap();
     (canvas, palette, brushes)
 }
 
@@ -70,14 +70,14 @@ pub(crate) fn load(brush: &str, pigment: &str, amount_mm: f64) -> Action {
     Action::Load(Load { brush: brush.to_owned(), recipe, vehicle: 0.1, amount_mm })
 }
 
-pub(crate) fn squeeze(on: Surface, pigment: &str, (x_mm, y_mm): (f64, f64)) -> Action {
+pub(crate) fn squeeze(on: SurfaceId, pigment: &str, (x_mm, y_mm): (f64, f64)) -> Action {
     let recipe = [(pigment.to_owned(), 1.0)].into();
     Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3: 3.0 })
 }
 
 /// A surface, by lot.
-pub(crate) fn surface(random: &mut ChaCha8Rng) -> Surface {
-    if random.random_bool(0.5) { Surface::Canvas } else { Surface::Palette }
+pub(crate) fn surface(random: &mut ChaCha8Rng) -> SurfaceId {
+    if random.random_bool(0.5) { SurfaceId::Canvas } else { SurfaceId::Palette }
 }
 
 /// Samples as a pen tells them: with more digits than a file has.
@@ -102,29 +102,34 @@ pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
 }
 
 /// A stroke told in odd pieces, between which so much is painted.
-pub(crate) fn live(easel: &mut Easel, on: Surface, brush: &str, random: &mut ChaCha8Rng) {
+pub(crate) fn live(
+    session: &mut PaintingSession,
+    on: SurfaceId,
+    brush: &str,
+    random: &mut ChaCha8Rng,
+) {
     let count = random.random_range(1..12);
     let samples = wander(random, count);
-    easel.begin_stroke(on, brush).unwrap();
+    session.begin_stroke(on, brush).unwrap();
     let mut told = samples.as_slice();
     while !told.is_empty() {
         let (piece, rest) = told.split_at(random.random_range(1..=told.len()));
-        easel.extend(piece).unwrap();
-        easel.advance(random.random_range(0..60)).unwrap();
+        session.extend(piece).unwrap();
+        session.advance(random.random_range(0..60)).unwrap();
         told = rest;
     }
     if random.random_bool(0.5) {
-        easel.lift().unwrap();
-        while easel.advance(25).unwrap() > 0 {}
+        session.lift().unwrap();
+        while session.advance(25).unwrap() > 0 {}
     }
-    let report = easel.end_stroke().unwrap();
+    let report = session.end_stroke().unwrap();
     assert!(report.is_some_and(|report| report.undoable), "{report:?}");
 }
 
 /// One action; whether it counts in the history. A pigment may be wet, or a
 /// layer lack it.
-pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) -> bool {
-    let layers = easel.canvas().state().dry.len();
+pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) -> bool {
+    let layers = session.canvas().state().dry.len();
     let on = surface(random);
     let action = match random.random_range(0..14) {
         0 => Action::Dry { fraction: random.random_range(0.1..=1.0) },
@@ -135,7 +140,7 @@ pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) -> bool {
         2 => Action::Scrape { on },
         3 => {
             let more = ["Ultramarine", "Cobalt Blue"][random.random_range(0..2)];
-            Action::Palette(Palette::of(PALETTE[..5].iter().copied().chain([more])))
+            Action::Palette(PaletteSpec::from_names(PALETTE[..5].iter().copied().chain([more])))
         }
         4 => {
             let illuminant = ["A", "D65"][random.random_range(0..2)].to_owned();
@@ -147,7 +152,7 @@ pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) -> bool {
             Action::Gloss { wet, dry: Gloss { strength: 0.01, exponent: 12.0 } }
         }
         6 if layers > 0 => {
-            let layer = LayerName::Dry(random.random_range(0..layers));
+            let layer = LayerRef::Dry(random.random_range(0..layers));
             Action::Opacity { layer, value: random.random_range(0.0..2.0) }
         }
         7 => {
@@ -156,25 +161,25 @@ pub(crate) fn something(easel: &mut Easel, random: &mut ChaCha8Rng) -> bool {
                 std::mem::swap(&mut from, &mut to);
             }
             let layer = random.random_range(0..=layers);
-            let dry = LayerName::Dry(layer);
-            Action::Swap { layer: if layer == layers { LayerName::Wet } else { dry }, from, to }
+            let dry = LayerRef::Dry(layer);
+            Action::Swap { layer: if layer == layers { LayerRef::Wet } else { dry }, from, to }
         }
         8 if layers > 1 => Action::Merge { layer: random.random_range(1..layers) },
         _ => {
             let brush = ["flat", "knife"][random.random_range(0..2)];
-            live(easel, on, brush, random);
+            live(session, on, brush, random);
             return true;
         }
     };
-    matches!(easel.act(&action), Ok(Outcome::Done))
+    matches!(session.apply(&action), Ok(Outcome::Done))
 }
 
 /// Two loaded brushes, one with a shape of its own.
-pub(crate) fn loaded(easel: &mut Easel) {
-    easel.take_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
-    easel.take_brush("knife", &spec(HeadShape::Knife, 4.0)).unwrap();
-    easel.act(&load("flat", "Lead White", 0.6)).unwrap();
-    easel.act(&load("knife", "Prussian Blue", 0.5)).unwrap();
+pub(crate) fn loaded(session: &mut PaintingSession) {
+    session.set_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
+    session.set_brush("knife", &spec(HeadShape::Knife, 4.0)).unwrap();
+    session.apply(&load("flat", "Lead White", 0.6)).unwrap();
+    session.apply(&load("knife", "Prussian Blue", 0.5)).unwrap();
 }
 
 pub(crate) fn seeded(seed: u64) -> ChaCha8Rng {

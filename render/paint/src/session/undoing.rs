@@ -1,26 +1,26 @@
 //! Undo and redo over both surfaces.
 
-use super::failure::EaselError;
-use super::past::Entry;
-use super::state::Easel;
+use super::failure::SessionError;
+use super::history::Entry;
+use super::state::PaintingSession;
 use crate::painting::Painting;
-use crate::strokes::{Action, Surface};
+use crate::strokes::{Action, SurfaceId};
 
-impl Easel {
+impl PaintingSession {
     /// Takes the last action back, on whichever surface it was; whether there was
     /// one. What is open ends first, and is what is taken back.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn undo(&mut self) -> Result<bool, EaselError> {
-        self.settle_all()?;
-        let Some(entry) = self.past.done.pop() else { return Ok(false) };
+    /// [`SessionError`] if the device was lost.
+    pub fn undo(&mut self) -> Result<bool, SessionError> {
+        self.finish_open()?;
+        let Some(entry) = self.history.done.pop() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::undo);
         self.followed(exchanged)?;
         if let Some(carried) = entry.carried {
-            self.stand.tools[carried.tool].at = carried.from;
+            self.brushes.tools[carried.tool].at = carried.from;
         }
-        self.past.undone.push(entry);
+        self.history.undone.push(entry);
         self.follow();
         self.note(Action::Undo {});
         Ok(true)
@@ -29,28 +29,28 @@ impl Easel {
     /// Does again what was taken back last; whether there was something.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn redo(&mut self) -> Result<bool, EaselError> {
-        self.settle_all()?;
-        let Some(entry) = self.past.undone.pop() else { return Ok(false) };
+    /// [`SessionError`] if the device was lost.
+    pub fn redo(&mut self) -> Result<bool, SessionError> {
+        self.finish_open()?;
+        let Some(entry) = self.history.undone.pop() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::redo);
         self.followed(exchanged)?;
         if let Some(carried) = entry.carried {
-            self.stand.tools[carried.tool].at = carried.to;
+            self.brushes.tools[carried.tool].at = carried.to;
         }
-        self.past.done.push(entry);
+        self.history.done.push(entry);
         self.follow();
         self.note(Action::Redo {});
         Ok(true)
     }
 
-    /// Goes to where `done` of the actions of [`Easel::history`] are done, or as
+    /// Goes to where `done` of the actions of [`PaintingSession::history`] are done, or as
     /// near as can be reached.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn travel(&mut self, done: usize) -> Result<(), EaselError> {
-        self.settle_all()?;
+    /// [`SessionError`] if the device was lost.
+    pub fn go_to(&mut self, done: usize) -> Result<(), SessionError> {
+        self.finish_open()?;
         let (_, now) = self.history();
         for _ in done..now {
             self.undo()?;
@@ -67,7 +67,7 @@ impl Easel {
     /// was taken back. What can no longer be reached is left out.
     #[must_use]
     pub fn history(&self) -> (Vec<&str>, usize) {
-        (self.past.labels(), self.past.done.len())
+        (self.history.labels(), self.history.done.len())
     }
 
     /// The memory that undo takes now, and may take, in bytes of both paintings.
@@ -96,7 +96,7 @@ impl Easel {
         let undo = beside.map_or(0, Painting::undo_count);
         let redo = beside.map_or(0, Painting::redo_count);
         let (canvas_undo, canvas_redo) = (self.canvas.undo_count(), self.canvas.redo_count());
-        self.past.follow([canvas_undo, undo], [canvas_redo, redo]);
+        self.history.follow([canvas_undo, undo], [canvas_redo, redo]);
     }
 
     /// Undo or redo of an action on the surfaces that it is of.
@@ -104,8 +104,8 @@ impl Easel {
         &mut self,
         entry: &Entry,
         exchange: impl Fn(&mut Painting) -> Result<bool, crate::painting::PaintingError>,
-    ) -> Result<(), EaselError> {
-        for surface in [Surface::Canvas, Surface::Palette] {
+    ) -> Result<(), SessionError> {
+        for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
             if entry.on[surface as usize] {
                 let done = exchange(self.surface_mut(surface)?)?;
                 assert!(done, "the painting knows `{}`, as its history was followed", entry.label);

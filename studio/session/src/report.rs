@@ -6,18 +6,18 @@ use std::sync::Arc;
 use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
 use render::light::Light;
-use render::paint::easel::{Easel, EaselError};
-use render::paint::strokes::{BrushSpec, Surface};
+use render::paint::session::{PaintingSession, SessionError};
+use render::paint::strokes::{BrushSpec, SurfaceId};
 
 use super::colors::Colors;
 use super::layers::Layers;
-use super::opening::Opened;
+use super::prepare::PreparedPainting;
 use super::srgb::SrgbBytes;
-use super::state::{BrushState, EaselState};
+use super::state::{BrushState, PaintingState};
 
 /// What is kept from one telling to the next.
 #[derive(Debug)]
-pub(super) struct Teller {
+pub(super) struct Reporter {
     colors: Colors,
     pub(super) layers: Layers,
     /// Paint on brushes by name, as heights in mm; cleared when it may have
@@ -25,17 +25,17 @@ pub(super) struct Teller {
     pub(super) brushes: BTreeMap<String, [f64; SLOTS + 1]>,
 }
 
-/// What of a telling the easel does not know.
+/// What of a telling the session does not know.
 #[derive(Debug, Clone)]
-pub(super) struct Beside {
+pub(super) struct WorkerStatus {
     pub(super) revision: u64,
     /// Whether a stroke is open.
-    pub(super) painting: bool,
+    pub(super) stroke_open: bool,
 }
 
-impl Teller {
-    pub(super) fn new(opened: &Opened) -> Self {
-        let light = Arc::clone(opened.easel.canvas().light());
+impl Reporter {
+    pub(super) fn new(opened: &PreparedPainting) -> Self {
+        let light = Arc::clone(opened.session.canvas().light());
         let colors = Colors::new(Arc::clone(&opened.library), light);
         Self { colors, layers: Layers::default(), brushes: BTreeMap::new() }
     }
@@ -43,27 +43,27 @@ impl Teller {
     /// All of it, as it is now.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
+    /// [`SessionError`] if the device was lost.
     pub(super) fn state(
         &mut self,
-        opened: &mut Opened,
-        beside: &Beside,
+        opened: &mut PreparedPainting,
+        beside: &WorkerStatus,
         bytes: &SrgbBytes,
-    ) -> Result<EaselState, EaselError> {
-        let Opened { easel, library, ground, .. } = opened;
-        let light: Arc<Light> = Arc::clone(easel.canvas().light());
+    ) -> Result<PaintingState, SessionError> {
+        let PreparedPainting { session, library, ground, .. } = opened;
+        let light: Arc<Light> = Arc::clone(session.canvas().light());
         if !self.colors.are_of(library, &light) {
             self.colors = Colors::new(Arc::clone(library), Arc::clone(&light));
         }
-        let brushes = self.stand(easel)?;
-        let palette = easel.painting(Surface::Palette).map(|palette| palette.bounds());
-        let (history, done) = easel.history();
+        let brushes = self.stand(session)?;
+        let palette = session.painting(SurfaceId::Palette).map(|palette| palette.bounds());
+        let (history, done) = session.history();
         let history = history.into_iter().map(str::to_owned).collect();
-        let undo_bytes = easel.undo_bytes();
-        let canvas = easel.canvas();
+        let undo_bytes = session.undo_bytes();
+        let canvas = session.canvas();
         let slots = canvas.state().slots;
         let bounds = canvas.bounds();
-        Ok(EaselState {
+        Ok(PaintingState {
             title: canvas.title().to_owned(),
             canvas_cells: (bounds.width, bounds.height),
             palette_cells: palette.map_or((0, 0), |bounds| (bounds.width, bounds.height)),
@@ -75,30 +75,30 @@ impl Teller {
             layers: self.layers.states(canvas, bytes),
             lighting: canvas.state().lighting.clone(),
             light,
-            second: canvas.second_light().cloned(),
+            second_lighting: canvas.second_light().cloned(),
             medium: canvas.medium().clone(),
-            ground: Arc::clone(ground),
+            ground_reflectance: Arc::clone(ground),
             history,
-            done,
+            history_done: done,
             undo_bytes,
             brushes,
             backend: canvas.backend(),
             revision: beside.revision,
-            painting: beside.painting,
+            stroke_open: beside.stroke_open,
         })
     }
 
     /// The brushes, in the order of their names.
-    fn stand(&mut self, easel: &mut Easel) -> Result<Vec<BrushState>, EaselError> {
-        let slots = easel.canvas().state().slots;
+    fn stand(&mut self, session: &mut PaintingSession) -> Result<Vec<BrushState>, SessionError> {
+        let slots = session.canvas().state().slots;
         let specs: Vec<(String, BrushSpec)> =
-            easel.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
+            session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
         let mut stand = Vec::with_capacity(specs.len());
         for (name, spec) in specs {
             let heights = match self.brushes.get(&name) {
                 Some(heights) => *heights,
                 None => {
-                    let heights = heights_mm(easel, &name)?;
+                    let heights = heights_mm(session, &name)?;
                     self.brushes.insert(name.clone(), heights);
                     heights
                 }
@@ -121,9 +121,9 @@ impl Teller {
 }
 
 /// Mean heights of the paint on a brush: of each slot, and of vehicle last.
-fn heights_mm(easel: &mut Easel, name: &str) -> Result<[f64; SLOTS + 1], EaselError> {
-    let cell_mm = easel.canvas().cell_mm();
-    let Some(paint) = easel.brush_paint(name)? else { return Ok([0.0; SLOTS + 1]) };
+fn heights_mm(session: &mut PaintingSession, name: &str) -> Result<[f64; SLOTS + 1], SessionError> {
+    let cell_mm = session.canvas().cell_mm();
+    let Some(paint) = session.brush_paint(name)? else { return Ok([0.0; SLOTS + 1]) };
     let cells = (paint.width() * paint.height()).max(1) as f64;
     Ok(paint.totals().map(|total| total as f64 / cells * mm_from_quanta(1, cell_mm)))
 }

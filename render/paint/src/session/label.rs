@@ -2,7 +2,7 @@
 
 use pigment::library::PigmentLibrary;
 
-use crate::strokes::{Action, ActionPigments, LayerName, Surface};
+use crate::strokes::{Action, ActionPigments, LayerRef, SurfaceId};
 
 /// `action`, done with the pigments that it names; brushes go by the name they
 /// were taken under.
@@ -12,7 +12,7 @@ pub(super) fn label(
     library: &PigmentLibrary,
 ) -> String {
     let name = |pigment: usize| library.pigments[pigment].name.as_str();
-    let on = |surface: Surface| if surface.is_canvas() { "" } else { " on the palette" };
+    let on = |surface: SurfaceId| if surface.is_canvas() { "" } else { " on the palette" };
     match action {
         Action::Stroke(stroke) => format!("stroke{}, {}", on(stroke.on), stroke.brush),
         Action::Dry { fraction } if *fraction == 1.0 => "dry all".to_owned(),
@@ -42,8 +42,8 @@ pub(super) fn label(
             };
             format!("squeeze {paint}{}", if squeeze.on.is_canvas() { " on the canvas" } else { "" })
         }
-        Action::Scrape { on: Surface::Canvas } => "scrape the canvas".to_owned(),
-        Action::Scrape { on: Surface::Palette } => "scrape the palette".to_owned(),
+        Action::Scrape { on: SurfaceId::Canvas } => "scrape the canvas".to_owned(),
+        Action::Scrape { on: SurfaceId::Palette } => "scrape the palette".to_owned(),
         Action::Load(_)
         | Action::Wipe { .. }
         | Action::Wash { .. }
@@ -57,9 +57,9 @@ fn percent(share: f64) -> String {
     format!("{} %", (share * 1000.0).round() / 10.0)
 }
 
-fn layer_name(layer: LayerName) -> String {
+fn layer_name(layer: LayerRef) -> String {
     match layer {
-        LayerName::Wet => "wet paint".to_owned(),
-        LayerName::Dry(index) => format!("layer {index}"),
+        LayerRef::Wet => "wet paint".to_owned(),
+        LayerRef::Dry(index) => format!("layer {index}"),
     }
 }

@@ -5,19 +5,19 @@ use std::sync::Arc;
 use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::{Document, Lighting};
-use render::paint::easel::{Easel, EaselError};
 use render::paint::file::PaintingFileError;
 use render::paint::painting::{Painting, PaintingError};
-use render::paint::strokes::{BeginningError, Strokes};
+use render::paint::session::{PaintingSession, SessionError};
+use render::paint::strokes::{ScriptStartError, StrokeScript};
 
 use super::backend::Backend;
 use super::command::Origin;
-use super::fresh::{brushes, mixing};
+use super::defaults::{default_brushes, default_mixing_canvas};
 
-/// A painting on the easel, with what of it never changes.
+/// A painting on the session, with what of it never changes.
 #[derive(Debug)]
-pub(super) struct Opened {
-    pub(super) easel: Easel,
+pub(super) struct PreparedPainting {
+    pub(super) session: PaintingSession,
     pub(super) library: Arc<PigmentLibrary>,
     /// Reflectance of the ground.
     pub(super) ground: Arc<Vec<f64>>,
@@ -27,25 +27,25 @@ pub(super) struct Opened {
 
 /// Why a painting cannot be taken up.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum OpeningError {
+pub(super) enum OpenError {
     #[error(transparent)]
-    Beginning(#[from] BeginningError),
+    Beginning(#[from] ScriptStartError),
     #[error(transparent)]
     Painting(#[from] PaintingError),
     #[error(transparent)]
-    Easel(#[from] EaselError),
+    PaintingSession(#[from] SessionError),
     #[error("the painting that the script goes on with: {path}: {reason}")]
     Start { path: String, reason: String },
     #[error("the painting that the script goes on with: {0}")]
     StartFile(#[from] PaintingFileError),
 }
 
-impl OpeningError {
+impl OpenError {
     pub(super) fn hint(&self) -> Option<String> {
         match self {
             Self::Beginning(error) => error.hint(),
             Self::Painting(error) => error.hint(),
-            Self::Easel(error) => error.hint(),
+            Self::PaintingSession(error) => error.hint(),
             Self::Start { .. } => Some("put it back where the script names it".to_owned()),
             Self::StartFile(error) => error.hint().map(str::to_owned),
         }
@@ -55,24 +55,24 @@ impl OpeningError {
 /// Takes up what `origin` tells.
 ///
 /// # Errors
-/// [`OpeningError`]; nothing was changed then.
+/// [`OpenError`]; nothing was changed then.
 pub(super) fn opened(
     origin: Origin,
     backend: &mut Backend,
     undo_bytes: u64,
-) -> Result<Opened, OpeningError> {
+) -> Result<PreparedPainting, OpenError> {
     match origin {
-        Origin::Bare { script, library } => from_script(&script, &library, backend, undo_bytes),
+        Origin::Blank { script, library } => from_script(&script, &library, backend, undo_bytes),
         Origin::Painting(canvas) => {
-            let script = going_on(&canvas);
+            let script = continue_from(&canvas);
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
             let surfaces = || Ok(script.surfaces(&canvas.library.clone(), Some(*canvas))?);
-            let begun = Begun::new(&library, &lighting, surfaces)?;
+            let begun = Surfaces::new(&library, &lighting, surfaces)?;
             begun.set_up(Some(&script), backend, undo_bytes)
         }
-        Origin::Session { canvas, palette } => {
+        Origin::Recovered { canvas, palette } => {
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
-            let begun = Begun::new(&library, &lighting, || Ok((*canvas, Some(*palette))))?;
+            let begun = Surfaces::new(&library, &lighting, || Ok((*canvas, Some(*palette))))?;
             begun.set_up(None, backend, undo_bytes)
         }
     }
@@ -84,56 +84,54 @@ pub(super) fn opened(
 /// # Errors
 /// As [`opened`].
 pub(super) fn from_script(
-    script: &Strokes,
+    script: &StrokeScript,
     library: &PigmentLibrary,
     backend: &mut Backend,
     undo_bytes: u64,
-) -> Result<Opened, OpeningError> {
+) -> Result<PreparedPainting, OpenError> {
     let mut script = script.header();
-    script.mixing.get_or_insert_with(|| mixing(script.canvas.cell_mm));
+    script.mixing.get_or_insert_with(|| default_mixing_canvas(script.canvas.cell_mm));
     let start = script.start.as_deref().map(read).transpose()?;
     let library = start.as_ref().map_or(library, |start| &start.library).clone();
     let lighting = match &start {
         Some(start) => start.lighting.clone(),
         None => script.lighting.clone().unwrap_or_default(),
     };
-    let begun = Begun::new(&library, &lighting, || Ok(script.surfaces(&library, start)?))?;
+    let begun = Surfaces::new(&library, &lighting, || Ok(script.surfaces(&library, start)?))?;
     begun.set_up(Some(&script), backend, undo_bytes)
 }
 
-fn read(path: &str) -> Result<Document, OpeningError> {
-    let bytes = std::fs::read(path).map_err(|error| OpeningError::Start {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    })?;
+fn read(path: &str) -> Result<Document, OpenError> {
+    let bytes = std::fs::read(path)
+        .map_err(|error| OpenError::Start { path: path.to_owned(), reason: error.to_string() })?;
     Ok(render::paint::file::read(path, &bytes)?)
 }
 
 /// A header for what is done to a painting from now on.
-fn going_on(canvas: &Document) -> Strokes {
+fn continue_from(canvas: &Document) -> StrokeScript {
     let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
-    let mut script = Strokes::going_on(&format!("{title}.exr"), canvas);
-    script.mixing = Some(mixing(script.canvas.cell_mm));
+    let mut script = StrokeScript::continue_from(&format!("{title}.exr"), canvas);
+    script.mixing = Some(default_mixing_canvas(script.canvas.cell_mm));
     script
 }
 
 /// Canvas and palette at rest, and their light.
-struct Begun {
+struct Surfaces {
     canvas: Document,
     palette: Option<Document>,
     light: Light,
     remarks: Vec<String>,
 }
 
-impl Begun {
+impl Surfaces {
     /// Makes the surfaces while another thread works out the light, which takes
     /// as long. A painting whose light is gone (a lamp's file) is shown under the
     /// usual one.
     fn new(
         library: &PigmentLibrary,
         lighting: &Lighting,
-        surfaces: impl FnOnce() -> Result<(Document, Option<Document>), OpeningError> + Send,
-    ) -> Result<Self, OpeningError> {
+        surfaces: impl FnOnce() -> Result<(Document, Option<Document>), OpenError> + Send,
+    ) -> Result<Self, OpenError> {
         let named =
             |lighting: &Lighting| Light::named(library, &lighting.illuminant, &lighting.observer);
         let (light, surfaces) = rayon::join(|| named(lighting), surfaces);
@@ -153,13 +151,13 @@ impl Begun {
         Ok(Self { canvas, palette, light, remarks })
     }
 
-    /// Puts them on an easel that records under the header of `script`.
+    /// Puts them on an session that records under the header of `script`.
     fn set_up(
         self,
-        script: Option<&Strokes>,
+        script: Option<&StrokeScript>,
         backend: &mut Backend,
         undo_bytes: u64,
-    ) -> Result<Opened, OpeningError> {
+    ) -> Result<PreparedPainting, OpenError> {
         let Self { canvas, palette, light, mut remarks } = self;
         let library = Arc::new(canvas.library.clone());
         let ground = Arc::new(canvas.ground.reflectance.clone());
@@ -180,15 +178,15 @@ impl Begun {
             },
         );
         let (canvas, palette) = (canvas?, palette.transpose()?);
-        let mut easel = match script {
-            Some(script) => Easel::recorded(canvas, palette, script)?,
-            None => Easel::new(canvas, palette)?,
+        let mut session = match script {
+            Some(script) => PaintingSession::recorded(canvas, palette, script)?,
+            None => PaintingSession::new(canvas, palette)?,
         };
-        easel.set_undo_bytes(undo_bytes);
+        session.set_undo_bytes(undo_bytes);
         let stand = script.map(|script| &script.brushes).filter(|stand| !stand.is_empty());
-        for (name, spec) in stand.cloned().unwrap_or_else(brushes) {
-            easel.take_brush(&name, &spec)?;
+        for (name, spec) in stand.cloned().unwrap_or_else(default_brushes) {
+            session.set_brush(&name, &spec)?;
         }
-        Ok(Opened { easel, library, ground, remarks })
+        Ok(PreparedPainting { session, library, ground, remarks })
     }
 }

@@ -3,17 +3,17 @@
 use std::time::Instant;
 
 use pigment::library::PigmentLibrary;
-use render::paint::easel::EaselError;
-use render::paint::strokes::Strokes;
+use render::paint::session::SessionError;
+use render::paint::strokes::StrokeScript;
 
 use super::command::{Origin, Pace};
 use super::event::{Event, Snapshot};
-use super::opening::{Opened, OpeningError, from_script, opened};
-use super::playing::{Playing, Step};
-use super::telling::Teller;
-use super::workshop::{Stage, Workshop};
+use super::prepare::{OpenError, PreparedPainting, from_script, opened};
+use super::replay::{Replay, Step};
+use super::report::Reporter;
+use super::worker::{OpenPainting, WorkerLoop};
 
-impl Workshop<'_> {
+impl WorkerLoop<'_> {
     /// Takes up a painting in place of the one there is, which stays if that
     /// fails.
     pub(super) fn open(&mut self, origin: Origin) {
@@ -22,7 +22,7 @@ impl Workshop<'_> {
     }
 
     /// Puts a painting on the stage; whether there was one.
-    fn put_up(&mut self, opened: Result<Opened, OpeningError>) -> bool {
+    fn put_up(&mut self, opened: Result<PreparedPainting, OpenError>) -> bool {
         let mut opened = match opened {
             Ok(opened) => opened,
             Err(error) => {
@@ -33,8 +33,8 @@ impl Workshop<'_> {
         for remark in std::mem::take(&mut opened.remarks) {
             self.say(remark, None, false);
         }
-        let teller = Teller::new(&opened);
-        self.stage = Some(Stage { opened, teller });
+        let teller = Reporter::new(&opened);
+        self.stage = Some(OpenPainting { opened, teller });
         self.live = None;
         self.kept = None;
         self.revision += 1;
@@ -49,7 +49,7 @@ impl Workshop<'_> {
     }
 
     /// Begins to play a script on the painting that it describes.
-    pub(super) fn replay(&mut self, script: Strokes, library: &PigmentLibrary, pace: Pace) {
+    pub(super) fn replay(&mut self, script: StrokeScript, library: &PigmentLibrary, pace: Pace) {
         // Before anything is taken away; what a painting of its own has for
         // pigments is known only with that painting.
         if script.start.is_none()
@@ -59,19 +59,19 @@ impl Workshop<'_> {
         }
         let opened = from_script(&script, library, &mut self.backend, self.undo_bytes);
         if self.put_up(opened) {
-            self.playing = Some(Playing::new(script, pace));
+            self.playing = Some(Replay::new(script, pace));
         }
     }
 
     /// Plays on for a moment.
-    pub(super) fn play(&mut self) -> Result<(), EaselError> {
+    pub(super) fn play(&mut self) -> Result<(), SessionError> {
         let (Some(playing), Some(stage)) = (&mut self.playing, &mut self.stage) else {
             return Ok(());
         };
-        let easel = &mut stage.opened.easel;
+        let session = &mut stage.opened.session;
         let step = match &mut self.live {
-            Some(live) => playing.feed(easel, live),
-            None => playing.go(easel, &mut self.live),
+            Some(live) => playing.feed(session, live),
+            None => playing.go(session, &mut self.live),
         };
         self.pause = None;
         match step {
@@ -107,7 +107,7 @@ impl Workshop<'_> {
         }
     }
 
-    fn end_replay(&mut self) -> Result<(), EaselError> {
+    fn end_replay(&mut self) -> Result<(), SessionError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
         // What its stroke was told is painted by and by, as after any pen.
@@ -140,7 +140,7 @@ impl Workshop<'_> {
             let text = "the painting was on the device, and is lost".to_owned();
             return self.say(text, Some(hint.to_owned()), true);
         };
-        let session = Origin::Session {
+        let session = Origin::Recovered {
             canvas: Box::new((*canvas).clone()),
             palette: Box::new((*palette).clone()),
         };
@@ -159,12 +159,12 @@ mod tests {
     use render::gpu::BackendChoice;
     use render::gpu::DeviceError;
     use render::paint::painting::PaintingError;
-    use render::paint::strokes::{Action, Squeeze, Surface};
+    use render::paint::strokes::{Action, Squeeze, SurfaceId};
 
     use super::super::backend::Backend;
     use pigment::library::PigmentLibrary;
 
-    use super::super::fresh::bare;
+    use super::super::defaults::blank_canvas;
     use super::super::inbox::Inbox;
     use super::*;
 
@@ -175,26 +175,26 @@ mod tests {
         let tell = |event| told.borrow_mut().push(event);
         let (_say, heard) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
-        let mut workshop = Workshop::new(Inbox::new(heard), backend, 1 << 24, &tell);
-        workshop.open(bare(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
+        let mut workshop = WorkerLoop::new(Inbox::new(heard), backend, 1 << 24, &tell);
+        workshop.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
-            on: Surface::Canvas,
+            on: SurfaceId::Canvas,
             recipe: [("Vermilion".to_owned(), 1.0)].into(),
             vehicle: 0.0,
             x_mm: 3.0,
             y_mm: 2.0,
             volume_mm3: 2.0,
         });
-        workshop.easel().act(&heap).unwrap();
-        let (canvas, palette) = workshop.easel().documents().unwrap();
+        workshop.session().apply(&heap).unwrap();
+        let (canvas, palette) = workshop.session().documents().unwrap();
         let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
         let snapshot = Snapshot { number: 1, canvas, palette, revision: 1 };
         // As on a device.
         workshop.kept = saved.then(|| snapshot.clone());
         told.borrow_mut().clear();
         let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
-        workshop.failed(&EaselError::Painting(PaintingError::Engine(gone)));
-        let found = workshop.stage.as_mut().map(|stage| stage.opened.easel.documents().unwrap());
+        workshop.failed(&SessionError::Painting(PaintingError::Engine(gone)));
+        let found = workshop.stage.as_mut().map(|stage| stage.opened.session.documents().unwrap());
         if let Some((canvas, palette)) = found {
             assert!(canvas == *snapshot.canvas, "the canvas as it was saved");
             assert_eq!(palette.as_ref(), Some(&*snapshot.palette), "the palette as well");

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pigment::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
 use render::paint::ground::{GroundRelief, GroundSpec, Wood};
-use render::paint::strokes::{Action, BrushSpec, Canvas, Load, Palette, Strokes};
+use render::paint::strokes::{Action, BrushSpec, Canvas, Load, PaletteSpec, StrokeScript};
 
 use super::command::{Command, Origin};
 
@@ -33,7 +33,7 @@ const STAND: [(&str, HeadShape, f64); 6] = [
 
 /// The brushes that stand there at first.
 #[must_use]
-pub fn brushes() -> BTreeMap<String, BrushSpec> {
+pub fn default_brushes() -> BTreeMap<String, BrushSpec> {
     let spec =
         |(name, shape, size_mm): (&str, _, _)| (name.to_owned(), BrushSpec { shape, size_mm });
     STAND.into_iter().map(spec).collect()
@@ -42,7 +42,7 @@ pub fn brushes() -> BTreeMap<String, BrushSpec> {
 /// A wooden palette beside a canvas of cells of this width, 640 x 420 of them;
 /// 64 x 42 mm beside the usual canvas.
 #[must_use]
-pub fn mixing(cell_mm: f64) -> Canvas {
+pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
     let ground = GroundRelief::Wood(Wood::default()).into();
     let (width_mm, height_mm) = (640.0 * cell_mm, 420.0 * cell_mm);
     Canvas { width_mm, height_mm, cell_mm, ground }
@@ -53,27 +53,32 @@ pub fn mixing(cell_mm: f64) -> Canvas {
 /// the tubes a painter would choose, any other library its white and the first
 /// that can be mixed.
 #[must_use]
-pub fn bare(library: PigmentLibrary, width_mm: f64, height_mm: f64, cell_mm: f64) -> Origin {
+pub fn blank_canvas(
+    library: PigmentLibrary,
+    width_mm: f64,
+    height_mm: f64,
+    cell_mm: f64,
+) -> Origin {
     let mixed = library.pigments.iter().filter(|pigment| pigment.identified);
     let mut names: Vec<&str> = mixed.map(|pigment| pigment.name.as_str()).collect();
     names.sort_by_key(|name| Some(*name) != library.reference.as_deref());
     let tubes = if TUBES.iter().all(|tube| names.contains(tube)) {
-        Palette::of(TUBES)
+        PaletteSpec::from_names(TUBES)
     } else {
-        Palette::of(names.into_iter().take(TUBES.len()))
+        PaletteSpec::from_names(names.into_iter().take(TUBES.len()))
     };
     let canvas = Canvas { width_mm, height_mm, cell_mm, ground: GroundSpec::default() };
-    let mut script = Strokes::new("untitled", "", canvas, tubes);
+    let mut script = StrokeScript::new("untitled", "", canvas, tubes);
     script.library = Some(library.title.clone());
-    script.mixing = Some(mixing(cell_mm));
-    script.brushes = brushes();
-    Origin::Bare { script: Box::new(script), library: Box::new(library) }
+    script.mixing = Some(default_mixing_canvas(cell_mm));
+    script.brushes = default_brushes();
+    Origin::Blank { script: Box::new(script), library: Box::new(library) }
 }
 
 /// What a window asks for first: 1920 x 1080 cells of linen, 192 x 108 mm, and
 /// the round brush loaded with blue.
 #[must_use]
-pub fn fresh() -> Vec<Command> {
+pub fn initial_commands() -> Vec<Command> {
     let paint = Load {
         brush: "round".to_owned(),
         recipe: [("Ultramarine".to_owned(), 1.0)].into(),
@@ -81,8 +86,8 @@ pub fn fresh() -> Vec<Command> {
         amount_mm: 0.3,
     };
     vec![
-        Command::Open(bare(PigmentLibrary::van_gogh_oils(), 192.0, 108.0, 0.1)),
-        Command::Act(Action::Load(paint)),
+        Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 192.0, 108.0, 0.1)),
+        Command::Apply(Action::Load(paint)),
     ]
 }
 
@@ -92,12 +97,12 @@ mod tests {
 
     #[test]
     fn what_is_there_at_first_can_be_painted_with() {
-        let mut commands = fresh().into_iter();
-        let Some(Command::Open(Origin::Bare { mut script, library })) = commands.next() else {
+        let mut commands = initial_commands().into_iter();
+        let Some(Command::Open(Origin::Blank { mut script, library })) = commands.next() else {
             panic!("a canvas is taken up first");
         };
         for command in commands {
-            let Command::Act(action) = command else { panic!("then there are actions only") };
+            let Command::Apply(action) = command else { panic!("then there are actions only") };
             script.actions.push(action);
         }
         assert_eq!(script.canvas.cells(), (1920, 1080));
@@ -113,7 +118,7 @@ mod tests {
         let mut library = PigmentLibrary::van_gogh_oils();
         library.pigments.retain(|pigment| pigment.name != "Vermilion");
         library.pigments[3].identified = false;
-        let Origin::Bare { script, .. } = bare(library, 20.0, 10.0, 0.1) else {
+        let Origin::Blank { script, .. } = blank_canvas(library, 20.0, 10.0, 0.1) else {
             panic!("a bare canvas");
         };
         let names: Vec<String> =

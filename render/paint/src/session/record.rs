@@ -1,7 +1,7 @@
 //! What was done, as a script.
 
 use crate::strokes::{
-    Action, BrushSpec, LONGEST_FILE, MOST_ACTIONS, MOST_NAMES, MOST_SAMPLES, Strokes, line,
+    Action, BrushSpec, MAX_ACTIONS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES, StrokeScript, line,
 };
 
 /// Bytes of a file that are kept for all but its actions.
@@ -18,15 +18,15 @@ pub(super) struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        let bytes = LONGEST_FILE - HEADER_BYTES;
-        Self { actions: MOST_ACTIONS, samples: MOST_SAMPLES, bytes, brushes: MOST_NAMES }
+        let bytes = MAX_FILE_BYTES - HEADER_BYTES;
+        Self { actions: MAX_ACTIONS, samples: MAX_SAMPLES, bytes, brushes: MAX_NAMES }
     }
 }
 
 /// A script that grows.
 #[derive(Debug)]
 pub(super) struct Record {
-    pub(super) script: Strokes,
+    pub(super) script: StrokeScript,
     samples: usize,
     bytes: usize,
     pub(super) limits: Limits,
@@ -36,7 +36,7 @@ pub(super) struct Record {
 
 impl Record {
     /// Under a header, whose numbers are rounded, without brushes and actions.
-    pub(super) fn new(header: Strokes) -> Self {
+    pub(super) fn new(header: StrokeScript) -> Self {
         Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
     }
 

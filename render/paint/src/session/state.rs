@@ -1,29 +1,29 @@
-//! What an easel consists of.
+//! What an session consists of.
 
 use super::adjusting::Adjusting;
-use super::failure::EaselError;
+use super::brushes::{Brushes, Taken};
+use super::failure::SessionError;
+use super::history::SharedHistory;
 use super::live::Live;
-use super::past::Past;
 use super::record::Record;
-use super::stand::{Stand, Taken};
 use crate::brush::Head;
 use crate::document::Document;
 use crate::layer::Layer;
 use crate::painting::{Painting, PaintingError, StrokeReport};
 use crate::strokes::{
-    Action, At, BrushSpec, Fault, Palette, Scope, Strokes, Surface, Surfaces, check_size, names,
-    six,
+    Action, At, BrushSpec, InvalidValue, PaletteSpec, Scope, StrokeScript, SurfaceId, Surfaces,
+    check_size, names, six,
 };
 
 /// A canvas, a palette beside it, brushes, and the record of what was done.
 #[derive(Debug)]
-pub struct Easel {
+pub struct PaintingSession {
     pub(super) canvas: Painting,
     pub(super) palette: Option<Painting>,
-    pub(super) stand: Stand,
+    pub(super) brushes: Brushes,
     /// What names of pigments mean by now.
     pub(super) scope: Scope,
-    pub(super) past: Past,
+    pub(super) history: SharedHistory,
     pub(super) record: Option<Record>,
     pub(super) live: Option<Live>,
     pub(super) adjusting: Option<Adjusting>,
@@ -41,17 +41,17 @@ pub enum Outcome {
     Painted(StrokeReport),
 }
 
-impl Easel {
+impl PaintingSession {
     /// Sets up a canvas, and a palette to mix on, if there is to be one. Both are
     /// of one library, show the same pigments in the same slots under the same
     /// light, and have cells of the same width. Nothing is recorded.
     ///
     /// Each keeps its own part of what can be undone, within the memory that it
-    /// was opened with; see [`Easel::set_undo_bytes`].
+    /// was opened with; see [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
-    /// [`EaselError::Unlike`] for two that do not go together.
-    pub fn new(canvas: Painting, palette: Option<Painting>) -> Result<Self, EaselError> {
+    /// [`SessionError::Unlike`] for two that do not go together.
+    pub fn new(canvas: Painting, palette: Option<Painting>) -> Result<Self, SessionError> {
         if let Some(palette) = &palette {
             let unlike = [
                 ("pigment libraries", palette.library() != canvas.library()),
@@ -61,17 +61,17 @@ impl Easel {
                 ("media", palette.medium() != canvas.medium()),
             ];
             if let Some((what, _)) = unlike.iter().find(|(_, unlike)| *unlike) {
-                return Err(EaselError::Unlike { what });
+                return Err(SessionError::Unlike { what });
             }
         }
-        let own = Palette::of(names(&canvas.state().slots, canvas.library()));
+        let own = PaletteSpec::from_names(names(&canvas.state().slots, canvas.library()));
         let (scope, _) = Scope::new(&own, canvas.library())?;
         Ok(Self {
             canvas,
             palette,
-            stand: Stand::default(),
+            brushes: Brushes::default(),
             scope,
-            past: Past::default(),
+            history: SharedHistory::default(),
             record: None,
             live: None,
             adjusting: None,
@@ -80,56 +80,56 @@ impl Easel {
 
     /// The same, and records all that is done from now on under the header of
     /// `script`, which must describe these surfaces as they are now, as
-    /// [`Strokes::surfaces`] makes them.
+    /// [`StrokeScript::surfaces`] makes them.
     ///
     /// # Errors
-    /// [`EaselError`] where the header describes others.
+    /// [`SessionError`] where the header describes others.
     pub fn recorded(
         canvas: Painting,
         palette: Option<Painting>,
-        script: &Strokes,
-    ) -> Result<Self, EaselError> {
-        let mut easel = Self::new(canvas, palette)?;
-        let mut header = script.header_as_written()?;
-        let (canvas, slots) = (&easel.canvas, easel.canvas.state().slots);
+        script: &StrokeScript,
+    ) -> Result<Self, SessionError> {
+        let mut session = Self::new(canvas, palette)?;
+        let mut header = script.rounded_header()?;
+        let (canvas, slots) = (&session.canvas, session.canvas.state().slots);
         let (scope, named) = Scope::new(&header.palette, canvas.library())?;
         let own = (&slots, canvas.library());
         header.check_agreement(canvas.bounds(), canvas.cell_mm(), own, &named)?;
-        let cells = easel.palette.as_ref().map(|palette| palette.bounds());
+        let cells = session.palette.as_ref().map(|palette| palette.bounds());
         let cells = cells.map(|bounds| (bounds.width, bounds.height));
         if cells != header.mixing.as_ref().map(|mixing| mixing.cells()) {
-            return Err(EaselError::Unlike { what: "palettes than the script describes" });
+            return Err(SessionError::Unlike { what: "palettes than the script describes" });
         }
         let bare = header.start.is_none();
         if bare && header.medium.clone().unwrap_or_default() != *canvas.medium() {
-            return Err(EaselError::Unlike { what: "media than the script describes" });
+            return Err(SessionError::Unlike { what: "media than the script describes" });
         }
         if bare && header.lighting.clone().unwrap_or_default() != canvas.state().lighting {
-            return Err(EaselError::Unlike { what: "lights than the script describes" });
+            return Err(SessionError::Unlike { what: "lights than the script describes" });
         }
-        header.palette = Palette::of(names(&slots, canvas.library()));
+        header.palette = PaletteSpec::from_names(names(&slots, canvas.library()));
         header.brushes.clear();
         header.library.get_or_insert_with(|| canvas.library().title.clone());
-        easel.record = Some(Record::new(header));
-        easel.scope = scope;
-        Ok(easel)
+        session.record = Some(Record::new(header));
+        session.scope = scope;
+        Ok(session)
     }
 
     /// The painting of a surface, if there is one.
     #[must_use]
-    pub fn painting(&self, surface: Surface) -> Option<&Painting> {
+    pub fn painting(&self, surface: SurfaceId) -> Option<&Painting> {
         match surface {
-            Surface::Canvas => Some(&self.canvas),
-            Surface::Palette => self.palette.as_ref(),
+            SurfaceId::Canvas => Some(&self.canvas),
+            SurfaceId::Palette => self.palette.as_ref(),
         }
     }
 
     /// The same, for its pictures and its paint to be read. What changes a
-    /// painting goes through the easel: the history would not know it.
-    pub fn painting_mut(&mut self, surface: Surface) -> Option<&mut Painting> {
+    /// painting goes through the session: the history would not know it.
+    pub fn painting_mut(&mut self, surface: SurfaceId) -> Option<&mut Painting> {
         match surface {
-            Surface::Canvas => Some(&mut self.canvas),
-            Surface::Palette => self.palette.as_mut(),
+            SurfaceId::Canvas => Some(&mut self.canvas),
+            SurfaceId::Palette => self.palette.as_mut(),
         }
     }
 
@@ -139,7 +139,7 @@ impl Easel {
         &self.canvas
     }
 
-    /// The same, to be read as with [`Easel::painting_mut`].
+    /// The same, to be read as with [`PaintingSession::painting_mut`].
     pub fn canvas_mut(&mut self) -> &mut Painting {
         &mut self.canvas
     }
@@ -149,38 +149,38 @@ impl Easel {
     /// ends first.
     ///
     /// # Errors
-    /// [`EaselError`] for heads that there are not on cells of this width, or if
+    /// [`SessionError`] for heads that there are not on cells of this width, or if
     /// the device was lost.
-    pub fn take_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), EaselError> {
+    pub fn set_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), SessionError> {
         let spec = BrushSpec { size_mm: six(spec.size_mm), ..spec.clone() };
         check_size(&At::default(), "size_mm", spec.size_mm)?;
         Head::new(spec.shape, spec.size_mm, self.canvas.cell_mm()).map_err(PaintingError::from)?;
-        self.settle_all()?;
+        self.finish_open()?;
         let wash = Action::Wash { brush: name.to_owned() };
-        let now = self.stand.find(name).map(|tool| &self.stand.tools[tool]);
+        let now = self.brushes.find(name).map(|tool| &self.brushes.tools[tool]);
         if now.is_some_and(|tool| tool.spec != spec && tool.used()) {
-            self.act(&wash)?;
+            self.apply(&wash)?;
         }
         // An undo may have given paint back to one that was there before.
-        if self.stand.take(name, &spec) == Taken::Used {
-            self.act(&wash)?;
+        if self.brushes.take(name, &spec) == Taken::Used {
+            self.apply(&wash)?;
         }
         Ok(())
     }
 
     /// The brushes there are, in the order of their names.
     pub fn brushes(&self) -> impl Iterator<Item = (&str, &BrushSpec)> {
-        self.stand.names().map(|(name, tool)| (name, &tool.spec))
+        self.brushes.names().map(|(name, tool)| (name, &tool.spec))
     }
 
     /// The paint on a brush; nothing if there is no such brush, or if it was
     /// never used.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn brush_paint(&mut self, name: &str) -> Result<Option<Layer>, EaselError> {
-        let Some(tool) = self.stand.find(name) else { return Ok(None) };
-        let at = self.stand.tools[tool].at;
+    /// [`SessionError`] if the device was lost.
+    pub fn brush_paint(&mut self, name: &str) -> Result<Option<Layer>, SessionError> {
+        let Some(tool) = self.brushes.find(name) else { return Ok(None) };
+        let at = self.brushes.tools[tool].at;
         let Some(number) = self.brush_number(name, at) else { return Ok(None) };
         let painting = self.surface_mut(at)?;
         Ok(Some(painting.brush_paint(number)?))
@@ -188,16 +188,16 @@ impl Easel {
 
     /// The number of a brush in the painting of a surface, once it was used there.
     #[must_use]
-    pub fn brush_number(&self, name: &str, surface: Surface) -> Option<usize> {
-        let tool = self.stand.find(name)?;
-        self.stand.tools[tool].numbers[surface as usize]
+    pub fn brush_number(&self, name: &str, surface: SurfaceId) -> Option<usize> {
+        let tool = self.brushes.find(name)?;
+        self.brushes.tools[tool].numbers[surface as usize]
     }
 
     /// Canvas and palette as they are now, a stroke that is open as far as it is.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn documents(&mut self) -> Result<(Document, Option<Document>), EaselError> {
+    /// [`SessionError`] if the device was lost.
+    pub fn documents(&mut self) -> Result<(Document, Option<Document>), SessionError> {
         let canvas = self.canvas.document()?;
         let palette = self.palette.as_mut().map(Painting::document).transpose()?;
         Ok((canvas, palette))
@@ -206,7 +206,7 @@ impl Easel {
     /// All that was done so far, without what is open; none if nothing is
     /// recorded.
     #[must_use]
-    pub fn recording(&self) -> Option<&Strokes> {
+    pub fn recording(&self) -> Option<&StrokeScript> {
         self.record.as_ref().map(|record| &record.script)
     }
 
@@ -218,7 +218,7 @@ impl Easel {
     }
 
     /// From now on `palette`'s short names mean its pigments.
-    pub(super) fn know(&mut self, palette: &Palette) -> Result<(), Box<Fault>> {
+    pub(super) fn know(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
         let action = Action::Palette(palette.clone());
         let slots = self.scope.action(&At::default(), &action, self.canvas.library())?;
         self.scope.learn(&action, &slots);
@@ -235,14 +235,17 @@ impl Easel {
             canvas_mm: side_mm(&self.canvas),
             palette_mm: self.palette.as_ref().map(side_mm),
         };
-        self.recording().map_or(own, Strokes::sides)
+        self.recording().map_or(own, StrokeScript::sides)
     }
 
     /// The painting of a surface; a fault where there is none.
-    pub(super) fn surface_mut(&mut self, surface: Surface) -> Result<&mut Painting, EaselError> {
+    pub(super) fn surface_mut(
+        &mut self,
+        surface: SurfaceId,
+    ) -> Result<&mut Painting, SessionError> {
         self.surfaces().far_mm(&At::default(), surface)?;
         Ok(match (surface, &mut self.palette) {
-            (Surface::Palette, Some(palette)) => palette,
+            (SurfaceId::Palette, Some(palette)) => palette,
             _ => &mut self.canvas,
         })
     }

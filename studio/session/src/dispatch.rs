@@ -3,24 +3,24 @@
 use std::sync::Arc;
 
 use render::layer::SLOTS;
-use render::paint::easel::{Easel, EaselError, Outcome};
-use render::paint::strokes::{Action, Load, Squeeze, Surface};
+use render::paint::session::{Outcome, PaintingSession, SessionError};
+use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
 
 use super::command::{Command, PenSample};
 use super::event::{Event, Picked, Snapshot};
-use super::live::Live;
+use super::free_space::roomiest;
 use super::pick::{Place, picked};
-use super::room::roomiest;
-use super::state::EaselState;
-use super::telling::Beside;
-use super::workshop::{Stage, Workshop};
+use super::report::WorkerStatus;
+use super::state::PaintingState;
+use super::stroke::LiveStroke;
+use super::worker::{OpenPainting, WorkerLoop};
 
 /// What the stage always has.
 const PALETTE: &str = "every painting has a palette beside it";
 
-impl Workshop<'_> {
+impl WorkerLoop<'_> {
     /// Does the next thing: plays a slice of a stroke, or a command.
-    pub(super) fn work(&mut self) -> Result<(), EaselError> {
+    pub(super) fn work(&mut self) -> Result<(), SessionError> {
         if self.playing.is_some() {
             for question in self.inbox.take_questions() {
                 self.answer(question)?;
@@ -36,7 +36,7 @@ impl Workshop<'_> {
     }
 
     /// A stroke goes on: all samples there are, then a slice of its paint.
-    fn paint(&mut self) -> Result<(), EaselError> {
+    fn paint(&mut self) -> Result<(), SessionError> {
         while let Some(Command::PenMove(samples)) =
             self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
         {
@@ -48,8 +48,8 @@ impl Workshop<'_> {
                 Command::Snapshot(_)
                     | Command::Recording(_)
                     | Command::Pick { .. }
-                    | Command::UndoMemory(_)
-                    | Command::Settle
+                    | Command::SetUndoBytes(_)
+                    | Command::EndAdjustment
             )
         };
         if self.live.as_ref().is_some_and(|live| live.waiting == 0)
@@ -66,41 +66,41 @@ impl Workshop<'_> {
         self.slice()
     }
 
-    fn extend(&mut self, samples: &[PenSample]) -> Result<(), EaselError> {
+    fn extend(&mut self, samples: &[PenSample]) -> Result<(), SessionError> {
         let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
         if live.lifted {
             return Ok(());
         }
         for PenSample { sample, arrived } in samples {
-            if let Err(error) = live.extend(&mut stage.opened.easel, sample, *arrived)
+            if let Err(error) = live.extend(&mut stage.opened.session, sample, *arrived)
                 && !std::mem::replace(&mut live.refused, true)
             {
                 let hint = Some("the stroke goes on without it".to_owned());
                 (self.tell)(Event::Message { text: error.to_string(), hint, failed: true });
             }
         }
-        live.know(&mut stage.opened.easel)
+        live.know(&mut stage.opened.session)
     }
 
     /// No more samples come to the stroke.
-    pub(super) fn lift(&mut self) -> Result<(), EaselError> {
+    pub(super) fn lift(&mut self) -> Result<(), SessionError> {
         match (&mut self.live, &mut self.stage) {
-            (Some(live), Some(stage)) => live.lift(&mut stage.opened.easel),
+            (Some(live), Some(stage)) => live.lift(&mut stage.opened.session),
             _ => Ok(()),
         }
     }
 
     /// Paints on for a slice; closes the stroke once all is painted.
-    pub(super) fn slice(&mut self) -> Result<(), EaselError> {
+    pub(super) fn slice(&mut self) -> Result<(), SessionError> {
         let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
-        let easel = &mut stage.opened.easel;
-        let painted = live.slice(easel, &mut self.meter, &mut self.outbox)?;
+        let session = &mut stage.opened.session;
+        let painted = live.slice(session, &mut self.meter, &mut self.outbox)?;
         self.unseen |= painted;
         self.revision += u64::from(painted);
         if live.is_over() {
             let brush = live.brush().to_owned();
             self.live = None;
-            easel.end_stroke()?;
+            session.end_stroke()?;
             stage.teller.brushes.remove(&brush);
             (self.unseen, self.stale) = (true, true);
         }
@@ -108,14 +108,14 @@ impl Workshop<'_> {
     }
 
     /// Carries out one command; no stroke is open, nothing is played.
-    fn act_on(&mut self, command: Command) -> Result<(), EaselError> {
+    fn act_on(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
             Command::Open(origin) => self.open(origin),
             Command::Replay { script, library, pace } => self.replay(*script, &library, pace),
-            Command::UndoMemory(bytes) => {
+            Command::SetUndoBytes(bytes) => {
                 self.undo_bytes = bytes;
                 if let Some(stage) = &mut self.stage {
-                    stage.opened.easel.set_undo_bytes(bytes);
+                    stage.opened.session.set_undo_bytes(bytes);
                     self.stale = true;
                 }
             }
@@ -131,56 +131,56 @@ impl Workshop<'_> {
     }
 
     /// What needs a painting.
-    fn change(&mut self, command: Command) -> Result<(), EaselError> {
+    fn change(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
             Command::PenDown { surface, brush } => {
-                let begun = Live::begin(self.easel(), surface, &brush)?;
+                let begun = LiveStroke::begin(self.session(), surface, &brush)?;
                 self.live = Some(begun);
                 self.stale = true;
                 Ok(())
             }
-            Command::TakeBrush { name, spec } => {
-                self.easel().take_brush(&name, &spec)?;
+            Command::SetBrush { name, spec } => {
+                self.session().set_brush(&name, &spec)?;
                 self.brush_changed(&name);
                 Ok(())
             }
-            Command::Act(action) => self.act(&action),
+            Command::Apply(action) => self.apply(&action),
             Command::Adjust(action) => {
-                self.easel().adjust(&action)?;
+                self.session().adjust(&action)?;
                 self.changed();
                 Ok(())
             }
-            Command::Travel(done) => {
-                let travelled = self.easel().travel(done);
+            Command::GoTo(done) => {
+                let travelled = self.session().go_to(done);
                 self.all_changed();
                 travelled
             }
-            Command::SecondLight(lighting) => {
-                self.easel().canvas_mut().set_second_light(lighting)?;
+            Command::SetSecondLight(lighting) => {
+                self.session().canvas_mut().set_second_light(lighting)?;
                 (self.unseen, self.stale) = (true, true);
                 Ok(())
             }
             Command::LoadPicked { brush, picked, amount_mm } => {
                 self.load_picked(brush, &picked, amount_mm)
             }
-            Command::LayOut { recipe, vehicle, volume_mm3, places, reach_mm } => {
-                let palette = self.easel().painting_mut(Surface::Palette).expect(PALETTE);
+            Command::SqueezeInFreeSpace { recipe, vehicle, volume_mm3, places, reach_mm } => {
+                let palette = self.session().painting_mut(SurfaceId::Palette).expect(PALETTE);
                 let Some([x_mm, y_mm]) = roomiest(palette, &places, reach_mm)? else {
                     let hint = "squeeze it out of the tubes";
                     let text = "there is no place for it on the palette";
                     self.say(text.to_owned(), Some(hint.to_owned()), true);
                     return Ok(());
                 };
-                let on = Surface::Palette;
+                let on = SurfaceId::Palette;
                 let heap = Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 };
-                self.act(&Action::Squeeze(heap))
+                self.apply(&Action::Squeeze(heap))
             }
             question => self.answer(question),
         }
     }
 
-    fn act(&mut self, action: &Action) -> Result<(), EaselError> {
-        let outcome = self.easel().act(action)?;
+    fn apply(&mut self, action: &Action) -> Result<(), SessionError> {
+        let outcome = self.session().apply(action)?;
         match action {
             Action::Load(Load { brush, .. })
             | Action::Wipe { brush, .. }
@@ -205,7 +205,7 @@ impl Workshop<'_> {
         brush: String,
         picked: &Picked,
         amount_mm: f64,
-    ) -> Result<(), EaselError> {
+    ) -> Result<(), SessionError> {
         let library = Arc::clone(&self.stage_mut().opened.library);
         let wet = picked.layers.last();
         let amounts = wet.map_or([0.0; SLOTS + 1], |wet| wet.amounts_mm);
@@ -226,27 +226,27 @@ impl Workshop<'_> {
             vehicle: amounts[SLOTS] / total,
             amount_mm,
         };
-        self.easel().act(&Action::Wash { brush: brush.clone() })?;
+        self.session().apply(&Action::Wash { brush: brush.clone() })?;
         self.brush_changed(&brush);
-        self.easel().act(&Action::Load(load))?;
+        self.session().apply(&Action::Load(load))?;
         Ok(())
     }
 
     /// Answers what changes nothing.
-    pub(super) fn answer(&mut self, question: Command) -> Result<(), EaselError> {
+    pub(super) fn answer(&mut self, question: Command) -> Result<(), SessionError> {
         if self.stage.is_none() {
             return Ok(());
         }
         match question {
             Command::Snapshot(number) => {
                 let revision = self.revision;
-                let (canvas, palette) = self.easel().documents()?;
+                let (canvas, palette) = self.session().documents()?;
                 let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
                 let snapshot = Snapshot { number, canvas, palette, revision };
                 self.keep(&snapshot);
                 (self.tell)(Event::Snapshot(snapshot));
             }
-            Command::Recording(number) => match self.easel().recording().cloned() {
+            Command::Recording(number) => match self.session().recording().cloned() {
                 Some(script) => {
                     (self.tell)(Event::Recording { number, script: Arc::new(script) });
                 }
@@ -257,18 +257,18 @@ impl Workshop<'_> {
             },
             Command::Pick { surface, x_mm, y_mm, radius_mm } => {
                 let place = Place { surface, x_mm, y_mm, radius_mm };
-                let painting = self.easel().painting_mut(surface).expect(PALETTE);
+                let painting = self.session().painting_mut(surface).expect(PALETTE);
                 if let Some(picked) = picked(painting, place)? {
                     (self.tell)(Event::Picked(Arc::new(picked)));
                 }
             }
-            Command::UndoMemory(bytes) => {
+            Command::SetUndoBytes(bytes) => {
                 self.undo_bytes = bytes;
-                self.easel().set_undo_bytes(bytes);
+                self.session().set_undo_bytes(bytes);
                 self.stale = true;
             }
-            Command::Settle => {
-                self.easel().settle();
+            Command::EndAdjustment => {
+                self.session().end_adjustment();
                 self.stale = true;
             }
             other => unreachable!("{} is no question", other.name()),
@@ -277,18 +277,18 @@ impl Workshop<'_> {
     }
 
     /// Everything about the painting but its pixels.
-    pub(super) fn state(&mut self) -> Result<Option<Arc<EaselState>>, EaselError> {
-        let Some(Stage { opened, teller }) = &mut self.stage else { return Ok(None) };
-        let beside = Beside { revision: self.revision, painting: self.live.is_some() };
+    pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
+        let Some(OpenPainting { opened, teller }) = &mut self.stage else { return Ok(None) };
+        let beside = WorkerStatus { revision: self.revision, stroke_open: self.live.is_some() };
         Ok(Some(Arc::new(teller.state(opened, &beside, self.outbox.bytes())?)))
     }
 
-    /// The easel of the painting that is known to be open.
-    pub(super) fn easel(&mut self) -> &mut Easel {
-        &mut self.stage_mut().opened.easel
+    /// The session of the painting that is known to be open.
+    pub(super) fn session(&mut self) -> &mut PaintingSession {
+        &mut self.stage_mut().opened.session
     }
 
-    pub(super) fn stage_mut(&mut self) -> &mut Stage {
+    pub(super) fn stage_mut(&mut self) -> &mut OpenPainting {
         self.stage.as_mut().expect("a painting is open, as the caller saw")
     }
 

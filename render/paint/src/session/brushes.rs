@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::strokes::{BrushSpec, Surface};
+use crate::strokes::{BrushSpec, SurfaceId};
 
 /// A head, as it was taken under a name.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub(super) struct Tool {
     /// Its number in the painting of each surface, once it was used there.
     pub(super) numbers: [Option<usize>; 2],
     /// Where the paint on it is; on the other surface it is clean.
-    pub(super) at: Surface,
+    pub(super) at: SurfaceId,
 }
 
 impl Tool {
@@ -35,13 +35,13 @@ pub(super) enum Taken {
 
 /// All brushes.
 #[derive(Debug, Default)]
-pub(super) struct Stand {
+pub(super) struct Brushes {
     /// All heads, those too that gave their name to another: undo needs them.
     pub(super) tools: Vec<Tool>,
     names: BTreeMap<String, usize>,
 }
 
-impl Stand {
+impl Brushes {
     /// Takes a brush under a name, in place of the one of that name.
     pub(super) fn take(&mut self, name: &str, spec: &BrushSpec) -> Taken {
         if let Some(&now) = self.names.get(name) {
@@ -63,7 +63,7 @@ impl Stand {
             recorded: self.free_name(name),
             spec: spec.clone(),
             numbers: [None; 2],
-            at: Surface::Canvas,
+            at: SurfaceId::Canvas,
         });
         self.names.insert(name.to_owned(), self.tools.len() - 1);
         Taken::Ready
@@ -103,29 +103,29 @@ mod tests {
         BrushSpec { shape: HeadShape::Round, size_mm }
     }
 
-    fn now(stand: &Stand, name: &str) -> (usize, String) {
-        let tool = stand.find(name).expect("it was taken");
-        (tool, stand.tools[tool].recorded.clone())
+    fn now(brushes: &Brushes, name: &str) -> (usize, String) {
+        let tool = brushes.find(name).expect("it was taken");
+        (tool, brushes.tools[tool].recorded.clone())
     }
 
     #[test]
     fn a_used_head_keeps_its_recorded_name_and_others_get_their_own() {
-        let mut stand = Stand::default();
-        assert_eq!(stand.take("round", &spec(6.0)), Taken::Ready);
+        let mut brushes = Brushes::default();
+        assert_eq!(brushes.take("round", &spec(6.0)), Taken::Ready);
         // Nobody painted with it: it is exchanged in its place.
-        stand.take("round", &spec(7.0));
-        assert_eq!((now(&stand, "round"), stand.tools.len()), ((0, "round".to_owned()), 1));
-        stand.tools[0].numbers[0] = Some(0);
-        stand.take("round", &spec(8.0));
-        assert_eq!(now(&stand, "round"), (1, "round 2".to_owned()));
-        stand.take("round 2", &spec(8.0));
-        assert_eq!(now(&stand, "round 2"), (2, "round 2 2".to_owned()));
-        assert_eq!(stand.take("round", &spec(7.0)), Taken::Used, "the first again");
-        assert_eq!(stand.take("round", &spec(7.0)), Taken::Ready, "it is in hand");
-        assert_eq!(now(&stand, "round"), (0, "round".to_owned()));
-        assert_eq!(stand.take("round", &spec(8.0)), Taken::Ready, "it was never used");
-        assert_eq!(stand.put_away(), [0], "`round` is the second again");
-        let names: Vec<&str> = stand.names().map(|(name, _)| name).collect();
+        brushes.take("round", &spec(7.0));
+        assert_eq!((now(&brushes, "round"), brushes.tools.len()), ((0, "round".to_owned()), 1));
+        brushes.tools[0].numbers[0] = Some(0);
+        brushes.take("round", &spec(8.0));
+        assert_eq!(now(&brushes, "round"), (1, "round 2".to_owned()));
+        brushes.take("round 2", &spec(8.0));
+        assert_eq!(now(&brushes, "round 2"), (2, "round 2 2".to_owned()));
+        assert_eq!(brushes.take("round", &spec(7.0)), Taken::Used, "the first again");
+        assert_eq!(brushes.take("round", &spec(7.0)), Taken::Ready, "it is in hand");
+        assert_eq!(now(&brushes, "round"), (0, "round".to_owned()));
+        assert_eq!(brushes.take("round", &spec(8.0)), Taken::Ready, "it was never used");
+        assert_eq!(brushes.put_away(), [0], "`round` is the second again");
+        let names: Vec<&str> = brushes.names().map(|(name, _)| name).collect();
         assert_eq!(names, ["round", "round 2"]);
     }
 }

@@ -22,7 +22,7 @@ fn found(sessions: &Path) -> Option<String> {
 
 /// Keeps `text` and is killed before the change number `last` on the disk;
 /// whether it came to its end.
-fn keep_until(session: &mut Session, text: &str, last: usize) -> bool {
+fn keep_until(session: &mut Autosave, text: &str, last: usize) -> bool {
     let mut count = 0;
     let kept = session.keep_files(&files(text), &mut || {
         count += 1;
@@ -36,7 +36,7 @@ fn a_crash_at_any_moment_leaves_a_complete_generation() {
     let mut seen = Vec::new();
     for last in 0.. {
         let folder = tempfile::tempdir().unwrap();
-        let mut session = Session::begin(folder.path()).unwrap();
+        let mut session = Autosave::begin(folder.path()).unwrap();
         assert!(keep_until(&mut session, "first", usize::MAX), "the first is kept");
         let ended = keep_until(&mut session, "second", last);
         drop(session);
@@ -56,7 +56,7 @@ fn a_crash_at_any_moment_leaves_a_complete_generation() {
 #[test]
 fn what_a_crash_left_half_written_is_no_hindrance() {
     let folder = tempfile::tempdir().unwrap();
-    let mut session = Session::begin(folder.path()).unwrap();
+    let mut session = Autosave::begin(folder.path()).unwrap();
     for last in 0..14 {
         keep_until(&mut session, "half", last);
         assert!(keep_until(&mut session, "whole", usize::MAX), "after {last} changes");
@@ -70,7 +70,7 @@ fn what_a_crash_left_half_written_is_no_hindrance() {
 #[test]
 fn a_living_session_is_not_lost_and_a_lost_one_is_found_by_one_only() {
     let folder = tempfile::tempdir().unwrap();
-    let mut session = Session::begin(folder.path()).unwrap();
+    let mut session = Autosave::begin(folder.path()).unwrap();
     assert!(keep_until(&mut session, "text", usize::MAX), "it is kept");
     assert_eq!(found(folder.path()), None, "it lives");
     drop(session);
@@ -86,9 +86,9 @@ fn a_living_session_is_not_lost_and_a_lost_one_is_found_by_one_only() {
 #[test]
 fn a_session_that_ends_or_kept_nothing_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let empty = Session::begin(folder.path()).unwrap();
-    let mut cleared = Session::begin(folder.path()).unwrap();
-    let mut ended = Session::begin(folder.path()).unwrap();
+    let empty = Autosave::begin(folder.path()).unwrap();
+    let mut cleared = Autosave::begin(folder.path()).unwrap();
+    let mut ended = Autosave::begin(folder.path()).unwrap();
     assert!(keep_until(&mut cleared, "saved", usize::MAX), "it is kept");
     cleared.clear().unwrap();
     assert!(keep_until(&mut ended, "text", usize::MAX), "it is kept");
@@ -104,7 +104,7 @@ const CHILD: &str = "IMPASTO_TEST_SESSIONS";
 #[test]
 fn child_that_keeps_a_session_and_waits() {
     let Some(sessions) = std::env::var_os(CHILD) else { return };
-    let mut session = Session::begin(Path::new(&sessions)).unwrap();
+    let mut session = Autosave::begin(Path::new(&sessions)).unwrap();
     assert!(keep_until(&mut session, "of the child", usize::MAX), "it is kept");
     eprintln!("kept");
     let _ = std::io::stdin().lock().read_line(&mut String::new());
@@ -113,7 +113,7 @@ fn child_that_keeps_a_session_and_waits() {
 #[test]
 fn the_session_of_a_killed_process_is_lost_and_of_a_living_one_is_not() {
     let folder = tempfile::tempdir().unwrap();
-    let name = "autosave::laws::child_that_keeps_a_session_and_waits";
+    let name = "autosave::tests::child_that_keeps_a_session_and_waits";
     let mut child = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", name, "--nocapture"])
         .env(CHILD, folder.path())

@@ -2,14 +2,14 @@
 
 use std::collections::VecDeque;
 
-use crate::strokes::Surface;
+use crate::strokes::SurfaceId;
 
 /// Where a brush's paint was before an action, and after it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Carried {
     pub(super) tool: usize,
-    pub(super) from: Surface,
-    pub(super) to: Surface,
+    pub(super) from: SurfaceId,
+    pub(super) to: SurfaceId,
 }
 
 /// An action that was done.
@@ -65,13 +65,13 @@ impl Entries {
 
 /// What was done, and what was taken back.
 #[derive(Debug, Default)]
-pub(super) struct Past {
+pub(super) struct SharedHistory {
     pub(super) done: Entries,
     /// Taken back; what a redo does next comes last.
     pub(super) undone: Entries,
 }
 
-impl Past {
+impl SharedHistory {
     /// Something new was done.
     pub(super) fn add(&mut self, entry: Entry) {
         self.undone = Entries::default();
@@ -102,37 +102,37 @@ mod tests {
 
     #[test]
     fn what_one_painting_forgot_hides_all_before_it() {
-        let mut past = Past::default();
-        past.add(entry("a", [true, false]));
-        past.add(entry("b", [false, true]));
-        past.add(entry("c", [true, true]));
-        past.add(entry("d", [true, false]));
-        past.follow([3, 2], [0, 0]);
-        assert_eq!(past.labels(), ["a", "b", "c", "d"], "all is known");
+        let mut history = SharedHistory::default();
+        history.add(entry("a", [true, false]));
+        history.add(entry("b", [false, true]));
+        history.add(entry("c", [true, true]));
+        history.add(entry("d", [true, false]));
+        history.follow([3, 2], [0, 0]);
+        assert_eq!(history.labels(), ["a", "b", "c", "d"], "all is known");
         // The palette forgot `b`, so `a` cannot be reached, though the canvas knows it.
-        past.follow([3, 1], [0, 0]);
-        assert_eq!(past.labels(), ["c", "d"]);
+        history.follow([3, 1], [0, 0]);
+        assert_eq!(history.labels(), ["c", "d"]);
         // That the canvas forgets `a` as well changes nothing.
-        past.follow([2, 1], [0, 0]);
-        assert_eq!(past.labels(), ["c", "d"]);
-        past.follow([1, 1], [0, 0]);
-        assert_eq!(past.labels(), ["d"]);
+        history.follow([2, 1], [0, 0]);
+        assert_eq!(history.labels(), ["c", "d"]);
+        history.follow([1, 1], [0, 0]);
+        assert_eq!(history.labels(), ["d"]);
     }
 
     #[test]
     fn what_can_be_done_again_is_forgotten_from_its_far_end() {
-        let mut past = Past::default();
+        let mut history = SharedHistory::default();
         for label in ["a", "b", "c"] {
-            past.add(entry(label, [true, label == "b"]));
+            history.add(entry(label, [true, label == "b"]));
         }
         for _ in 0..3 {
-            let entry = past.done.pop().expect("there are three");
-            past.undone.push(entry);
+            let entry = history.done.pop().expect("there are three");
+            history.undone.push(entry);
         }
-        assert_eq!(past.labels(), ["a", "b", "c"]);
-        past.follow([0, 0], [3, 0]);
-        assert_eq!(past.labels(), ["a"], "`b` is lost, and with it `c` after it");
-        past.add(entry("d", [true, false]));
-        assert_eq!((past.labels(), past.undone.len()), (vec!["d"], 0));
+        assert_eq!(history.labels(), ["a", "b", "c"]);
+        history.follow([0, 0], [3, 0]);
+        assert_eq!(history.labels(), ["a"], "`b` is lost, and with it `c` after it");
+        history.add(entry("d", [true, false]));
+        assert_eq!((history.labels(), history.undone.len()), (vec!["d"], 0));
     }
 }

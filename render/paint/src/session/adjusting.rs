@@ -1,8 +1,8 @@
 //! Sliders: what is changed bit by bit and counts as one action.
 
-use super::failure::EaselError;
-use super::state::Easel;
-use crate::strokes::{Action, ActionPigments, LayerName};
+use super::failure::SessionError;
+use super::state::PaintingSession;
+use crate::strokes::{Action, ActionPigments, LayerRef};
 
 /// What is being adjusted.
 #[derive(Debug)]
@@ -18,32 +18,32 @@ pub(super) struct Adjusting {
 enum Control {
     Light,
     Gloss,
-    Opacity(LayerName),
+    Opacity(LayerRef),
 }
 
 impl Control {
-    fn of(action: &Action) -> Result<Self, EaselError> {
+    fn of(action: &Action) -> Result<Self, SessionError> {
         match action {
             Action::Light(_) => Ok(Self::Light),
             Action::Gloss { .. } => Ok(Self::Gloss),
             Action::Opacity { layer, .. } => Ok(Self::Opacity(*layer)),
-            _ => Err(EaselError::NoControl { kind: action.kind() }),
+            _ => Err(SessionError::NoControl { kind: action.kind() }),
         }
     }
 }
 
-impl Easel {
-    /// Does what [`Easel::act`] does, while a control is being dragged: all of one
-    /// control until [`Easel::settle`] is one action, and is recorded as it stood
+impl PaintingSession {
+    /// Does what [`PaintingSession::apply`] does, while a control is being dragged: all of one
+    /// control until [`PaintingSession::end_adjustment`] is one action, and is recorded as it stood
     /// last. Another control begins another action.
     ///
     /// # Errors
-    /// [`EaselError`] as of [`Easel::act`], and for actions other than light,
+    /// [`SessionError`] as of [`PaintingSession::apply`], and for actions other than light,
     /// gloss and opacity.
-    pub fn adjust(&mut self, action: &Action) -> Result<(), EaselError> {
+    pub fn adjust(&mut self, action: &Action) -> Result<(), SessionError> {
         let control = Control::of(action)?;
         if self.adjusting.as_ref().is_none_or(|adjusting| adjusting.control != control) {
-            self.settle_all()?;
+            self.finish_open()?;
         }
         let (action, pigments) = self.understood(action)?;
         if self.adjusting.is_none() {
@@ -66,7 +66,7 @@ impl Easel {
     }
 
     /// The control was let go. Without one that is being dragged nothing happens.
-    pub fn settle(&mut self) {
+    pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
         self.did(&action, &ActionPigments::None, on);
@@ -75,9 +75,9 @@ impl Easel {
     /// Ends whatever is open: a stroke, or what is being adjusted.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub fn settle_all(&mut self) -> Result<(), EaselError> {
-        self.settle();
+    /// [`SessionError`] if the device was lost.
+    pub fn finish_open(&mut self) -> Result<(), SessionError> {
+        self.end_adjustment();
         if self.live.is_some() {
             self.end_stroke()?;
         }

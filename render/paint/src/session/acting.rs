@@ -1,14 +1,13 @@
 //! Actions carried out.
 
-use super::failure::EaselError;
+use super::failure::SessionError;
+use super::history::Entry;
 use super::label::label;
-use super::past::Entry;
-use super::state::{Easel, Outcome};
+use super::state::{Outcome, PaintingSession};
 use crate::layer::SLOTS;
-use crate::painting::{Coating, Painting, PaintingError};
+use crate::painting::{LayerRef, Painting, PaintingError};
 use crate::strokes::{
-    Action, ActionPigments, At, LayerName, Load, Palette, Recipe, Squeeze, Stroke, Surface,
-    check_brush,
+    Action, ActionPigments, At, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId, check_brush,
 };
 
 /// On the canvas alone.
@@ -17,16 +16,16 @@ pub(super) const CANVAS: [bool; 2] = [true, false];
 /// On no surface: of a brush alone.
 const NOWHERE: [bool; 2] = [false, false];
 
-impl Easel {
+impl PaintingSession {
     /// Carries out one action; what is open, a stroke or what is being adjusted,
     /// ends first. Drying, layers and a merge are the canvas's; light, gloss,
     /// pigments and a swap in the wet layer are those of both surfaces.
     ///
     /// # Errors
-    /// [`EaselError`] for what cannot be done; nothing is changed then, unless the
+    /// [`SessionError`] for what cannot be done; nothing is changed then, unless the
     /// backend fails half way: the history and the recording end there.
-    pub fn act(&mut self, action: &Action) -> Result<Outcome, EaselError> {
-        self.settle_all()?;
+    pub fn apply(&mut self, action: &Action) -> Result<Outcome, SessionError> {
+        self.finish_open()?;
         match action {
             Action::Undo {} => return Ok(nothing_unless(self.undo()?)),
             Action::Redo {} => return Ok(nothing_unless(self.redo()?)),
@@ -38,7 +37,7 @@ impl Easel {
                 told?;
                 return Ok(report.map_or(Outcome::Nothing, Outcome::Painted));
             }
-            Action::Save { .. } => return Err(EaselError::Save),
+            Action::Save { .. } => return Err(SessionError::Save),
             _ => {}
         }
         let (action, pigments) = self.understood(action)?;
@@ -48,10 +47,10 @@ impl Easel {
     }
 
     /// Whether numbers and names of an action will do.
-    pub(super) fn check(&self, action: &Action) -> Result<(), EaselError> {
+    pub(super) fn check(&self, action: &Action) -> Result<(), SessionError> {
         let at = At::default();
         if let Some(brush) = action.brush() {
-            check_brush(&at, brush, self.stand.names().map(|(name, _)| name))?;
+            check_brush(&at, brush, self.brushes.names().map(|(name, _)| name))?;
         }
         self.surfaces().check(&at, action)?;
         Ok(())
@@ -61,9 +60,9 @@ impl Easel {
     pub(super) fn understood(
         &self,
         action: &Action,
-    ) -> Result<(Action, ActionPigments), EaselError> {
+    ) -> Result<(Action, ActionPigments), SessionError> {
         self.check(action)?;
-        let action = action.as_written();
+        let action = action.rounded();
         let pigments = self.scope.action(&At::default(), &action, self.canvas.library())?;
         Ok((action, pigments))
     }
@@ -74,7 +73,7 @@ impl Easel {
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<[bool; 2]>, EaselError> {
+    ) -> Result<Option<[bool; 2]>, SessionError> {
         let done = self.try_to(action, pigments);
         self.followed(done)
     }
@@ -82,9 +81,9 @@ impl Easel {
     /// Hands `done` on; where a backend failed half way nobody knows what the
     /// paintings' histories hold of it, so that nothing before it can be taken
     /// back, and nothing after it be recorded.
-    pub(super) fn followed<T>(&mut self, done: Result<T, EaselError>) -> Result<T, EaselError> {
-        if let Err(EaselError::Painting(PaintingError::Engine(error))) = &done {
-            self.past = Default::default();
+    pub(super) fn followed<T>(&mut self, done: Result<T, SessionError>) -> Result<T, SessionError> {
+        if let Err(SessionError::Painting(PaintingError::Engine(error))) = &done {
+            self.history = Default::default();
             if let Some(record) = &mut self.record {
                 record.stop(&format!("the backend failed: {error}"));
             }
@@ -96,7 +95,7 @@ impl Easel {
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<[bool; 2]>, EaselError> {
+    ) -> Result<Option<[bool; 2]>, SessionError> {
         let both = [true, self.palette.is_some()];
         let on = match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
@@ -147,14 +146,14 @@ impl Easel {
                 both
             }
             (Action::Opacity { layer, value }, _) => {
-                self.canvas.set_opacity(coating(*layer), *value)?;
+                self.canvas.set_opacity(*layer, *value)?;
                 CANVAS
             }
             (Action::Swap { layer, .. }, ActionPigments::Swap { from, to }) => {
-                self.canvas.swap_pigment(coating(*layer), *from, *to)?;
+                self.canvas.swap_pigment(*layer, *from, *to)?;
                 match (layer, &mut self.palette) {
-                    (LayerName::Wet, Some(palette)) => {
-                        palette.swap_pigment(Coating::Wet, *from, *to)?;
+                    (LayerRef::Wet, Some(palette)) => {
+                        palette.swap_pigment(LayerRef::Wet, *from, *to)?;
                         both
                     }
                     _ => CANVAS,
@@ -188,11 +187,11 @@ impl Easel {
         &mut self,
         name: &str,
         change: impl FnOnce(&mut Painting, usize) -> Result<(), PaintingError>,
-    ) -> Result<(), EaselError> {
-        check_brush(&At::default(), name, self.stand.names().map(|(name, _)| name))?;
-        let Some(tool) = self.stand.find(name) else { return Ok(()) };
-        let at = self.stand.tools[tool].at;
-        let fresh = self.stand.tools[tool].numbers[at as usize].is_none();
+    ) -> Result<(), SessionError> {
+        check_brush(&At::default(), name, self.brushes.names().map(|(name, _)| name))?;
+        let Some(tool) = self.brushes.find(name) else { return Ok(()) };
+        let at = self.brushes.tools[tool].at;
+        let fresh = self.brushes.tools[tool].numbers[at as usize].is_none();
         let number = self.number(tool, at)?;
         let changed = change(self.surface_mut(at)?, number);
         if changed.is_err() && fresh {
@@ -203,14 +202,14 @@ impl Easel {
 
     /// Heads that gave their name to another were washed, but an undo may have
     /// given them paint back, which nobody could wash off.
-    fn wash_what_was_put_away(&mut self) -> Result<(), EaselError> {
-        for tool in self.stand.put_away() {
-            let at = self.stand.tools[tool].at;
-            let Some(number) = self.stand.tools[tool].numbers[at as usize] else { continue };
+    fn wash_what_was_put_away(&mut self) -> Result<(), SessionError> {
+        for tool in self.brushes.put_away() {
+            let at = self.brushes.tools[tool].at;
+            let Some(number) = self.brushes.tools[tool].numbers[at as usize] else { continue };
             let painting = self.surface_mut(at)?;
             if painting.brush_paint(number)?.totals().iter().any(|total| *total > 0) {
                 painting.wash(number)?;
-                let brush = self.stand.tools[tool].name.clone();
+                let brush = self.brushes.tools[tool].name.clone();
                 self.note_with(Action::Wash { brush }, Some(tool));
             }
         }
@@ -218,13 +217,13 @@ impl Easel {
     }
 
     /// The number of a head in the painting of a surface; made where it is new.
-    pub(super) fn number(&mut self, tool: usize, on: Surface) -> Result<usize, EaselError> {
-        if let Some(number) = self.stand.tools[tool].numbers[on as usize] {
+    pub(super) fn number(&mut self, tool: usize, on: SurfaceId) -> Result<usize, SessionError> {
+        if let Some(number) = self.brushes.tools[tool].numbers[on as usize] {
             return Ok(number);
         }
-        let spec = self.stand.tools[tool].spec.clone();
+        let spec = self.brushes.tools[tool].spec.clone();
         let number = self.surface_mut(on)?.add_brush(spec.shape, spec.size_mm)?;
-        self.stand.tools[tool].numbers[on as usize] = Some(number);
+        self.brushes.tools[tool].numbers[on as usize] = Some(number);
         Ok(number)
     }
 
@@ -232,7 +231,7 @@ impl Easel {
     pub(super) fn did(&mut self, action: &Action, pigments: &ActionPigments, on: [bool; 2]) {
         if on != NOWHERE {
             let label = label(action, pigments, self.canvas.library());
-            self.past.add(Entry { label, on, carried: None });
+            self.history.add(Entry { label, on, carried: None });
             self.follow();
         }
         self.scope.learn(action, pigments);
@@ -241,14 +240,14 @@ impl Easel {
 
     /// Adds to the recording.
     pub(super) fn note(&mut self, action: Action) {
-        let tool = action.brush().and_then(|name| self.stand.find(name));
+        let tool = action.brush().and_then(|name| self.brushes.find(name));
         self.note_with(action, tool);
     }
 
     /// The same with a head that may have given its name away.
     pub(super) fn note_with(&mut self, mut action: Action, tool: Option<usize>) {
         let Some(record) = &mut self.record else { return };
-        let tool = tool.map(|tool| &self.stand.tools[tool]);
+        let tool = tool.map(|tool| &self.brushes.tools[tool]);
         if let (Some(name), Some(tool)) = (action.brush_mut(), tool) {
             name.clone_from(&tool.recorded);
         }
@@ -272,7 +271,7 @@ impl Easel {
             }
             (Action::Palette(_), ActionPigments::Palette(slots)) => {
                 let pigments = slots.iter().flatten().map(|&pigment| (None, name(pigment)));
-                Action::Palette(Palette { pigments: pigments.collect() })
+                Action::Palette(PaletteSpec { pigments: pigments.collect() })
             }
             (Action::Swap { layer, .. }, ActionPigments::Swap { from, to }) => {
                 Action::Swap { layer: *layer, from: name(*from), to: name(*to) }
@@ -284,13 +283,6 @@ impl Easel {
 
 pub(super) fn nothing_unless(done: bool) -> Outcome {
     if done { Outcome::Done } else { Outcome::Nothing }
-}
-
-fn coating(layer: LayerName) -> Coating {
-    match layer {
-        LayerName::Wet => Coating::Wet,
-        LayerName::Dry(index) => Coating::Dry(index),
-    }
 }
 
 /// Parts by slot of the palette of this moment.

@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use render::paint::easel::{Easel, EaselError};
-use render::paint::strokes::{Action, Stroke, Strokes};
+use render::paint::session::{PaintingSession, SessionError};
+use render::paint::strokes::{Action, Stroke, StrokeScript};
 
 use super::command::Pace;
 use super::event::Event;
-use super::live::Live;
+use super::stroke::LiveStroke;
 
 /// Samples that a stroke is told ahead of its paint, so that it can end soon
 /// after a cancel.
@@ -18,8 +18,8 @@ const PROGRESS: Duration = Duration::from_millis(100);
 
 /// A script and how far it is.
 #[derive(Debug)]
-pub(super) struct Playing {
-    script: Strokes,
+pub(super) struct Replay {
+    script: StrokeScript,
     pace: Pace,
     /// The action that comes next, or whose stroke is open.
     pub(super) next: usize,
@@ -45,9 +45,9 @@ pub(super) enum Step {
     Over,
 }
 
-impl Playing {
+impl Replay {
     /// From the first action.
-    pub(super) fn new(script: Strokes, pace: Pace) -> Self {
+    pub(super) fn new(script: StrokeScript, pace: Pace) -> Self {
         let now = Instant::now();
         Self { script, pace, next: 0, fed: 0, began: now, unsaved: 0, progress: now }
     }
@@ -61,22 +61,22 @@ impl Playing {
     /// The next action that is no stroke is done; a stroke begins.
     ///
     /// # Errors
-    /// [`EaselError`] for what the easel refuses.
+    /// [`SessionError`] for what the session refuses.
     pub(super) fn go(
         &mut self,
-        easel: &mut Easel,
-        live: &mut Option<Live>,
-    ) -> Result<Step, EaselError> {
+        session: &mut PaintingSession,
+        live: &mut Option<LiveStroke>,
+    ) -> Result<Step, SessionError> {
         let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::Over) };
         match action {
             Action::Stroke(stroke) => {
-                *live = Some(Live::begin(easel, stroke.on, &stroke.brush)?);
+                *live = Some(LiveStroke::begin(session, stroke.on, &stroke.brush)?);
                 (self.fed, self.began) = (0, Instant::now());
                 return Ok(Step::Paint);
             }
             Action::Save { .. } => self.unsaved += 1,
             action => {
-                easel.act(action)?;
+                session.apply(action)?;
             }
         }
         self.next += 1;
@@ -86,8 +86,12 @@ impl Playing {
     /// Tells the open stroke the samples whose time has come.
     ///
     /// # Errors
-    /// [`EaselError`] for an impossible sample.
-    pub(super) fn feed(&mut self, easel: &mut Easel, live: &mut Live) -> Result<Step, EaselError> {
+    /// [`SessionError`] for an impossible sample.
+    pub(super) fn feed(
+        &mut self,
+        session: &mut PaintingSession,
+        live: &mut LiveStroke,
+    ) -> Result<Step, SessionError> {
         let Some(Action::Stroke(Stroke { samples, .. })) = self.script.actions.get(self.next)
         else {
             return Ok(Step::Over);
@@ -110,11 +114,11 @@ impl Playing {
                     due
                 }
             };
-            live.extend(easel, sample, arrived)?;
+            live.extend(session, sample, arrived)?;
             self.fed += 1;
         }
         if self.fed == samples.len() {
-            live.lift(easel)?;
+            live.lift(session)?;
         }
         Ok(Step::Paint)
     }

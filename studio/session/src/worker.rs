@@ -3,19 +3,19 @@
 use std::time::{Duration, Instant};
 
 use render::gpu::DeviceError;
-use render::paint::easel::EaselError;
 use render::paint::painting::PaintingError;
+use render::paint::session::SessionError;
 
 use super::backend::Backend;
 use super::event::{Event, Snapshot};
-use super::inbox::{Inbox, Patience};
-use super::live::Live;
+use super::inbox::{Inbox, Wait};
 use super::meter::Meter;
-use super::opening::Opened;
 use super::outbox::Outbox;
-use super::playing::Playing;
-use super::state::Figures;
-use super::telling::Teller;
+use super::prepare::PreparedPainting;
+use super::replay::Replay;
+use super::report::Reporter;
+use super::state::Performance;
+use super::stroke::LiveStroke;
 
 /// The least time between two tellings of the state: 20 a second.
 const STATES: Duration = Duration::from_millis(50);
@@ -24,16 +24,16 @@ const STATES: Duration = Duration::from_millis(50);
 const FIGURES: [Duration; 2] = [Duration::from_millis(250), Duration::from_secs(1)];
 
 /// All that the thread owns.
-pub(super) struct Workshop<'a> {
+pub(super) struct WorkerLoop<'a> {
     pub(super) tell: &'a dyn Fn(Event),
     pub(super) inbox: Inbox,
     pub(super) outbox: Outbox,
     pub(super) meter: Meter,
     pub(super) backend: Backend,
     pub(super) undo_bytes: u64,
-    pub(super) stage: Option<Stage>,
-    pub(super) live: Option<Live>,
-    pub(super) playing: Option<Playing>,
+    pub(super) stage: Option<OpenPainting>,
+    pub(super) live: Option<LiveStroke>,
+    pub(super) playing: Option<Replay>,
     /// When the recording that is played goes on.
     pub(super) pause: Option<Instant>,
     /// What was last told whole, if a device may be lost.
@@ -46,18 +46,18 @@ pub(super) struct Workshop<'a> {
     pub(super) unseen: bool,
     state_due: Instant,
     figures_told: Option<Instant>,
-    figures: Figures,
+    figures: Performance,
     /// Whether the window draws the head.
     head: bool,
 }
 
 /// The painting, and what is kept to tell of it.
-pub(super) struct Stage {
-    pub(super) opened: Opened,
-    pub(super) teller: Teller,
+pub(super) struct OpenPainting {
+    pub(super) opened: PreparedPainting,
+    pub(super) teller: Reporter,
 }
 
-impl<'a> Workshop<'a> {
+impl<'a> WorkerLoop<'a> {
     pub(super) fn new(
         inbox: Inbox,
         backend: Backend,
@@ -82,7 +82,7 @@ impl<'a> Workshop<'a> {
             unseen: false,
             state_due: now,
             figures_told: None,
-            figures: Figures::default(),
+            figures: Performance::default(),
             head: false,
         }
     }
@@ -107,13 +107,13 @@ impl<'a> Workshop<'a> {
     }
 
     /// How long nothing need be done.
-    fn patience(&self) -> Patience {
+    fn patience(&self) -> Wait {
         let paints = self.live.as_ref().is_some_and(|live| live.waiting > 0 || live.lifted);
         let plays = self.playing.is_some() && self.pause.is_none();
         let waits = !self.inbox.is_empty() && self.playing.is_none();
         let looks = self.stage.as_ref().is_some_and(|stage| stage.teller.layers.is_behind());
         if paints || plays || waits || looks {
-            return Patience::None;
+            return Wait::None;
         }
         let shows = self.unseen || self.outbox.is_behind();
         let times = [
@@ -122,17 +122,17 @@ impl<'a> Workshop<'a> {
             self.stale.then_some(self.state_due),
             self.figures_due().filter(|_| self.live.is_some() || !self.meter.is_idle()),
         ];
-        times.into_iter().flatten().min().map_or(Patience::Forever, Patience::Until)
+        times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
     }
 
     /// Computes and tells what changed of the pictures, and the head with them.
-    fn show(&mut self) -> Result<(), EaselError> {
+    fn show(&mut self) -> Result<(), SessionError> {
         let Some(stage) = &mut self.stage else { return Ok(()) };
-        let easel = &mut stage.opened.easel;
+        let session = &mut stage.opened.session;
         if self.outbox.is_due(Instant::now()) && (self.unseen || self.outbox.is_behind()) {
             self.unseen = false;
-            self.outbox.show(easel, &mut self.meter, self.tell)?;
-            if let Some(head) = self.live.as_ref().and_then(|live| live.head(easel)) {
+            self.outbox.show(session, &mut self.meter, self.tell)?;
+            if let Some(head) = self.live.as_ref().and_then(|live| live.head(session)) {
                 self.outbox.tell_head(head, self.tell);
                 self.head = true;
             }
@@ -145,7 +145,7 @@ impl<'a> Workshop<'a> {
     }
 
     /// Tells what changed besides pixels, or looks at a layer where there is time.
-    fn tell_state(&mut self) -> Result<(), EaselError> {
+    fn tell_state(&mut self) -> Result<(), SessionError> {
         if self.stale && Instant::now() >= self.state_due {
             self.stale = false;
             if let Some(state) = self.state()? {
@@ -154,11 +154,11 @@ impl<'a> Workshop<'a> {
             self.state_due = Instant::now() + STATES;
         }
         let busy = self.live.is_some() || self.playing.is_some() || !self.inbox.is_empty();
-        if let Some(Stage { opened, teller }) = &mut self.stage
+        if let Some(OpenPainting { opened, teller }) = &mut self.stage
             && !busy
             && teller.layers.is_behind()
         {
-            teller.layers.look(opened.easel.canvas_mut())?;
+            teller.layers.look(opened.session.canvas_mut())?;
             self.stale = true;
         }
         Ok(())
@@ -176,7 +176,7 @@ impl<'a> Workshop<'a> {
         let figures = self.meter.figures(now, behind);
         if figures != self.figures {
             self.figures = figures;
-            (self.tell)(Event::Figures(figures));
+            (self.tell)(Event::Performance(figures));
         }
         self.figures_told = Some(now);
     }
@@ -192,10 +192,10 @@ impl<'a> Workshop<'a> {
 
     /// Something could not be done; the painting is as it was, unless its device
     /// was lost.
-    pub(super) fn failed(&mut self, error: &EaselError) {
+    pub(super) fn failed(&mut self, error: &SessionError) {
         self.say(error.to_string(), error.hint(), true);
         self.stale = true;
-        if let EaselError::Painting(PaintingError::Engine(
+        if let SessionError::Painting(PaintingError::Engine(
             DeviceError::Lost { .. } | DeviceError::Refused { .. },
         )) = error
         {

@@ -1,6 +1,6 @@
 //! The easel: a canvas, a palette to mix on, and brushes that go between them.
 //!
-//! An [`Easel`] carries out [`Action`](crate::strokes::Action)s, whether a
+//! An [`PaintingSession`] carries out [`Action`](crate::strokes::Action)s, whether a
 //! hand makes them, a script tells them or a recording is played again: one form
 //! for all three. Numbers are rounded as a script has them before anything is
 //! painted, so that what was recorded replays to the bit.
@@ -21,9 +21,9 @@
 
 mod failure;
 
-mod stand;
+mod brushes;
 
-mod past;
+mod history;
 
 mod record;
 
@@ -42,8 +42,8 @@ mod undoing;
 mod replay;
 
 #[cfg(test)]
-mod laws;
+mod tests;
 
-pub use failure::EaselError;
+pub use failure::SessionError;
 pub use replay::{ReplayError, ReplayReport};
-pub use state::{Easel, Outcome};
+pub use state::{Outcome, PaintingSession};

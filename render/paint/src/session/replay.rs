@@ -1,12 +1,12 @@
-//! A script played on an easel.
+//! A script played on an session.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use super::failure::EaselError;
-use super::state::{Easel, Outcome};
+use super::failure::SessionError;
+use super::state::{Outcome, PaintingSession};
 use crate::painting::{Painting, StrokeReport};
-use crate::strokes::{Action, Strokes, StrokesError};
+use crate::strokes::{Action, ScriptError, StrokeScript};
 
 /// What a replay did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,8 +30,8 @@ pub struct ReplayReport {
 pub enum ReplayError<E: std::error::Error + 'static> {
     /// No script that can be played.
     #[error(transparent)]
-    Script(#[from] StrokesError),
-    /// An action that the easel refuses.
+    Script(#[from] ScriptError),
+    /// An action that the session refuses.
     #[error("action {index} ({kind})")]
     Action {
         /// Which action, counted from 0.
@@ -40,7 +40,7 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         kind: &'static str,
         /// Why.
         #[source]
-        error: EaselError,
+        error: SessionError,
     },
     /// A file that could not be saved.
     #[error("action {index} (save)")]
@@ -53,40 +53,40 @@ pub enum ReplayError<E: std::error::Error + 'static> {
     },
 }
 
-impl Strokes {
-    /// Plays all actions on `easel`, which stands on the surfaces of this script
-    /// (see [`Strokes::surfaces`]); brushes that it has already under the same name
+impl StrokeScript {
+    /// Plays all actions on `session`, which stands on the surfaces of this script
+    /// (see [`StrokeScript::surfaces`]); brushes that it has already under the same name
     /// are used as they are. `save` is called for each action that saves, with
     /// its path and the canvas; `step` after each action: it may end the replay
     /// there, and the report tells after how many.
     ///
     /// # Errors
     /// [`ReplayError`] at the first action that cannot be done, and before any
-    /// for scripts that nobody can play (see [`Strokes::resolve`]).
+    /// for scripts that nobody can play (see [`StrokeScript::resolve`]).
     pub fn replay<E: std::error::Error + 'static>(
         &self,
-        easel: &mut Easel,
+        session: &mut PaintingSession,
         mut save: impl FnMut(&str, &mut Painting) -> Result<(), E>,
         mut step: impl FnMut() -> ControlFlow<()>,
     ) -> Result<ReplayReport, ReplayError<E>> {
-        self.resolve(easel.canvas().library())?;
-        easel.know(&self.palette).map_err(StrokesError::from)?;
+        self.resolve(session.canvas().library())?;
+        session.know(&self.palette).map_err(ScriptError::from)?;
         let mut report = ReplayReport::default();
         let mut taken = BTreeSet::new();
         for (index, action) in self.actions.iter().enumerate() {
             let failed = |error| ReplayError::Action { index, kind: action.kind(), error };
             if let Action::Save { path } = action {
-                easel.settle_all().map_err(failed)?;
-                let canvas = easel.canvas_mut();
+                session.finish_open().map_err(failed)?;
+                let canvas = session.canvas_mut();
                 save(path, canvas).map_err(|error| ReplayError::Save { index, error })?;
             } else {
                 // A brush is taken from the jar when it is first used.
                 if let Some(name) = action.brush()
                     && taken.insert(name)
                 {
-                    easel.take_brush(name, &self.brushes[name]).map_err(failed)?;
+                    session.set_brush(name, &self.brushes[name]).map_err(failed)?;
                 }
-                report.count(action, easel.act(action).map_err(failed)?);
+                report.count(action, session.apply(action).map_err(failed)?);
             }
             report.actions += 1;
             if step().is_break() {

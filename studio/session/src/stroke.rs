@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use render::paint::easel::{Easel, EaselError};
 use render::paint::pose::Sample;
-use render::paint::strokes::Surface;
+use render::paint::session::{PaintingSession, SessionError};
+use render::paint::strokes::SurfaceId;
 
 use super::event::HeadOnCanvas;
 use super::meter::Meter;
@@ -14,8 +14,8 @@ use super::outbox::Outbox;
 /// A stroke from where the brush is set down to where all of it is painted,
 /// which may be long after the pen was lifted.
 #[derive(Debug)]
-pub(super) struct Live {
-    surface: Surface,
+pub(super) struct LiveStroke {
+    surface: SurfaceId,
     brush: String,
     /// When the samples arrived that the paint has not reached.
     arrived: VecDeque<Instant>,
@@ -29,17 +29,17 @@ pub(super) struct Live {
     played: usize,
 }
 
-impl Live {
+impl LiveStroke {
     /// Sets a brush down.
     ///
     /// # Errors
-    /// [`EaselError`] if there is no such brush, or the device was lost.
+    /// [`SessionError`] if there is no such brush, or the device was lost.
     pub(super) fn begin(
-        easel: &mut Easel,
-        surface: Surface,
+        session: &mut PaintingSession,
+        surface: SurfaceId,
         brush: &str,
-    ) -> Result<Self, EaselError> {
-        easel.begin_stroke(surface, brush)?;
+    ) -> Result<Self, SessionError> {
+        session.begin_stroke(surface, brush)?;
         Ok(Self {
             surface,
             brush: brush.to_owned(),
@@ -55,14 +55,14 @@ impl Live {
     /// Leads it on to a sample that arrived then.
     ///
     /// # Errors
-    /// [`EaselError`] for an impossible sample; the stroke goes on without it.
+    /// [`SessionError`] for an impossible sample; the stroke goes on without it.
     pub(super) fn extend(
         &mut self,
-        easel: &mut Easel,
+        session: &mut PaintingSession,
         sample: &Sample,
         arrived: Instant,
-    ) -> Result<(), EaselError> {
-        easel.extend(&[*sample])?;
+    ) -> Result<(), SessionError> {
+        session.extend(&[*sample])?;
         self.arrived.push_back(arrived);
         Ok(())
     }
@@ -70,19 +70,19 @@ impl Live {
     /// Asks how many sub-steps wait.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
-    pub(super) fn know(&mut self, easel: &mut Easel) -> Result<(), EaselError> {
-        self.waiting = easel.advance(0)?;
+    /// [`SessionError`] if the device was lost.
+    pub(super) fn know(&mut self, session: &mut PaintingSession) -> Result<(), SessionError> {
+        self.waiting = session.advance(0)?;
         Ok(())
     }
 
     /// No more samples come.
     ///
     /// # Errors
-    /// [`EaselError`] where the easel knows of no stroke.
-    pub(super) fn lift(&mut self, easel: &mut Easel) -> Result<(), EaselError> {
+    /// [`SessionError`] where the session knows of no stroke.
+    pub(super) fn lift(&mut self, session: &mut PaintingSession) -> Result<(), SessionError> {
         if !self.lifted {
-            easel.lift()?;
+            session.lift()?;
             self.lifted = true;
         }
         Ok(())
@@ -91,20 +91,21 @@ impl Live {
     /// Paints on for a while; whether anything was painted.
     ///
     /// # Errors
-    /// [`EaselError`] if the device was lost.
+    /// [`SessionError`] if the device was lost.
     pub(super) fn slice(
         &mut self,
-        easel: &mut Easel,
+        session: &mut PaintingSession,
         meter: &mut Meter,
         outbox: &mut Outbox,
-    ) -> Result<bool, EaselError> {
-        self.know(easel)?;
+    ) -> Result<bool, SessionError> {
+        self.know(session)?;
         let (known, began) = (self.waiting, Instant::now());
-        self.waiting = easel.advance(meter.slice())?;
+        self.waiting = session.advance(meter.slice())?;
         let (now, played) = (Instant::now(), known - self.waiting);
         meter.played(now, played, now - began);
         self.played += played;
-        let reached = easel.painting(self.surface).map_or(0, |painting| painting.stroke_reached());
+        let reached =
+            session.painting(self.surface).map_or(0, |painting| painting.stroke_reached());
         for arrived in self.arrived.drain(..(reached - self.reached).min(self.arrived.len())) {
             outbox.reached(arrived);
         }
@@ -129,9 +130,9 @@ impl Live {
     }
 
     /// The head as it is bent now.
-    pub(super) fn head(&self, easel: &Easel) -> Option<HeadOnCanvas> {
-        let number = easel.brush_number(&self.brush, self.surface)?;
-        let mesh = easel.painting(self.surface)?.head(number).mesh()?;
+    pub(super) fn head(&self, session: &PaintingSession) -> Option<HeadOnCanvas> {
+        let number = session.brush_number(&self.brush, self.surface)?;
+        let mesh = session.painting(self.surface)?.head(number).mesh()?;
         Some(HeadOnCanvas {
             surface: self.surface,
             around: mesh.around,
