@@ -3,7 +3,7 @@
 
 use pigment::palette::{MeasuredSample, Palette, Recipe};
 use spectra::optics::Surface;
-use spectra::{Ends, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
+use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::absolute::{calibrate_absolute, films};
 use crate::calibration::{CalibrationError, calibrate};
@@ -281,7 +281,7 @@ fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> 
         let spectrum = Spectrum::<Reflectance>::new(from, values.to_vec());
         let spectrum = spectrum.expect("a reading has a value for each wavelength");
         // Between a dark and a light band an interpolation may swing below 0.
-        let values = spectrum.resampled(grid, method, Ends::Hold)?.into_values();
+        let values = spectrum.resampled(grid, method, Extrapolation::Hold)?.into_values();
         Ok(values.into_iter().map(|value| value.max(0.0)).collect())
     };
     let mut set = SwatchSet { grid, ..set };

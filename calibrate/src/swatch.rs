@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use spectra::Grid;
 
-use crate::measurement::{Film, MeasurementError, MeasurementTable, Place, Reading};
+use crate::measurement::{CellPlace, Film, MeasurementError, MeasurementTable, Reading};
 
 /// One painted sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -165,7 +165,7 @@ fn swatch(
         let differs = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
         if let Some(index) = first.amounts.iter().zip(&reading.amounts).position(differs) {
             return Err(MeasurementError::Contradiction {
-                place: Place::new(&reading.file, reading.row, &table.pigments[index]),
+                place: CellPlace::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
                 first_file: first.file.to_string(),
                 first_row: first.row,

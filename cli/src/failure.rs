@@ -24,6 +24,7 @@ use render::photograph::{PhotographError, SeparationError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
 };
+use spectra::hint::{Explain, Hint};
 use spectra::instrument::{ChoiceError, InstrumentError};
 use spectra::referencing::ReferencingError;
 use spectra::swatch_file::SwatchFileError;
@@ -72,6 +73,32 @@ pub(crate) fn report(error: &anyhow::Error, err: &mut dyn Write) -> u8 {
     error.chain().find_map(status).unwrap_or(2)
 }
 
+/// Writes a hint with its settings as options: `[full_scale=255]` becomes `--full-scale 255`.
+fn flags(hint: &Hint) -> String {
+    hint.with_settings(|name, value| {
+        let option = format!("--{}", name.replace('_', "-"));
+        value.map_or_else(|| option.clone(), |value| format!("{option} {value}"))
+    })
+}
+
+/// The library error that `cause` is, if it is one that explains itself.
+fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn Explain> {
+    fn as_explained<'a, E: Explain + 'static>(
+        cause: &'a (dyn std::error::Error + 'static),
+    ) -> Option<&'a dyn Explain> {
+        cause.downcast_ref::<E>().map(|error| error as &dyn Explain)
+    }
+    let known = [
+        as_explained::<InstrumentError>,
+        as_explained::<ReferencingError>,
+        as_explained::<ChoiceError>,
+        as_explained::<LampError>,
+        as_explained::<LightError>,
+        as_explained::<SwatchFileError>,
+    ];
+    known.into_iter().find_map(|known| known(cause))
+}
+
 fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(CalibrationError::Measurement(error)) = cause.downcast_ref() {
         return error.hint();
@@ -89,14 +116,8 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = cause.downcast_ref::<RecipesError>() {
         return error.hint();
     }
-    if let Some(error) = cause.downcast_ref::<InstrumentError>() {
-        return error.hint().map(str::to_owned);
-    }
-    if let Some(error) = cause.downcast_ref::<ReferencingError>() {
-        return error.hint().map(str::to_owned);
-    }
-    if let Some(error) = cause.downcast_ref::<ChoiceError>() {
-        return Some(error.hint());
+    if let Some(error) = explained(cause) {
+        return error.hint().map(|hint| flags(&hint));
     }
     if let Some(error) = cause.downcast_ref::<ComparisonError>() {
         return error.hint();
@@ -115,9 +136,6 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     }
     if let Some(error) = cause.downcast_ref::<PlanError>() {
         return Some(error.hint());
-    }
-    if let Some(error) = cause.downcast_ref::<LightError>() {
-        return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<MatchError>() {
         return error.hint().map(str::to_owned);

@@ -1,7 +1,7 @@
 //! What lies under a film: a grey, or a measured spectrum.
 
 use calibrate::library::PigmentLibrary;
-use spectra::{Ends, Interpolation, Reflectance, Spectrum};
+use spectra::{Extrapolation, Interpolation, Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -50,5 +50,5 @@ pub(crate) fn ground(
         )])?;
     }
     let method = Interpolation::best_for(grid);
-    Ok(spectrum.resampled(library.grid, method, Ends::Hold)?.into_values())
+    Ok(spectrum.resampled(library.grid, method, Extrapolation::Hold)?.into_values())
 }

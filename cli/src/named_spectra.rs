@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use calibrate::measurement::{Film, MeasurementTable, Reading};
 use spectra::Grid;
-use spectra::instrument::file_and_name;
+use spectra::instrument::split_file_and_name;
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -76,7 +76,7 @@ pub(crate) fn chosen(
     reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Option<Chosen>> {
-    let (file, wanted) = file_and_name(text);
+    let (file, wanted) = split_file_and_name(text);
     if !Path::new(file).is_file() {
         return Ok(None);
     }

@@ -9,7 +9,7 @@ use calibrate::measurement::{
 };
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use spectra::instrument::{Format, InstrumentError, InstrumentFile, decoded, read};
+use spectra::instrument::{Format, InstrumentError, InstrumentFile, decode_text, read};
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -77,7 +77,7 @@ impl ReadingOptions {
             let format = Format::named(told);
             return format.map(|format| read(name, bytes, Some(format))).transpose();
         }
-        let (text, _) = decoded(bytes);
+        let (text, _) = decode_text(bytes);
         if is_measurement_csv(&text) {
             return Ok(None);
         }
@@ -109,7 +109,7 @@ impl ReadingOptions {
             } else {
                 MeasurementTable::from_csv(name, bytes, scale)?
             };
-            let (_, encoding) = decoded(bytes);
+            let (_, encoding) = decode_text(bytes);
             let is_utf8 = encoding == "UTF-8";
             let written = if is_utf8 { String::new() } else { format!(" ({encoding})") };
             remark(
@@ -120,10 +120,10 @@ impl ReadingOptions {
             return Ok(table);
         };
         if let Some(references) = references {
-            file.records = references.reflectances(name, &file.records)?;
+            file.spectra = references.reflectances(name, &file.spectra)?;
         }
         let choice = RecordChoice { scale, transmittance_is_reflectance: self.as_reflectance };
-        let table = MeasurementTable::from_records(name, &file.records, choice)?;
+        let table = MeasurementTable::from_records(name, &file.spectra, choice)?;
         let count = table.readings.len();
         let spectra = if count == 1 { "spectrum" } else { "spectra" };
         let what = format!("{name}: {}, {count} {spectra}", file.format.title());

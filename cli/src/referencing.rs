@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
-use spectra::instrument::{Record, Role, chosen, file_and_name, read};
+use spectra::instrument::{MeasuredSpectrum, Role, choose_spectrum, read, split_file_and_name};
 use spectra::referencing::{Dark, Referencing, Tile};
 
 use crate::console::Console;
@@ -46,9 +46,9 @@ pub(crate) struct ReferencingOptions {
 /// The readings that [`ReferencingOptions`] name.
 pub(crate) struct References {
     name: String,
-    white: Record,
+    white: MeasuredSpectrum,
     /// `None` if subtracted already.
-    darks: Option<Vec<Record>>,
+    darks: Option<Vec<MeasuredSpectrum>>,
     tile: Tile,
     full_scale: Option<f64>,
     least_light: f64,
@@ -60,7 +60,7 @@ impl ReferencingOptions {
     /// The files that are read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         let texts = self.white.iter().chain(&self.dark).chain(&self.tile);
-        let files = texts.map(|text| PathBuf::from(file_and_name(text).0));
+        let files = texts.map(|text| PathBuf::from(split_file_and_name(text).0));
         files.filter(|file| file.is_file()).collect()
     }
 
@@ -109,8 +109,8 @@ impl References {
     pub(crate) fn reflectances(
         &self,
         file: &str,
-        records: &[Record],
-    ) -> anyhow::Result<Vec<Record>> {
+        records: &[MeasuredSpectrum],
+    ) -> anyhow::Result<Vec<MeasuredSpectrum>> {
         let referencing = Referencing {
             white: &self.white,
             dark: self.darks.as_deref().map_or(Dark::Subtracted, Dark::Readings),
@@ -128,27 +128,27 @@ impl References {
 
     /// Those of `records` that are samples: neither a white nor a dark, nor what the file's
     /// program made of the light beside it.
-    fn samples<'a>(&self, records: &'a [Record]) -> Vec<&'a Record> {
-        let is_reference = |record: &Record| {
+    fn samples<'a>(&self, records: &'a [MeasuredSpectrum]) -> Vec<&'a MeasuredSpectrum> {
+        let is_reference = |record: &MeasuredSpectrum| {
             matches!(record.role, Role::White | Role::Dark)
                 || *record == self.white
                 || self.darks.as_ref().is_some_and(|darks| darks.contains(record))
         };
         let has_light = records.iter().any(|record| record.role == Role::Sample);
-        let is_sample = |record: &&Record| {
+        let is_sample = |record: &&MeasuredSpectrum| {
             if has_light { record.role == Role::Sample } else { !is_reference(record) }
         };
-        let samples: Vec<&Record> = records.iter().filter(is_sample).collect();
+        let samples: Vec<&MeasuredSpectrum> = records.iter().filter(is_sample).collect();
         // A file that holds nothing else was meant, white or dark as it is.
         if samples.is_empty() { records.iter().collect() } else { samples }
     }
 }
 
 /// The spectrum that `FILE` or `FILE#NAME` names.
-fn record(text: &str, files: &mut Vec<(String, Vec<u8>)>) -> anyhow::Result<Record> {
-    let (file, name) = file_and_name(text);
+fn record(text: &str, files: &mut Vec<(String, Vec<u8>)>) -> anyhow::Result<MeasuredSpectrum> {
+    let (file, name) = split_file_and_name(text);
     let bytes = std::fs::read(file).with_context(|| unreadable(Path::new(file)))?;
-    let records = read(file, &bytes, None)?.records;
+    let records = read(file, &bytes, None)?.spectra;
     files.push((file.to_owned(), bytes));
-    Ok(chosen(file, &records, name)?.clone())
+    Ok(choose_spectrum(file, &records, name)?.clone())
 }

@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use crate::illuminant::{Illuminant, IlluminantError};
-use crate::interpolate::Ends;
-use crate::samples::Samples;
+use crate::interpolate::Extrapolation;
+use crate::irregular::IrregularSpectrum;
 use crate::table;
 
 /// CIE daylight of correlated colour temperature `kelvin`, 4000 to 25000.
@@ -29,7 +29,8 @@ pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / m;
     let [s0, s1, s2] = components();
     Illuminant::from_function(&name, |nm| {
-        let [s0, s1, s2] = [s0, s1, s2].map(|s| s.at_linear(nm, Ends::Hold).unwrap_or(0.0));
+        let [s0, s1, s2] =
+            [s0, s1, s2].map(|s| s.at_linear(nm, Extrapolation::Hold).unwrap_or(0.0));
         (s0 + m1 * s1 + m2 * s2).max(0.0)
     })
 }
@@ -47,13 +48,13 @@ pub fn daylight_chromaticity(kelvin: f64) -> (f64, f64) {
     (x, -3.0 * x * x + 2.87 * x - 0.275)
 }
 
-fn components() -> &'static [Samples; 3] {
-    static TABLE: OnceLock<[Samples; 3]> = OnceLock::new();
+fn components() -> &'static [IrregularSpectrum; 3] {
+    static TABLE: OnceLock<[IrregularSpectrum; 3]> = OnceLock::new();
     TABLE.get_or_init(|| {
         let columns = table::columns(include_str!("../data/daylight-components.csv"));
         ["S0", "S1", "S2"].map(|name| {
             let (nm, values) = table::filled(&columns, name).expect("a shipped component");
-            Samples::new(nm, values).expect("shipped wavelengths rise")
+            IrregularSpectrum::new(nm, values).expect("shipped wavelengths rise")
         })
     })
 }

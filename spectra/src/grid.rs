@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::hint::Explain;
 use crate::wavelength::{Wavelength, WavelengthError};
 
 /// Wavelengths at a constant step, in nanometres; regular by construction.
@@ -151,3 +152,5 @@ pub enum GridError {
     #[error("a grid holds at least one wavelength, found `0`")]
     Empty,
 }
+
+impl Explain for GridError {}

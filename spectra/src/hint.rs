@@ -1,14 +1,14 @@
-//! Hints: the way out of an error, told without naming a program's controls.
+//! Hints: advice on how to resolve an error, independent of the program that shows it.
 
 use std::error::Error;
 use std::fmt;
 
-/// The way out of an error, as one sentence.
+/// Advice on how to resolve an error, as one sentence.
 ///
-/// A setting stands in square brackets, by its name in the library or with a value:
-/// `[reference]`, `[backend=cpu]`. A program replaces these with its own controls
-/// ([`Hint::with_settings`]): a command line with options, a window with panels. A
-/// pair of brackets that holds anything but a setting stays as it is.
+/// Settings are written in square brackets, by their name in the library and optionally
+/// with a value: `[reference]`, `[backend=cpu]`. A program replaces them with its own
+/// controls ([`Hint::with_settings`]): a command line with options, a window with panels.
+/// Brackets that hold anything else stay as they are.
 ///
 /// ```
 /// use spectra::hint::Hint;
@@ -19,21 +19,34 @@ use std::fmt;
 /// assert_eq!(option, "name another white with --reference");
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Hint(String);
+pub struct Hint {
+    sentence: String,
+    has_settings: bool,
+}
 
 impl Hint {
-    /// A hint whose settings stand in square brackets.
+    /// A hint in which `[name]` and `[name=value]` are settings.
     #[must_use]
     pub fn new(sentence: impl Into<String>) -> Self {
-        Self(sentence.into())
+        Self { sentence: sentence.into(), has_settings: true }
     }
 
-    /// The sentence with each setting written by `control`, which is given the
-    /// setting's name and its value if the hint names one.
+    /// A hint without settings: brackets are kept as they are. For sentences that quote
+    /// names from a file.
+    #[must_use]
+    pub fn verbatim(sentence: impl Into<String>) -> Self {
+        Self { sentence: sentence.into(), has_settings: false }
+    }
+
+    /// Returns the sentence with each setting replaced by `control(name, value)`; `value`
+    /// is `None` for a setting without one.
     #[must_use]
     pub fn with_settings(&self, control: impl Fn(&str, Option<&str>) -> String) -> String {
+        if !self.has_settings {
+            return self.sentence.clone();
+        }
         let mut sentence = String::new();
-        let mut rest = self.0.as_str();
+        let mut rest = self.sentence.as_str();
         while let Some(start) = rest.find('[') {
             let (before, from) = rest.split_at(start);
             sentence.push_str(before);
@@ -54,7 +67,7 @@ impl Hint {
 }
 
 impl fmt::Display for Hint {
-    /// Writes settings as code: `` `reference` ``, `` `backend = cpu` ``.
+    /// Writes the sentence with its settings as code: `` `reference` ``, `` `backend = cpu` ``.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.with_settings(|name, value| match value {
             Some(value) => format!("`{name} = {value}`"),
@@ -63,8 +76,9 @@ impl fmt::Display for Hint {
     }
 }
 
-/// Name, value and length of the setting that `text` begins with: `[name]` or
-/// `[name=value]`, the name of lower-case letters, digits and underscores.
+/// Parses a setting at the start of `text`: `[name]` or `[name=value]`, where the name
+/// consists of lower-case letters, digits and underscores. Returns its name, its value
+/// and its length in bytes, brackets included.
 fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
     let end = text.find(']')?;
     let inside = &text[1..end];
@@ -77,23 +91,24 @@ fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
     is_name.then_some((name, value, end + 1))
 }
 
-/// Whether the caller's data or the machine stands in the way.
+/// Whether the caller's data or the machine caused an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The data or the request cannot be met: another input would do.
+    /// The data or the request is wrong; the call succeeds with other input.
     Input,
-    /// The machine cannot: a file that cannot be written, a graphics device that was lost.
+    /// The machine is the cause: a file cannot be written, a graphics device was lost.
     Environment,
 }
 
-/// What every error of these libraries tells beside its message.
+/// Advice and cause of an error, beside its message. Every public error of these
+/// libraries implements it.
 pub trait Explain: Error {
-    /// The way out, where there is one to name.
+    /// Advice on how to resolve the error, or `None` if the message already says it.
     fn hint(&self) -> Option<Hint> {
         None
     }
 
-    /// Whether the input or the machine is at fault.
+    /// Whether the input or the machine caused the error.
     fn fault(&self) -> Fault {
         Fault::Input
     }
@@ -102,9 +117,11 @@ pub trait Explain: Error {
 impl Explain for std::io::Error {
     fn hint(&self) -> Option<Hint> {
         let sentence = match self.kind() {
-            std::io::ErrorKind::NotFound => "look whether the file and its folder are there",
-            std::io::ErrorKind::PermissionDenied => "choose a file or folder that is yours",
-            std::io::ErrorKind::StorageFull => "make room on the disk, or choose another",
+            std::io::ErrorKind::NotFound => "check that the file and its folder exist",
+            std::io::ErrorKind::PermissionDenied => {
+                "choose a file or folder that you may read and write"
+            }
+            std::io::ErrorKind::StorageFull => "free space on the disk, or choose another",
             _ => return None,
         };
         Some(Hint::new(sentence))
@@ -127,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_become_the_controls_of_a_program() {
+    fn settings_are_replaced_by_the_controls_of_a_program() {
         assert_eq!(
             option("paint on the processor: [backend=cpu]"),
             "paint on the processor: --backend cpu"
@@ -140,16 +157,18 @@ mod tests {
     }
 
     #[test]
-    fn other_brackets_stay() {
+    fn brackets_that_hold_no_setting_are_kept() {
         for text in
             ["samples [[0, 4, 3, 0.5]]", "a [", "an open [bracket", "[Not] a [setting 1]", ""]
         {
             assert_eq!(option(text), text);
         }
+        let quoted = Hint::verbatim("spectra: [white], [dark]");
+        assert_eq!(quoted.with_settings(|_, _| String::new()), "spectra: [white], [dark]");
     }
 
     #[test]
-    fn a_hint_alone_names_settings_as_code() {
+    fn display_writes_settings_as_code() {
         assert_eq!(Hint::new("set [backend=cpu]").to_string(), "set `backend = cpu`");
     }
 }

@@ -3,8 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::grid::Grid;
-use crate::interpolate::Ends;
-use crate::samples::{Samples, SamplesError};
+use crate::hint::{Explain, Hint};
+use crate::interpolate::Extrapolation;
+use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
 use crate::spectrum::{Power, Spectrum, SpectrumError};
 use crate::table;
 
@@ -34,7 +35,7 @@ impl Illuminant {
             .find(|(known, _)| known.eq_ignore_ascii_case(name))
             .ok_or_else(|| IlluminantError::Unknown { name: name.to_owned() })?;
         let (nm, values) = table::filled(tables, known).expect("the column was just found");
-        Self::from_samples(known, &Samples::new(nm, values)?)
+        Self::from_samples(known, &IrregularSpectrum::new(nm, values)?)
     }
 
     /// D65, the light this crate uses where none is named.
@@ -52,8 +53,8 @@ impl Illuminant {
     ///
     /// # Errors
     /// [`IlluminantError`] if a power is negative or there is no light at all.
-    pub fn from_samples(name: &str, samples: &Samples) -> Result<Self, IlluminantError> {
-        Self::from_function(name, |nm| samples.at_linear(nm, Ends::Hold).unwrap_or(0.0))
+    pub fn from_samples(name: &str, samples: &IrregularSpectrum) -> Result<Self, IlluminantError> {
+        Self::from_function(name, |nm| samples.at_linear(nm, Extrapolation::Hold).unwrap_or(0.0))
     }
 
     /// A light given by its relative power at a wavelength in nm.
@@ -112,8 +113,23 @@ pub enum IlluminantError {
     },
     /// The wavelengths cannot be used.
     #[error(transparent)]
-    Samples(#[from] SamplesError),
+    IrregularSpectrum(#[from] IrregularSpectrumError),
     /// A power cannot be used.
     #[error(transparent)]
     Power(#[from] SpectrumError),
+}
+
+impl Explain for IlluminantError {
+    fn hint(&self) -> Option<Hint> {
+        let sentence = match self {
+            Self::Temperature { .. } => {
+                "daylight is defined from D4000K to D25000K, a black body from 500K"
+            }
+            Self::Unknown { .. } => "use a name such as D65, A, FL11 or LED-B3",
+            Self::IrregularSpectrum(error) => return error.hint(),
+            Self::Power(error) => return error.hint(),
+            Self::Dark { .. } => return None,
+        };
+        Some(Hint::new(sentence))
+    }
 }

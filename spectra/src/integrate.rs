@@ -3,7 +3,7 @@
 use crate::color::Xyz;
 use crate::grid::Grid;
 use crate::illuminant::Illuminant;
-use crate::interpolate::{Ends, InterpolateError, Interpolation};
+use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 use crate::observer::Observer;
 
 /// The three weights per wavelength of a grid that turn a reflectance on that
@@ -46,7 +46,7 @@ impl TristimulusWeights {
         let mut weights = vec![[0.0; 3]; grid.count()];
         let mut white = [0.0; 3];
         for (nm, response) in responses(illuminant, observer) {
-            let row = interpolation.row(grid, nm, Ends::Hold)?;
+            let row = interpolation.row(grid, nm, Extrapolation::Hold)?;
             for (target, share) in weights[row.first..].iter_mut().zip(row.weights()) {
                 for (t, r) in target.iter_mut().zip(response) {
                     *t += share * r;

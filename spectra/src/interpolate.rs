@@ -5,6 +5,7 @@
 //! spectrum and, transposed, fold an observer onto a coarse grid.
 
 use crate::grid::Grid;
+use crate::hint::Explain;
 
 /// How values between grid points are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -20,7 +21,7 @@ pub enum Interpolation {
 
 /// What stands beyond the first and the last wavelength.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Ends {
+pub enum Extrapolation {
     /// Nothing: asking is an error.
     Refuse,
     /// The end value, held, as ASTM E308 does for tristimulus values.
@@ -68,14 +69,19 @@ impl Interpolation {
     }
 
     /// The row of weights that gives the value at `nm` from values on `grid`.
-    pub(crate) fn row(self, grid: Grid, nm: f64, ends: Ends) -> Result<Row, InterpolateError> {
+    pub(crate) fn row(
+        self,
+        grid: Grid,
+        nm: f64,
+        ends: Extrapolation,
+    ) -> Result<Row, InterpolateError> {
         if self == Self::Sprague && grid.count() < 6 {
             return Err(InterpolateError::TooFew { count: grid.count() });
         }
         let last = grid.count() - 1;
         if !grid.covers(nm) {
             return match ends {
-                Ends::Hold if !nm.is_nan() => {
+                Extrapolation::Hold if !nm.is_nan() => {
                     Ok(Row::single(if nm < grid.start_nm() { 0 } else { last }))
                 }
                 _ => Err(InterpolateError::Outside {
@@ -177,6 +183,8 @@ pub enum InterpolateError {
     },
 }
 
+impl Explain for InterpolateError {}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -190,7 +198,7 @@ mod tests {
         };
         let values: Vec<f64> = grid.wavelengths_nm().map(polynomial).collect();
         for nm in [420.0, 423.7, 455.5, 489.9] {
-            let row = Interpolation::Sprague.row(grid, nm, Ends::Refuse).unwrap();
+            let row = Interpolation::Sprague.row(grid, nm, Extrapolation::Refuse).unwrap();
             assert!((row.apply(&values) - polynomial(nm)).abs() < 1e-12, "at {nm} nm");
         }
     }
@@ -201,7 +209,7 @@ mod tests {
         for method in [Interpolation::Linear, Interpolation::Sprague] {
             for tenth in 0..=500 {
                 let nm = 400.0 + f64::from(tenth) / 10.0;
-                let row = method.row(grid, nm, Ends::Refuse).unwrap();
+                let row = method.row(grid, nm, Extrapolation::Refuse).unwrap();
                 assert!((row.apply(&[0.7; 6]) - 0.7).abs() < 1e-12, "{method:?} at {nm} nm");
             }
         }
@@ -210,9 +218,9 @@ mod tests {
     #[test]
     fn outside_the_band_is_refused_or_held() {
         let grid = Grid::from_nm(400.0, 10.0, 3).unwrap();
-        let refused = Interpolation::Linear.row(grid, 399.0, Ends::Refuse);
+        let refused = Interpolation::Linear.row(grid, 399.0, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "{refused:?}");
-        let held = Interpolation::Linear.row(grid, 721.0, Ends::Hold).unwrap();
+        let held = Interpolation::Linear.row(grid, 721.0, Extrapolation::Hold).unwrap();
         assert_eq!(held.apply(&[1.0, 2.0, 3.0]), 3.0);
     }
 }

@@ -1,11 +1,12 @@
 //! A measured lamp from an instrument's file.
 
 use crate::grid::Grid;
+use crate::hint::{Explain, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{
-    ChoiceError, Format, InstrumentError, MeasuredQuantity, Record, chosen, read,
+    ChoiceError, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum, choose_spectrum, read,
 };
-use crate::samples::Samples;
+use crate::irregular::IrregularSpectrum;
 
 /// A power below zero by no more than this share of the peak is a spectrometer's noise.
 const NEGATIVE_NOISE: f64 = 0.01;
@@ -34,13 +35,13 @@ pub fn lamp_from_bytes(
         Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
         known => known,
     }?
-    .records;
-    let record = chosen(file, &records, spectrum)?;
+    .spectra;
+    let record = choose_spectrum(file, &records, spectrum)?;
     let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
     Ok(Illuminant::from_samples(&name, &power(file, record)?)?)
 }
 
-fn power(file: &str, record: &Record) -> Result<Samples, LampError> {
+fn power(file: &str, record: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
     let (file, name) = (file.to_owned(), record.name.clone());
     if !matches!(record.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
         return Err(LampError::Quantity { file, name, found: record.quantity });
@@ -60,7 +61,7 @@ fn power(file: &str, record: &Record) -> Result<Samples, LampError> {
         return Err(LampError::Power { file, name, nm, power });
     }
     let values = record.values.iter().map(|power| power.max(0.0)).collect();
-    Ok(Samples::new(nm.clone(), values).map_err(IlluminantError::from)?)
+    Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
 /// Why a lamp's file cannot be used.
@@ -119,29 +120,28 @@ pub enum LampError {
     Light(#[from] IlluminantError),
 }
 
-impl LampError {
-    /// What to try instead.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        let fixed = match self {
-            Self::Choice(error) => return Some(error.hint()),
+impl Explain for LampError {
+    fn hint(&self) -> Option<Hint> {
+        let sentence = match self {
+            Self::Choice(error) => return error.hint(),
             Self::Instrument(
                 InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. },
             ) => "a lamp is a file of an instrument, or two columns `nm,power`",
-            Self::Instrument(error) => return error.hint().map(str::to_owned),
+            Self::Instrument(error) => return error.hint(),
             Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
                 "counts hold the detector's own response: export irradiance, radiance or power"
             }
             Self::Quantity { .. } => {
-                "a lamp is told by its power; for colours of these spectra: impasto color FILE"
+                "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
             }
             Self::Power { .. } => {
                 "only noise down to -1 % of the peak is taken as 0: measure again, or cut the file"
             }
             Self::Band { .. } => "wavelengths are in nm",
-            Self::TooShort { .. } | Self::Light(_) => return None,
+            Self::Light(error) => return error.hint(),
+            Self::TooShort { .. } => return None,
         };
-        Some(fixed.to_owned())
+        Some(Hint::new(sentence))
     }
 }
 
@@ -181,7 +181,7 @@ mod tests {
         }
         assert!(matches!(lamp("400,1\n"), Err(LampError::TooShort { count: 1, .. })));
         let prose = lamp("dear reader\n").unwrap_err();
-        assert!(prose.hint().is_some_and(|hint| hint.contains("nm,power")), "{prose}");
+        assert!(prose.hint().is_some_and(|hint| hint.to_string().contains("nm,power")), "{prose}");
     }
 
     #[test]
@@ -196,19 +196,19 @@ mod tests {
     fn one_of_several_is_named() {
         let text = b"nm;desk;shop\n400;1;3\n500;2;6\n";
         let error = lamp_from_bytes("l", text, None).unwrap_err();
-        assert_eq!(error.hint().unwrap(), "name one: \"l#desk\" or \"#shop\"");
+        assert_eq!(error.hint().unwrap().to_string(), "name one: \"l#desk\" or \"#shop\"");
         let shop = lamp_from_bytes("l", text, Some("shop")).unwrap();
         assert_eq!((at(&shop, 400), shop.name()), (3.0, "l#shop"));
         let error = lamp_from_bytes("l", text, Some("hall")).unwrap_err();
-        assert_eq!(error.hint().unwrap(), "spectra: desk, shop");
+        assert_eq!(error.hint().unwrap().to_string(), "spectra: desk, shop");
     }
 
     #[test]
     fn what_is_no_power_is_refused() {
-        for (heading, word) in [("reflectance", "impasto color"), ("counts", "irradiance")] {
+        for (heading, word) in [("reflectance", "radiance"), ("counts", "export irradiance")] {
             let error = lamp(&format!("nm,{heading}\n400,1\n500,2\n")).unwrap_err();
             assert!(error.to_string().contains(heading), "{error}");
-            assert!(error.hint().is_some_and(|hint| hint.contains(word)), "{error}");
+            assert!(error.hint().is_some_and(|hint| hint.to_string().contains(word)), "{error}");
         }
     }
 }

@@ -19,9 +19,9 @@ mod interpolate;
 
 mod spectrum;
 
-mod samples;
+mod irregular;
 
-pub mod sheet;
+pub mod csv_table;
 
 pub mod instrument;
 
@@ -57,11 +57,11 @@ pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};
 pub use integrate::TristimulusWeights;
-pub use interpolate::{Ends, InterpolateError, Interpolation};
+pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
+pub use irregular::{IrregularSpectrum, IrregularSpectrumError};
 pub use lamp::{LampError, lamp_from_bytes};
 pub use light::{LightError, light_from_text};
 pub use observer::{Observer, ObserverError};
-pub use samples::{Samples, SamplesError};
 pub use spectrum::{
     Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
 };

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use crate::black_body::black_body;
 use crate::daylight::daylight;
+use crate::file::{self, FileError};
+use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
-use crate::instrument::file_and_name;
+use crate::instrument::split_file_and_name;
 use crate::lamp::{LampError, lamp_from_bytes};
 
 /// The light that `text` names.
@@ -36,16 +38,15 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
             return Ok(daylight(kelvin)?);
         }
     }
-    let (file, spectrum) = file_and_name(text);
-    if !Path::new(file).is_file() {
+    let (file, spectrum) = split_file_and_name(text);
+    let path = Path::new(file);
+    if !path.is_file() {
         return Err(LightError::Unknown { text: text.to_owned() });
     }
-    let bytes = std::fs::read(file)
-        .map_err(|error| LightError::Read { path: file.to_owned(), reason: error.to_string() })?;
-    Ok(lamp_from_bytes(file, &bytes, spectrum)?)
+    Ok(lamp_from_bytes(file, &file::read(path)?, spectrum)?)
 }
 
-/// Why a text names no light.
+/// A text that does not name a light.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LightError {
     /// Neither a name, a temperature nor a file.
@@ -55,13 +56,8 @@ pub enum LightError {
         text: String,
     },
     /// The file cannot be read.
-    #[error("{path}: {reason}")]
-    Read {
-        /// The file.
-        path: String,
-        /// What the system said.
-        reason: String,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The lamp's file is faulty.
     #[error(transparent)]
     Lamp(#[from] LampError),
@@ -70,20 +66,22 @@ pub enum LightError {
     Illuminant(#[from] IlluminantError),
 }
 
-impl LightError {
-    /// What to try instead.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        let fixed = match self {
-            Self::Unknown { .. } => {
-                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)"
-            }
-            Self::Illuminant(_) => {
-                "daylight is defined from D4000K to D25000K, a black body from 500K"
-            }
-            Self::Lamp(error) => return error.hint(),
-            Self::Read { .. } => return None,
-        };
-        Some(fixed.to_owned())
+impl Explain for LightError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Unknown { .. } => Some(Hint::new(
+                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
+            )),
+            Self::Illuminant(error) => error.hint(),
+            Self::Lamp(error) => error.hint(),
+            Self::File(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Unknown { .. } | Self::Lamp(_) | Self::Illuminant(_) => Fault::Input,
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::grid::Grid;
+use crate::hint::Explain;
 use crate::spectrum::{Response, Spectrum};
 use crate::table;
 
@@ -95,3 +96,5 @@ pub struct ObserverError {
     /// The name that was given.
     pub name: String,
 }
+
+impl Explain for ObserverError {}

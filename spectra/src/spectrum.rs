@@ -3,22 +3,23 @@
 use std::marker::PhantomData;
 
 use crate::grid::Grid;
-use crate::interpolate::{Ends, InterpolateError, Interpolation};
+use crate::hint::Explain;
+use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 
 /// A physical quantity over wavelength.
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {
     /// What an error calls it.
     const NAME: &'static str;
     /// The least possible value.
-    const LEAST: f64;
+    const MIN: f64;
     /// The greatest possible value.
-    const MOST: f64;
+    const MAX: f64;
     /// The range from least to greatest, in words.
     const RANGE: &'static str;
 
     /// Whether `value` is possible for this quantity.
     fn possible(value: f64) -> bool {
-        value.is_finite() && (Self::LEAST..=Self::MOST).contains(&value)
+        value.is_finite() && (Self::MIN..=Self::MAX).contains(&value)
     }
 }
 
@@ -30,8 +31,8 @@ macro_rules! quantity {
 
         impl Quantity for $name {
             const NAME: &'static str = $word;
-            const LEAST: f64 = $least;
-            const MOST: f64 = $most;
+            const MIN: f64 = $least;
+            const MAX: f64 = $most;
             const RANGE: &'static str = $range;
         }
     };
@@ -62,7 +63,7 @@ quantity!(
 /// Values of the quantity `Q` on a regular grid, each checked to be possible.
 ///
 /// Outside the grid a spectrum has no value: asking for one is an error unless
-/// the caller says [`Ends::Hold`].
+/// the caller says [`Extrapolation::Hold`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum<Q> {
     grid: Grid,
@@ -113,7 +114,12 @@ impl<Q: Quantity> Spectrum<Q> {
     /// # Errors
     /// [`InterpolateError`] outside the band (unless held) or where the method
     /// lacks points.
-    pub fn at(&self, nm: f64, method: Interpolation, ends: Ends) -> Result<f64, InterpolateError> {
+    pub fn at(
+        &self,
+        nm: f64,
+        method: Interpolation,
+        ends: Extrapolation,
+    ) -> Result<f64, InterpolateError> {
         Ok(method.row(self.grid, nm, ends)?.apply(&self.values))
     }
 
@@ -126,11 +132,11 @@ impl<Q: Quantity> Spectrum<Q> {
         &self,
         grid: Grid,
         method: Interpolation,
-        ends: Ends,
+        ends: Extrapolation,
     ) -> Result<Self, InterpolateError> {
         let values = grid
             .wavelengths_nm()
-            .map(|nm| Ok(self.at(nm, method, ends)?.clamp(Q::LEAST, Q::MOST)))
+            .map(|nm| Ok(self.at(nm, method, ends)?.clamp(Q::MIN, Q::MAX)))
             .collect::<Result<_, InterpolateError>>()?;
         Ok(Self { grid, values, quantity: PhantomData })
     }
@@ -160,3 +166,5 @@ pub enum SpectrumError {
         value: f64,
     },
 }
+
+impl Explain for SpectrumError {}

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::hint::Explain;
+
 /// A finite, positive wavelength in nanometres.
 ///
 /// ```
@@ -56,3 +58,5 @@ pub struct WavelengthError {
     /// The number that was given.
     pub nm: f64,
 }
+
+impl Explain for WavelengthError {}

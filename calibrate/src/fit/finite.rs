@@ -164,8 +164,11 @@ impl Start<'_> {
             let k = log.exp();
             let (mut cost, mut gradient, mut curvature) = (0.0, 0.0, 0.0);
             for &(index, amount) in own {
-                let [value, over_k, _] =
-                    self.film.with_slopes(amount * k, amount * s, self.backing[index][at]);
+                let [value, over_k, _] = self.film.reflectance_with_slopes(
+                    amount * k,
+                    amount * s,
+                    self.backing[index][at],
+                );
                 let root = value.cbrt();
                 let residual = root - self.target[index][at].cbrt();
                 let slope = over_k * amount * k / (3.0 * root * root);

@@ -1,7 +1,7 @@
 //! The two optical models a fit can see its films through.
 
 use nalgebra::DMatrix;
-use spectra::optics::{Surface, UnevenFilm, infinite_film, ratio_slope};
+use spectra::optics::{Surface, UnevenFilm, infinite_film, infinite_film_slope};
 
 use super::curves::{Curves, Layout};
 use super::problem::Problem;
@@ -28,7 +28,7 @@ impl Forward for Hiding {
 
     fn linearised(&self, _: usize, _: usize, k: f64, s: f64) -> [f64; 3] {
         let r = infinite_film(k, s);
-        let over_ratio = self.surface.measured_slope(r) * ratio_slope(r);
+        let over_ratio = self.surface.measured_slope(r) * infinite_film_slope(r);
         [self.surface.measured_from_internal(r), over_ratio / s, -over_ratio * k / (s * s)]
     }
 }
@@ -47,7 +47,7 @@ impl Forward for Finite<'_> {
     }
 
     fn linearised(&self, index: usize, at: usize, k: f64, s: f64) -> [f64; 3] {
-        self.film.with_slopes(k, s, self.backing[index][at])
+        self.film.reflectance_with_slopes(k, s, self.backing[index][at])
     }
 }
 

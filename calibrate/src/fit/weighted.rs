@@ -3,7 +3,7 @@
 use super::curves::Curves;
 use super::problem::{FitError, Problem};
 use super::program::solve_all;
-use spectra::optics::{infinite_film_from_ratio, ratio_slope};
+use spectra::optics::{infinite_film_from_ratio, infinite_film_slope};
 
 /// How often the weights are set anew: on the Van Gogh oils nothing is gained
 /// after the sixth.
@@ -29,7 +29,7 @@ pub(super) fn weighted(problem: &Problem) -> Result<Curves, FitError> {
     let wavelengths = problem.grid.count();
     let slope = |ratio: f64| {
         let r = infinite_film_from_ratio(ratio).min(1.0 - 1e-9);
-        -ratio_slope(r) * problem.surface.measured_slope(r)
+        -infinite_film_slope(r) * problem.surface.measured_slope(r)
     };
     let slopes: Vec<Vec<f64>> =
         problem.ratio.iter().map(|row| row.iter().map(|&q| slope(q)).collect()).collect();

@@ -1,6 +1,6 @@
 //! What a column of a measurement file holds, by its header.
 
-use spectra::sheet::{Place, SheetError, wavelength_of_header};
+use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 
 use super::error::MeasurementError;
 
@@ -36,7 +36,7 @@ pub(super) fn columns(
     headers: &[String],
     wanted: Wanted,
 ) -> Result<Vec<Column>, MeasurementError> {
-    let place = |index: usize| Place::new(file, 1, &headers[index]);
+    let place = |index: usize| CellPlace::new(file, 1, &headers[index]);
     // Pigment Red 254 is R254 to some.
     let plain = |header: &String| {
         let lower = header.trim().to_ascii_lowercase();
@@ -60,7 +60,7 @@ pub(super) fn columns(
             });
         }
         if name.contains(char::is_control) {
-            return Err(MeasurementError::Sheet(SheetError::Cell {
+            return Err(MeasurementError::Sheet(CsvTableError::Cell {
                 place: place(index),
                 wanted: "a name without control characters",
                 text: name.escape_default().to_string(),
@@ -74,7 +74,7 @@ pub(super) fn columns(
         columns.push(column.ok_or_else(out_of_range)?);
     }
     if !columns.contains(&Column::Sample) {
-        return Err(MeasurementError::Sheet(SheetError::MissingColumn {
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
             file: file.to_owned(),
             column: "sample",
         }));
@@ -97,7 +97,7 @@ pub(super) fn columns(
         }
     }
     if before.is_none() && wanted == Wanted::Readings {
-        return Err(MeasurementError::Sheet(SheetError::MissingColumn {
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
             file: file.to_owned(),
             column: "400 (a wavelength in nm)",
         }));

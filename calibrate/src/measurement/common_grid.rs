@@ -1,6 +1,6 @@
 //! The one grid of a table, and values brought to it.
 
-use spectra::{Ends, Grid, Samples};
+use spectra::{Extrapolation, Grid, IrregularSpectrum};
 
 /// The grid of `wavelengths_nm`, which rise strictly: their own if they are regular, else
 /// [`regular_grid`].
@@ -13,8 +13,9 @@ pub(super) fn on_grid(grid: Grid, wavelengths_nm: &[f64], values: Vec<f64>) -> V
     if Grid::through(wavelengths_nm) == Some(grid) {
         return values;
     }
-    let samples = Samples::new(wavelengths_nm.to_vec(), values).expect("wavelengths rise");
-    let at = |nm| samples.at_linear(nm, Ends::Hold).expect("ends are held");
+    let samples =
+        IrregularSpectrum::new(wavelengths_nm.to_vec(), values).expect("wavelengths rise");
+    let at = |nm| samples.at_linear(nm, Extrapolation::Hold).expect("ends are held");
     grid.wavelengths_nm().map(at).collect()
 }
 

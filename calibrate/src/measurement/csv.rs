@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use spectra::Grid;
-use spectra::instrument::decoded;
+use spectra::instrument::decode_text;
 
 use super::column::{Column, Wanted, columns};
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::sheet::{Place, SheetError};
+use spectra::csv_table::{CellPlace, CsvTableError};
 
 impl MeasurementTable {
     /// The readings in `bytes`, the content of `file`.
@@ -98,7 +98,7 @@ impl Sheet {
     /// The sheet in `bytes`. Cells are parted by commas, or by semicolons or tabs as
     /// spreadsheets do where a comma is the decimal sign.
     pub(super) fn open(file: &str, bytes: &[u8], wanted: Wanted) -> Result<Self, MeasurementError> {
-        let (text, _) = decoded(bytes);
+        let (text, _) = decode_text(bytes);
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
@@ -178,7 +178,7 @@ impl Sheet {
         let row = record.position().map_or(0, csv::Position::line);
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
-            return Err(MeasurementError::Sheet(SheetError::RowLength {
+            return Err(MeasurementError::Sheet(CsvTableError::RowLength {
                 file: self.file.to_string(),
                 row,
                 wanted: self.columns.len(),
@@ -197,8 +197,8 @@ impl Sheet {
         };
         for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
             let wrong = |wanted| {
-                MeasurementError::Sheet(SheetError::Cell {
-                    place: Place::new(&self.file, row, &self.headers[index]),
+                MeasurementError::Sheet(CsvTableError::Cell {
+                    place: CellPlace::new(&self.file, row, &self.headers[index]),
                     wanted,
                     text: cell.to_owned(),
                 })
@@ -284,7 +284,7 @@ impl Sheet {
                 let fraction = *value * scale.to_fraction();
                 if !(0.0..=2.0).contains(&fraction) {
                     return Err(MeasurementError::Reflectance {
-                        place: Place::new(&self.file, reading.row, name),
+                        place: CellPlace::new(&self.file, reading.row, name),
                         range: scale.range(),
                         value: *value,
                     });

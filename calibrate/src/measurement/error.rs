@@ -2,14 +2,14 @@
 
 use spectra::instrument::MeasuredQuantity;
 
-use spectra::sheet::{Place, SheetError};
+use spectra::csv_table::{CellPlace, CsvTableError};
 
 /// Why readings cannot be used. Every variant says where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
     /// The sheet is faulty.
     #[error(transparent)]
-    Sheet(SheetError),
+    Sheet(CsvTableError),
     /// The file holds nothing.
     #[error("{file}: the file holds no readings")]
     Empty {
@@ -28,7 +28,7 @@ pub enum MeasurementError {
     #[error("{place} stands twice, as column number {first} and {second}")]
     RepeatedColumn {
         /// Where.
-        place: Place,
+        place: CellPlace,
         /// Counted from 1.
         first: usize,
         /// Counted from 1.
@@ -38,7 +38,7 @@ pub enum MeasurementError {
     #[error("{place}: the wavelength {nm} nm stands twice")]
     RepeatedWavelength {
         /// Where.
-        place: Place,
+        place: CellPlace,
         /// The wavelength.
         nm: f64,
     },
@@ -46,7 +46,7 @@ pub enum MeasurementError {
     #[error("{place}: wavelengths must rise, found {nm} nm after {before} nm")]
     FallingWavelength {
         /// Where.
-        place: Place,
+        place: CellPlace,
         /// The one before.
         before: f64,
         /// The one found.
@@ -56,13 +56,13 @@ pub enum MeasurementError {
     #[error("{place} is no wavelength from 200 to 2500 nm")]
     WavelengthRange {
         /// Where.
-        place: Place,
+        place: CellPlace,
     },
     /// A reading below 0 or far above white.
     #[error("{place}: a reflectance {range} is wanted, found `{value}`")]
     Reflectance {
         /// Where; the column is the wavelength.
-        place: Place,
+        place: CellPlace,
         /// The allowed range, in the file's unit.
         range: &'static str,
         /// What was found.
@@ -104,7 +104,7 @@ pub enum MeasurementError {
     )]
     Contradiction {
         /// Where.
-        place: Place,
+        place: CellPlace,
         /// The sample.
         sample: String,
         /// Where the other amount stands.
@@ -252,7 +252,7 @@ impl MeasurementError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::Sheet(SheetError::MissingColumn { .. }) => {
+            Self::Sheet(CsvTableError::MissingColumn { .. }) => {
                 "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
             }
             Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
@@ -261,19 +261,19 @@ impl MeasurementError {
             Self::FallingWavelength { .. } => {
                 "order the wavelength columns from short to long".into()
             }
-            Self::Sheet(SheetError::RowLength { wanted, found, .. }) if found > wanted => {
+            Self::Sheet(CsvTableError::RowLength { wanted, found, .. }) if found > wanted => {
                 "numbers take a decimal point; a decimal comma splits a cell in two".into()
             }
-            Self::Sheet(SheetError::RowLength { .. }) => {
+            Self::Sheet(CsvTableError::RowLength { .. }) => {
                 "the row may be cut off; write empty cells as `,,`".into()
             }
-            Self::Sheet(SheetError::Cell { text, .. }) if text.contains(',') => {
+            Self::Sheet(CsvTableError::Cell { text, .. }) if text.contains(',') => {
                 "numbers take a decimal point, not a comma".into()
             }
-            Self::Sheet(SheetError::Cell { wanted: "a reflectance", text, .. }) if text.is_empty() => {
+            Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. }) if text.is_empty() => {
                 "fill in the reading, or remove the row of a sample that was not read".into()
             }
-            Self::Sheet(SheetError::Cell { wanted: "an amount of pigment", .. }) => {
+            Self::Sheet(CsvTableError::Cell { wanted: "an amount of pigment", .. }) => {
                 "a column that is neither known nor a wavelength is read as a pigment; remove it if it is none".into()
             }
             Self::NoTable { .. } => {

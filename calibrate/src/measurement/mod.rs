@@ -27,5 +27,5 @@ pub use error::MeasurementError;
 pub use recipes::{Recipes, RecipesError};
 pub use records::RecordChoice;
 pub use scale::{Scale, ScaleChoice};
-pub use spectra::sheet::{Place, SheetError};
+pub use spectra::csv_table::{CellPlace, CsvTableError};
 pub use table::{Film, MeasurementTable, Reading};

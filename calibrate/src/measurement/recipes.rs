@@ -6,7 +6,7 @@ use super::column::{Column, Wanted};
 use super::csv::Sheet;
 use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::sheet::Place;
+use spectra::csv_table::CellPlace;
 
 /// How many names an error lists.
 const NAMES: usize = 12;
@@ -44,7 +44,7 @@ impl Recipes {
         let position = |wanted: Column| sheet.columns.iter().position(|c| *c == wanted);
         let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
         if let Some(index) = sheet.columns.iter().position(is_wavelength) {
-            let place = Place::new(file, 1, &sheet.headers[index]);
+            let place = CellPlace::new(file, 1, &sheet.headers[index]);
             return Err(RecipesError::Wavelength { place });
         }
         let pigments = sheet.pigments();
@@ -177,7 +177,7 @@ pub enum RecipesError {
     #[error("{place} is a wavelength; recipes hold no readings")]
     Wavelength {
         /// Where.
-        place: Place,
+        place: CellPlace,
     },
     /// No column is a pigment.
     #[error("{file}, row 1: no column is a pigment")]

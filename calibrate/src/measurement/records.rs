@@ -3,13 +3,13 @@
 use std::ops::RangeInclusive;
 
 use spectra::Grid;
-use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
+use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::sheet::Place;
+use spectra::csv_table::CellPlace;
 
 /// Wavelengths that a table of readings may have, in nm, as in a CSV.
 const BAND: RangeInclusive<f64> = 200.0..=2500.0;
@@ -46,7 +46,7 @@ impl MeasurementTable {
     /// [`MeasurementError`], with the line on which the spectrum begins.
     pub fn from_records(
         file: &str,
-        records: &[Record],
+        records: &[MeasuredSpectrum],
         choice: RecordChoice,
     ) -> Result<Self, MeasurementError> {
         let mut remarks = Vec::new();
@@ -98,7 +98,7 @@ fn name(raw: &str) -> String {
 
 /// A record on its way to a reading.
 struct Spectrum<'a> {
-    record: &'a Record,
+    record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
     /// What the record's values are written in; that of `values` until they are fractions.
@@ -108,17 +108,18 @@ struct Spectrum<'a> {
 /// The records that are readings; the others are said, or refused where there is nothing else.
 fn reflectances<'a>(
     file: &str,
-    records: &'a [Record],
+    records: &'a [MeasuredSpectrum],
     choice: RecordChoice,
     remarks: &mut Vec<String>,
 ) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
-    let is_reading = |record: &&Record| match record.quantity {
+    let is_reading = |record: &&MeasuredSpectrum| match record.quantity {
         _ if record.role != Role::Main => false,
         MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
         MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
         MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
     };
-    let (kept, others): (Vec<&Record>, Vec<&Record>) = records.iter().partition(is_reading);
+    let (kept, others): (Vec<&MeasuredSpectrum>, Vec<&MeasuredSpectrum>) =
+        records.iter().partition(is_reading);
     if kept.is_empty() {
         let Some(record) = others.first() else {
             return Err(MeasurementError::Empty { file: file.to_owned() });
@@ -143,7 +144,7 @@ fn reflectances<'a>(
             }
         }
     }
-    let spectrum = |record: &'a Record| Spectrum {
+    let spectrum = |record: &'a MeasuredSpectrum| Spectrum {
         record,
         wavelengths_nm: record.wavelengths_nm.clone(),
         values: record.values.clone(),
@@ -158,7 +159,7 @@ fn scale(
     spectra: &mut [Spectrum<'_>],
     choice: ScaleChoice,
 ) -> Result<Scale, MeasurementError> {
-    let told = |record: &Record| match (choice, record.unit) {
+    let told = |record: &MeasuredSpectrum| match (choice, record.unit) {
         (ScaleChoice::Told(scale), _) => Some(scale),
         (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
         (ScaleChoice::ByFile, Unit::Fraction) => Some(Scale::Fraction),
@@ -242,7 +243,7 @@ impl Spectrum<'_> {
             } else {
                 let row = self.record.line as u64;
                 return Err(MeasurementError::Reflectance {
-                    place: Place::new(file, row, &format!("{nm} nm")),
+                    place: CellPlace::new(file, row, &format!("{nm} nm")),
                     range: self.scale.range(),
                     value,
                 });

@@ -43,6 +43,6 @@ impl Adaptation {
 
 /// `xyz` under the white `from`, adapted to the white `to`.
 #[must_use]
-pub fn adapted(xyz: Xyz, from: Xyz, to: Xyz, adaptation: Adaptation) -> Xyz {
+pub fn adapt(xyz: Xyz, from: Xyz, to: Xyz, adaptation: Adaptation) -> Xyz {
     adaptation.matrix(from, to).apply(xyz.to_array()).into()
 }

@@ -3,6 +3,7 @@
 use super::difference::delta_e_ciede2000;
 use super::lab::Lab;
 use super::xyz::Xyz;
+use crate::hint::Explain;
 
 /// `sample` under the test light, corrected for what the pair already differs
 /// by under the reference light: each tristimulus value is multiplied by the
@@ -58,3 +59,5 @@ pub struct MetamerismError {
     /// The sample's tristimulus values under the reference light.
     pub xyz: [f64; 3],
 }
+
+impl Explain for MetamerismError {}

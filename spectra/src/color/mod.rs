@@ -20,7 +20,7 @@ mod difference;
 
 mod metamerism;
 
-pub use adaptation::{Adaptation, adapted};
+pub use adaptation::{Adaptation, adapt};
 pub use difference::{
     Cie94, Cmc, ciede2000_metric, ciede2000_residuals, delta_e_cie76, delta_e_cie94,
     delta_e_ciede2000, delta_e_cmc,

@@ -2,7 +2,7 @@
 
 use palette::encoding::{FromLinear, IntoLinear, Srgb};
 
-use super::adaptation::{Adaptation, adapted};
+use super::adaptation::{Adaptation, adapt};
 use super::matrix::Matrix3;
 use super::xyz::{Xyy, Xyz};
 
@@ -55,7 +55,7 @@ impl RgbSpace {
     /// below 0 or above 1 outside the gamut.
     #[must_use]
     pub fn linear_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
-        let at_display = adapted(xyz, white, self.white(), adaptation);
+        let at_display = adapt(xyz, white, self.white(), adaptation);
         Rgb(self.xyz_from_linear().inverse().apply(at_display.to_array()))
     }
 
@@ -70,7 +70,7 @@ impl RgbSpace {
     #[must_use]
     pub fn xyz_from_encoded(self, rgb: Rgb, white: Xyz, adaptation: Adaptation) -> Xyz {
         let at_display = self.xyz_from_linear().apply(rgb.linear().0);
-        adapted(at_display.into(), self.white(), white, adaptation)
+        adapt(at_display.into(), self.white(), white, adaptation)
     }
 }
 

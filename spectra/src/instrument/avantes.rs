@@ -6,10 +6,10 @@
 use super::axis::Axis;
 use super::columns::{Named, table};
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Unit, stem};
 use super::text::lines;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();
     let heading = lines.windows(2).find(|pair| {
         pair[0].1.trim_start().starts_with("Wave") && pair[1].1.trim_start().starts_with("[nm]")

@@ -3,12 +3,12 @@
 use super::axis::Axis;
 use super::columns::{Named, table};
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, Unit, stem};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Unit, stem};
 
 /// No instrument for colour reads wavelengths beyond this; wavenumbers of light do.
 const LONGEST_NM: f64 = 3300.0;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let table = table(file, text)?;
     let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let wide = table.rows.iter().any(|(_, row)| row[0] > LONGEST_NM);

@@ -6,12 +6,12 @@
 //! Tables without spectra are passed over.
 
 use super::cgats_fields::Fields;
-use super::cgats_words::words;
+use super::cgats_words::{Cell, words};
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, Role, stem};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, stem};
 use super::text::lines;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
     let mut table = Table::default();
     let mut part = Part::Keywords;
@@ -73,9 +73,6 @@ fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
     }
 }
 
-/// One cell, with its line.
-pub(super) type Cell = (usize, String);
-
 /// The table that is being read.
 #[derive(Default)]
 struct Table {
@@ -116,7 +113,7 @@ impl Table {
     }
 
     /// The spectra of the table, which ends in line `end`; what follows is another.
-    fn take(&mut self, file: &str, end: usize) -> Result<Vec<Record>, InstrumentError> {
+    fn take(&mut self, file: &str, end: usize) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
         let table = std::mem::take(self);
         if let Some((line, cell)) = table.open.first() {
             let what = "as many cells as BEGIN_DATA_FORMAT names";
@@ -143,7 +140,7 @@ impl Table {
         let names = fields.names(&table.rows, &stem(file));
         let records = table.rows.iter().zip(names).map(|(row, name)| {
             let (ordered, unit) = fields.spectrum(file, row, quantity)?;
-            Ok(Record {
+            Ok(MeasuredSpectrum {
                 name,
                 quantity,
                 role: Role::Main,
@@ -192,7 +189,7 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::Unit;
+    use super::super::measured::Unit;
     use super::*;
 
     const FILE: &str = "CGATS.17\nORIGINATOR \"x # y\" # z\nINSTRUMENTATION \"I1\"\n\
@@ -265,5 +262,35 @@ mod tests {
             };
             assert_eq!(line, at, "{new}");
         }
+    }
+
+    #[test]
+    fn argylls_rounded_wavelengths_are_made_exact() {
+        let text = |end: &str| {
+            format!(
+                "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\
+                 SPECTRAL_NORM \"50\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\n\
+                 END_DATA_FORMAT\nBEGIN_DATA\n10 20 30 40\nEND_DATA\n"
+            )
+        };
+        let found = &read("a/Red.sp", &text("390.0")).unwrap()[0];
+        assert_eq!(found.wavelengths_nm[1], 380.0 + 10.0 / 3.0);
+        assert_eq!((found.name.as_str(), found.unit), ("Red", Unit::Percent));
+        assert_eq!(found.values, [20.0, 40.0, 60.0, 80.0]);
+        let stale = &read("a/Red.sp", &text("700.0")).unwrap()[0];
+        assert_eq!(stale.wavelengths_nm[1], 383.0);
+        assert!(stale.remarks[0].contains("700"), "{:?}", stale.remarks);
+    }
+
+    #[test]
+    fn wavelengths_beside_their_values_are_read() {
+        let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 400 10,5 410 20\nEND_DATA\n";
+        let found = &read("f", text).unwrap()[0];
+        assert_eq!(
+            (&found.wavelengths_nm, &found.values),
+            (&vec![400.0, 410.0], &vec![10.5, 20.0])
+        );
+        assert_eq!((found.name.as_str(), found.unit), ("A", Unit::Percent));
     }
 }

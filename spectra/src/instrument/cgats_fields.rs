@@ -1,10 +1,10 @@
 //! The fields of a CGATS table: which hold a spectrum, and which the sample's name.
 
-use super::cgats::Cell;
+use super::cgats_words::Cell;
 use super::error::InstrumentError;
+use super::measured::{MeasuredQuantity, Unit};
 use super::number::{Decimal, number, wanted};
 use super::points::{Duplicates, Ordered, Point, ordered};
-use super::record::{MeasuredQuantity, Unit};
 
 /// Where a value's wavelength stands.
 #[derive(Clone, Copy, PartialEq)]
@@ -174,7 +174,6 @@ fn wavelength(upper: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cgats::read;
     use super::*;
 
     #[test]
@@ -194,35 +193,5 @@ mod tests {
         for name in ["SPECTRAL_NM", "SAMPLE_ID", "RGB_R", "LAB_L", "NM1", "D50"] {
             assert_eq!(wavelength(name), None, "{name}");
         }
-    }
-
-    #[test]
-    fn argylls_rounded_wavelengths_are_made_exact() {
-        let text = |end: &str| {
-            format!(
-                "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\
-                 SPECTRAL_NORM \"50\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\n\
-                 END_DATA_FORMAT\nBEGIN_DATA\n10 20 30 40\nEND_DATA\n"
-            )
-        };
-        let found = &read("a/Red.sp", &text("390.0")).unwrap()[0];
-        assert_eq!(found.wavelengths_nm[1], 380.0 + 10.0 / 3.0);
-        assert_eq!((found.name.as_str(), found.unit), ("Red", Unit::Percent));
-        assert_eq!(found.values, [20.0, 40.0, 60.0, 80.0]);
-        let stale = &read("a/Red.sp", &text("700.0")).unwrap()[0];
-        assert_eq!(stale.wavelengths_nm[1], 383.0);
-        assert!(stale.remarks[0].contains("700"), "{:?}", stale.remarks);
-    }
-
-    #[test]
-    fn wavelengths_beside_their_values_are_read() {
-        let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\n\
-            END_DATA_FORMAT\nBEGIN_DATA\nA 400 10,5 410 20\nEND_DATA\n";
-        let found = &read("f", text).unwrap()[0];
-        assert_eq!(
-            (&found.wavelengths_nm, &found.values),
-            (&vec![400.0, 410.0], &vec![10.5, 20.0])
-        );
-        assert_eq!((found.name.as_str(), found.unit), ("A", Unit::Percent));
     }
 }

@@ -1,5 +1,8 @@
 //! The words of a line of CGATS: parted by blanks, in quotes where they hold some.
 
+/// Line number (from 1) and text of a cell.
+pub(super) type Cell = (usize, String);
+
 /// The words of a line, without their quotes, up to its remark, which starts with `#`.
 pub(super) fn words(line: &str) -> Vec<String> {
     let mut found = Vec::new();

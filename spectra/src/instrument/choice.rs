@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::record::{Record, Role};
+use super::measured::{MeasuredSpectrum, Role};
+use crate::hint::{Explain, Hint};
 
 /// How many names an error lists.
 const LISTED: usize = 8;
@@ -10,7 +11,7 @@ const LISTED: usize = 8;
 /// File and spectrum of `FILE` or `FILE#NAME`. A whole text that is a file wins over the part
 /// before a `#`.
 #[must_use]
-pub fn file_and_name(text: &str) -> (&str, Option<&str>) {
+pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     match text.rsplit_once('#') {
         Some((file, name)) if !Path::new(text).is_file() => (file, Some(name)),
         _ => (text, None),
@@ -22,17 +23,17 @@ pub fn file_and_name(text: &str) -> (&str, Option<&str>) {
 ///
 /// # Errors
 /// [`ChoiceError`] if there is none, or more than one.
-pub fn chosen<'a>(
+pub fn choose_spectrum<'a>(
     file: &str,
-    records: &'a [Record],
+    records: &'a [MeasuredSpectrum],
     name: Option<&str>,
-) -> Result<&'a Record, ChoiceError> {
+) -> Result<&'a MeasuredSpectrum, ChoiceError> {
     let has_main = records.iter().any(|record| record.role == Role::Main);
-    let wanted = |record: &&Record| match name {
+    let wanted = |record: &&MeasuredSpectrum| match name {
         Some(name) => record.name == name,
         None => record.role == Role::Main || !has_main,
     };
-    let found: Vec<&Record> = records.iter().filter(wanted).collect();
+    let found: Vec<&MeasuredSpectrum> = records.iter().filter(wanted).collect();
     let file = file.to_owned();
     match (found.as_slice(), name) {
         ([one], _) => Ok(one),
@@ -46,7 +47,7 @@ pub fn chosen<'a>(
     }
 }
 
-fn names<'a>(records: impl Iterator<Item = &'a Record>) -> Vec<String> {
+fn names<'a>(records: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String> {
     records.take(LISTED).map(|record| record.name.clone()).collect()
 }
 
@@ -75,15 +76,14 @@ pub enum ChoiceError {
     },
 }
 
-impl ChoiceError {
-    /// What to try instead.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match self {
+impl Explain for ChoiceError {
+    fn hint(&self) -> Option<Hint> {
+        // Names from a file may hold brackets of their own.
+        Some(Hint::verbatim(match self {
             Self::Unknown { names, .. } => format!("spectra: {}", names.join(", ")),
             Self::Several { file, names, .. } => {
                 format!("name one: \"{file}#{}\"", names.join("\" or \"#"))
             }
-        }
+        }))
     }
 }

@@ -6,8 +6,8 @@
 use super::axis::Axis;
 use super::error::InstrumentError;
 use super::layout::Layout;
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 /// Whether `text` is such columns: most lines are numbers, the first of each a wavelength.
@@ -28,7 +28,7 @@ pub(super) fn are_in(text: &str) -> bool {
     rows >= 2 && rows >= others
 }
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let table = table(file, text)?;
     let Some(first) = table.rows.first() else { return Ok(Vec::new()) };
     let width = first.1.len();
@@ -108,14 +108,14 @@ impl NumberTable<'_> {
         column: usize,
         axis: Axis,
         named: Named,
-    ) -> Result<Record, InstrumentError> {
+    ) -> Result<MeasuredSpectrum, InstrumentError> {
         let points = self.rows.iter().map(|(line, row)| Point {
             line: *line,
             nm: axis.nm(row[0]),
             value: row[column],
         });
         let ordered = ordered(file, points.collect(), Duplicates::Average)?;
-        Ok(Record {
+        Ok(MeasuredSpectrum {
             name: named.name,
             quantity: named.quantity,
             role: Role::Main,

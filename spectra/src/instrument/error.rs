@@ -1,4 +1,6 @@
-//! What can be wrong with an instrument's file, and where.
+//! Errors in the files of instruments, with their place.
+
+use crate::hint::{Explain, Hint};
 
 /// Why an instrument's file cannot be used. Every variant names the file, and
 /// the line where there is one.
@@ -113,16 +115,16 @@ impl InstrumentError {
         let text = short.chars().map(printable).collect();
         Self::Line { file: file.to_owned(), line, wanted, text }
     }
+}
 
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        Some(match self {
+impl Explain for InstrumentError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Unrecognised { .. } => {
-                "name the format with --format, or save as CSV: a column `sample`, then wavelengths"
+                "name the format with [format], or save as CSV: a column `sample`, then wavelengths"
             }
             Self::Empty { .. } => {
-                "see that the export holds spectra, or name the format with --format"
+                "check that the export holds spectra, or name the format with [format]"
             }
             Self::Duplicate { .. } => "remove one of the two",
             Self::Unlike { .. } => "remove the wrong one; values nearly alike would be averaged",
@@ -131,6 +133,6 @@ impl InstrumentError {
             }
             Self::Count { .. } => "the file may be cut off; export it again",
             Self::Line { .. } | Self::Order { .. } => return None,
-        })
+        }))
     }
 }

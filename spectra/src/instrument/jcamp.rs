@@ -8,15 +8,15 @@
 use super::axis::Axis;
 use super::error::InstrumentError;
 use super::jcamp_data::{Scaling, points, runs};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, ordered};
-use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 /// A processed spectrum that is above this everywhere, in percent, is none.
 const MOST_PERCENT: f64 = 200.0;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
     let mut block = Block::default();
     let mut ended = (1, true);
@@ -83,7 +83,7 @@ impl Block<'_> {
     }
 
     /// The block's spectrum, if it has one.
-    fn record(self, file: &str) -> Result<Option<Record>, InstrumentError> {
+    fn record(self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
         if let Some((line, text)) = self.field("NTUPLES") {
             let what = "XYDATA or XYPOINTS (this reader knows no NTUPLES)";
             return Err(InstrumentError::line(file, line, what, text));
@@ -131,7 +131,7 @@ impl Block<'_> {
         let ordered = ordered(file, in_nm.collect(), Duplicates::Average)?;
         let (line, title) = self.field("TITLE").unwrap_or((line, ""));
         let (quantity, role, unit) = self.kind(title, &ordered.values);
-        Ok(Some(Record {
+        Ok(Some(MeasuredSpectrum {
             name: title.to_owned(),
             quantity,
             role,

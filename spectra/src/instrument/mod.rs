@@ -5,7 +5,7 @@
 
 mod error;
 
-mod record;
+mod measured;
 
 mod choice;
 
@@ -29,15 +29,15 @@ mod ocean_optics;
 
 mod qtx;
 
-mod cgats;
+mod cgats_words;
 
 mod cgats_fields;
 
-mod cgats_words;
-
-mod jcamp;
+mod cgats;
 
 mod jcamp_data;
+
+mod jcamp;
 
 mod xml;
 
@@ -51,10 +51,10 @@ mod format;
 
 mod read;
 
-pub use choice::{ChoiceError, chosen, file_and_name};
+pub use choice::{ChoiceError, choose_spectrum, split_file_and_name};
 pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;
+pub use measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 pub use read::{InstrumentFile, read};
-pub use record::{MeasuredQuantity, Record, Role, Unit};
-pub use text::decoded;
+pub use text::decode_text;

@@ -8,11 +8,11 @@
 use super::axis::Axis;
 use super::columns::{Named, table};
 use super::error::InstrumentError;
-use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::text::lines;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
-    let mut blocks: Vec<Vec<Record>> = Vec::new();
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+    let mut blocks: Vec<Vec<MeasuredSpectrum>> = Vec::new();
     let mut details: Vec<(String, String)> = Vec::new();
     // Lines outside the data are emptied, so that those inside keep their numbers.
     let mut data: Option<String> = None;
@@ -57,7 +57,7 @@ fn spectra(
     data: &str,
     details: Vec<(String, String)>,
     end: usize,
-) -> Result<Vec<Record>, InstrumentError> {
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let said = |start: &str| {
         let found = details.iter().find(|(key, _)| key.starts_with(start));
         found.map(|(_, value)| value.as_str())
@@ -81,7 +81,7 @@ fn spectra(
     let record = |column, name, quantity, role| {
         let named = Named { name, quantity, unit: Unit::Unstated };
         let record = table.record(file, column, Axis::Nanometres, named)?;
-        Ok(Record { role, details: details.clone(), ..record })
+        Ok(MeasuredSpectrum { role, details: details.clone(), ..record })
     };
     let quantity = if raw { MeasuredQuantity::Counts } else { MeasuredQuantity::Unstated };
     let column = named(main).unwrap_or(first.len() - 1);
@@ -107,7 +107,7 @@ fn spectra(
 
 #[cfg(test)]
 mod tests {
-    use super::super::choice::chosen;
+    use super::super::choice::choose_spectrum;
     use super::*;
 
     #[test]
@@ -135,7 +135,7 @@ mod tests {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
         let told = |text: &str| -> Vec<_> {
-            let told = |r: Record| (r.name, r.quantity, r.role, r.values);
+            let told = |r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values);
             read("a.jaz", text).unwrap().into_iter().map(told).collect()
         };
         let beside = |number: &str| {
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(told(&raw), [sample, beside("").remove(3)]);
         // Without a name the file is what it was written for.
         let records = read("a.jaz", text).unwrap();
-        assert_eq!(chosen("a.jaz", &records, None).unwrap().name, "a");
-        assert_eq!(chosen("a.jaz", &records[3..], None).unwrap().name, "a (D)");
+        assert_eq!(choose_spectrum("a.jaz", &records, None).unwrap().name, "a");
+        assert_eq!(choose_spectrum("a.jaz", &records[3..], None).unwrap().name, "a (D)");
     }
 }

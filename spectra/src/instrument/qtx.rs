@@ -2,12 +2,12 @@
 //! with `BAT_`. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
 
 use super::error::InstrumentError;
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Role, Unit};
 use super::text::lines;
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
     let mut keys: [Section; 2] = Default::default();
     let mut lines = lines(text).peekable();
@@ -64,7 +64,7 @@ impl Section {
         file: &str,
         lists: &[(usize, &str)],
         unnamed: String,
-    ) -> Result<Record, InstrumentError> {
+    ) -> Result<MeasuredSpectrum, InstrumentError> {
         let at = lists[0].0;
         let [count, low, step] =
             ["REFLPOINTS", "REFLLOW", "REFLINTERVAL"].map(|key| self.number(file, at, key));
@@ -92,7 +92,7 @@ impl Section {
         let said = self.values.iter();
         let name = said.clone().rev().find(|(_, key, value)| key == "NAME" && !value.is_empty());
         let is_detail = |key: &str| key != "NAME" && !key.starts_with("REFL");
-        Ok(Record {
+        Ok(MeasuredSpectrum {
             name: name.map_or(unnamed, |(_, _, name)| name.clone()),
             quantity: MeasuredQuantity::Reflectance,
             role: Role::Main,

@@ -2,8 +2,8 @@
 
 use super::error::InstrumentError;
 use super::format::Format;
-use super::record::Record;
-use super::text::decoded;
+use super::measured::MeasuredSpectrum;
+use super::text::decode_text;
 use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
 
 /// An instrument's file.
@@ -12,7 +12,7 @@ pub struct InstrumentFile {
     /// Its format.
     pub format: Format,
     /// Its spectra in order of the file; at least one.
-    pub records: Vec<Record>,
+    pub spectra: Vec<MeasuredSpectrum>,
 }
 
 /// The spectra in `bytes`, the content of `file`, of `format` or the one found.
@@ -24,11 +24,11 @@ pub fn read(
     bytes: &[u8],
     format: Option<Format>,
 ) -> Result<InstrumentFile, InstrumentError> {
-    let (text, _) = decoded(bytes);
+    let (text, _) = decode_text(bytes);
     let format = format
         .or_else(|| Format::detected(file, &text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
-    let records = match format {
+    let spectra = match format {
         Format::Cgats => cgats::read(file, &text),
         Format::Jcamp => jcamp::read(file, &text),
         Format::Qtx => qtx::read(file, &text),
@@ -40,8 +40,8 @@ pub fn read(
         Format::Tm27 => tm27::read(file, &text),
         Format::Sekonic => sekonic::read(file, &text),
     }?;
-    if records.is_empty() {
+    if spectra.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
     }
-    Ok(InstrumentFile { format, records })
+    Ok(InstrumentFile { format, spectra })
 }

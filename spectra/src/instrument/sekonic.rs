@@ -3,16 +3,16 @@
 //! for each.
 
 use super::error::InstrumentError;
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered};
-use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::text::lines;
 
 /// A line of the spectrum begins so: `Spectral Data 380[nm],0.001`.
 const SPECTRAL: &str = "Spectral Data";
 
 /// The readings of a Sekonic file, each at the finest step that the file has.
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let head =
         lines(text).find(|(_, line)| line.starts_with(SPECTRAL)).map_or("", |(_, line)| line);
     let separator = [';', '\t', ','].into_iter().find(|&c| head.contains(c)).unwrap_or(',');
@@ -58,7 +58,7 @@ fn record(
     column: usize,
     rows: &[Row],
     details: &[(String, Vec<String>)],
-) -> Result<Record, InstrumentError> {
+) -> Result<MeasuredSpectrum, InstrumentError> {
     let mut points = Vec::new();
     for row in rows {
         let (line, nm) = (row.line, row.nm);
@@ -74,7 +74,7 @@ fn record(
     };
     let details: Vec<(String, String)> = details.iter().filter_map(said).collect();
     let title = details.iter().find(|(key, _)| key == "Title").map(|(_, title)| title.clone());
-    Ok(Record {
+    Ok(MeasuredSpectrum {
         name: title.unwrap_or_else(|| stem(file)),
         quantity: MeasuredQuantity::Power,
         role: Role::Main,

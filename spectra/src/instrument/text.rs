@@ -6,7 +6,7 @@ use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 /// mark, UTF-16 by its zeros, UTF-8 where it is that, else Windows-1252 (of which Latin-1 is
 /// a part). Never fails; what is no character becomes U+FFFD.
 #[must_use]
-pub fn decoded(bytes: &[u8]) -> (String, &'static str) {
+pub fn decode_text(bytes: &[u8]) -> (String, &'static str) {
     let (encoding, bytes) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (encoding, &bytes[length..]),
         None => (guessed(bytes), bytes),
@@ -71,7 +71,7 @@ mod tests {
             (little, "UTF-16LE"),
             (big, "UTF-16BE"),
         ] {
-            assert_eq!(decoded(&bytes), (text.to_owned(), name), "{name}");
+            assert_eq!(decode_text(&bytes), (text.to_owned(), name), "{name}");
         }
     }
 

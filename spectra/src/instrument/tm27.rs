@@ -1,13 +1,13 @@
 //! IES TM-27-14, "IES Standard Format for the Electronic Transfer of Spectral Data": `.spdx`.
 
 use super::error::InstrumentError;
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::number::{Decimal, wanted};
 use super::points::{Duplicates, Point, ordered, sorted};
-use super::record::{MeasuredQuantity, Record, Role, Unit, stem};
 use super::xml::parse;
 
 /// The spectral distribution of a TM-27 file.
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if !root.name.starts_with("IESTM27") {
         return Err(InstrumentError::line(file, root.line, "an IESTM2714 element", &root.name));
@@ -36,7 +36,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentErro
         let mut details = header.clone();
         details.extend(distribution.leaves().into_iter().filter(|(key, _)| key != "SpectralData"));
         let quantity = details.iter().find(|(key, _)| key == "SpectralQuantity");
-        records.push(Record {
+        records.push(MeasuredSpectrum {
             name: name.clone(),
             quantity: quantity.map_or(MeasuredQuantity::Unstated, |(_, word)| quantity_of(word)),
             role: Role::Main,

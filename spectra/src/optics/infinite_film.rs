@@ -37,7 +37,7 @@ pub fn absorption_over_scattering(reflectance: f64) -> f64 {
 /// The slope dR/d(K/S) at the reflectance R of a film that hides: 0 or below.
 /// At R = 1 the slope is infinite.
 #[must_use]
-pub fn ratio_slope(reflectance: f64) -> f64 {
+pub fn infinite_film_slope(reflectance: f64) -> f64 {
     let r = reflectance;
     -2.0 * r * r / (1.0 - r * r)
 }

@@ -14,7 +14,7 @@ mod surface;
 mod uneven_film;
 
 pub use infinite_film::{
-    absorption_over_scattering, infinite_film, infinite_film_from_ratio, ratio_slope,
+    absorption_over_scattering, infinite_film, infinite_film_from_ratio, infinite_film_slope,
 };
 pub use layer::Layer;
 pub use surface::{Specular, Surface, SurfaceError};

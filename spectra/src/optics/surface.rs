@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::hint::Explain;
+
 /// Whether the instrument catches the mirror reflection of the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -122,3 +124,5 @@ pub enum SurfaceError {
         floor: f64,
     },
 }
+
+impl Explain for SurfaceError {}

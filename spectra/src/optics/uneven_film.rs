@@ -37,7 +37,12 @@ impl UnevenFilm {
 
     /// The same, with its derivatives over `absorption` and `scattering`.
     #[must_use]
-    pub fn with_slopes(&self, absorption: f64, scattering: f64, backing: f64) -> [f64; 3] {
+    pub fn reflectance_with_slopes(
+        &self,
+        absorption: f64,
+        scattering: f64,
+        backing: f64,
+    ) -> [f64; 3] {
         let at = |factor: f64| {
             let [internal, over_k, over_s] =
                 Layer::over_with_slopes(factor * absorption, factor * scattering, backing);
@@ -78,7 +83,7 @@ mod tests {
             for k in [1e-4, 0.02, 0.7, 5.0] {
                 for s in [1e-4, 0.03, 0.9, 6.0] {
                     for g in [0.0, 0.1, 0.9] {
-                        let [value, over_k, over_s] = film.with_slopes(k, s, g);
+                        let [value, over_k, over_s] = film.reflectance_with_slopes(k, s, g);
                         assert!((value - film.reflectance(k, s, g)).abs() < 1e-12, "{k} {s} {g}");
                         let h = 1e-6;
                         let quotient = |low: f64, high: f64| (high - low) / (2.0 * h);

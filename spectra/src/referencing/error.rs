@@ -1,5 +1,6 @@
 //! Why counts give no reflectance.
 
+use crate::hint::{Explain, Hint};
 use crate::instrument::MeasuredQuantity;
 
 /// What is wrong between a sample, its white and its dark.
@@ -127,33 +128,31 @@ pub enum ReferencingError {
     },
 }
 
-impl ReferencingError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        Some(match self {
+impl Explain for ReferencingError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Quantity { .. } => {
-                "export the raw counts, or leave --white and --dark out: what is reflectance already needs none"
+                "export the raw counts, or leave [white] and [dark] out: reflectance needs neither"
             }
             Self::Mixed { .. } => "export sample, white and dark the same way",
             Self::NoDark { .. } => {
-                "add --dark FILE (the same integration time, light shut off), or --dark 0 if the dark is subtracted already"
+                "add [dark=FILE] (the same integration time, light shut off), or [dark=0] if the dark is subtracted already"
             }
             Self::DarkTime { .. } | Self::UnknownTime { .. } => {
-                "a dark does not scale with time: take one at each integration time and give --dark for each"
+                "a dark does not scale with time: take one at each integration time and give [dark] for each"
             }
             Self::Saturated { .. } => {
-                "measure again with a shorter integration time; if the detector was not full, tell its largest count with --full-scale"
+                "measure again with a shorter integration time; if the detector was not saturated, give its largest count with [full_scale]"
             }
             Self::Dim { .. } => {
-                "measure with more light there or a longer integration time, or lower --least-light"
+                "measure with more light there or a longer integration time, or lower [least_light]"
             }
-            Self::Uncovered { .. } => "measure all over the sample's wavelengths",
-            Self::BelowDark { .. } => "see that sample and dark were not interchanged",
+            Self::Uncovered { .. } => "measure over all wavelengths of the sample",
+            Self::BelowDark { .. } => "check that sample and dark were not interchanged",
             Self::Tile { .. } | Self::TileQuantity { .. } => {
-                "give a fraction, such as --tile 0.99, or a file of its reflectance"
+                "give a fraction, such as [tile=0.99], or a file of its reflectance"
             }
             Self::Invisible { .. } => return None,
-        })
+        }))
     }
 }

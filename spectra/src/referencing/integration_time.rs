@@ -1,11 +1,11 @@
 //! How long a reading was integrated, out of the words of its file.
 
-use crate::instrument::Record;
+use crate::instrument::MeasuredSpectrum;
 
 /// The integration time in ms, from a detail such as `Integration Time (usec): 24000 (JAZA1479)`
 /// or `Integration time: 100.00 ms`; `None` if there is none or no unit.
 #[must_use]
-pub fn integration_time_ms(record: &Record) -> Option<f64> {
+pub fn integration_time_ms(record: &MeasuredSpectrum) -> Option<f64> {
     record.details.iter().find_map(|(key, value)| {
         let key = key.to_lowercase();
         let (_, after) = key.split_once("integration time")?;
@@ -54,7 +54,7 @@ mod tests {
             ("Integration Time (sec)", "-1", None),
             ("Scans", "20 ms", None),
         ] {
-            let record = Record {
+            let record = MeasuredSpectrum {
                 name: "r".into(),
                 quantity: MeasuredQuantity::Counts,
                 role: Role::Main,

@@ -17,9 +17,9 @@ use std::ops::RangeInclusive;
 use super::error::ReferencingError;
 use super::integration_time::{integration_time_ms, same};
 use super::saturation::ceiling;
-use crate::instrument::{MeasuredQuantity, Record, Role, Unit};
-use crate::interpolate::Ends;
-use crate::samples::Samples;
+use crate::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
+use crate::interpolate::Extrapolation;
+use crate::irregular::IrregularSpectrum;
 
 /// Where every value must be good; beyond, bad ones are left out.
 const VISIBLE_NM: RangeInclusive<f64> = 380.0..=730.0;
@@ -35,7 +35,7 @@ const NEGATIVE_NOISE: f64 = 0.01;
 pub enum Dark<'a> {
     /// Readings without light. Of several, each of sample and white takes the one of its own
     /// integration time: a dark is offset and current, and does not scale.
-    Readings(&'a [Record]),
+    Readings(&'a [MeasuredSpectrum]),
     /// Subtracted already.
     Subtracted,
 }
@@ -46,14 +46,14 @@ pub enum Tile {
     /// The same everywhere.
     Even(f64),
     /// As measured, a fraction.
-    Measured(Samples),
+    Measured(IrregularSpectrum),
 }
 
 /// What a sample's light is set against.
 #[derive(Debug, Clone)]
 pub struct Referencing<'a> {
     /// The white, by the same lamp and geometry.
-    pub white: &'a Record,
+    pub white: &'a MeasuredSpectrum,
     /// The dark.
     pub dark: Dark<'a>,
     /// The white's own reflectance.
@@ -83,7 +83,7 @@ impl Tile {
     ///
     /// # Errors
     /// [`ReferencingError`] if the record is no reflectance, or is 0 or above 1.2 somewhere.
-    pub fn measured(record: &Record) -> Result<Self, ReferencingError> {
+    pub fn measured(record: &MeasuredSpectrum) -> Result<Self, ReferencingError> {
         if !matches!(record.quantity, MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated) {
             let (name, found) = (record.name.clone(), record.quantity);
             return Err(ReferencingError::TileQuantity { name, found });
@@ -106,7 +106,7 @@ impl Tile {
     fn at(&self, nm: f64) -> Option<f64> {
         match self {
             Self::Even(value) => Some(*value),
-            Self::Measured(samples) => samples.at_linear(nm, Ends::Refuse).ok(),
+            Self::Measured(samples) => samples.at_linear(nm, Extrapolation::Refuse).ok(),
         }
     }
 }
@@ -114,17 +114,17 @@ impl Tile {
 /// One reading with its dark, each at any wavelength.
 struct Light<'a> {
     role: &'static str,
-    record: &'a Record,
-    signal: Samples,
-    dark: Option<Samples>,
+    record: &'a MeasuredSpectrum,
+    signal: IrregularSpectrum,
+    dark: Option<IrregularSpectrum>,
     ceiling: Option<f64>,
 }
 
 impl Light<'_> {
     /// The reading less its dark at `nm`.
     fn at(&self, nm: f64) -> Result<f64, ReferencingError> {
-        let value = |samples: &Samples, role| {
-            let value = samples.at_linear(nm, Ends::Refuse);
+        let value = |samples: &IrregularSpectrum, role| {
+            let value = samples.at_linear(nm, Extrapolation::Refuse);
             value.map_err(|_| ReferencingError::Uncovered { role, nm })
         };
         if let Some(ceiling) = self.ceiling.filter(|&ceiling| self.most_beside(nm) >= ceiling) {
@@ -152,7 +152,10 @@ impl Referencing<'_> {
     /// # Errors
     /// [`ReferencingError`] for readings that do not belong together, and for light that is too
     /// much or too little from 380 to 730 nm. Beyond, such wavelengths are left out.
-    pub fn reflectance(&self, sample: &Record) -> Result<Record, ReferencingError> {
+    pub fn reflectance(
+        &self,
+        sample: &MeasuredSpectrum,
+    ) -> Result<MeasuredSpectrum, ReferencingError> {
         let mut remarks = sample.remarks.clone();
         self.check_quantities(sample)?;
         let sample_light = self.light("sample", sample)?;
@@ -183,7 +186,7 @@ impl Referencing<'_> {
         }
         let mut details = sample.details.clone();
         details.push(("White".to_owned(), self.white.name.clone()));
-        Ok(Record {
+        Ok(MeasuredSpectrum {
             name: sample.name.clone(),
             quantity: MeasuredQuantity::Reflectance,
             role: Role::Main,
@@ -196,7 +199,7 @@ impl Referencing<'_> {
         })
     }
 
-    fn check_quantities(&self, sample: &Record) -> Result<(), ReferencingError> {
+    fn check_quantities(&self, sample: &MeasuredSpectrum) -> Result<(), ReferencingError> {
         use MeasuredQuantity::{Counts, Power, Unstated};
         let darks = match self.dark {
             Dark::Readings(darks) => darks,
@@ -223,10 +226,12 @@ impl Referencing<'_> {
     fn light<'a>(
         &self,
         role: &'static str,
-        record: &'a Record,
+        record: &'a MeasuredSpectrum,
     ) -> Result<Light<'a>, ReferencingError> {
         let dark = self.dark_of(role, record)?;
-        let of = |record: &Record| samples(record.wavelengths_nm.clone(), record.values.clone());
+        let of = |record: &MeasuredSpectrum| {
+            samples(record.wavelengths_nm.clone(), record.values.clone())
+        };
         let counted = record.quantity != MeasuredQuantity::Power || self.full_scale.is_some();
         let ceiling = if counted { ceiling(&record.values, self.full_scale) } else { None };
         Ok(Light { role, record, signal: of(record), dark: dark.map(of), ceiling })
@@ -235,8 +240,8 @@ impl Referencing<'_> {
     fn dark_of(
         &self,
         role: &'static str,
-        record: &Record,
-    ) -> Result<Option<&Record>, ReferencingError> {
+        record: &MeasuredSpectrum,
+    ) -> Result<Option<&MeasuredSpectrum>, ReferencingError> {
         let name = || record.name.clone();
         let darks = match self.dark {
             Dark::Subtracted => return Ok(None),
@@ -266,7 +271,7 @@ impl Referencing<'_> {
     }
 
     /// What sample counts are multiplied by to be those of the white's integration time.
-    fn time_scale(&self, sample: &Record, remarks: &mut Vec<String>) -> f64 {
+    fn time_scale(&self, sample: &MeasuredSpectrum, remarks: &mut Vec<String>) -> f64 {
         // Power is per second already.
         if sample.quantity == MeasuredQuantity::Power {
             return 1.0;
@@ -307,7 +312,7 @@ struct Usable {
 
 /// The visible wavelengths of `sample`, and those around them up to the first that fail.
 fn usable(
-    sample: &Record,
+    sample: &MeasuredSpectrum,
     at: impl Fn(f64) -> Result<f64, ReferencingError>,
 ) -> Result<Usable, ReferencingError> {
     let all = &sample.wavelengths_nm;
@@ -341,6 +346,6 @@ fn noise(dark: &[f64]) -> f64 {
     steps.get(steps.len() / 2).map_or(0.0, |median| median / 0.6745 / 2.0_f64.sqrt())
 }
 
-fn samples(nm: Vec<f64>, values: Vec<f64>) -> Samples {
-    Samples::new(nm, values).expect("a record's wavelengths rise, each with a value")
+fn samples(nm: Vec<f64>, values: Vec<f64>) -> IrregularSpectrum {
+    IrregularSpectrum::new(nm, values).expect("a record's wavelengths rise, each with a value")
 }

@@ -3,8 +3,8 @@
 //! Adobe, "Adobe Photoshop File Formats Specification", section "Color Swatches".
 
 use super::bytes::{Bytes, put_units, units};
+use super::entries::{SwatchColor, SwatchEntry, SwatchFile};
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::{Lab, Rgb};
 
 const RGB: u16 = 0;
@@ -17,7 +17,7 @@ const GREY: u16 = 8;
 ///
 /// # Errors
 /// [`SwatchFileError::TooMany`] for more colours or letters than it can count.
-pub fn write_aco(palette: &Palette) -> Result<Vec<u8>, SwatchFileError> {
+pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     let Ok(count) = u16::try_from(palette.swatches.len()) else {
         let (what, found) = ("colours", palette.swatches.len());
         return Err(SwatchFileError::TooMany { format: ".aco", what, found });
@@ -64,7 +64,7 @@ fn words(color: SwatchColor) -> (u16, [u16; 4]) {
 ///
 /// # Errors
 /// [`SwatchFileError`], with the byte.
-pub fn read_aco(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
+pub fn read_aco(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let mut palette = None;
     while palette.is_none() || !bytes.rest.is_empty() {
@@ -81,9 +81,9 @@ pub fn read_aco(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
     Ok(palette.unwrap_or_default())
 }
 
-fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<Palette, SwatchFileError> {
+fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFileError> {
     let count = bytes.u16("the number of colours")?;
-    let mut palette = Palette::default();
+    let mut palette = SwatchFile::default();
     for _ in 0..count {
         let offset = bytes.offset;
         let space = bytes.u16("a colour space")?;
@@ -97,7 +97,7 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<Palette, SwatchFileErr
         } else {
             String::new()
         };
-        palette.swatches.push(Swatch { name, group: String::new(), color });
+        palette.swatches.push(SwatchEntry { name, group: String::new(), color });
     }
     Ok(palette)
 }

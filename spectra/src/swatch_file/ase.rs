@@ -4,8 +4,8 @@
 //! read and write (O. Berisha, "Adobe Swatch Exchange file format", 2006).
 
 use super::bytes::{Bytes, put_units, units};
+use super::entries::{SwatchColor, SwatchEntry, SwatchFile};
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::{Lab, Rgb};
 
 const COLOR: u16 = 0x0001;
@@ -21,7 +21,7 @@ type Model<'a> = (&'a [u8; 4], Vec<f64>);
 ///
 /// # Errors
 /// [`SwatchFileError::TooMany`] for a name that is too long.
-pub fn write_ase(palette: &Palette) -> Result<Vec<u8>, SwatchFileError> {
+pub fn write_ase(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     let mut blocks: Vec<(u16, Vec<u8>)> = Vec::new();
     let mut open = "";
     for swatch in &palette.swatches {
@@ -75,7 +75,7 @@ fn model(color: SwatchColor) -> Model<'static> {
 ///
 /// # Errors
 /// [`SwatchFileError`], with the byte.
-pub fn read_ase(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
+pub fn read_ase(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let head = bytes.part(4, "`ASEF`")?;
     if head.rest != b"ASEF" {
@@ -83,7 +83,7 @@ pub fn read_ase(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
     }
     bytes.u32("a version")?;
     let count = bytes.u32("the number of blocks")?;
-    let mut palette = Palette::default();
+    let mut palette = SwatchFile::default();
     let mut group = String::new();
     for _ in 0..count {
         let kind = bytes.u16("a block")?;
@@ -95,7 +95,7 @@ pub fn read_ase(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
             COLOR => {
                 let name = text(&mut block)?;
                 let color = color(&mut block)?;
-                palette.swatches.push(Swatch { name, group: group.clone(), color });
+                palette.swatches.push(SwatchEntry { name, group: group.clone(), color });
             }
             _ => {}
         }

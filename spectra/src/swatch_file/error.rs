@@ -1,4 +1,6 @@
-//! Why a palette cannot be read or written.
+//! Errors in reading and writing swatch files.
+
+use crate::hint::Explain;
 
 /// A fault of a palette, with its place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -46,3 +48,5 @@ pub enum SwatchFileError {
         found: usize,
     },
 }
+
+impl Explain for SwatchFileError {}

@@ -4,8 +4,8 @@
 
 use std::fmt::Write;
 
+use super::entries::{SwatchColor, SwatchEntry, SwatchFile};
 use super::error::SwatchFileError;
-use super::palette::{Palette, Swatch, SwatchColor};
 use crate::color::Rgb;
 
 const HEAD: &str = "GIMP Palette";
@@ -15,7 +15,7 @@ const HEAD: &str = "GIMP Palette";
 ///
 /// # Errors
 /// [`SwatchFileError::Color`] for inks.
-pub fn write_gpl(palette: &Palette) -> Result<String, SwatchFileError> {
+pub fn write_gpl(palette: &SwatchFile) -> Result<String, SwatchFileError> {
     let name = one_line(&palette.name);
     let mut text = format!("{HEAD}\nName: {name}\nColumns: 0\n#\n");
     for swatch in &palette.swatches {
@@ -34,7 +34,7 @@ pub fn write_gpl(palette: &Palette) -> Result<String, SwatchFileError> {
 ///
 /// # Errors
 /// [`SwatchFileError`], with line or byte.
-pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
+pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let text = std::str::from_utf8(bytes).map_err(|error| SwatchFileError::Bytes {
         file: file.to_owned(),
         offset: error.valid_up_to(),
@@ -52,7 +52,7 @@ pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
     if head != HEAD {
         return Err(wrong(1, "`GIMP Palette`", head));
     }
-    let mut palette = Palette::default();
+    let mut palette = SwatchFile::default();
     for (line, number) in lines {
         let line = line.trim();
         if let Some(name) = line.strip_prefix("Name:") {
@@ -68,7 +68,7 @@ pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<Palette, SwatchFileError> {
                 *channel = f64::from(byte) / 255.0;
                 rest = after.trim_start();
             }
-            palette.swatches.push(Swatch {
+            palette.swatches.push(SwatchEntry {
                 name: rest.to_owned(),
                 group: String::new(),
                 color: SwatchColor::Rgb(Rgb(channels)),

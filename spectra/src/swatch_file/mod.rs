@@ -9,7 +9,7 @@
 //! None of the three says which RGB is meant; here it is sRGB. Lab is that of the
 //! graphic arts, under D50 for the 1931 observer.
 
-mod palette;
+mod entries;
 
 mod error;
 
@@ -23,6 +23,6 @@ mod aco;
 
 pub use aco::{read_aco, write_aco};
 pub use ase::{read_ase, write_ase};
+pub use entries::{SwatchColor, SwatchEntry, SwatchFile, d50_white};
 pub use error::SwatchFileError;
 pub use gpl::{read_gpl, write_gpl};
-pub use palette::{Palette, Swatch, SwatchColor, d50_white};

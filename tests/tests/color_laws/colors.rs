@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::{
-    Adaptation, Cie94, Cmc, Lab, Matrix3, Rgb, RgbSpace, Xyz, adapted, ciede2000_metric,
+    Adaptation, Cie94, Cmc, Lab, Matrix3, Rgb, RgbSpace, Xyz, adapt, ciede2000_metric,
     corrected_to_match, delta_e_cie76, delta_e_cie94, delta_e_ciede2000, delta_e_cmc,
     metamerism_index,
 };
@@ -94,11 +94,11 @@ fn adaptation_there_and_back_is_the_same_color() {
         for from in WHITES.map(Xyz::from) {
             for to in WHITES.map(Xyz::from) {
                 let xyz = Xyz { x: 20.0, y: 12.0, z: 5.0 };
-                let there = adapted(xyz, from, to, adaptation);
-                let back = adapted(there, to, from, adaptation);
+                let there = adapt(xyz, from, to, adaptation);
+                let back = adapt(there, to, from, adaptation);
                 let told = format!("{adaptation:?} from {from:?} to {to:?}");
                 assert_near(&told, &back.to_array(), &xyz.to_array(), ROUNDING);
-                let white = adapted(from, from, to, adaptation);
+                let white = adapt(from, from, to, adaptation);
                 assert_near(&told, &white.to_array(), &to.to_array(), ROUNDING);
             }
         }

@@ -1,9 +1,10 @@
 //! What is refused, and how that is said.
 
+use spectra::hint::Explain;
 use spectra::{
-    Absorption, Ends, Grid, GridError, Illuminant, InterpolateError, Interpolation, LampError,
-    LightError, Observer, Power, Quantity, Reflectance, Response, Samples, SamplesError,
-    Scattering, Spectrum, SpectrumError, lamp_from_bytes, light_from_text,
+    Absorption, Extrapolation, Grid, GridError, Illuminant, InterpolateError, Interpolation,
+    IrregularSpectrum, IrregularSpectrumError, LampError, LightError, Observer, Power, Quantity,
+    Reflectance, Response, Scattering, Spectrum, SpectrumError, lamp_from_bytes, light_from_text,
 };
 
 fn grid() -> Grid {
@@ -45,7 +46,7 @@ fn impossible_values_are_refused_with_their_wavelength() {
 fn a_polynomial_that_swings_past_what_is_possible_is_cut_off() {
     let edges = Spectrum::<Reflectance>::new(grid(), vec![0.0, 0.0, 0.0, 2.0, 2.0, 2.0]).unwrap();
     let fine = Grid::from_nm(400.0, 1.0, 51).unwrap();
-    let swung = edges.resampled(fine, Interpolation::Sprague, Ends::Refuse).unwrap();
+    let swung = edges.resampled(fine, Interpolation::Sprague, Extrapolation::Refuse).unwrap();
     let again = Spectrum::<Reflectance>::new(fine, swung.values().to_vec());
     assert_eq!(again.as_ref(), Ok(&swung), "every value is a reflectance");
     assert!(swung.values().iter().filter(|&&v| v == 2.0).count() > 3, "{swung:?}");
@@ -78,43 +79,50 @@ fn a_grid_goes_through_regular_wavelengths_only() {
 #[test]
 fn samples_refuse_wavelengths_that_do_not_rise() {
     for nm in [[400.0, 390.0], [400.0, 400.0]] {
-        let refused = Samples::new(nm.to_vec(), vec![1.0; 2]);
+        let refused = IrregularSpectrum::new(nm.to_vec(), vec![1.0; 2]);
         let [before, after] = nm;
-        assert_eq!(refused, Err(SamplesError::Order { before, after }), "{nm:?}");
+        assert_eq!(refused, Err(IrregularSpectrumError::Order { before, after }), "{nm:?}");
     }
     for nm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let refused = Samples::new(vec![nm], vec![1.0]);
-        assert!(matches!(refused, Err(SamplesError::Wavelength(_))), "{nm}: {refused:?}");
+        let refused = IrregularSpectrum::new(vec![nm], vec![1.0]);
+        assert!(matches!(refused, Err(IrregularSpectrumError::Wavelength(_))), "{nm}: {refused:?}");
     }
-    let refused = Samples::new(vec![400.0, 410.0], vec![1.0]);
-    assert_eq!(refused, Err(SamplesError::Count { wavelengths: 2, values: 1 }), "one too few");
+    let refused = IrregularSpectrum::new(vec![400.0, 410.0], vec![1.0]);
+    assert_eq!(
+        refused,
+        Err(IrregularSpectrumError::Count { wavelengths: 2, values: 1 }),
+        "one too few"
+    );
 }
 
 #[test]
 fn outside_the_band_is_refused_or_held() {
-    let samples = Samples::new(vec![400.0, 430.0], vec![1.0, 4.0]).unwrap();
+    let samples = IrregularSpectrum::new(vec![400.0, 430.0], vec![1.0, 4.0]).unwrap();
     let spectrum = Spectrum::<Power>::new(grid(), vec![1.0, 1.0, 1.0, 4.0, 4.0, 4.0]).unwrap();
     let linear = Interpolation::Linear;
     for (nm, held) in [(399.0, 1.0), (451.0, 4.0)] {
-        assert_eq!(samples.at_linear(nm, Ends::Hold), Ok(held), "at {nm} nm");
-        assert_eq!(spectrum.at(nm, linear, Ends::Hold), Ok(held), "at {nm} nm");
+        assert_eq!(samples.at_linear(nm, Extrapolation::Hold), Ok(held), "at {nm} nm");
+        assert_eq!(spectrum.at(nm, linear, Extrapolation::Hold), Ok(held), "at {nm} nm");
     }
     for nm in [399.0, 451.0, f64::NAN] {
-        let refused = samples.at_linear(nm, Ends::Refuse);
-        assert!(matches!(refused, Err(SamplesError::Outside { .. })), "at {nm}: {refused:?}");
-        let refused = spectrum.at(nm, linear, Ends::Refuse);
+        let refused = samples.at_linear(nm, Extrapolation::Refuse);
+        assert!(
+            matches!(refused, Err(IrregularSpectrumError::Outside { .. })),
+            "at {nm}: {refused:?}"
+        );
+        let refused = spectrum.at(nm, linear, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "at {nm}: {refused:?}");
     }
     // No end lies nearer to what is no number.
-    assert!(samples.at_linear(f64::NAN, Ends::Hold).is_err(), "held at NaN");
-    assert!(spectrum.at(f64::NAN, linear, Ends::Hold).is_err(), "held at NaN");
+    assert!(samples.at_linear(f64::NAN, Extrapolation::Hold).is_err(), "held at NaN");
+    assert!(spectrum.at(f64::NAN, linear, Extrapolation::Hold).is_err(), "held at NaN");
 }
 
 #[test]
 fn sprague_is_refused_below_six_wavelengths() {
     let five = Grid::from_nm(400.0, 10.0, 5).unwrap();
     let spectrum = Spectrum::<Power>::new(five, vec![1.0; 5]).unwrap();
-    let refused = spectrum.at(420.0, Interpolation::Sprague, Ends::Refuse);
+    let refused = spectrum.at(420.0, Interpolation::Sprague, Extrapolation::Refuse);
     assert_eq!(refused, Err(InterpolateError::TooFew { count: 5 }), "five");
     assert_eq!(Interpolation::best_for(five), Interpolation::Linear, "five");
     assert_eq!(Interpolation::best_for(grid()), Interpolation::Sprague, "six");
@@ -126,7 +134,7 @@ fn a_lamp_is_read_from_a_file() {
     let file = folder.path().join("lamp.csv");
     std::fs::write(&file, "# desk lamp\nnm,power\n400,1\n600,3\n").unwrap();
     let lamp = light_from_text(file.to_str().unwrap()).unwrap();
-    let at = |nm: f64| lamp.power().at(nm, Interpolation::Linear, Ends::Refuse).unwrap();
+    let at = |nm: f64| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
     assert_eq!([at(360.0), at(500.0), at(700.0)], [1.0, 2.0, 3.0], "{}", lamp.name());
 
     std::fs::write(&file, "400,1\n600,-3\n").unwrap();
@@ -166,7 +174,7 @@ fn an_unknown_light_comes_with_a_hint() {
     for (text, word) in [("moonlight", "D65"), ("D3000K", "D4000K"), ("20K", "500K")] {
         let error = light_from_text(text).unwrap_err();
         let hint = error.hint().unwrap_or_else(|| panic!("{text}: no hint for {error}"));
-        assert!(hint.contains(word), "{text}: {hint}");
+        assert!(hint.to_string().contains(word), "{text}: {hint}");
     }
     let error = light_from_text("moonlight").unwrap_err().to_string();
     assert!(error.contains("`moonlight`"), "{error}");

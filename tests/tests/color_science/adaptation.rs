@@ -1,7 +1,7 @@
 //! Chromatic adaptation.
 
 use serde::Deserialize;
-use spectra::color::{Adaptation, Xyz, adapted};
+use spectra::color::{Adaptation, Xyz, adapt};
 use spectra::{Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
@@ -52,7 +52,7 @@ fn matrices_and_colors_from_white_to_white() {
         let matrix = adaptation.matrix(from, to).0;
         assert_near(&told, matrix.as_flattened(), case.matrix.as_flattened(), golden.tolerance);
         for sample in &case.samples {
-            let got = adapted(sample.xyz.into(), from, to, adaptation).to_array();
+            let got = adapt(sample.xyz.into(), from, to, adaptation).to_array();
             assert_near(&told, &got, &sample.adapted, golden.tolerance);
         }
     }

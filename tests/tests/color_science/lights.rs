@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 use spectra::{
-    Ends, Grid, Illuminant, Interpolation, SECOND_RADIATION_CONSTANT, black_body, daylight,
-    daylight_chromaticity,
+    Extrapolation, Grid, Illuminant, Interpolation, SECOND_RADIATION_CONSTANT, black_body,
+    daylight, daylight_chromaticity,
 };
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
@@ -35,7 +35,7 @@ impl Steps {
 }
 
 fn power_at(light: &Illuminant, nm: &[f64]) -> Vec<f64> {
-    let at = |&nm| light.power().at(nm, Interpolation::Linear, Ends::Refuse).unwrap();
+    let at = |&nm| light.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
     nm.iter().map(at).collect()
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
-use spectra::{Ends, Grid, Illuminant, Observer, Response, Spectrum, TristimulusWeights};
+use spectra::{Extrapolation, Grid, Illuminant, Observer, Response, Spectrum, TristimulusWeights};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
@@ -91,11 +91,11 @@ fn spectra_on_another_grid() {
         let to = Grid::from_nm(case.to_start_nm, case.to_step_nm, case.values.len()).unwrap();
         let method = interpolation(&case.method);
         let told = format!("{} of {} to {to}", case.method, case.spectrum);
-        let held = spectrum.resampled(to, method, Ends::Hold).unwrap();
+        let held = spectrum.resampled(to, method, Extrapolation::Hold).unwrap();
         assert_near(&told, held.values(), &case.values, golden.tolerance);
 
         let inside = [to.start_nm(), to.end_nm()].iter().all(|&nm| source.grid().covers(nm));
-        let refused = spectrum.resampled(to, method, Ends::Refuse);
+        let refused = spectrum.resampled(to, method, Extrapolation::Refuse);
         assert_eq!(refused.is_ok(), inside, "{told}, ends refused");
     }
 }

@@ -1,6 +1,6 @@
 //! Every format in: the values of the made-up files, from the library and through `color`.
 
-use spectra::instrument::{Format, MeasuredQuantity, Record, Role, Unit, read};
+use spectra::instrument::{Format, MeasuredQuantity, MeasuredSpectrum, Role, Unit, read};
 use suite::near::assert_near;
 use suite::program::{Run, impasto};
 
@@ -36,8 +36,8 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
         let found = read(file, bytes, None).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.format, format, "{file}");
         assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: told or found");
-        let is_main = |record: &&Record| record.role == Role::Main;
-        let mains: Vec<&Record> = found.records.iter().filter(is_main).collect();
+        let is_main = |record: &&MeasuredSpectrum| record.role == Role::Main;
+        let mains: Vec<&MeasuredSpectrum> = found.spectra.iter().filter(is_main).collect();
         let found_names: Vec<&str> = mains.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(found_names, names, "{file}");
         for (record, paint) in mains.iter().zip([MADDER, SLATE]) {
@@ -59,7 +59,7 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
 fn what_the_files_say_of_themselves_is_kept() {
     let record = |file: &str| {
         let bytes = std::fs::read(fixture(file)).unwrap();
-        read(file, &bytes, None).unwrap().records.remove(0)
+        read(file, &bytes, None).unwrap().spectra.remove(0)
     };
     for (file, quantity, unit) in [
         ("two.qtx", MeasuredQuantity::Reflectance, Unit::Percent),

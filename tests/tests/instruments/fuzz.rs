@@ -13,8 +13,8 @@ fn read_every_way(bytes: &[u8]) {
     for format in told {
         match read(FILE, bytes, format) {
             Ok(file) => {
-                assert!(!file.records.is_empty(), "{format:?} without a spectrum");
-                for record in file.records {
+                assert!(!file.spectra.is_empty(), "{format:?} without a spectrum");
+                for record in file.spectra {
                     let nm = &record.wavelengths_nm;
                     assert!(nm.windows(2).all(|pair| pair[0] < pair[1]), "{format:?} {nm:?}");
                     assert!(nm.iter().all(|nm| nm.is_finite() && *nm > 0.0), "{format:?} {nm:?}");

@@ -66,8 +66,8 @@ proptest! {
         let text = write_cxf(&HEAD, &named);
         let found = read("f", text.as_bytes(), None).unwrap();
         prop_assert_eq!(found.format, Format::Cxf);
-        prop_assert_eq!(found.records.len(), paints.len());
-        for (number, ((name, values), record)) in (1..).zip(paints.iter().zip(&found.records)) {
+        prop_assert_eq!(found.spectra.len(), paints.len());
+        for (number, ((name, values), record)) in (1..).zip(paints.iter().zip(&found.spectra)) {
             let held = |c: char| match c {
                 '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
                 _ => '\u{fffd}',

@@ -17,7 +17,7 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
                 prop_assert!(error.starts_with(FILE), "{error}");
             }
             Ok(file) => {
-                for record in &file.records {
+                for record in &file.spectra {
                     let (nm, values) = (&record.wavelengths_nm, &record.values);
                     prop_assert!(!nm.is_empty() && nm.len() == values.len());
                     prop_assert!(nm[0] > 0.0 && nm.windows(2).all(|pair| pair[0] < pair[1]));

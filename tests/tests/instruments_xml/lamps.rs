@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use spectra::hint::Explain;
 use spectra::instrument::ChoiceError;
 use spectra::{Illuminant, LampError, LightError, lamp_from_bytes, light_from_text};
 use suite::program::impasto;
@@ -45,7 +46,7 @@ fn a_lamp_is_chosen_by_name() {
         ),
         "{several}"
     );
-    assert!(several.hint().unwrap().contains("#Viewing lamp"), "{several}");
+    assert!(several.hint().unwrap().to_string().contains("#Viewing lamp"), "{several}");
     let paint = light_from_text(&format!("{file}#Blue & white (M0)")).unwrap_err();
     assert!(matches!(paint, LightError::Lamp(LampError::Quantity { .. })), "{paint}");
 }
@@ -58,7 +59,7 @@ fn a_refused_lamp_says_what_to_do() {
     let run = impasto(&["color", &spectra, "--illuminant", &lamp]);
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("paint.txt: `") && run.err.contains("`reflectance`"), "{}", run.err);
-    assert!(run.err.contains("hint: a lamp is told by its power"), "{}", run.err);
+    assert!(run.err.contains("hint: a lamp is a spectrum of power"), "{}", run.err);
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> String {

@@ -8,7 +8,7 @@ mod fuzz;
 mod lamps;
 mod referencing;
 
-use spectra::instrument::{InstrumentError, Record, read};
+use spectra::instrument::{InstrumentError, MeasuredSpectrum, read};
 
 /// The content of a fixture.
 fn fixture(name: &str) -> Vec<u8> {
@@ -17,6 +17,6 @@ fn fixture(name: &str) -> Vec<u8> {
 }
 
 /// The spectra in `bytes`, their format found.
-fn records(file: &str, bytes: &[u8]) -> Result<Vec<Record>, InstrumentError> {
-    read(file, bytes, None).map(|file| file.records)
+fn records(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+    read(file, bytes, None).map(|file| file.spectra)
 }

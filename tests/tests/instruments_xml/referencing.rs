@@ -1,14 +1,15 @@
 //! Made-up counts of a grey of known reflectance, and what must come out.
 
-use spectra::instrument::{MeasuredQuantity, Record, Role, Unit};
+use spectra::hint::Explain;
+use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use spectra::referencing::{Dark, Referencing, ReferencingError, Tile};
 
 /// A reading of `counts(nm)` at uneven pixels from 340 to 860 nm.
-fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Record {
+fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> MeasuredSpectrum {
     let wavelengths_nm: Vec<f64> =
         (0..260).map(|i| 340.0 + 2.0 * f64::from(i) + 0.3 * f64::from(i % 3)).collect();
     let time = time_ms.map(|ms| ("Integration Time (ms)".to_owned(), ms.to_string()));
-    Record {
+    MeasuredSpectrum {
         name: name.to_owned(),
         quantity: MeasuredQuantity::Counts,
         role: Role::Main,
@@ -38,7 +39,10 @@ fn grey(nm: f64) -> f64 {
 }
 
 /// Sample, white and darks: integrated for `sample_ms` and `white_ms`.
-fn measured(sample_ms: f64, white_ms: f64) -> (Record, Record, Vec<Record>) {
+fn measured(
+    sample_ms: f64,
+    white_ms: f64,
+) -> (MeasuredSpectrum, MeasuredSpectrum, Vec<MeasuredSpectrum>) {
     let light = |ms: f64, reflectance: &dyn Fn(f64) -> f64, nm: f64| {
         reflectance(nm) * lamp(nm) * ms + dark(ms, nm)
     };
@@ -49,7 +53,7 @@ fn measured(sample_ms: f64, white_ms: f64) -> (Record, Record, Vec<Record>) {
     )
 }
 
-fn against<'a>(white: &'a Record, darks: &'a [Record]) -> Referencing<'a> {
+fn against<'a>(white: &'a MeasuredSpectrum, darks: &'a [MeasuredSpectrum]) -> Referencing<'a> {
     Referencing {
         white,
         dark: Dark::Readings(darks),
@@ -151,7 +155,7 @@ fn too_little_light_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     white.values[seen] = darks[0].values[seen] + 20.0;
     let error = against(&white, &darks).reflectance(&sample).unwrap_err();
     assert!(error.to_string().contains("too little light at"), "{error}");
-    assert!(error.hint().unwrap().contains("--least-light"), "{error}");
+    assert!(error.hint().unwrap().to_string().contains("least_light"), "{error}");
     let faint = Referencing { least_light: 0.0, ..against(&white, &darks) };
     assert!(faint.reflectance(&sample).is_ok(), "told that little is enough");
 }

@@ -1,13 +1,13 @@
 //! What leaves a library for other programs.
 
 use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_cie76};
-use spectra::swatch_file::{Palette, SwatchColor, d50_white, read_aco, read_ase, read_gpl};
+use spectra::swatch_file::{SwatchColor, SwatchFile, d50_white, read_aco, read_ase, read_gpl};
 use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
 
 /// The oils written as `format` with `more`, and read again.
-fn exported(format: &str, more: &[&str]) -> Palette {
+fn exported(format: &str, more: &[&str]) -> SwatchFile {
     let shelf = Shelf::new();
     let file = shelf.path("palette");
     done(&[&["export", &oils(), "--to", format, "--output", &file], more].concat());
@@ -82,7 +82,7 @@ fn cxf_holds_the_spectra_that_mix_predicts() {
     let file = shelf.path("oils.cxf");
     done(&["export", &oils(), "--to", "cxf", "--tints=4", "--output", &file]);
     let bytes = std::fs::read(&file).unwrap();
-    let records = spectra::instrument::read(&file, &bytes, None).unwrap().records;
+    let records = spectra::instrument::read(&file, &bytes, None).unwrap().spectra;
     assert_eq!(records.len(), 20 + 17);
     for recipe in [&["Viridian=1"][..], &["Viridian=1", "Zinc White=4"]] {
         let mix = impasto(&[&["mix", &oils()], recipe, &["--json"]].concat()).json();

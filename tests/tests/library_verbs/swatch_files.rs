@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use spectra::color::{Lab, Rgb};
 use spectra::swatch_file::{
-    Palette, Swatch, SwatchColor, read_aco, read_ase, read_gpl, write_aco, write_ase, write_gpl,
+    SwatchColor, SwatchEntry, SwatchFile, read_aco, read_ase, read_gpl, write_aco, write_ase,
+    write_gpl,
 };
 
 /// Numbers that 8 bits, 16 bits and 32-bit floats all hold.
@@ -19,11 +20,11 @@ fn color() -> impl Strategy<Value = SwatchColor> {
     ]
 }
 
-fn palette(groups: &'static str) -> impl Strategy<Value = Palette> {
+fn palette(groups: &'static str) -> impl Strategy<Value = SwatchFile> {
     let swatch = ("[^\u{0}]{0,9}", groups, color());
-    let swatch = swatch.prop_map(|(name, group, color)| Swatch { name, group, color });
+    let swatch = swatch.prop_map(|(name, group, color)| SwatchEntry { name, group, color });
     prop::collection::vec(swatch, 0..9)
-        .prop_map(|swatches| Palette { name: String::new(), swatches })
+        .prop_map(|swatches| SwatchFile { name: String::new(), swatches })
 }
 
 proptest! {
@@ -43,13 +44,13 @@ proptest! {
 
     #[test]
     fn gpl_is_read_as_written(rgbs in prop::collection::vec(any::<[u8; 3]>(), 0..9)) {
-        let swatch = |rgb: &[u8; 3]| Swatch {
+        let swatch = |rgb: &[u8; 3]| SwatchEntry {
             name: format!("Rot {rgb:?} \u{fc}"),
             group: String::new(),
             color: SwatchColor::Rgb(Rgb(rgb.map(|v| f64::from(v) / 255.0))),
         };
         let swatches = rgbs.iter().map(swatch).collect();
-        let palette = Palette { name: "Name: of # all".into(), swatches };
+        let palette = SwatchFile { name: "Name: of # all".into(), swatches };
         let text = write_gpl(&palette).unwrap();
         prop_assert_eq!(read_gpl("p.gpl", text.as_bytes()).unwrap(), palette);
     }
@@ -95,12 +96,12 @@ fn all_say_where(bytes: &[u8]) -> Result<(), TestCaseError> {
 
 #[test]
 fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
-    let swatch = Swatch {
+    let swatch = SwatchEntry {
         name: "Red".into(),
         group: String::new(),
         color: SwatchColor::Rgb(Rgb([1.0, 0.0, 0.0])),
     };
-    let palette = Palette { name: String::new(), swatches: vec![swatch] };
+    let palette = SwatchFile { name: String::new(), swatches: vec![swatch] };
     let mut wanted = b"ASEF\x00\x01\x00\x00\x00\x00\x00\x01".to_vec();
     wanted.extend(b"\x00\x01\x00\x00\x00\x1c\x00\x04\x00R\x00e\x00d\x00\x00RGB ");
     wanted.extend(b"\x3f\x80\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02");
@@ -113,7 +114,7 @@ fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
 
 #[test]
 fn faults_are_told_with_their_place() {
-    let error = |result: Result<Palette, spectra::swatch_file::SwatchFileError>| {
+    let error = |result: Result<SwatchFile, spectra::swatch_file::SwatchFileError>| {
         result.unwrap_err().to_string()
     };
     assert_eq!(

@@ -203,7 +203,7 @@ fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
         let pairs = labs.iter().zip(exact.values());
         let each: Vec<f64> = pairs
             .map(|(lab, xyz)| {
-                let on_screen = spectra::color::adapted(
+                let on_screen = spectra::color::adapt(
                     *xyz,
                     white,
                     RgbSpace::Srgb.white(),

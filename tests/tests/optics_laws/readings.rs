@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::optics::{
     OverBacking, Specular, Surface, SurfaceError, absorption_over_scattering,
-    film_over_two_backings, infinite_film, infinite_film_from_ratio, ratio_slope,
+    film_over_two_backings, infinite_film, infinite_film_from_ratio, infinite_film_slope,
 };
 
 use crate::{Film, ROUNDING, random_films};
@@ -95,7 +95,7 @@ fn the_slope_over_the_ratio_is_the_limit_of_difference_quotients() {
         let step = 1e-5 * ratio;
         let [below, above] = [ratio - step, ratio + step].map(infinite_film_from_ratio);
         let quotient = (above - below) / (2.0 * step);
-        let slope = ratio_slope(infinite_film_from_ratio(ratio));
+        let slope = infinite_film_slope(infinite_film_from_ratio(ratio));
         assert!((slope / quotient - 1.0).abs() < 1e-5, "{slope} for {quotient}: {film:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! One library of several.
 
-use spectra::{Ends, Interpolation};
+use spectra::{Extrapolation, Interpolation};
 
 use super::error::CurationError;
 use super::resample::on_grid;
@@ -44,7 +44,7 @@ pub struct MergeSettings {
     /// How other grids are brought to the first's; the best for each if not told.
     pub interpolation: Option<Interpolation>,
     /// What stands beyond another library's band.
-    pub ends: Ends,
+    pub ends: Extrapolation,
     /// Take pigments found under another surface, as if it were the first's.
     pub any_surface: bool,
     /// Absolute amounts are in one unit on one area.

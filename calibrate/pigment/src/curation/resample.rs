@@ -1,6 +1,6 @@
 //! Another wavelength grid.
 
-use spectra::{Absorption, Ends, Grid, InterpolateError, Interpolation, Spectrum};
+use spectra::{Absorption, Extrapolation, Grid, InterpolateError, Interpolation, Spectrum};
 
 use super::error::CurationError;
 use crate::digits::rounded;
@@ -21,7 +21,7 @@ pub fn on_grid(
     library: &PigmentLibrary,
     grid: Grid,
     method: Interpolation,
-    ends: Ends,
+    ends: Extrapolation,
 ) -> Result<PigmentLibrary, CurationError> {
     if grid == library.grid {
         return Ok(library.clone());
@@ -56,7 +56,7 @@ fn curve(
     values: &[f64],
     to: Grid,
     method: Interpolation,
-    ends: Ends,
+    ends: Extrapolation,
 ) -> Result<Vec<f64>, InterpolateError> {
     if values.is_empty() {
         return Ok(Vec::new());

@@ -2,8 +2,8 @@
 //! wavelengths in nm.
 
 use spectra::Grid;
+use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 use spectra::optics::Surface;
-use spectra::sheet::{Place, SheetError, wavelength_of_header};
 
 use super::error::CurationError;
 use crate::digits::rounded;
@@ -82,7 +82,7 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
         }
         if record.len() != header.len() {
             let (wanted, found) = (header.len(), record.len());
-            return Err(TableError::Sheet(SheetError::RowLength {
+            return Err(TableError::Sheet(CsvTableError::RowLength {
                 file: file.to_owned(),
                 row,
                 wanted,
@@ -90,8 +90,8 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
             }));
         }
         let wrong = |column: usize, wanted| {
-            TableError::Sheet(SheetError::Cell {
-                place: Place::new(file, row, &header[column]),
+            TableError::Sheet(CsvTableError::Cell {
+                place: CellPlace::new(file, row, &header[column]),
                 wanted,
                 text: record[column].to_owned(),
             })
@@ -136,7 +136,10 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
     let column = |wanted: &'static str| {
         let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
         found.ok_or_else(|| {
-            TableError::Sheet(SheetError::MissingColumn { file: file.to_owned(), column: wanted })
+            TableError::Sheet(CsvTableError::MissingColumn {
+                file: file.to_owned(),
+                column: wanted,
+            })
         })
     };
     let columns = (column("pigment")?, column("quantity")?);
@@ -147,8 +150,8 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
         }
         let nm = wavelength_of_header(&name.to_ascii_lowercase());
         wavelengths.push(nm.ok_or_else(|| {
-            TableError::Sheet(SheetError::Cell {
-                place: Place::new(file, 1, name),
+            TableError::Sheet(CsvTableError::Cell {
+                place: CellPlace::new(file, 1, name),
                 wanted: "a wavelength in nm",
                 text: name.to_owned(),
             })
@@ -245,7 +248,7 @@ fn framed(
 pub enum TableError {
     /// The sheet is faulty.
     #[error(transparent)]
-    Sheet(SheetError),
+    Sheet(CsvTableError),
     /// No CSV.
     #[error("{file}: {reason}")]
     Syntax {
@@ -297,11 +300,11 @@ impl TableError {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::Sheet(SheetError::MissingColumn { .. } | SheetError::Cell { place: Place { row: 1, .. }, .. }) => {
+            Self::Sheet(CsvTableError::MissingColumn { .. } | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. }) => {
                 "the columns are pigment, quantity, then wavelengths such as 400; `library export --to csv` writes one".into()
             }
             Self::Irregular { .. } => "resample the curves to a regular grid first".into(),
-            Self::Sheet(SheetError::RowLength { .. }) => "numbers take a decimal point, not a comma".into(),
+            Self::Sheet(CsvTableError::RowLength { .. }) => "numbers take a decimal point, not a comma".into(),
             Self::NoReference { whites, .. } if whites.is_empty() => {
                 "name the white to scale by, --reference WHITE, or say --amounts absolute".into()
             }

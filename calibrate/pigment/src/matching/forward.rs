@@ -86,7 +86,7 @@ impl<'a> Forward<'a> {
         for at in 0..count {
             let (k, s) = (over_absorption[at], over_scattering[at]);
             let [value, by_k, by_s] = match &self.ground {
-                Some(ground) => self.film.with_slopes(k, s, ground[at]),
+                Some(ground) => self.film.reflectance_with_slopes(k, s, ground[at]),
                 None => {
                     let [internal, by_k, by_s] = infinite_film_with_slopes(k, s);
                     let slope = surface.measured_slope(internal);

@@ -1,6 +1,6 @@
 //! How far a paint's colour shifts from one light to another.
 
-use spectra::color::{Adaptation, Lab, Xyz, adapted, delta_e_ciede2000};
+use spectra::color::{Adaptation, Lab, Xyz, adapt, delta_e_ciede2000};
 use spectra::{Illuminant, TristimulusWeights};
 
 use super::paints::{Appearance, Palette, Recipe};
@@ -63,7 +63,7 @@ pub fn color_shifts(
             let xyz = if at == 0 {
                 xyz[0]
             } else {
-                adapted(xyz[at], whites[at], whites[0], Adaptation::Bradford)
+                adapt(xyz[at], whites[at], whites[0], Adaptation::Bradford)
             };
             Lab::from_xyz(xyz, whites[0])
         };

@@ -4,7 +4,7 @@ use rand::seq::index;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
-use spectra::color::{Adaptation, RgbSpace, Xyz, adapted};
+use spectra::color::{Adaptation, RgbSpace, Xyz, adapt};
 
 use super::between::between;
 use super::paints::{Appearance, Palette, Recipe};
@@ -212,7 +212,7 @@ pub fn srgb_primaries(white: Xyz) -> [[f64; 2]; 3] {
         let mut linear = [0.0; 3];
         linear[channel] = 1.0;
         let xyz = columns.apply(linear).into();
-        chromaticity(adapted(xyz, RgbSpace::Srgb.white(), white, Adaptation::Bradford))
+        chromaticity(adapt(xyz, RgbSpace::Srgb.white(), white, Adaptation::Bradford))
     })
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
-use spectra::optics::{infinite_film, infinite_film_from_ratio, ratio_slope};
+use spectra::optics::{infinite_film, infinite_film_from_ratio, infinite_film_slope};
 
 use super::mixtures::MixtureSet;
 use super::rule::{Quadrature, on_line};
@@ -137,7 +137,7 @@ impl<'a> Problem<'a> {
         let slope = if k > 0.0 && s > 0.0 && internal < 1.0 {
             let ratio = k / s;
             let ratio_over_nm = (k_slope - ratio * s_slope) / s;
-            ratio_slope(infinite_film_from_ratio(ratio)) * ratio_over_nm
+            infinite_film_slope(infinite_film_from_ratio(ratio)) * ratio_over_nm
         } else {
             0.0
         };

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use calibrate::curation::to_csv;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::{Args, ValueEnum};
-use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapted};
+use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapt};
 use spectra::instrument::{CxfHead, write_cxf};
 use spectra::swatch_file::{
-    Palette, Swatch, SwatchColor, d50_white, write_aco, write_ase, write_gpl,
+    SwatchColor, SwatchEntry, SwatchFile, d50_white, write_aco, write_ase, write_gpl,
 };
 use spectra::{Reflectance, Spectrum, TristimulusWeights};
 
@@ -98,7 +98,7 @@ impl Export {
             console.warnings(&[format!("outside sRGB, cut off at its gamut: {names}")])?;
         }
         let count = colors.len();
-        let swatch = |color: NamedColor| Swatch {
+        let swatch = |color: NamedColor| SwatchEntry {
             group: if tints.is_empty() { String::new() } else { color.pigment },
             name: color.name,
             color: match self.space {
@@ -107,7 +107,7 @@ impl Export {
             },
         };
         let swatches = colors.into_iter().map(swatch).collect();
-        let palette = Palette { name: library.title, swatches };
+        let palette = SwatchFile { name: library.title, swatches };
         output.write(match self.to {
             Format::Ase => write_ase(&palette)?,
             Format::Aco => write_aco(&palette)?,
@@ -178,7 +178,7 @@ fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> anyhow::Result<String
 
 fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {
     let d50 = d50_white();
-    Lab::from_xyz(adapted(xyz, white, d50, Adaptation::Bradford), d50)
+    Lab::from_xyz(adapt(xyz, white, d50, Adaptation::Bradford), d50)
 }
 
 fn tints(texts: &[String]) -> anyhow::Result<Vec<f64>> {

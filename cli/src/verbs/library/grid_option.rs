@@ -1,7 +1,7 @@
 //! How curves are brought to other wavelengths, as `merge` and `convert` share it.
 
 use clap::{Args, ValueEnum};
-use spectra::{Ends, Grid, Interpolation};
+use spectra::{Extrapolation, Grid, Interpolation};
 
 use crate::failure::Refusal;
 
@@ -33,8 +33,8 @@ impl ResamplingOptions {
         })
     }
 
-    pub(super) fn ends(self) -> Ends {
-        if self.hold_ends { Ends::Hold } else { Ends::Refuse }
+    pub(super) fn ends(self) -> Extrapolation {
+        if self.hold_ends { Extrapolation::Hold } else { Extrapolation::Refuse }
     }
 }
 

@@ -5,7 +5,7 @@ use pigment::library::PigmentLibrary;
 use pigment::smooth_reflectance::smoothest_reflectance;
 use serde::{Deserialize, Serialize};
 use spectra::color::{Adaptation, Rgb, RgbSpace};
-use spectra::{Ends, Grid, Interpolation, Reflectance, Spectrum};
+use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum};
 
 use super::{GroundError, within};
 
@@ -96,7 +96,7 @@ impl Primer {
                 }
                 let spectrum = Spectrum::<Reflectance>::new(*own, values.clone())?;
                 let method = Interpolation::best_for(*own);
-                Ok(spectrum.resampled(grid, method, Ends::Hold)?.into_values())
+                Ok(spectrum.resampled(grid, method, Extrapolation::Hold)?.into_values())
             }
         }
     }

@@ -4,6 +4,7 @@ use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::quadrature::{Quadrature, QuadratureFailure};
 use spectra::color::{Adaptation, RgbSpace};
+use spectra::hint::Explain;
 use spectra::{LightError, Observer, ObserverError, light_from_text};
 
 use crate::optics::NODES;
@@ -74,7 +75,7 @@ impl LightFailure {
     #[must_use]
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Light(error) => error.hint(),
+            Self::Light(error) => error.hint().map(|hint| hint.to_string()),
             Self::Observer(_) => None,
             Self::Quadrature(_) => Some(format!(
                 "painting needs a light that the observer sees at {NODES} wavelengths or more"

@@ -1,5 +1,6 @@
 //! What an action may say, whether it stands in a script or is done by hand.
 
+use spectra::hint::Explain;
 use spectra::{Observer, light_from_text};
 
 use super::action::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
@@ -151,7 +152,8 @@ pub(super) fn check_light(at: &At, prefix: &str, lighting: &Lighting) -> Checked
     at.range(&field("relief"), lighting.relief, 0.0, 100.0)?;
     if let Err(error) = light_from_text(&lighting.illuminant) {
         let wanted = "a CIE illuminant, a temperature or a lamp's file";
-        return Err(at.fault(&field("illuminant"), wanted, &lighting.illuminant, error.hint()));
+        let hint = error.hint().map(|hint| hint.to_string());
+        return Err(at.fault(&field("illuminant"), wanted, &lighting.illuminant, hint));
     }
     if let Err(error) = Observer::named(&lighting.observer) {
         let hint = Some(error.to_string());

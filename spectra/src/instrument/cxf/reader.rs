@@ -8,9 +8,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::error::InstrumentError;
+use super::super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use super::super::number::{Decimal, wanted};
 use super::super::points::{Duplicates, Point, ordered, sorted};
-use super::super::record::{MeasuredQuantity, Record, Role, Unit};
 use super::super::xml::{Element, parse};
 
 /// A reflectance at or above this is no fraction: the schema keeps values below 3.
@@ -26,7 +26,10 @@ const NM: &str = "a wavelength in nm";
 const NUMBER: &str = "a number";
 
 /// Every spectrum of a CxF3 file, in its order.
-pub(in crate::instrument) fn read(file: &str, text: &str) -> Result<Vec<Record>, InstrumentError> {
+pub(in crate::instrument) fn read(
+    file: &str,
+    text: &str,
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if root.name != "CxF" {
         return Err(InstrumentError::line(file, root.line, "a CxF element", &root.name));
@@ -41,9 +44,10 @@ pub(in crate::instrument) fn read(file: &str, text: &str) -> Result<Vec<Record>,
         }
     }
     name_apart(&mut found);
-    let mut records: Vec<Record> = found.into_iter().map(|found| found.record).collect();
-    let fraction = |record: &Record| record.unit == Unit::Fraction;
-    let above = |record: &Record| record.values.iter().any(|&value| value >= MOST_FRACTION);
+    let mut records: Vec<MeasuredSpectrum> = found.into_iter().map(|found| found.record).collect();
+    let fraction = |record: &MeasuredSpectrum| record.unit == Unit::Fraction;
+    let above =
+        |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
     // Some writers put percent there; one sample shows it for all.
     if records.iter().any(|record| fraction(record) && above(record)) {
         for record in records.iter_mut().filter(|record| fraction(record)) {
@@ -55,7 +59,7 @@ pub(in crate::instrument) fn read(file: &str, text: &str) -> Result<Vec<Record>,
 
 /// A record, and what it was measured with.
 struct Found {
-    record: Record,
+    record: MeasuredSpectrum,
     specification: String,
     /// `M0` to `M3` (ISO 13655), where the file says so.
     condition: Option<String>,
@@ -111,7 +115,7 @@ fn spectrum(
         .map(|(_, value)| value.split('_').next().unwrap_or_default().to_owned())
         .filter(|it| matches!(it.as_str(), "M0" | "M1" | "M2" | "M3"));
     details.extend(measured);
-    let record = Record {
+    let record = MeasuredSpectrum {
         name,
         quantity,
         role: Role::Main,

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui::{Align2, DragValue, Key, TextEdit, Ui, vec2};
-use spectra::swatch_file::{Palette, SwatchFileError, read_aco, read_ase, read_gpl};
+use spectra::swatch_file::{SwatchFile, SwatchFileError, read_aco, read_ase, read_gpl};
 
 use super::super::desk::Desk;
 use super::super::tools::Mode;
@@ -160,7 +160,7 @@ fn pick_controls(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
-type Reader = fn(&str, &[u8]) -> Result<Palette, SwatchFileError>;
+type Reader = fn(&str, &[u8]) -> Result<SwatchFile, SwatchFileError>;
 
 fn reader(path: &Path) -> Option<Reader> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -172,7 +172,7 @@ fn reader(path: &Path) -> Option<Reader> {
     }
 }
 
-fn colors(path: &Path) -> Result<Palette, String> {
+fn colors(path: &Path) -> Result<SwatchFile, String> {
     let name = path.display().to_string();
     let reader = reader(path)
         .ok_or_else(|| format!("{name}: a palette of colours is a .gpl, .ase or .aco file"))?;
@@ -181,7 +181,7 @@ fn colors(path: &Path) -> Result<Palette, String> {
 }
 
 /// Inks, which have no colour of their own, are left out.
-fn wanted_of(palette: &Palette) -> Vec<Wanted> {
+fn wanted_of(palette: &SwatchFile) -> Vec<Wanted> {
     let swatches = palette.swatches.iter();
     let wanted = swatches.filter_map(|one| {
         let rgb = one.color.srgb()?;

@@ -1,35 +1,39 @@
 //! Spectra at irregular wavelengths, as instruments write them.
 
 use crate::grid::Grid;
-use crate::interpolate::Ends;
+use crate::hint::Explain;
+use crate::interpolate::Extrapolation;
 use crate::spectrum::{Quantity, Spectrum, SpectrumError};
 use crate::wavelength::{Wavelength, WavelengthError};
 
 /// Values at strictly rising wavelengths with no regular step.
 ///
 /// Becomes a [`Spectrum`] through one named function,
-/// [`Samples::resampled_linear`].
+/// [`IrregularSpectrum::resampled_linear`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Samples {
+pub struct IrregularSpectrum {
     nm: Vec<f64>,
     values: Vec<f64>,
 }
 
-impl Samples {
+impl IrregularSpectrum {
     /// `values` at the wavelengths `nm`.
     ///
     /// # Errors
-    /// [`SamplesError`] if the counts differ, there is nothing, or `nm` is not
+    /// [`IrregularSpectrumError`] if the counts differ, there is nothing, or `nm` is not
     /// made of wavelengths that rise strictly.
-    pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, SamplesError> {
+    pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, IrregularSpectrumError> {
         if nm.len() != values.len() || nm.is_empty() {
-            return Err(SamplesError::Count { wavelengths: nm.len(), values: values.len() });
+            return Err(IrregularSpectrumError::Count {
+                wavelengths: nm.len(),
+                values: values.len(),
+            });
         }
         for &nm in &nm {
             Wavelength::from_nm(nm)?;
         }
         if let Some(pair) = nm.windows(2).find(|pair| pair[0] >= pair[1]) {
-            return Err(SamplesError::Order { before: pair[0], after: pair[1] });
+            return Err(IrregularSpectrumError::Order { before: pair[0], after: pair[1] });
         }
         Ok(Self { nm, values })
     }
@@ -49,15 +53,19 @@ impl Samples {
     /// The value at `nm` on the straight line between its neighbours.
     ///
     /// # Errors
-    /// [`SamplesError::Outside`] beyond the ends, unless they are held.
-    pub fn at_linear(&self, nm: f64, ends: Ends) -> Result<f64, SamplesError> {
+    /// [`IrregularSpectrumError::Outside`] beyond the ends, unless they are held.
+    pub fn at_linear(&self, nm: f64, ends: Extrapolation) -> Result<f64, IrregularSpectrumError> {
         let last = self.nm.len() - 1;
         if !(self.nm[0]..=self.nm[last]).contains(&nm) {
             return match ends {
-                Ends::Hold if !nm.is_nan() => {
+                Extrapolation::Hold if !nm.is_nan() => {
                     Ok(self.values[if nm < self.nm[0] { 0 } else { last }])
                 }
-                _ => Err(SamplesError::Outside { nm, start_nm: self.nm[0], end_nm: self.nm[last] }),
+                _ => Err(IrregularSpectrumError::Outside {
+                    nm,
+                    start_nm: self.nm[0],
+                    end_nm: self.nm[last],
+                }),
             };
         }
         let after = self.nm.partition_point(|&w| w < nm);
@@ -72,13 +80,13 @@ impl Samples {
     /// The samples on a regular grid, by linear interpolation.
     ///
     /// # Errors
-    /// [`SamplesError`] beyond the ends (unless held) or where a value is
+    /// [`IrregularSpectrumError`] beyond the ends (unless held) or where a value is
     /// impossible for `Q`.
     pub fn resampled_linear<Q: Quantity>(
         &self,
         grid: Grid,
-        ends: Ends,
-    ) -> Result<Spectrum<Q>, SamplesError> {
+        ends: Extrapolation,
+    ) -> Result<Spectrum<Q>, IrregularSpectrumError> {
         let values =
             grid.wavelengths_nm().map(|nm| self.at_linear(nm, ends)).collect::<Result<_, _>>()?;
         Ok(Spectrum::new(grid, values)?)
@@ -87,7 +95,7 @@ impl Samples {
 
 /// Why samples could not be made or resampled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SamplesError {
+pub enum IrregularSpectrumError {
     /// Not one value for each wavelength, or nothing at all.
     #[error(
         "one value for each wavelength is needed, found {wavelengths} wavelengths and `{values}` values"
@@ -123,3 +131,5 @@ pub enum SamplesError {
     #[error(transparent)]
     Value(#[from] SpectrumError),
 }
+
+impl Explain for IrregularSpectrumError {}

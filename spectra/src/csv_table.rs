@@ -3,7 +3,7 @@
 
 /// A cell of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct CellPlace {
     /// The file, as the user named it.
     pub file: String,
     /// The row, counted from 1; the header is row 1.
@@ -12,7 +12,7 @@ pub struct Place {
     pub column: String,
 }
 
-impl Place {
+impl CellPlace {
     /// The cell of `file` at `row` (from 1) under the header `column`.
     #[must_use]
     pub fn new(file: &str, row: u64, column: &str) -> Self {
@@ -20,7 +20,7 @@ impl Place {
     }
 }
 
-impl std::fmt::Display for Place {
+impl std::fmt::Display for CellPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column)
     }
@@ -28,7 +28,7 @@ impl std::fmt::Display for Place {
 
 /// Why a sheet cannot be read. Every variant says where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SheetError {
+pub enum CsvTableError {
     /// A column that must be there is not.
     #[error("{file}, row 1: no column `{column}`")]
     MissingColumn {
@@ -53,7 +53,7 @@ pub enum SheetError {
     #[error("{place}: {wanted} is wanted, found `{text}`")]
     Cell {
         /// Where.
-        place: Place,
+        place: CellPlace,
         /// What should stand there.
         wanted: &'static str,
         /// What stands there.

@@ -48,7 +48,7 @@ pub fn d50_white() -> Xyz {
 
 /// One named colour.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Swatch {
+pub struct SwatchEntry {
     /// Its name.
     pub name: String,
     /// The group it stands in; empty for none. Only `.ase` has groups.
@@ -59,9 +59,9 @@ pub struct Swatch {
 
 /// Named colours in order.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Palette {
+pub struct SwatchFile {
     /// The palette's own name; only `.gpl` has one.
     pub name: String,
     /// The colours.
-    pub swatches: Vec<Swatch>,
+    pub swatches: Vec<SwatchEntry>,
 }

@@ -51,7 +51,7 @@ impl std::fmt::Display for MeasuredQuantity {
     }
 }
 
-/// The unit of a [`Record`]'s values.
+/// The unit of a [`MeasuredSpectrum`]'s values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// White near 100.
@@ -77,7 +77,7 @@ pub enum Role {
 
 /// One spectrum, as the file has it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub struct MeasuredSpectrum {
     /// The sample's name; the file's own word for it, else its place in the file.
     pub name: String,
     /// What was measured.

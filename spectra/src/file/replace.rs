@@ -1,0 +1,67 @@
+//! Replacing a file by way of a temporary file in the same folder.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+/// Flushes the directory entries of `folder` to the disk, so that a renamed file keeps
+/// its new name after a power failure. Does nothing on systems without this operation.
+pub fn sync_folder(folder: &Path) {
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+}
+
+/// Checks that [`replace`] could write `path`; leaves no file behind.
+pub(super) fn check(path: &Path) -> io::Result<()> {
+    let (target, folder) = target(path)?;
+    regular_file(&target)?;
+    temporary(&folder).map(drop)
+}
+
+/// Writes `bytes` to a temporary file beside `path` and renames it to `path`.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let (target, folder) = target(path)?;
+    let before = regular_file(&target)?;
+    let mut file = temporary(&folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    if let Some(before) = before {
+        file.as_file().set_permissions(before.permissions())?;
+    }
+    file.persist(&target)?;
+    sync_folder(&folder);
+    Ok(())
+}
+
+/// Resolves symbolic links in `path`. Returns the target and the folder that contains it.
+fn target(path: &Path) -> io::Result<(PathBuf, PathBuf)> {
+    let target = path.canonicalize().or_else(|_| std::path::absolute(path))?;
+    let folder = target.parent().unwrap_or(Path::new(".")).to_owned();
+    Ok((target, folder))
+}
+
+/// Metadata of the regular file at `target`, `None` if it does not exist. A folder or a
+/// device is an error.
+fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
+    match std::fs::metadata(target) {
+        Ok(found) if found.is_file() => Ok(Some(found)),
+        Ok(_) => Err(io::Error::other("not a regular file")),
+        Err(_) => Ok(None),
+    }
+}
+
+/// Creates a temporary file in `folder` that is removed when dropped.
+fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".impasto-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // The permissions of a newly created file; the user's umask applies.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}

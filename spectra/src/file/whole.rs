@@ -1,0 +1,152 @@
+//! Reading a whole file, and replacing a file atomically.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::replace::{check, replace};
+use crate::hint::{Explain, Fault, Hint};
+
+/// A file that could not be read or written. Nothing on the disk was changed.
+#[derive(Debug, Clone)]
+pub struct FileError {
+    /// Path of the file, as the caller gave it.
+    pub path: PathBuf,
+    /// Whether reading or writing failed.
+    pub action: FileAction,
+    /// The error of the operating system. Shared, so that errors that hold this one can
+    /// be cloned.
+    pub reason: Arc<io::Error>,
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: cannot be {}", self.path.display(), self.action.participle())
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&*self.reason)
+    }
+}
+
+impl PartialEq for FileError {
+    /// Compares path, action and the kind of the system's error.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, self.action, self.reason.kind())
+            == (&other.path, other.action, other.reason.kind())
+    }
+}
+
+/// The operation on a file that failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileAction {
+    /// Reading the whole file.
+    Read,
+    /// Writing the whole file.
+    Write,
+}
+
+impl FileAction {
+    fn participle(self) -> &'static str {
+        match self {
+            Self::Read => "read",
+            Self::Write => "written",
+        }
+    }
+}
+
+impl Explain for FileError {
+    fn hint(&self) -> Option<Hint> {
+        self.reason.hint()
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Environment
+    }
+}
+
+/// Reads all bytes of a file.
+///
+/// # Errors
+/// [`FileError`] with the path.
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    std::fs::read(path).map_err(|reason| error(path, FileAction::Read, reason))
+}
+
+/// Replaces the file at `path` by `bytes`, or creates it. The bytes are written to a
+/// temporary file in the same folder, flushed to the disk and renamed, so that `path`
+/// always holds either the old content or the new one. A symbolic link is kept and its
+/// target replaced; an existing file keeps its permissions.
+///
+/// # Errors
+/// [`FileError`] with the path; also if `path` is a folder or a device, and always in a
+/// browser (wasm32-unknown-unknown), which has no files.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    replace(path, bytes).map_err(|reason| error(path, FileAction::Write, reason))
+}
+
+/// Checks that [`write_whole`] could write `path` now, and leaves nothing behind. For
+/// programs that want to fail before a long computation.
+///
+/// # Errors
+/// [`FileError`] in the cases of [`write_whole`].
+pub fn check_writable(path: &Path) -> Result<(), FileError> {
+    check(path).map_err(|reason| error(path, FileAction::Write, reason))
+}
+
+fn error(path: &Path, action: FileAction, reason: io::Error) -> FileError {
+    FileError { path: path.to_owned(), action, reason: Arc::new(reason) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn writing_replaces_the_file_and_leaves_no_temporary_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        check_writable(&path).unwrap();
+        assert!(names(folder.path()).is_empty(), "the check leaves no file");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(read(&path).unwrap(), b"two");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_write_error_names_the_file_and_leaves_no_temporary_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = folder.path().join("missing").join("a.txt");
+        let error = write_whole(&inside, b"one").unwrap_err();
+        assert!(error.to_string().ends_with("a.txt: cannot be written"), "{error}");
+        assert!(error.hint().is_some(), "the folder is missing");
+        std::fs::create_dir(folder.path().join("b.exr")).unwrap();
+        write_whole(&folder.path().join("b.exr"), b"one").unwrap_err();
+        check_writable(&folder.path().join("b.exr")).unwrap_err();
+        assert_eq!(names(folder.path()), ["b.exr"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_symbolic_link_is_kept_and_its_target_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("a.txt"), folder.path().join("link.txt"));
+        write_whole(&file, b"one").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_whole(&link, b"two").unwrap();
+        assert_eq!(read(&file).unwrap(), b"two");
+        assert!(link.is_symlink(), "the link itself was replaced");
+    }
+}
