@@ -1,7 +1,7 @@
 //! Makes the photograph that the README paints: two pears and a plum on a table
 //! under a window's light, ray traced. CC0-1.0.
 //!
-//! `cargo run --release -p impasto-render --example photograph -- docs/still-life.png`
+//! `cargo run --release -p impasto-render --example photograph -- docs/images/still-life.png`
 //! gives the same bytes every time.
 
 use std::error::Error;
@@ -117,7 +117,7 @@ fn shaded(balls: &[Ball], from: Vector, way: Vector, random: &mut ChaCha8Rng) ->
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args().nth(1).ok_or("name the file: docs/still-life.png")?;
+    let path = std::env::args().nth(1).ok_or("name the file: docs/images/still-life.png")?;
     let balls = balls();
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut picture = Field::filled(WIDTH, HEIGHT, [0.0, 0.0, 0.0, 1.0]);

@@ -3,7 +3,7 @@
 //!
 //! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes
 //! `studio.png`, `studio-lights.png`, `studio-colour.png` and `studio-layers.png`
-//! there; `docs/studio.sh` makes the JPEGs in `docs/` of them. It needs a graphics
+//! there; `docs/images/studio.sh` turns them into the JPEGs in `docs/images/`. It needs a graphics
 //! adapter; a software one will do.
 
 #[expect(dead_code, reason = "the tests need more of it")]
@@ -102,7 +102,7 @@ fn two_lights(window: &mut Window) {
 
 /// A colour of the photograph beside the study is matched.
 fn colors(window: &mut Window) -> Result<(), Box<dyn Error>> {
-    let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/still-life.png");
+    let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images/still-life.png");
     let context = window.harness().ctx.clone();
     window.studio_mut().panels.reference.open(&context, &photograph);
     wait_for(window, "Reference picture")?;

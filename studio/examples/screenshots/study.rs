@@ -1,4 +1,4 @@
-//! Two pears and a plum, after the photograph `docs/still-life.png`.
+//! Two pears and a plum, after the photograph `docs/images/still-life.png`.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The commands of docs/measuring.md, run in order.
+//! The commands of docs/guide/measuring.md, run in order.
 
 use suite::program::{impasto, repository};
 
@@ -36,7 +36,7 @@ fn parted(full: &str) -> (String, String) {
 
 #[test]
 fn every_command_of_the_page_on_measuring_runs() {
-    let page = std::fs::read_to_string(repository("docs/measuring.md")).unwrap();
+    let page = std::fs::read_to_string(repository("docs/guide/measuring.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let oils = oils();
     for (name, light) in [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)] {

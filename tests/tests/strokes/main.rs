@@ -49,7 +49,8 @@ fn refused(from: &str, to: &str) -> ScriptError {
 
 #[test]
 fn the_guide_shows_scripts_that_can_be_painted() {
-    let page = std::fs::read_to_string(suite::program::repository("docs/painting.md")).unwrap();
+    let page =
+        std::fs::read_to_string(suite::program::repository("docs/guide/painting.md")).unwrap();
     let shown: Vec<&str> = page.split("```json\n").skip(1).collect();
     let shown: Vec<&str> = shown.iter().map(|rest| rest.split("```").next().unwrap()).collect();
     let [script, keys] = shown[..] else { panic!("{} scripts", shown.len()) };
@@ -60,7 +61,7 @@ fn the_guide_shows_scripts_that_can_be_painted() {
         mixed[key] = value.clone();
     }
     for text in [script, &mixed.to_string()] {
-        let script = StrokeScript::from_json("docs/painting.md", text.as_bytes()).unwrap();
+        let script = StrokeScript::from_json("docs/guide/painting.md", text.as_bytes()).unwrap();
         script.resolve(&suite::oils::library()).unwrap();
     }
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Makes the pictures of watercolor: the README's, and those of docs/watercolor.md.
-# Needs `impasto` on the path (or in IMPASTO), and Python with Pillow (PYTHON names it).
-# Run it in the root of the repository: sh docs/watercolor.sh
+# Writes the watercolor pictures (watercolor-*.jpg, turning.gif) into docs/images/.
+# Needs `impasto` on the path (or IMPASTO=its path) and Python with Pillow (PYTHON=its path).
+# Run it from the root of the repository: sh docs/images/watercolor.sh
 set -eu
 
 impasto=${IMPASTO:-impasto}
@@ -12,14 +12,14 @@ watercolor() { "$impasto" watercolor --backend cpu "$@"; }
 watercolor shape:still-life --preset portrait --camera 25,12 --picture "$scratch/still-life.png"
 watercolor shape:village --preset landscape --camera 40,16 --picture "$scratch/village.png"
 for preset in portrait landscape sketch; do
-    watercolor docs/coffee.jpg --preset "$preset" --picture "$scratch/coffee-$preset.png"
+    watercolor docs/images/coffee.jpg --preset "$preset" --picture "$scratch/coffee-$preset.png"
 done
 
-# Each stage, with a dry brush so that it has something to show.
+# Every stage, with settings that make wobble and dry brush visible.
 watercolor shape:still-life --camera 25,12 --set dry_brush.amount=0.15 --set wobble.amount_px=2 \
     --stages "$scratch/stages"
 
-# Calibrated pigments, in daylight and under a lamp.
+# Calibrated pigments, and the same painting with Prussian blue in place of ultramarine.
 "$impasto" demo --out "$scratch/demo" > "$scratch/demo.txt"
 watercolor shape:still-life --preset portrait --camera 25,12 --width 750 \
     --pigments "$scratch/demo/van-gogh-oils.pigments.json" \
@@ -28,7 +28,7 @@ watercolor shape:still-life --preset portrait --camera 25,12 --width 750 \
     --swap "all:Ultramarine=Prussian Blue" --picture "$scratch/swapped.png"
 
 watercolor shape:village --preset portrait --camera 0,22 --width 320 --turntable 30 --rate 12 \
-    --animation docs/turning.gif --frames "$scratch/turning"
+    --animation docs/images/turning.gif --frames "$scratch/turning"
 
 "${PYTHON:-python3}" - "$scratch" <<'END'
 import sys
@@ -44,7 +44,7 @@ def opened(name):
 
 
 def keep(picture, name):
-    picture.save(f"docs/{name}.jpg", quality=88, optimize=True)
+    picture.save(f"docs/images/{name}.jpg", quality=88, optimize=True)
 
 
 def grid(pictures, columns, gap=8, names=None):
@@ -65,14 +65,14 @@ def grid(pictures, columns, gap=8, names=None):
 keep(opened(scratch / "still-life.png"), "watercolor-still-life")
 keep(opened(scratch / "village.png").crop((0, 60, 1000, 660)), "watercolor-village")
 
-photographs = [opened("docs/coffee.jpg")]
+photographs = [opened("docs/images/coffee.jpg")]
 photographs += [opened(scratch / f"coffee-{p}.png") for p in ("portrait", "landscape", "sketch")]
 names = ["photograph", "portrait", "landscape", "sketch"]
 keep(grid(photographs, 2, names=names), "watercolor-photograph")
 
 stages = sorted((scratch / "stages").glob("*.png"))
 names = [path.stem[3:].replace("-", " ") for path in stages]
-# The jug's foot and two fruit.
+# Crop to the foot of the jug and two pieces of fruit.
 parts = [opened(path).crop((240, 180, 580, 460)) for path in stages]
 keep(grid(parts, 3, names=names), "watercolor-effects")
 

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Makes the pictures of the README from the scripts in paintings/.
-# Needs `impasto` on the path (or in IMPASTO), and Python with Pillow (PYTHON names it).
-# Run it in the root of the repository: sh docs/pictures.sh
+# Paints the scripts in paintings/ and writes landscape.jpg, landscape-detail.jpg,
+# colour-study.jpg and glaze.jpg into docs/images/.
+# Needs `impasto` on the path (or IMPASTO=its path) and Python with Pillow (PYTHON=its path).
+# Run it from the root of the repository: sh docs/images/pictures.sh
 set -eu
 
 impasto=${IMPASTO:-impasto}
@@ -13,7 +14,7 @@ for script in landscape glaze colour-study; do
         --picture "$scratch/$script.png" --output "$scratch/$script.exr"
 done
 
-# The same glaze under a lamp, and with the light from the right, lower.
+# The glaze painting again: under illuminant A, and under a low light from the right.
 "$impasto" relight "$scratch/glaze.exr" --backend cpu --illuminant A --picture "$scratch/lamp.png"
 "$impasto" relight "$scratch/glaze.exr" --backend cpu --azimuth 90 --elevation 15 \
     --picture "$scratch/side.png"
@@ -31,13 +32,13 @@ def opened(name):
 
 
 def keep(picture, name):
-    picture.save(f"docs/{name}.jpg", quality=88, optimize=True)
+    picture.save(f"docs/images/{name}.jpg", quality=88, optimize=True)
 
 
 landscape = opened("landscape")
 keep(landscape.resize((900, 630), Image.Resampling.LANCZOS), "landscape")
 
-# Cells as they are, each shown as 3 x 3 pixels.
+# A detail with 3 x 3 pixels per cell, without interpolation.
 detail = landscape.crop((620, 330, 960, 530))
 keep(detail.resize((1020, 600), Image.Resampling.NEAREST), "landscape-detail")
 

@@ -1,9 +1,9 @@
-"""Draws docs/palette.svg: every pigment of a library, thinned with its white.
+"""Draws docs/images/palette.svg: every pigment of a library, tinted with its reference white.
 
     cargo run --release -- demo
-    python3 docs/palette.py out/van-gogh-oils.pigments.json docs/palette.svg
+    python3 docs/images/palette.py out/van-gogh-oils.pigments.json docs/images/palette.svg
 
-Every patch is a mixture that `impasto mix` predicts; nothing is drawn by hand.
+The colour of each patch is the prediction of `impasto mix`.
 """
 
 import json
@@ -53,7 +53,7 @@ def main():
             out.append(
                 f'<rect x="{x}" y="{y}" width="{PATCH}" height="{ROW - GAP}" fill="{colour}"/>'
             )
-    note = "predicted from K and S under D65; made by docs/palette.py"
+    note = "predicted from K and S under D65; made by docs/images/palette.py"
     out.append(text(width - 16, height - 12, note, 11, "#555", "end"))
     out.append("</svg>\n")
     with open(picture, "w", encoding="utf-8") as file:

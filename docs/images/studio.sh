@@ -1,8 +1,8 @@
 #!/bin/sh
-# Makes the pictures of the window that the README shows.
-# Needs cargo, a graphics adapter (a software one will do, such as lavapipe), and Python
-# with Pillow (PYTHON names it).
-# Run it in the root of the repository: sh docs/studio.sh
+# Writes the screenshots of the studio (studio*.jpg) into docs/images/.
+# Needs cargo, a graphics adapter (a software one such as lavapipe is enough), and Python
+# with Pillow (PYTHON=its path).
+# Run it from the root of the repository: sh docs/images/studio.sh
 set -eu
 
 scratch=$(mktemp -d)
@@ -18,8 +18,8 @@ from PIL import Image
 scratch = Path(sys.argv[1])
 for name in ["studio", "studio-lights", "studio-colour", "studio-layers"]:
     picture = Image.open(scratch / f"{name}.png").convert("RGB")
-    kept = Path(f"docs/{name}.jpg")
-    # As good as fits: letters want it sharp, the README small.
+    kept = Path(f"docs/images/{name}.jpg")
+    # The highest quality that stays below 200 kB.
     for quality in range(90, 60, -2):
         picture.save(kept, quality=quality, optimize=True, progressive=True)
         if kept.stat().st_size <= 200_000:
