@@ -2,8 +2,8 @@
 
     python tests/golden/tables.py
 
-The figures are those of the CIE; colour-science is where they were copied
-from. Nobody edits the tables by hand: change this file and run it again.
+The values are those of the CIE, copied from colour-science. Do not edit the
+tables by hand: change this file and run it again.
 """
 
 import hashlib
@@ -111,34 +111,35 @@ def spans():
 
 
 SOURCES = """\
-# Where the tables come from
+# Sources of the tables
 
 Written by `{command}`; do not edit the tables or this page by hand.
-The figures are those of the CIE (International Commission on Illumination).
-They were carried from the data sets of colour-science {version}
+The values are those of the CIE (International Commission on Illumination),
+copied from the data sets of colour-science {version}
 (BSD-3-Clause, Copyright 2013 Colour Developers; its licence is at the end).
 
-Rounding: none. Each value is the double held by colour-science, written with
-the fewest digits that read back as the same double. An empty cell means that
-the source table has no value there; it does not mean zero.
+Rounding: none. Each value is the double of colour-science, written with the
+fewest digits that read back as the same double. An empty cell means that the
+source table has no value there; it does not mean zero.
 
 ## observers
 
-Colour matching functions, header `nm,x,y,z`, 1 nm rows.
+Colour matching functions, header `nm,x,y,z`, one row per nm.
 
 - `observers/cie-1931-2.csv`: CIE 1931 standard colorimetric observer (2
   degrees), 360 to 830 nm. CIE 15:2018; ISO/CIE 11664-1.
 - `observers/cie-1964-10.csv`: CIE 1964 standard colorimetric observer (10
   degrees), 360 to 830 nm. CIE 15:2018; ISO/CIE 11664-1.
 - `observers/cie-2015-2.csv`: cone-fundamental-based functions, 2 degrees, 390
-  to 830 nm. CIE 170-2:2015, in the digits given out by the Colour and Vision
+  to 830 nm. CIE 170-2:2015, with the digits published by the Colour and Vision
   Research Laboratory (CVRL).
-- `observers/cie-2015-10.csv`: the same for 10 degrees.
+- `observers/cie-2015-10.csv`: cone-fundamental-based functions, 10 degrees;
+  range and source as for 2 degrees.
 
 ## illuminants.csv
 
-Relative spectral power, one column each, 300 to 830 nm by 5 nm, in the scale
-of the source (most are 100 at 560 nm, the lamps are not).
+Relative spectral power, one column per illuminant, 300 to 830 nm in steps of
+5 nm, in the scale of the source (most are 100 at 560 nm; the lamps are not).
 
 - A, D50, D55, D65, D75, and B and C (which the CIE no longer recommends): CIE
   15:2018 and CIE 15:2004 tables.
@@ -151,25 +152,25 @@ of the source (most are 100 at 560 nm, the lamps are not).
   15:2018.
 - ID50 and ID65 (indoor daylight): CIE 15:2018, after CIE 184:2009.
 
-The CIE prints some of these further than colour-science carries them (D65 to
-830 nm, for one). Here the columns reach:
+The CIE tabulates some of these over a wider range than colour-science does (D65
+to 830 nm, for example). The columns here cover:
 
 {spans}
 
 ## daylight-components.csv
 
-Functions S0, S1, S2 from which the phases of daylight are built, {day_first} to
-{day_last} nm by {day_step} nm, as colour-science holds them. CIE 15:2018. The CIE
-gives them by 10 nm; the rows between are linear, and rounding to two decimals
-shows in some of them.
+The functions S0, S1, S2 of which the phases of daylight are composed, {day_first} to
+{day_last} nm in steps of {day_step} nm, as in colour-science. CIE 15:2018. The CIE
+tabulates them in steps of 10 nm; the rows between are interpolated linearly, and
+some of them show rounding to two decimals.
 
 ## SHA-256
 
 {hashes}
 
-How to go between the rows (CIE 15:2018 names linear for illuminants; CIE
-167:2005 names Sprague for regular reflectance) is the reader's business: the
-tables hold only what the source holds.
+The tables contain only the values of the source. How to interpolate between the
+rows is left to the program that reads them (CIE 15:2018 recommends linear
+interpolation for illuminants, CIE 167:2005 Sprague's for regular reflectance).
 
 ## Licence of colour-science
 
