@@ -95,6 +95,11 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<LampError>,
         as_explained::<LightError>,
         as_explained::<SwatchFileError>,
+        as_explained::<PhotographError>,
+        as_explained::<MeshError>,
+        as_explained::<CameraPathError>,
+        as_explained::<FrameError>,
+        as_explained::<SequenceError>,
     ];
     known.into_iter().find_map(|known| known(cause))
 }
@@ -173,9 +178,6 @@ fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     {
         return Some("paint on the processor: --backend cpu".to_owned());
     }
-    if let Some(error) = cause.downcast_ref::<PhotographError>() {
-        return Some(error.hint().to_owned());
-    }
     if let Some(error) = cause.downcast_ref::<SeparationError>() {
         return Some(error.hint().to_owned());
     }
@@ -194,25 +196,14 @@ fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> 
     if let Some(error) = paper {
         return Some(error.hint());
     }
-    if let Some(ModelPainterError::Tones(error)) = cause.downcast_ref() {
-        return Some(error.hint().to_owned());
+    if let Some(ModelPainterError::ToneRamp(error)) = cause.downcast_ref() {
+        return error.hint().map(|hint| flags(&hint));
     }
     if let Some(error) = cause.downcast_ref::<GlazeError>() {
         return Some(error.hint().to_owned());
     }
-    if let Some(error) = cause.downcast_ref::<PhotographDoorError>() {
-        return Some(error.hint().to_owned());
-    }
-    if let Some(error) = cause.downcast_ref::<MeshError>() {
-        return Some(error.hint().to_owned());
-    }
-    if let Some(error) = cause.downcast_ref::<CameraPathError>() {
-        return Some(error.hint().to_owned());
-    }
-    if let Some(error) = cause.downcast_ref::<SequenceError>() {
-        return error.hint().map(str::to_owned);
-    }
-    cause.downcast_ref::<FrameError>()?.hint().map(str::to_owned)
+    let error = cause.downcast_ref::<PhotographDoorError>()?;
+    Some(error.hint().to_owned())
 }
 
 fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
@@ -254,7 +245,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<GlazeError>()
         || matches!(
             cause.downcast_ref(),
-            Some(ModelPainterError::Paper(_) | ModelPainterError::Tones(_))
+            Some(ModelPainterError::Paper(_) | ModelPainterError::ToneRamp(_))
         )
         || cause.is::<MeshError>()
         || cause.is::<CameraPathError>()

@@ -11,8 +11,8 @@ use render::paint::painting::Painting;
 use render::paint::session::PaintingSession;
 use render::paint::strokes::{Canvas, MAX_CELLS, PaletteSpec, StrokeScript};
 use render::photograph::{
-    Framing, LevelReport, Materials, PaintFilm, Painted, Painter, Photograph, Picture, Plan,
-    Separation, SeparationSettings, black_compensated, choose_palette,
+    LevelReport, Materials, PaintFilm, Painted, Painter, Photograph, Picture, Plan, Separation,
+    SeparationSettings, black_compensated, choose_palette,
 };
 use serde_json::json;
 
@@ -222,7 +222,7 @@ impl PhotographOptions {
     ) -> anyhow::Result<Start> {
         let waiting = Waiting::new("mixing colours", console.screen.progress);
         let (width, height) = canvas.cells();
-        let seen = photograph.on_canvas(width, height, Framing::Stretched);
+        let seen = photograph.on_canvas(width, height);
         let lighting = Lighting::default();
         let light = Light::named(library, &lighting.illuminant, &lighting.observer)?;
         let ground = GroundSpec::default().ground(1, 1, canvas.cell_mm, library)?.reflectance;

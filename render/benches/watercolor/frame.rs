@@ -17,7 +17,7 @@ fn painter<B: MovingBackend>(
 ) -> (ModelPainter<B>, Vec<Camera>) {
     let mesh = Mesh::torus_knot(triangles);
     let framing = Framing { aspect: SIZE.0 as f32 / SIZE.1 as f32, ..Framing::default() };
-    let cameras = framing.closest_turntable(&mesh.positions, 60);
+    let cameras = framing.fit_turntable(&mesh.positions, 60);
     let mut settings = Settings::default();
     settings.coherence.method = method;
     let settings = settings.for_size(SIZE.0, SIZE.1);

@@ -1,31 +1,29 @@
-//! The direction in which strokes run: along edges, and where there are none, as
-//! the edges around would have it.
+//! Orientation field of a picture: the direction along edges, extended into flat regions.
 //!
-//! The structure tensor of all three channels (Di Zenzo 1986), smoothed, its
-//! weak direction followed, as in Kyprianidis and Kang 2011. Litwinowicz 1997
-//! interpolates directions from strong gradients into the flat parts; here the
-//! tensor itself is spread by ever wider Gaussians of ever smaller weight,
-//! which together fall off like a power of the distance, so that a stronger or
-//! a nearer edge counts more.
+//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed, and its minor
+//! eigenvector followed, as in Kyprianidis and Kang 2011. Litwinowicz 1997 interpolates
+//! directions from strong gradients into flat regions; here the tensor itself is spread
+//! by Gaussians of doubling width and falling weight, which together decay like a power
+//! of the distance, so that stronger and nearer edges dominate.
 
 use rayon::prelude::*;
 
 use crate::blur::blurred;
 use crate::field::Field;
 
-/// Each wider Gaussian has twice the width and this weight of the one before.
+/// Weight of each Gaussian relative to the one half as wide (chosen by eye).
 const WIDER: f32 = 0.25;
 
-/// A direction for every cell, as a unit vector; either sense will do.
+/// Orientation of edges at every cell, as a unit vector of arbitrary sign.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Flow {
+pub struct OrientationField {
     along: Field<[f32; 2]>,
 }
 
-impl Flow {
-    /// The flow of a picture in CIELAB, for brushes of some `sigma` cells.
+impl OrientationField {
+    /// Computes the field of a CIELAB picture, smoothed by a Gaussian of `sigma` cells.
     #[must_use]
-    pub fn of(lab: &Field<[f32; 3]>, sigma: f64) -> Self {
+    pub fn from_lab(lab: &Field<[f32; 3]>, sigma: f64) -> Self {
         let (width, height) = (lab.width(), lab.height());
         let tensor = tensor(lab);
         let mut sum = blurred(&tensor, sigma);
@@ -44,14 +42,15 @@ impl Flow {
         Self { along: Field::from_values(width, height, along) }
     }
 
-    /// The direction at a cell: x to the right, y down.
+    /// Unit vector along the edge at a cell: x to the right, y down.
     #[must_use]
-    pub fn at(&self, x: usize, y: usize) -> [f64; 2] {
+    pub fn direction(&self, x: usize, y: usize) -> [f64; 2] {
         self.along[(x, y)].map(f64::from)
     }
 }
 
-/// Squares and product of the slopes over x and y, summed over the channels.
+/// Structure tensor: squares and product of the gradient's components, summed over the
+/// channels.
 fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     let (width, height) = (lab.width(), lab.height());
     let mut tensor = Field::filled(width, height, [0.0; 3]);
@@ -85,7 +84,7 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     tensor
 }
 
-/// Across the strongest slope; along x where there is none at all.
+/// Minor eigenvector of the tensor; along x where there is no gradient.
 fn weak_direction(tensor: &[f32; 3]) -> [f32; 2] {
     let [xx, xy, yy] = tensor.map(f64::from);
     if xx + yy < 1e-12 {
@@ -105,14 +104,15 @@ mod tests {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let values = (0..96 * 96).map(|i| {
                 let (x, y) = ((i % 96) as f64, (i / 96) as f64);
-                // Waves along the normal of the direction, within a disc.
+                // Waves perpendicular to the direction, within a disc.
                 let inside = (x - 48.0).hypot(y - 48.0) < 24.0;
                 let wave = ((y * cos - x * sin) * 0.7).sin();
                 [if inside { 50.0 + 10.0 * wave as f32 } else { 50.0 }, 0.0, 0.0]
             });
-            let flow = Flow::of(&Field::from_values(96, 96, values.collect()), 4.0);
+            let flow =
+                OrientationField::from_lab(&Field::from_values(96, 96, values.collect()), 4.0);
             for (x, y) in [(48, 48), (40, 52), (56, 44)] {
-                let [u, v] = flow.at(x, y);
+                let [u, v] = flow.direction(x, y);
                 let across = (v * cos - u * sin).abs();
                 assert!(across < 5.0_f64.to_radians().sin(), "{degrees}: {u} {v} at {x}, {y}");
             }
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn an_even_picture_flows_along_x() {
-        let flow = Flow::of(&Field::filled(20, 10, [40.0, 1.0, 2.0]), 2.0);
-        assert_eq!(flow.at(5, 5), [1.0, 0.0]);
+        let flow = OrientationField::from_lab(&Field::filled(20, 10, [40.0, 1.0, 2.0]), 2.0);
+        assert_eq!(flow.direction(5, 5), [1.0, 0.0]);
     }
 }

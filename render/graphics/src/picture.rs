@@ -1,4 +1,4 @@
-//! Photographs: PNG and JPEG, brought to a canvas in linear light.
+//! Photographs: PNG and JPEG files, resampled to a canvas in linear light.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -6,37 +6,28 @@ use std::path::Path;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageReader, Limits};
 use rayon::prelude::*;
 use spectra::color::Rgb;
+use spectra::hint::{Explain, Hint};
 
 use crate::field::Field;
 
-/// Linear sRGB with white at 1, for every cell of a canvas.
+/// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
 
-/// The most pixels that are read: 2^27, some 11,500 x 11,500.
+/// Most pixels of a photograph that is read: 2^27, about 11,500 x 11,500.
 pub const MOST_PIXELS: u64 = 1 << 27;
 
-/// The most bytes that reading may take.
+/// Most bytes that the decoder may allocate: 1.5 GiB.
 const MOST_BYTES: u64 = 3 << 29;
 
-/// How a photograph is brought to a canvas of another shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Framing {
-    /// What goes beyond the canvas is cut off, on both sides alike.
-    #[default]
-    Cut,
-    /// It is stretched.
-    Stretched,
-}
-
-/// A photograph as it was read, upright.
+/// A decoded photograph, turned upright.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Photograph {
     image: DynamicImage,
 }
 
 impl Photograph {
-    /// Reads a PNG or JPEG file: grey or colour, 8 or 16 bits a channel, as
-    /// sRGB; transparent parts over white; turned as its EXIF data say.
+    /// Reads a PNG or JPEG file, grey or colour, with 8 or 16 bits per channel, taken as
+    /// sRGB. The orientation in its EXIF data is applied.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -47,7 +38,7 @@ impl Photograph {
         Self::from_bytes(&name, &bytes)
     }
 
-    /// The same, of a file's bytes; `name` stands in errors.
+    /// Decodes the content of a PNG or JPEG file; `name` stands for the path in errors.
     ///
     /// # Errors
     /// [`PhotographError`].
@@ -82,61 +73,56 @@ impl Photograph {
         (self.image.width() as usize, self.image.height() as usize)
     }
 
-    /// The photograph on a canvas of `width` x `height` cells: the mean, in
-    /// linear light, of what each cell covers. Where a cell covers less than a
-    /// pixel, neighbouring pixels run into each other.
+    /// Resamples the photograph to `width` x `height` cells, stretching it if the shapes
+    /// differ: the mean linear light over each cell, transparent parts over white. Cells
+    /// smaller than a pixel blend neighbouring pixels.
     ///
     /// # Panics
-    /// If the canvas has no cell.
+    /// If `width` or `height` is 0.
     #[must_use]
-    pub fn on_canvas(&self, width: usize, height: usize, framing: Framing) -> Picture {
-        self.resampled(width, height, framing, |[r, g, b, _]| [r, g, b].map(|value| value as f32))
+    pub fn on_canvas(&self, width: usize, height: usize) -> Picture {
+        self.resampled(width, height, |[r, g, b, _]| [r, g, b].map(|value| value as f32))
     }
 
-    /// The same in encoded sRGB, with how opaque it is in 0..1; the colour is that of
-    /// the opaque part, and white where there is none.
+    /// Resamples the photograph like [`Photograph::on_canvas`], to encoded sRGB with
+    /// opacity (both 0..1). The colour is that of the opaque part, white where there is none.
     ///
     /// # Panics
-    /// If the canvas has no cell.
+    /// If `width` or `height` is 0.
     #[must_use]
-    pub fn with_opacity(&self, width: usize, height: usize, framing: Framing) -> Field<[f32; 4]> {
-        self.resampled(width, height, framing, |[r, g, b, opacity]| {
+    pub fn with_opacity(&self, width: usize, height: usize) -> Field<[f32; 4]> {
+        self.resampled(width, height, |[r, g, b, opacity]| {
             let opacity = opacity.clamp(0.0, 1.0);
-            // What is not opaque shows white.
-            let own = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
-            let color = if opacity > 0.0 { [r, g, b].map(own) } else { [1.0; 3] };
+            // Undo the blend with white.
+            let unblended = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
+            let color = if opacity > 0.0 { [r, g, b].map(unblended) } else { [1.0; 3] };
             let [r, g, b] = Rgb(color).encoded().0.map(|value| value as f32);
             [r, g, b, opacity as f32]
         })
     }
 
-    /// `cell` of linear light over white and opacity, for all cells.
+    /// Applies `cell` to the mean linear light over white, and opacity, of every cell.
     fn resampled<T: Clone + Default + Send>(
         &self,
         width: usize,
         height: usize,
-        framing: Framing,
         cell: impl Fn([f64; 4]) -> T + Sync,
     ) -> Field<T> {
-        assert!(width > 0 && height > 0, "a canvas of {width} x {height} cells");
+        assert!(width > 0 && height > 0, "canvas of {width} x {height} cells");
         let (source_width, source_height) = self.size();
-        let mut scale = [source_width as f64 / width as f64, source_height as f64 / height as f64];
-        if framing == Framing::Cut {
-            scale = [scale[0].min(scale[1]); 2];
-        }
-        let columns = Spans::new(source_width, width, scale[0]);
-        let rows = Spans::new(source_height, height, scale[1]);
-        let linear = Linear::of(self.image.color());
+        let columns = Coverage::new(source_width, width);
+        let rows = Coverage::new(source_height, height);
+        let linear = LinearDecoder::new(self.image.color());
         let stride = source_width * linear.pixel_bytes;
         let bytes = self.image.as_bytes();
         let mut picture = Field::filled(width, height, T::default());
         picture.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             let mut source = vec![[0.0; 4]; source_width];
             let mut sums = vec![[0.0_f64; 4]; width];
-            for (line, weight) in rows.of(y) {
-                linear.row(&bytes[line * stride..][..stride], &mut source);
+            for (line, weight) in rows.pixels_under(y) {
+                linear.decode_row(&bytes[line * stride..][..stride], &mut source);
                 for (x, sum) in sums.iter_mut().enumerate() {
-                    for (pixel, share) in columns.of(x) {
+                    for (pixel, share) in columns.pixels_under(x) {
                         for (sum, value) in sum.iter_mut().zip(source[pixel]) {
                             *sum += weight * share * value;
                         }
@@ -151,20 +137,23 @@ impl Photograph {
     }
 }
 
-/// Which pixels each cell covers, along one side.
-struct Spans {
+/// Coverage of pixels by cells along one axis.
+struct Coverage {
     pixels: usize,
+    /// Pixel position of the first cell's edge: 0 up to rounding.
     first: f64,
+    /// Pixels per cell.
     scale: f64,
 }
 
-impl Spans {
-    fn new(pixels: usize, cells: usize, scale: f64) -> Self {
+impl Coverage {
+    fn new(pixels: usize, cells: usize) -> Self {
+        let scale = pixels as f64 / cells as f64;
         Self { pixels, first: (pixels as f64 - scale * cells as f64) / 2.0, scale }
     }
 
-    /// The pixels under a cell, with weights that sum to 1.
-    fn of(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+    /// Pixels under a cell with their weights, which sum to 1.
+    fn pixels_under(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let width = self.scale.max(1.0);
         let middle = self.first + (cell as f64 + 0.5) * self.scale;
         let limit = self.pixels as f64;
@@ -178,17 +167,17 @@ impl Spans {
     }
 }
 
-/// How the bytes of a pixel become linear light.
-struct Linear {
+/// Decoder from the bytes of a pixel to linear light.
+struct LinearDecoder {
     channels: usize,
     sample_bytes: usize,
     pixel_bytes: usize,
-    /// Linear light of each value a sample may have.
+    /// Linear light of each possible sample value.
     decoded: Vec<f64>,
 }
 
-impl Linear {
-    fn of(color: ColorType) -> Self {
+impl LinearDecoder {
+    fn new(color: ColorType) -> Self {
         let sample_bytes = sample_bytes(color);
         let last = (1_usize << (8 * sample_bytes)) - 1;
         let decode = |value: usize| Rgb([value as f64 / last as f64; 3]).linear().0[0];
@@ -200,8 +189,8 @@ impl Linear {
         }
     }
 
-    /// Light over white, and opacity.
-    fn row(&self, bytes: &[u8], row: &mut [[f64; 4]]) {
+    /// Decodes a row to linear light over white, and opacity.
+    fn decode_row(&self, bytes: &[u8], row: &mut [[f64; 4]]) {
         let last = (self.decoded.len() - 1) as f64;
         for (pixel, bytes) in row.iter_mut().zip(bytes.chunks_exact(self.pixel_bytes)) {
             let sample = |channel: usize| match self.sample_bytes {
@@ -227,45 +216,43 @@ fn sample_bytes(color: ColorType) -> usize {
     usize::from(color.bytes_per_pixel() / color.channel_count())
 }
 
-/// A photograph that cannot be read.
+/// A photograph cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum PhotographError {
-    /// The file cannot be opened.
+    /// The file cannot be opened or read.
     #[error("{name}: {error}")]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         name: String,
-        /// Why not.
+        /// Reason given by the system.
         error: std::io::Error,
     },
-    /// No PNG or JPEG, or a broken one.
-    #[error("{name}: no picture that can be read: {reason}")]
+    /// The file is not a PNG or JPEG picture, or is damaged.
+    #[error("{name}: not a PNG or JPEG picture that can be read: {reason}")]
     NoPicture {
-        /// The file.
+        /// Path of the file.
         name: String,
-        /// As the reader tells it.
+        /// Reason given by the decoder.
         reason: String,
     },
-    /// More pixels than are read.
+    /// The picture has more pixels than are read.
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
     TooLarge {
-        /// The file.
+        /// Path of the file.
         name: String,
-        /// Pixels in a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
     },
 }
 
-impl PhotographError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for PhotographError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
             Self::NoPicture { .. } => "save it as PNG or JPEG",
             Self::TooLarge { .. } => "make it smaller; a canvas has fewer cells",
-        }
+        }))
     }
 }

@@ -1,28 +1,30 @@
-//! The greys that light is told in: a texture of one dimension.
+//! Tone ramp of toon shading: the grey that each amount of light is drawn in.
 
 use std::path::Path;
 
-/// Greys between which a [`Tones`] is straight.
+use spectra::hint::{Explain, Hint};
+
+/// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
 
-/// Grey by the cosine between light and surface, as toon shading has it (Lake,
-/// Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable
-/// real-time 3D animation", 2000): 0.5 leaves the colour of the surface, darker
-/// greys are denser paint, lighter ones thinner.
+/// One-dimensional texture that maps the cosine between light and surface normal to a
+/// grey (Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for
+/// scalable real-time 3D animation", 2000). Grey 0.5 leaves the surface colour, darker is
+/// denser paint, lighter is thinner.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tones {
+pub struct ToneRamp {
     greys: Box<[f32; TONES]>,
 }
 
-impl Tones {
-    /// As many even steps from shade to light as `levels`, between greys 0 and 1
-    /// (one level is 0.5 throughout). Over a `softness` of 0..1 of its width a step
-    /// runs into the next.
+impl ToneRamp {
+    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light); one level is 0.5
+    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends
+    /// into the next.
     #[must_use]
     pub fn steps(levels: usize, softness: f32) -> Self {
         let levels = levels.max(1) as f32;
         Self::from_curve(|cosine| {
-            // The nearest edge between steps, and how far from it, in steps.
+            // Position and nearest edge, in steps.
             let at = cosine * levels;
             let edge = at.round().clamp(1.0, (levels - 1.0).max(1.0));
             let across = match softness > 0.0 {
@@ -34,16 +36,17 @@ impl Tones {
         })
     }
 
-    /// Greys from shade to light, 0..1, at even cosines from 0 to 1.
+    /// A ramp through the given greys (0..1), at equal cosine intervals from shade (0) to
+    /// light (1).
     ///
     /// # Errors
-    /// [`TonesError::Empty`]; [`TonesError::OutOfRange`].
-    pub fn from_greys(greys: &[f32]) -> Result<Self, TonesError> {
+    /// [`ToneRampError::Empty`]; [`ToneRampError::OutOfRange`].
+    pub fn from_greys(greys: &[f32]) -> Result<Self, ToneRampError> {
         if greys.is_empty() {
-            return Err(TonesError::Empty);
+            return Err(ToneRampError::Empty);
         }
         if let Some(index) = greys.iter().position(|grey| !(0.0..=1.0).contains(grey)) {
-            return Err(TonesError::OutOfRange { index, grey: greys[index] });
+            return Err(ToneRampError::OutOfRange { index, grey: greys[index] });
         }
         let last = greys.len() - 1;
         Ok(Self::from_curve(|cosine| {
@@ -54,14 +57,14 @@ impl Tones {
         }))
     }
 
-    /// The middle row of a picture, its shade at the left: any format of ours, the
-    /// mean of its channels as they are encoded.
+    /// Reads a ramp from the middle row of a PNG or JPEG picture, shade at the left. The grey
+    /// is the mean of the encoded channels.
     ///
     /// # Errors
-    /// [`TonesError::NoPicture`] with the path.
-    pub fn open(path: &Path) -> Result<Self, TonesError> {
+    /// [`ToneRampError::NoPicture`] with the path.
+    pub fn open(path: &Path) -> Result<Self, ToneRampError> {
         let rejected =
-            |reason: String| TonesError::NoPicture { name: path.display().to_string(), reason };
+            |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
         let reader = image::ImageReader::open(path).map_err(|error| rejected(error.to_string()))?;
         let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
         let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
@@ -78,7 +81,7 @@ impl Tones {
         Self { greys: Box::new(greys) }
     }
 
-    /// The grey at a cosine; below 0 that of 0.
+    /// Grey at a cosine; negative cosines count as 0.
     #[must_use]
     #[inline]
     pub fn grey(&self, cosine: f32) -> f32 {
@@ -88,49 +91,47 @@ impl Tones {
         low + (high - low) * (at - below as f32)
     }
 
-    /// The greys at even cosines from 0 (shade) to 1 (light).
+    /// Greys at [`TONES`] equal cosine intervals from 0 (shade) to 1 (light).
     #[must_use]
     pub fn greys(&self) -> &[f32; TONES] {
         &self.greys
     }
 }
 
-/// Why greys are none.
+/// A tone ramp cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TonesError {
-    /// Not one.
-    #[error("no grey from shade to light")]
+pub enum ToneRampError {
+    /// The list of greys is empty.
+    #[error("a tone ramp has at least one grey, found `0`")]
     Empty,
-    /// Not between black and white.
-    #[error("grey {index} from the shade is not within 0 and 1: `{grey}`")]
+    /// A grey is outside 0..1.
+    #[error("grey {index} of the tone ramp is not within 0 to 1: `{grey}`")]
     OutOfRange {
-        /// From 0 on.
+        /// Index of the grey, from 0.
         index: usize,
-        /// As found.
+        /// The grey.
         grey: f32,
     },
-    /// A file that cannot be read as a picture.
+    /// The file is not a picture that can be read.
     #[error("{name}: {reason}")]
     NoPicture {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// As the decoder tells it.
+        /// Reason given by the decoder.
         reason: String,
     },
 }
 
-impl TonesError {
-    /// What can be done.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for ToneRampError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Empty | Self::OutOfRange { .. } => {
                 "give greys from 0 (black, dense paint) to 1 (white, thin paint)"
             }
             Self::NoPicture { .. } => {
                 "give a PNG or JPEG file whose middle row runs from shade to light"
             }
-        }
+        }))
     }
 }
 
@@ -141,7 +142,7 @@ mod tests {
     #[test]
     fn steps_are_flat_in_the_middle_and_rise_from_black_to_white() {
         for levels in 2..7 {
-            let tones = Tones::steps(levels, 0.3);
+            let tones = ToneRamp::steps(levels, 0.3);
             for step in 0..levels {
                 let wanted = step as f32 / (levels - 1) as f32;
                 for inside in [0.3, 0.5, 0.7] {
@@ -152,21 +153,21 @@ mod tests {
             assert!(tones.greys().is_sorted(), "{levels}");
             assert_eq!((tones.grey(-1.0), tones.grey(2.0)), (0.0, 1.0));
         }
-        assert!(Tones::steps(1, 0.5).greys().iter().all(|&grey| grey == 0.5));
-        let hard = Tones::steps(4, 0.0);
+        assert!(ToneRamp::steps(1, 0.5).greys().iter().all(|&grey| grey == 0.5));
+        let hard = ToneRamp::steps(4, 0.0);
         let greys = hard.greys().iter().map(|&grey| (grey * 3.0).fract());
         assert!(greys.fold(0.0, f32::max) < 1e-5);
     }
 
     #[test]
     fn greys_are_joined_by_straight_lines_and_bad_ones_refused() {
-        let tones = Tones::from_greys(&[0.2, 0.8, 0.4]).unwrap();
+        let tones = ToneRamp::from_greys(&[0.2, 0.8, 0.4]).unwrap();
         for (cosine, wanted) in [(0.0, 0.2), (0.25, 0.5), (0.5, 0.8), (0.75, 0.6), (1.0, 0.4)] {
             assert!((tones.grey(cosine) - wanted).abs() < 5e-3, "{cosine}");
         }
-        assert_eq!(Tones::from_greys(&[]), Err(TonesError::Empty));
-        let error = Tones::from_greys(&[0.5, f32::NAN]).unwrap_err();
-        assert!(matches!(error, TonesError::OutOfRange { index: 1, .. }), "{error}");
-        assert!(Tones::open(Path::new("no/such.png")).is_err());
+        assert_eq!(ToneRamp::from_greys(&[]), Err(ToneRampError::Empty));
+        let error = ToneRamp::from_greys(&[0.5, f32::NAN]).unwrap_err();
+        assert!(matches!(error, ToneRampError::OutOfRange { index: 1, .. }), "{error}");
+        assert!(ToneRamp::open(Path::new("no/such.png")).is_err());
     }
 }

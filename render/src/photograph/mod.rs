@@ -15,8 +15,8 @@ mod laydown;
 
 mod painter;
 
-pub use graphics::orientation::Flow;
-pub use graphics::picture::{Framing, MOST_PIXELS, Photograph, PhotographError, Picture};
+pub use graphics::orientation::OrientationField;
+pub use graphics::picture::{MOST_PIXELS, Photograph, PhotographError, Picture};
 pub use paint::separation::{
     ChosenPalette, ColorErrors, Materials, OUT_OF_GAMUT, PaintFilm, Separation, SeparationError,
     SeparationSettings, choose_palette, rebuilt,

@@ -15,7 +15,7 @@ use super::plan::{Order, Plan};
 use super::trace::{Ground, cell, distance, traced};
 use graphics::blurred;
 use graphics::field::Field;
-use graphics::orientation::Flow;
+use graphics::orientation::OrientationField;
 use graphics::picture::Picture;
 use paint::layer::SLOTS;
 use paint::pose::Sample;
@@ -70,7 +70,7 @@ pub fn plan_layer(
     let blurred_target = blurred(target, SIGHT * size);
     let wanted = perceived(&blurred_target);
     let mut off = differences(&wanted, &blurred_target, current, separation, SIGHT * size);
-    let flow = Flow::of(&wanted, SIGHT * size);
+    let flow = OrientationField::from_lab(&wanted, SIGHT * size);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     random.set_stream(level as u64);
 

@@ -5,13 +5,13 @@
 
 use super::plan::Plan;
 use graphics::field::Field;
-use graphics::orientation::Flow;
+use graphics::orientation::OrientationField;
 
 /// What strokes of one level are traced on, in cells.
 pub(super) struct Ground<'a> {
     /// What is wanted, blurred to the brush; CIELAB.
     pub(super) wanted: &'a Field<[f32; 3]>,
-    pub(super) flow: &'a Flow,
+    pub(super) flow: &'a OrientationField,
     /// What is still off at each cell; 0 where a stroke of this level lies.
     pub(super) off: &'a Field<f32>,
     /// The brush's width.
@@ -23,7 +23,7 @@ pub(super) struct Ground<'a> {
 pub(super) fn traced(ground: &Ground<'_>, plan: &Plan, start: [f64; 2]) -> Vec<[f64; 2]> {
     let cell = cell(ground.wanted, start);
     let color = ground.wanted[cell];
-    let along = ground.flow.at(cell.0, cell.1);
+    let along = ground.flow.direction(cell.0, cell.1);
     let back = half(ground, plan, start, color, along.map(|side| -side));
     let forth = half(ground, plan, start, color, along);
     back.into_iter().rev().chain([start]).chain(forth).collect()
@@ -44,7 +44,7 @@ fn half(
     let mut place = start;
     while points.len() < most {
         let (x, y) = cell(ground.wanted, place);
-        let mut along = ground.flow.at(x, y);
+        let mut along = ground.flow.direction(x, y);
         if along[0] * heading[0] + along[1] * heading[1] < 0.0 {
             along = along.map(|side| -side);
         }

@@ -50,7 +50,7 @@ pub use edges::Edges;
 pub use glaze::{GlazeError, Glazes, thickness};
 pub use graphics::coherence;
 pub use graphics::image::{Backend, CpuModel, GpuModel, Models, OnCpu, OnGpu, Plane};
-pub use graphics::tones::{Tones, TonesError};
+pub use graphics::tones::{ToneRamp, ToneRampError};
 pub use kernels::kernels;
 pub use model_painter::{ModelPainter, ModelPainterError, Moment, MovingBackend};
 pub use morphology::Morphology;

@@ -16,7 +16,7 @@ use graphics::coherence::{
 use graphics::gpu::DeviceError;
 use graphics::mesh::Mesh;
 use graphics::surface::PackedMesh;
-use graphics::tones::{Tones, TonesError};
+use graphics::tones::{ToneRamp, ToneRampError};
 
 /// Texels of a wave of the textures that follow particles.
 const WAVE_TEXELS: usize = 32;
@@ -76,8 +76,8 @@ impl<B: MovingBackend> ModelPainter<B> {
         let toon = Toon {
             light: Light::with_camera(toon.light_azimuth_deg, toon.light_elevation_deg),
             tones: match &toon.greys {
-                Some(path) => Tones::open(Path::new(path))?,
-                None => Tones::steps(toon.levels as usize, toon.softness),
+                Some(path) => ToneRamp::open(Path::new(path))?,
+                None => ToneRamp::steps(toon.levels as usize, toon.softness),
             },
             strength: toon.strength,
             samples: samples.max(1),
@@ -267,7 +267,7 @@ pub enum ModelPainterError {
     Paper(#[from] PaperTextureError),
     /// No such greys.
     #[error(transparent)]
-    Tones(#[from] TonesError),
+    ToneRamp(#[from] ToneRampError),
     /// The device.
     #[error(transparent)]
     Gpu(#[from] DeviceError),

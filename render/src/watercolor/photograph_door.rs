@@ -5,7 +5,7 @@ use super::segmentation::{SegmentationError, SegmentationSettings, segment};
 use super::wash::{Controls, Wash};
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
-use graphics::picture::{Framing, Photograph};
+use graphics::picture::Photograph;
 
 /// How a photograph is abstracted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +68,7 @@ pub fn from_photograph<B: Morphology>(
     }
     let (width, height) = photograph.size();
     let height_px = ((width_px as f64 * height as f64 / width as f64).round() as usize).max(1);
-    let original = photograph.with_opacity(width_px, height_px, Framing::Stretched);
+    let original = photograph.with_opacity(width_px, height_px);
     let segmentation = segment(&original, &settings.segmentation)?;
     let segmented = segmentation.flat();
     let smoothed = if radius_px == 0 {

@@ -18,7 +18,7 @@ use graphics::image::OnCpu;
 use graphics::image::{CpuModel, GpuModel, Models};
 use graphics::image::{OnGpu, Plane};
 use graphics::surface::{Coating, NOTHING, PackedMesh, Seen, Vertex, Visible};
-use graphics::tones::{TONES, Tones};
+use graphics::tones::{TONES, ToneRamp};
 
 /// How surfaces are lit.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Toon {
     /// From where.
     pub light: Light,
     /// Grey by light.
-    pub tones: Tones,
+    pub tones: ToneRamp,
     /// What density gains from grey 1 to grey 0; 0 shows colours as they are.
     pub strength: f32,
     /// Samples of a pixel along each side, 1 and up: what is seen was drawn so many
@@ -72,7 +72,7 @@ impl Default for Toon {
     fn default() -> Self {
         Self {
             light: Light::with_camera(315.0, 40.0),
-            tones: Tones::steps(4, 0.15),
+            tones: ToneRamp::steps(4, 0.15),
             strength: 1.6,
             samples: 1,
         }

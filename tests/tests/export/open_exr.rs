@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use exr::prelude::{AttributeValue, FlatImage, FlatSamples, ReadChannels, ReadLayers, Text, Vec2};
-use render::export::{FloatBits, linear_exr, spectral_exr};
+use render::export::{linear_exr, spectral_exr};
 use render::field::Field;
 use suite::near::assert_near;
 
@@ -35,27 +35,23 @@ fn samples(image: &FlatImage, name: &str) -> Vec<f64> {
 #[test]
 fn linear_light_comes_back_unclipped_with_its_primaries() {
     let picture = picture();
-    for (bits, tolerance) in [(FloatBits::Single, 0.0), (FloatBits::Half, 0.02)] {
-        let image = opened(&linear_exr(&picture, CELL_MM, bits).unwrap());
-        for (index, name) in ["R", "G", "B"].iter().enumerate() {
-            let wanted: Vec<f64> =
-                picture.values().iter().map(|rgb| f64::from(rgb[index])).collect();
-            assert_near(name, &samples(&image, name), &wanted, tolerance);
-        }
-        let half =
-            matches!(image.layer_data[0].channel_data.list[0].sample_data, FlatSamples::F16(_));
-        assert_eq!(half, bits == FloatBits::Half);
-        let found = image.attributes.chromaticities.unwrap();
-        // IEC 61966-2-1.
-        let wanted = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)];
-        for (Vec2(x, y), (wanted_x, wanted_y)) in
-            [found.red, found.green, found.blue, found.white].into_iter().zip(wanted)
-        {
-            let got = [f64::from(x), f64::from(y)];
-            assert_near("chromaticities", &got, &[wanted_x, wanted_y], 1e-6);
-        }
-        assert_eq!(image.layer_data[0].attributes.horizontal_density, Some(254.0));
+    let image = opened(&linear_exr(&picture, CELL_MM).unwrap());
+    for (index, name) in ["R", "G", "B"].iter().enumerate() {
+        let wanted: Vec<f64> = picture.values().iter().map(|rgb| f64::from(rgb[index])).collect();
+        assert_near(name, &samples(&image, name), &wanted, 0.0);
     }
+    let channel = &image.layer_data[0].channel_data.list[0];
+    assert!(matches!(channel.sample_data, FlatSamples::F32(_)));
+    let found = image.attributes.chromaticities.unwrap();
+    // IEC 61966-2-1.
+    let wanted = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)];
+    for (Vec2(x, y), (wanted_x, wanted_y)) in
+        [found.red, found.green, found.blue, found.white].into_iter().zip(wanted)
+    {
+        let got = [f64::from(x), f64::from(y)];
+        assert_near("chromaticities", &got, &[wanted_x, wanted_y], 1e-6);
+    }
+    assert_eq!(image.layer_data[0].attributes.horizontal_density, Some(254.0));
 }
 
 #[test]
@@ -92,10 +88,11 @@ fn spectra_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn light_beyond_half_floats_is_refused() {
+fn infinite_light_is_refused_and_very_bright_light_is_not() {
     let mut picture = picture();
     picture[(1, 2)][2] = 1e6;
-    let error = linear_exr(&picture, CELL_MM, FloatBits::Half).unwrap_err().to_string();
+    assert!(linear_exr(&picture, CELL_MM).is_ok(), "32 bits hold it");
+    picture[(1, 2)][2] = f32::INFINITY;
+    let error = linear_exr(&picture, CELL_MM).unwrap_err().to_string();
     assert!(error.contains("the colour at x 1, y 2"), "{error}");
-    assert!(linear_exr(&picture, CELL_MM, FloatBits::Single).is_ok(), "32 bits hold it");
 }

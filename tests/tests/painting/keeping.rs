@@ -1,7 +1,7 @@
 //! What is saved, dried, merged or exported looks as what was shown.
 
 use image::ImageDecoder;
-use render::export::{FloatBits, linear_exr, png8, png16};
+use render::export::{linear_exr, png8, png16};
 use render::field::Field;
 use render::paint::brush::HeadShape;
 use render::paint::file;
@@ -133,7 +133,7 @@ fn exported_pictures_have_the_colors_that_were_shown() {
         let off = largest(&clipped, &read);
         assert!(off < within, "a PNG is {off} off");
     }
-    let bytes = linear_exr(&shown, CELL_MM, FloatBits::Single).unwrap();
+    let bytes = linear_exr(&shown, CELL_MM).unwrap();
     let read = exr_channels(&bytes);
     for (index, rgb) in shown.values().iter().enumerate() {
         for (name, value) in ["R", "G", "B"].into_iter().zip(rgb) {

@@ -6,7 +6,7 @@ use image::{
     DynamicImage, ExtendedColorType, GrayAlphaImage, GrayImage, ImageEncoder, ImageFormat,
     RgbImage, RgbaImage,
 };
-use render::photograph::{Framing, MOST_PIXELS, Photograph, PhotographError};
+use render::photograph::{MOST_PIXELS, Photograph, PhotographError};
 use spectra::color::Rgb;
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
@@ -21,7 +21,7 @@ fn read(bytes: &[u8]) -> Photograph {
 
 /// The linear light of one pixel.
 fn one(bytes: &[u8]) -> [f32; 3] {
-    read(bytes).on_canvas(1, 1, Framing::Cut)[(0, 0)]
+    read(bytes).on_canvas(1, 1)[(0, 0)]
 }
 
 fn near(found: [f32; 3], wanted: [f64; 3]) {
@@ -55,7 +55,7 @@ fn transparent_parts_are_white() {
 fn cells_are_means_of_linear_light() {
     let checks =
         RgbImage::from_fn(64, 64, |x, y| [if (x + y) % 2 == 0 { 255 } else { 0 }; 3].into());
-    let canvas = read(&png(checks)).on_canvas(10, 10, Framing::Cut);
+    let canvas = read(&png(checks)).on_canvas(10, 10);
     for value in canvas.values() {
         assert!((value[0] - 0.5).abs() < 0.02, "{value:?}");
     }
@@ -64,7 +64,7 @@ fn cells_are_means_of_linear_light() {
 }
 
 #[test]
-fn another_shape_is_cut_or_stretched() {
+fn a_photograph_is_stretched_to_another_shape() {
     // Red, green and blue thirds.
     let thirds = RgbImage::from_fn(30, 10, |x, _| {
         let mut color = [0; 3];
@@ -73,12 +73,10 @@ fn another_shape_is_cut_or_stretched() {
     });
     let photograph = read(&png(thirds));
     assert_eq!(photograph.size(), (30, 10));
-    let cut = photograph.on_canvas(5, 5, Framing::Cut);
-    assert!(cut.values().iter().all(|value| value[1] > 0.999), "{:?}", cut.row(0, 0, 5));
-    let stretched = photograph.on_canvas(3, 3, Framing::Stretched);
+    let stretched = photograph.on_canvas(3, 3);
     assert_eq!(stretched.row(1, 0, 3), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     // Finer than its pixels: no cell is dark or too bright.
-    let fine = photograph.on_canvas(90, 30, Framing::Cut);
+    let fine = photograph.on_canvas(90, 30);
     for value in fine.values() {
         assert!((value.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{value:?}");
     }
@@ -107,7 +105,7 @@ fn photographs_are_turned_as_their_exif_says() {
     let corners = |orientation| {
         let photograph = Photograph::from_bytes("made.jpg", &turned(orientation)).unwrap();
         let (width, height) = photograph.size();
-        let canvas = photograph.on_canvas(width, height, Framing::Cut);
+        let canvas = photograph.on_canvas(width, height);
         let light = |x, y| canvas[(x, y)][0] > 0.5;
         ((width, height), light(1, 1), light(width - 2, 1), light(1, height - 2))
     };

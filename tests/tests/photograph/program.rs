@@ -8,7 +8,7 @@ use render::light::Light;
 use render::paint::document::Medium;
 use render::paint::ground::GroundSpec;
 use render::photograph::{
-    ColorErrors, Framing, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
+    ColorErrors, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
     black_compensated, rebuilt,
 };
 use suite::program::{Run, impasto};
@@ -109,7 +109,7 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     let settings =
         SeparationSettings { least_mm: 0.03, most_mm: 0.12, ..SeparationSettings::default() };
     let separation = Separation::new(film, &settings).unwrap();
-    let seen = Photograph::open(Path::new(&photo)).unwrap().on_canvas(32, 24, Framing::Stretched);
+    let seen = Photograph::open(Path::new(&photo)).unwrap().on_canvas(32, 24);
     let target = black_compensated(&seen, separation.black());
     let made = rebuilt(separation.film(), &separation.separate(&target));
     let errors = ColorErrors::between(&separation, &target, &made);

@@ -301,17 +301,17 @@ fn the_closest_camera_has_all_places_and_no_more() {
         for (azimuth_deg, aspect) in [(0.0, 1.3), (77.0, 0.6)] {
             let framing =
                 Framing { azimuth_deg, elevation_deg: 25.0, field_of_view_deg: 30.0, aspect };
-            let [x, y] = extent(&framing.closest(&mesh.positions), aspect);
+            let [x, y] = extent(&framing.fit(&mesh.positions), aspect);
             assert!((x[0] + x[1]).abs() < 0.2 && (y[0] + y[1]).abs() < 0.2, "{x:?} {y:?}");
             let most = [x[1], -x[0], y[1], -y[0]].into_iter().fold(0.0, f32::max);
             assert!((0.915..0.925).contains(&most), "{x:?} {y:?}");
-            for camera in framing.closest_turntable(&mesh.positions, 7) {
+            for camera in framing.fit_turntable(&mesh.positions, 7) {
                 let [x, y] = extent(&camera, aspect);
                 let most = [x[1], -x[0], y[1], -y[0]].into_iter().fold(0.0, f32::max);
                 assert!((0.4..0.925).contains(&most), "{x:?} {y:?}");
             }
         }
     }
-    let nothing = Framing::default().closest(&[]);
+    let nothing = Framing::default().fit(&[]);
     assert!(nothing.eye.is_finite() && nothing.near > 0.0, "{nothing:?}");
 }

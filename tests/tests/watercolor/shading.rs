@@ -8,7 +8,7 @@ use render::gpu::DeviceError;
 use render::mesh::{Material, Mesh, Texture};
 use render::surface::{NOTHING, PackedMesh, RASTER, Visible, position_at};
 use render::watercolor::{
-    Light, ModelPainter, Models, OnCpu, OnGpu, Settings, Shading, Tones, Toon,
+    Light, ModelPainter, Models, OnCpu, OnGpu, Settings, Shading, ToneRamp, Toon,
 };
 use suite::adapter::device;
 
@@ -123,7 +123,7 @@ fn the_device_shades_as_the_processor_does() {
     for (samples, light) in
         [(1, Light::with_camera(315.0, 40.0)), (2, Light::WithModel(Vec3::new(1.0, 2.0, 0.5)))]
     {
-        let toon = Toon { samples, light, tones: Tones::steps(3, 0.6), ..Toon::default() };
+        let toon = Toon { samples, light, tones: ToneRamp::steps(3, 0.6), ..Toon::default() };
         let a = shaded(&mut OnCpu, &mesh, &camera, (131, 99), &toon);
         let b = shaded(&mut on_gpu, &mesh, &camera, (131, 99), &toon);
         let differ = a.values().iter().zip(b.values()).filter(|(a, b)| {
@@ -158,7 +158,7 @@ fn shade_is_dense_paint_and_light_is_thin() {
     let wall = |cosine: f32| {
         let mut mesh = Mesh::default();
         mesh.materials.push(Material::plain([0.6, 0.5, 1.0]));
-        let cells = render::mesh::Cells { columns: 3, rows: 2 };
+        let cells = render::mesh::GridSize { columns: 3, rows: 2 };
         mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(x, -y, 0.0));
         mesh.normals.fill([(1.0 - cosine * cosine).sqrt(), 0.0, cosine]);
         mesh
@@ -168,7 +168,7 @@ fn shade_is_dense_paint_and_light_is_thin() {
         let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
         let toon = Toon {
             light: Light::WithModel(Vec3::Z),
-            tones: Tones::from_greys(&[0.0, 1.0]).unwrap(),
+            tones: ToneRamp::from_greys(&[0.0, 1.0]).unwrap(),
             strength,
             samples: 1,
         };
@@ -191,7 +191,7 @@ fn shade_is_dense_paint_and_light_is_thin() {
 fn both_sides_of_a_surface_are_lit_from_where_they_are_seen() {
     let mut mesh = Mesh::default();
     mesh.materials.push(Material::plain([0.5; 3]));
-    mesh.add_grid(render::mesh::Cells { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
+    mesh.add_grid(render::mesh::GridSize { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
         Vec3::new(x, -y, 0.0)
     });
     let toon = Toon { light: Light::with_camera(0.0, 90.0), ..Toon::default() };
@@ -241,7 +241,7 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     let framing = Framing::default();
     let shaded = |settings: &Settings| {
         let mesh = Mesh::sphere(500);
-        let camera = framing.closest(&mesh.positions);
+        let camera = framing.fit(&mesh.positions);
         let backend = &mut OnCpu;
         let mut painter = ModelPainter::new(backend, mesh, settings.clone(), (64, 64), 1).unwrap();
         painter.moment(backend, &camera).unwrap().color

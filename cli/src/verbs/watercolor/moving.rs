@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, Shots};
+use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, SequenceSettings};
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
@@ -117,7 +117,8 @@ impl Moving {
         let digest = wish.0.finalize();
         let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         let (frames, width, height) = shots;
-        let sequence = Sequence::open(&self.frames, Shots { settings, frames, width, height })?;
+        let sequence =
+            Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
         Ok(Shooting { moving: self, sequence, shots })
     }
 }
@@ -134,7 +135,7 @@ impl Shooting {
         let remaining = sequence.remaining().to_vec();
         let bar = Progress::new(remaining.len(), "painting", console.screen.progress);
         for &index in &remaining {
-            sequence.keep(index, &picture(index)?)?;
+            sequence.write_frame(index, &picture(index)?)?;
             bar.step();
         }
         bar.done();

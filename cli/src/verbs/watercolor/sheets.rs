@@ -7,7 +7,7 @@ use clap::Args;
 use rayon::prelude::*;
 use render::export::{frame_of, frame_png};
 use render::field::Field;
-use render::photograph::{Framing, Photograph};
+use render::photograph::Photograph;
 use render::watercolor::Controls;
 use spectra::color::Rgb;
 
@@ -103,7 +103,7 @@ impl OpenSheets {
     pub(super) fn controls(&self, width: usize, height: usize) -> anyhow::Result<Controls> {
         let mask = |path: &Option<PathBuf>| -> anyhow::Result<_> {
             let Some(path) = path else { return Ok(None) };
-            let picture = Photograph::open(path)?.on_canvas(width, height, Framing::Stretched);
+            let picture = Photograph::open(path)?.on_canvas(width, height);
             let grey = |rgb: &[f32; 3]| {
                 let encoded = Rgb(rgb.map(f64::from)).encoded().0;
                 (encoded.iter().sum::<f64>() / 3.0) as f32

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use render::camera::{Camera, CameraPath, Framing};
-use render::mesh::{Mesh, Shape};
+use render::mesh::{Mesh, SampleModel};
 use render::photograph::Photograph;
 
 use crate::failure::Refusal;
@@ -52,8 +52,8 @@ impl SubjectOptions {
     pub(super) fn subject(&self, path: &Path) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
-            let Some(shape) = Shape::named(name) else {
-                let names = Shape::ALL.map(Shape::name).join(", ");
+            let Some(shape) = SampleModel::from_name(name) else {
+                let names = SampleModel::ALL.map(SampleModel::name).join(", ");
                 return Err(Refusal::usage(
                     format!("there is no shape `{name}`"),
                     format!("shapes are {names}"),
@@ -123,8 +123,8 @@ impl SubjectOptions {
             (None, turntable) => {
                 let framing = self.framing(aspect)?;
                 match turntable {
-                    Some(frames) => framing.closest_turntable(&mesh.positions, frames as usize),
-                    None => vec![framing.closest(&mesh.positions)],
+                    Some(frames) => framing.fit_turntable(&mesh.positions, frames as usize),
+                    None => vec![framing.fit(&mesh.positions)],
                 }
             }
         };

@@ -1,4 +1,5 @@
-//! From where a mesh is seen.
+//! Perspective cameras: single ones, those that frame a model, and paths through
+//! keyframes.
 
 mod perspective;
 

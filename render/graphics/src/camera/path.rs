@@ -1,17 +1,22 @@
-//! The path of a camera through a scene, from a file.
+//! Camera paths: keyframes from a TOML file, interpolated to one camera per frame.
 
 use std::path::Path;
 
 use glam::Vec3;
 use serde::Deserialize;
+use spectra::hint::{Explain, Hint};
 
 use super::perspective::Camera;
 
-/// The most frames and keyframes that a file may want.
+/// Most frames, and most keyframes, that a file may ask for.
 const MOST_FRAMES: usize = 100_000;
 
-/// A camera's way through some keyframes, even in time from each to the next; a
-/// TOML file, for example
+/// Smallest sine of the angle between up and the viewing direction: below it, up does
+/// not fix the camera's roll in f32.
+const LEAST_SINE: f32 = 1e-3;
+
+/// A camera path through keyframes that are evenly spaced in time, read from a TOML file,
+/// for example
 ///
 /// ```toml
 /// frames = 120
@@ -30,28 +35,28 @@ const MOST_FRAMES: usize = 100_000;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraPath {
-    /// Pictures along the whole path.
+    /// Number of frames along the whole path, 1 to 100,000.
     pub frames: usize,
-    /// Whether the last keyframe leads back to the first.
+    /// Whether the path returns from the last keyframe to the first.
     #[serde(default)]
     pub closed: bool,
-    /// One and up.
+    /// Keyframes, at least one.
     #[serde(rename = "keyframe", default)]
     pub keyframes: Vec<Keyframe>,
 }
 
-/// A camera of a path; places in the model's unit.
+/// One camera of a path; positions are in the model's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
-    /// Where it stands.
+    /// Position of the eye.
     pub eye: [f32; 3],
-    /// What it looks at.
+    /// Point that appears in the centre of the picture.
     pub target: [f32; 3],
-    /// Roughly upwards.
+    /// Approximate up direction; +y by default.
     #[serde(default = "upwards")]
     pub up: [f32; 3],
-    /// From the lower to the upper edge of the picture, in degrees.
+    /// Vertical field of view in degrees, 0.1 to 170; 35 by default.
     #[serde(default = "normal_lens")]
     pub field_of_view_deg: f32,
 }
@@ -64,56 +69,54 @@ fn normal_lens() -> f32 {
     35.0
 }
 
-/// Why a file is no camera path; the file is named in each.
+/// A camera path could not be read. Every message starts with the file's path.
 #[derive(Debug, thiserror::Error)]
 pub enum CameraPathError {
-    /// The system does not let us.
+    /// The file cannot be opened or read.
     #[error("{name}: {error}")]
     Unreadable {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// Why not.
+        /// Reason given by the system.
         #[source]
         error: std::io::Error,
     },
-    /// Not TOML, or not with our keys.
+    /// The text is not TOML, or a key is missing, unknown or of the wrong type.
     #[error("{name}: line {line}: {reason}")]
     Malformed {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// From 1 on.
+        /// Line number, from 1.
         line: usize,
-        /// What is wrong, with the key.
+        /// Reason, with the key.
         reason: String,
     },
-    /// A value that no camera can have.
+    /// A value is out of its range.
     #[error("{name}: `{key}`: {reason}")]
-    Impossible {
-        /// The path.
+    OutOfRange {
+        /// Path of the file.
         name: String,
-        /// Which value; keyframes count from 1.
+        /// Key of the value; keyframes count from 1.
         key: String,
-        /// Why not, with the value.
+        /// Reason, with the value.
         reason: String,
     },
 }
 
-impl CameraPathError {
-    /// What can be done.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for CameraPathError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
-            Self::Malformed { .. } | Self::Impossible { .. } => {
+            Self::Malformed { .. } | Self::OutOfRange { .. } => {
                 "a path has `frames` and [[keyframe]] tables with `eye`, `target` and, if wanted, \
                  `up` and `field_of_view_deg`"
             }
-        }
+        }))
     }
 }
 
 impl CameraPath {
-    /// Reads a file.
+    /// Reads a camera path from a TOML file.
     ///
     /// # Errors
     /// [`CameraPathError`] with the path and the line or key.
@@ -124,10 +127,11 @@ impl CameraPath {
         Self::from_text(&name, &text)
     }
 
-    /// The same, of a file's text; `name` stands in errors.
+    /// Parses a camera path from the text of a TOML file; `name` stands for the path in
+    /// errors.
     ///
     /// # Errors
-    /// As [`CameraPath::open`].
+    /// [`CameraPathError`] with the line or key.
     pub fn from_text(name: &str, text: &str) -> Result<Self, CameraPathError> {
         let path: Self = toml::from_str(text).map_err(|error| CameraPathError::Malformed {
             name: name.to_owned(),
@@ -136,14 +140,15 @@ impl CameraPath {
             }),
             reason: error.message().split_whitespace().collect::<Vec<_>>().join(" "),
         })?;
-        let impossible = |(key, reason)| {
-            let name = name.to_owned();
-            Err(CameraPathError::Impossible { name, key, reason })
-        };
-        path.fault().map_or(Ok(path), impossible)
+        match path.fault() {
+            None => Ok(path),
+            Some((key, reason)) => {
+                Err(CameraPathError::OutOfRange { name: name.to_owned(), key, reason })
+            }
+        }
     }
 
-    /// A value that no camera can have: its key, and why not.
+    /// First value that is out of range: its key and the reason.
     fn fault(&self) -> Option<(String, String)> {
         for (key, count) in [("frames", self.frames), ("keyframe", self.keyframes.len())] {
             if !(1..=MOST_FRAMES).contains(&count) {
@@ -163,21 +168,22 @@ impl CameraPath {
                 let reason = format!("`{field_of_view_deg}` is not from 0.1 to 170 degrees");
                 return Some((key("field_of_view_deg"), reason));
             }
-            let Some(sight) = (target - eye).try_normalize() else {
+            let Some(forward) = (target - eye).try_normalize() else {
                 return Some((key("target"), format!("`{target}` is where the eye is")));
             };
-            if !up.try_normalize().is_some_and(|up| up.cross(sight).length() > 1e-3) {
-                return Some((key("up"), format!("`{up}` is along the sight, or nothing")));
+            if !up.try_normalize().is_some_and(|up| up.cross(forward).length() > LEAST_SINE) {
+                let reason = format!("`{up}` is parallel to the viewing direction, or zero");
+                return Some((key("up"), reason));
             }
         }
         None
     }
 
-    /// The cameras of all frames, by Catmull and Rom's splines (1974) through the
-    /// keyframes: an open path starts at the first and ends at the last, a closed one
-    /// comes back to the first after its last frame. Zoom is even: the logarithm of
-    /// the tangent of half the field of view is interpolated. The near and far planes
-    /// hold the box `bounds` (as of [`crate::mesh::Mesh::bounds`]).
+    /// One camera per frame, by Catmull-Rom splines (1974) through the keyframes. An open
+    /// path starts at the first keyframe and ends at the last; a closed one returns to the
+    /// first after its last frame. Zoom is interpolated as the logarithm of the tangent of
+    /// half the field of view. The clipping planes enclose the bounding box `bounds` (see
+    /// [`crate::mesh::Mesh::bounds`]).
     ///
     /// # Panics
     /// If there is no keyframe.
@@ -189,7 +195,7 @@ impl CameraPath {
         (0..self.frames).map(|frame| self.camera_at(at(frame), bounds)).collect()
     }
 
-    /// `time` in spans since the first keyframe.
+    /// Camera at `time`, counted in spans from the first keyframe.
     fn camera_at(&self, time: f32, bounds: [Vec3; 2]) -> Camera {
         let count = self.keyframes.len() as i64;
         let first = (time.floor() as i64).min(if self.closed { count } else { (count - 2).max(0) });
@@ -206,14 +212,14 @@ impl CameraPath {
             around.map(|at| at.up.into()),
         ]
         .map(|values| spline(values, share));
-        // Between keyframes eye and target may meet, and up may fall along the sight:
-        // then it looks as at the last keyframe.
+        // Interpolated eye and target may coincide, and up may become parallel to the viewing
+        // direction: then the last keyframe decides.
         let last = |of: fn(&Keyframe) -> [f32; 3]| Vec3::from(of(around[1]));
-        let sight = (target - eye).try_normalize();
-        let sight = sight.unwrap_or((last(|at| at.target) - last(|at| at.eye)).normalize());
-        let target = if eye == target { eye + sight } else { target };
-        let leans = |up: &Vec3| up.normalize_or_zero().cross(sight).length() > 1e-3;
-        let up = [up, last(|at| at.up), Vec3::Y].into_iter().find(leans).unwrap_or(Vec3::Z);
+        let forward = (target - eye).try_normalize();
+        let forward = forward.unwrap_or((last(|at| at.target) - last(|at| at.eye)).normalize());
+        let target = if eye == target { eye + forward } else { target };
+        let suitable = |up: &Vec3| up.normalize_or_zero().cross(forward).length() > LEAST_SINE;
+        let up = [up, last(|at| at.up), Vec3::Y].into_iter().find(suitable).unwrap_or(Vec3::Z);
         let zooms =
             around.map(|at| Vec3::splat((at.field_of_view_deg / 2.0).to_radians().tan().ln()));
         let zoom = spline(zooms, share).x.exp();
@@ -232,7 +238,7 @@ impl CameraPath {
     }
 }
 
-/// From the second value (share 0) to the third (share 1).
+/// Catmull-Rom segment from the second point (share 0) to the third (share 1).
 fn spline([a, b, c, d]: [Vec3; 4], share: f32) -> Vec3 {
     let (square, cube) = (share * share, share * share * share);
     let linear = (c - a) * share;

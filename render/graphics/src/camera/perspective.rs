@@ -1,29 +1,28 @@
-//! A camera that sees in perspective.
+//! A perspective camera.
 
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
 
-/// A camera; all places in the unit of the model.
+/// A perspective camera. Positions are in the model's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Where it stands.
+    /// Position of the eye.
     pub eye: Vec3,
-    /// What it looks at, in the middle of the picture.
+    /// Point that appears in the centre of the picture.
     pub target: Vec3,
-    /// Roughly upwards; not along the direction of sight.
+    /// Approximate up direction; must not be parallel to the viewing direction.
     pub up: Vec3,
-    /// From the lower to the upper edge of the picture, in degrees, above 0 and
-    /// below 180.
+    /// Vertical field of view in degrees, above 0 and below 180.
     pub field_of_view_deg: f32,
-    /// Nothing nearer is seen, above 0.
+    /// Distance of the near clipping plane, above 0.
     pub near: f32,
-    /// Nothing farther is seen, above `near`.
+    /// Distance of the far clipping plane, above `near`.
     pub far: f32,
 }
 
 impl Camera {
-    /// Rightwards, upwards and backwards, each of length 1.
+    /// The camera's right, up and backward axes as unit vectors.
     #[must_use]
     pub fn axes(&self) -> [Vec3; 3] {
         let back = (self.eye - self.target).normalize();
@@ -31,8 +30,8 @@ impl Camera {
         [right, back.cross(right), back]
     }
 
-    /// From the model's coordinates to clip coordinates as WebGPU has them: x
-    /// right, y up, z from 0 (near) to w (far). `aspect` is width by height.
+    /// Matrix from model coordinates to clip coordinates as WebGPU defines them: x right, y
+    /// up, z from 0 (near) to w (far). `aspect` is width by height.
     #[must_use]
     pub fn clip_from_model(&self, aspect: f32) -> Mat4 {
         let view = look_at_mat4(self.eye, self.target, self.up);

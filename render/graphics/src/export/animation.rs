@@ -1,5 +1,4 @@
-//! GIF and APNG, written frame by frame: memory holds one frame, however many
-//! there are.
+//! GIF and APNG writers that take frame after frame, so that memory holds one frame only.
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -9,8 +8,8 @@ use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 use super::color_table::{COLORS, ColorTable};
 use super::frame::{Frame, FrameError, FrameRate, check_size, encoder_failed};
 
-/// A GIF that repeats for ever. Frames last whole hundredths of a second, the
-/// mean of them as long as the rate says.
+/// Writer of an endlessly repeating GIF. Frame durations are rounded to whole hundredths
+/// of a second such that the average rate is exact.
 #[expect(missing_debug_implementations, reason = "the encoder has none")]
 pub struct Gif<'a, W: Write> {
     encoder: gif::Encoder<W>,
@@ -18,16 +17,17 @@ pub struct Gif<'a, W: Write> {
     table: &'a ColorTable,
     size: [usize; 2],
     count: usize,
-    /// Indices that are shown so far.
+    /// Palette indices shown after the last frame.
     shown: Vec<u8>,
+    /// Palette indices of the last frame as written: [`UNCHANGED`] where a pixel stayed.
     written: Vec<u8>,
 }
 
-/// The index of pixels that stay as they are.
-const STAYS: u8 = COLORS as u8;
+/// Palette index of pixels that do not change.
+const UNCHANGED: u8 = COLORS as u8;
 
 impl<'a, W: Write> Gif<'a, W> {
-    /// Begins a GIF with the colours of `table`.
+    /// Starts a GIF with the colours of `table`, to be written to `to`.
     ///
     /// # Errors
     /// [`FrameError::Size`], [`FrameError::Encoder`].
@@ -48,10 +48,10 @@ impl<'a, W: Write> Gif<'a, W> {
         Ok(Self { encoder, rate, table, size: [width, height], count: 0, shown, written })
     }
 
-    /// Adds a frame.
+    /// Appends a frame.
     ///
     /// # Errors
-    /// [`FrameError::Differs`], [`FrameError::Encoder`].
+    /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
     pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
         check_same(self.size, frame)?;
         let indices = frame.values().iter().map(|&pixel| self.table.index(pixel));
@@ -60,7 +60,7 @@ impl<'a, W: Write> Gif<'a, W> {
             self.written.clone_from(&self.shown);
         } else {
             for ((index, shown), written) in indices.zip(&mut self.shown).zip(&mut self.written) {
-                *written = if index == *shown { STAYS } else { index };
+                *written = if index == *shown { UNCHANGED } else { index };
                 *shown = index;
             }
         }
@@ -69,7 +69,7 @@ impl<'a, W: Write> Gif<'a, W> {
         let frame = gif::Frame {
             delay: delay as u16,
             dispose: gif::DisposalMethod::Keep,
-            transparent: Some(STAYS),
+            transparent: Some(UNCHANGED),
             width: self.size[0] as u16,
             height: self.size[1] as u16,
             buffer: Cow::Borrowed(&self.written),
@@ -78,10 +78,10 @@ impl<'a, W: Write> Gif<'a, W> {
         self.encoder.write_frame(&frame).map_err(|error| encoder_failed("GIF", &error))
     }
 
-    /// Ends it; what it was written to comes back.
+    /// Completes the file and returns the writer.
     ///
     /// # Errors
-    /// [`FrameError::Count`] without frames, [`FrameError::Encoder`].
+    /// [`FrameError::Count`] if there is no frame, [`FrameError::Encoder`].
     pub fn finish(self) -> Result<W, FrameError> {
         if self.count == 0 {
             return Err(FrameError::Count { wanted: 1, found: 0 });
@@ -90,7 +90,7 @@ impl<'a, W: Write> Gif<'a, W> {
     }
 }
 
-/// A PNG whose picture moves, for ever; in all its colours.
+/// Writer of an endlessly repeating animated PNG with all colours.
 #[expect(missing_debug_implementations, reason = "the encoder has none")]
 pub struct Apng<W: Write> {
     writer: Writer<W>,
@@ -100,15 +100,14 @@ pub struct Apng<W: Write> {
     count: usize,
 }
 
-/// A thousand parts of a second are finer than any screen.
-const PARTS: u16 = 1000;
+/// Durations of an APNG are stored in whole milliseconds.
+const PARTS_PER_SECOND: u16 = 1000;
 
 impl<W: Write> Apng<W> {
-    /// Begins an APNG of `frames` frames.
+    /// Starts an APNG of `frames` frames, to be written to `to`.
     ///
     /// # Errors
-    /// [`FrameError::Size`], [`FrameError::Count`] for none,
-    /// [`FrameError::Encoder`].
+    /// [`FrameError::Size`], [`FrameError::Count`] for 0 frames, [`FrameError::Encoder`].
     pub fn new(
         to: W,
         (width, height): (usize, usize),
@@ -131,28 +130,28 @@ impl<W: Write> Apng<W> {
         Ok(Self { writer, rate, size: [width, height], wanted: frames, count: 0 })
     }
 
-    /// Adds a frame.
+    /// Appends a frame.
     ///
     /// # Errors
-    /// [`FrameError::Differs`], [`FrameError::Count`] for one too many,
-    /// [`FrameError::Encoder`].
+    /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
+    /// many, [`FrameError::Encoder`].
     pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
         check_same(self.size, frame)?;
         if self.count == self.wanted {
             return Err(FrameError::Count { wanted: self.wanted, found: self.count + 1 });
         }
-        let parts = f64::from(PARTS);
+        let parts = f64::from(PARTS_PER_SECOND);
         let delay = self.rate.start(self.count + 1, parts) - self.rate.start(self.count, parts);
         self.count += 1;
         let pixels = frame.values().as_flattened();
         let written = self
             .writer
-            .set_frame_delay(delay as u16, PARTS)
+            .set_frame_delay(delay as u16, PARTS_PER_SECOND)
             .and_then(|()| self.writer.write_image_data(pixels));
         written.map_err(|error| encoder_failed("APNG", &error))
     }
 
-    /// Ends it.
+    /// Completes the file.
     ///
     /// # Errors
     /// [`FrameError::Count`] if frames are missing, [`FrameError::Encoder`].
@@ -177,10 +176,12 @@ mod tests {
     use image::codecs::gif::GifDecoder;
     use image::codecs::png::PngDecoder;
 
+    use spectra::hint::Explain;
+
     use super::*;
     use crate::field::Field;
 
-    /// A red square that moves over paper.
+    /// A red square that moves over white paper.
     fn frames() -> Vec<Frame> {
         let frame = |at: usize| {
             let pixel = |i: usize| match (i % 8).abs_diff(at) < 2 && i / 8 < 4 {
@@ -203,7 +204,7 @@ mod tests {
                 assert!(near && found.0[3] == 255, "{found:?}, {wanted:?}");
             }
         }
-        // Five frames at 24 a second.
+        // Five frames at 24 frames per second.
         assert!((elapsed_ms - 5000.0 / 24.0).abs() <= 5.0, "{elapsed_ms} ms");
     }
 
@@ -231,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_of_another_size_and_missing_ones_are_told() {
+    fn frames_of_another_size_and_missing_ones_are_refused() {
         let rate = FrameRate::new(10.0).unwrap();
         let mut apng = Apng::new(Vec::new(), (8, 6), rate, 2).unwrap();
         let other = Field::filled(3, 2, [0; 3]);

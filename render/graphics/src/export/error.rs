@@ -1,82 +1,92 @@
-//! Why a picture cannot be written.
+//! Errors of writing pictures.
 
-/// Data that make no picture.
+use spectra::hint::Explain;
+
+/// Data that cannot be written as a picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExportError {
-    /// A size that the format has not.
+    /// The picture is empty or larger than the format allows.
     #[error("a picture has 1 to 1073741822 cells a side, found `{width} x {height}`")]
     Size {
-        /// Cells in a row.
+        /// Width in pixels.
         width: usize,
-        /// Rows.
+        /// Height in pixels.
         height: usize,
     },
-    /// Planes of several sizes in one picture.
+    /// The planes of one picture differ in size.
     #[error("`{plane}` has another size than the picture of {width} x {height}")]
     Differs {
-        /// The plane.
+        /// Name of the plane that differs.
         plane: String,
-        /// Cells in a row of the first plane.
+        /// Width of the first plane in pixels.
         width: usize,
-        /// Rows of the first plane.
+        /// Height of the first plane in pixels.
         height: usize,
     },
-    /// A cell without a colour.
+    /// A value is infinite or not a number.
     #[error("{what} at x {x}, y {y} is no finite number, found `{found}`")]
     NotFinite {
-        /// What should have stood there.
+        /// Quantity that the value stands for.
         what: String,
-        /// Column.
+        /// Column from 0.
         x: usize,
-        /// Row.
+        /// Row from 0.
         y: usize,
-        /// What stands there.
+        /// The value.
         found: f32,
     },
-    /// An amount below nothing.
+    /// An amount of pigment is negative.
     #[error("{what} at x {x}, y {y} is 0 and up, found `{found}`")]
     Negative {
-        /// The pigment.
+        /// Name of the pigment.
         what: String,
-        /// Column.
+        /// Column from 0.
         x: usize,
-        /// Row.
+        /// Row from 0.
         y: usize,
-        /// What stands there.
+        /// Height in mm.
         found: f32,
     },
-    /// Cells of no size.
+    /// The size of a pixel is out of range.
     #[error("a cell is 0.0001 to 100 mm wide, found `{cell_mm}`")]
     Cell {
-        /// The width in mm.
+        /// Width of a pixel in mm.
         cell_mm: f64,
     },
-    /// A wavelength, or two that are the same.
+    /// Wavelengths do not rise, or there is not one per plane.
     #[error(
         "wavelengths rise, in nm above 0, one for each plane; found `{found}` for plane {plane}"
     )]
     Wavelength {
-        /// Which plane.
+        /// Index of the plane, from 0.
         plane: usize,
-        /// What it was given.
+        /// The wavelength, or the number of wavelengths.
         found: String,
     },
-    /// The encoder gave up.
+    /// The encoder failed.
     #[error("no {format} could be made: {reason}")]
     Encoder {
-        /// The format.
+        /// Name of the format.
         format: &'static str,
-        /// As the encoder tells it.
+        /// Reason given by the encoder.
         reason: String,
     },
 }
 
-/// Whether cells are of a size that PNG and OpenEXR can tell.
+impl Explain for ExportError {}
+
+/// Checks that a pixel size can be stored in PNG and OpenEXR: 0.0001 to 100 mm.
+///
+/// # Errors
+/// [`ExportError::Cell`].
 pub fn check_cell(cell_mm: f64) -> Result<(), ExportError> {
     if (1e-4..=100.0).contains(&cell_mm) { Ok(()) } else { Err(ExportError::Cell { cell_mm }) }
 }
 
-/// Whether a picture of this size can be written.
+/// Checks that a picture is not empty and not larger than the formats allow.
+///
+/// # Errors
+/// [`ExportError::Size`].
 pub fn check_size(width: usize, height: usize) -> Result<(), ExportError> {
     let sides = 1..=1_073_741_822;
     if sides.contains(&width) && sides.contains(&height) {

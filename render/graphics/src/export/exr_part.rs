@@ -1,4 +1,4 @@
-//! An OpenEXR file of one part, from planes of values.
+//! OpenEXR files of a single part, made from planes of values.
 
 use std::io::Cursor;
 
@@ -11,8 +11,8 @@ use spectra::color::RgbSpace;
 
 use super::error::{ExportError, check_cell, check_size};
 
-/// The file of `channels` (name, samples row by row), with the primaries of
-/// sRGB, for cells of `cell_mm`.
+/// Encodes named channels (samples row by row) with the primaries of sRGB; a pixel is
+/// `cell_mm` wide.
 pub fn exr_file(
     (width, height): (usize, usize),
     cell_mm: f64,
@@ -36,7 +36,7 @@ pub fn exr_file(
     Ok(bytes)
 }
 
-/// The primaries and the white of sRGB.
+/// Chromaticities of sRGB's primaries and white.
 fn chromaticities() -> Chromaticities {
     let space = RgbSpace::Srgb;
     let columns = space.xyz_from_linear().0;

@@ -1,91 +1,90 @@
-//! One picture of an animation: 8 bits a channel, encoded sRGB.
+//! Frames of an animation: encoded sRGB with 8 bits per channel.
 
 use std::io::{BufRead, Seek};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
+use spectra::hint::{Explain, Hint};
 
 use crate::field::Field;
 
-/// Encoded sRGB of every pixel.
+/// A frame: encoded sRGB of every pixel.
 pub type Frame = Field<[u8; 3]>;
 
-/// What no frame or animation can be made of.
+/// A frame or animation cannot be made or read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FrameError {
-    /// A size that the format has not.
+    /// The picture is empty or larger than the format allows.
     #[error("a frame of {format} has 1 to {limit} pixels a side, found `{width} x {height}`")]
     Size {
-        /// The format.
+        /// Name of the format.
         format: &'static str,
-        /// Its longest side.
+        /// Greatest width and height of the format, in pixels.
         limit: usize,
-        /// Pixels in a row.
+        /// Width in pixels.
         width: usize,
-        /// Rows.
+        /// Height in pixels.
         height: usize,
     },
-    /// A frame unlike the others.
+    /// A frame differs in size from the animation.
     #[error("all frames have {} x {} pixels, found `{} x {}`", .wanted[0], .wanted[1], .found[0], .found[1])]
     Differs {
-        /// Width and height of the animation.
+        /// Width and height of the animation in pixels.
         wanted: [usize; 2],
-        /// Those of the frame.
+        /// Width and height of the frame in pixels.
         found: [usize; 2],
     },
-    /// Other frames than were announced.
+    /// The number of frames is not the announced one.
     #[error("an animation of {wanted} frames, found `{found}`")]
     Count {
-        /// How many were announced.
+        /// Announced number.
         wanted: usize,
-        /// How many came.
+        /// Number of frames given.
         found: usize,
     },
-    /// A rate at which nothing can be shown.
+    /// The frame rate is out of range.
     #[error("0.1 to 100 frames a second, found `{found}`")]
     Rate {
-        /// Frames a second.
+        /// Frames per second.
         found: f64,
     },
-    /// The file is no frame.
+    /// The file is not a frame written by [`frame_png`].
     #[error("no frame: {reason}")]
     Unreadable {
-        /// As the decoder tells it.
+        /// Reason given by the decoder.
         reason: String,
     },
-    /// The encoder gave up, or what it writes to.
+    /// The encoder or the writer behind it failed.
     #[error("no {format} could be made: {reason}")]
     Encoder {
-        /// The format.
+        /// Name of the format.
         format: &'static str,
-        /// As the encoder tells it.
+        /// Reason given by the encoder.
         reason: String,
     },
 }
 
-impl FrameError {
-    /// A way out, if there is one.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::Size { format: "GIF", .. } => Some("write APNG, or a smaller picture"),
-            Self::Size { .. } => Some("ask for a smaller picture"),
-            Self::Rate { .. } => Some("25 is usual"),
-            Self::Unreadable { .. } => Some("remove the file, and it is made anew"),
-            _ => None,
-        }
+impl Explain for FrameError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Size { format: "GIF", .. } => "write APNG, or a smaller picture",
+            Self::Size { .. } => "ask for a smaller picture",
+            Self::Rate { .. } => "25 is usual",
+            Self::Unreadable { .. } => "remove the file, and it is rendered again",
+            _ => return None,
+        }))
     }
 }
 
-/// How fast frames follow each other.
+/// Frame rate of an animation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameRate(f64);
 
 impl FrameRate {
-    /// `per_second` frames a second, 0.1 to 100.
+    /// Creates a rate of `per_second` frames per second, 0.1 to 100.
     ///
     /// # Errors
-    /// [`FrameError::Rate`] outside.
+    /// [`FrameError::Rate`] outside that range.
     pub fn new(per_second: f64) -> Result<Self, FrameError> {
         match (0.1..=100.0).contains(&per_second) {
             true => Ok(Self(per_second)),
@@ -93,20 +92,14 @@ impl FrameRate {
         }
     }
 
-    /// Frames a second.
-    #[must_use]
-    pub fn per_second(self) -> f64 {
-        self.0
-    }
-
-    /// When frame `index` begins, in whole parts of a second: frames then end
-    /// where the next begin, and none drifts.
+    /// Start of frame `index` in whole parts of a second (`parts` per second). Each frame
+    /// ends where the next starts, so rounding does not accumulate.
     pub(super) fn start(self, index: usize, parts: f64) -> u64 {
         (index as f64 * parts / self.0).round() as u64
     }
 }
 
-/// The frame of a picture of encoded sRGB in 0..1; the fourth value is not used.
+/// Converts encoded sRGB in 0..1 to a frame; the fourth value is ignored.
 #[must_use]
 pub fn frame_of(picture: &Field<[f32; 4]>) -> Frame {
     let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
@@ -114,7 +107,7 @@ pub fn frame_of(picture: &Field<[f32; 4]>) -> Frame {
     Field::from_values(picture.width(), picture.height(), pixels.collect())
 }
 
-/// The frame as a PNG file.
+/// Encodes a frame as a PNG file.
 ///
 /// # Errors
 /// [`FrameError::Size`], [`FrameError::Encoder`].
@@ -133,10 +126,10 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
     Ok(bytes)
 }
 
-/// The frame of a file that [`frame_png`] made.
+/// Decodes a frame written by [`frame_png`].
 ///
 /// # Errors
-/// [`FrameError::Unreadable`] for any other: cut off, not PNG, other channels.
+/// [`FrameError::Unreadable`] for any other file: truncated, not PNG, other channels.
 pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
     let broken = |reason: String| FrameError::Unreadable { reason };
     let mut reader = Decoder::new(file).read_info().map_err(|error| broken(error.to_string()))?;
@@ -153,7 +146,7 @@ pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
     Ok(Field::from_values(width, height, pixels.to_vec()))
 }
 
-/// Whether a format has pictures of this size.
+/// Checks that a format allows pictures of this size.
 pub(super) fn check_size(
     format: &'static str,
     limit: usize,

@@ -1,7 +1,8 @@
-//! Pictures for others: PNG, linear OpenEXR, single frames and animations.
+//! Picture files for other programs: PNG, linear OpenEXR, frames and animations (GIF,
+//! APNG).
 //!
-//! Functions here take plain data and give bytes; who calls them writes the files.
-//! The same data give the same bytes.
+//! The functions take plain data and return bytes, the same bytes for the same data; the
+//! caller writes the files. Only [`Sequence`] works on a folder.
 
 mod error;
 
@@ -24,6 +25,6 @@ pub use color_table::ColorTable;
 pub use error::{ExportError, check_cell, check_size};
 pub use exr_part::exr_file;
 pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
-pub use linear_exr::{FloatBits, linear_exr, rgb_channels};
+pub use linear_exr::{linear_exr, rgb_channels};
 pub use png::{Png, grey16, png8, png16};
-pub use sequence::{Sequence, SequenceError, Shots};
+pub use sequence::{Sequence, SequenceError, SequenceSettings};

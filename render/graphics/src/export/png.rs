@@ -1,4 +1,4 @@
-//! PNG of linear light, in sRGB, tagged as such.
+//! PNG files of linear light, encoded and tagged as sRGB.
 
 use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, SrgbRenderingIntent, Unit};
@@ -8,26 +8,25 @@ use spectra::color::Rgb;
 use super::error::{ExportError, check_cell, check_size};
 use crate::field::Field;
 
-/// `cICP` of sRGB (ITU-T H.273): BT.709 primaries, the transfer of IEC
-/// 61966-2-1, no matrix, full range.
+/// Content of chunk `cICP` for sRGB (ITU-T H.273): BT.709 primaries, transfer of IEC
+/// 61966-2-1, identity matrix, full range.
 const CICP: [u8; 4] = [1, 13, 0, 1];
 
-/// A PNG file.
+/// An encoded PNG file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Png {
-    /// The file.
+    /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Cells whose colour sRGB does not have; each channel of theirs was cut
-    /// off at the gamut's faces.
+    /// Number of pixels outside the sRGB gamut. Their channels were clamped to 0..1.
     pub clipped: usize,
 }
 
-/// 8 bits a channel from linear sRGB (white at 1; the fourth value is not
-/// used), with chunks `sRGB`, `cICP`, and `pHYs` of cells of `cell_mm`.
+/// Encodes linear sRGB (white at 1; the fourth value is ignored) with 8 bits per channel
+/// and the chunks `sRGB`, `cICP` and `pHYs`; a pixel is `cell_mm` wide.
 ///
 /// # Errors
-/// [`ExportError`] for a picture without cells, cells without a size, and
-/// colours that are not finite.
+/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
+/// not finite.
 pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
     let (values, clipped) = encoded(picture, |value, row| {
         row.push((value * 255.0).round() as u8);
@@ -36,10 +35,11 @@ pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError>
     Ok(Png { bytes, clipped })
 }
 
-/// 16 bits a channel, else as [`png8`].
+/// Encodes linear sRGB with 16 bits per channel, otherwise like [`png8`].
 ///
 /// # Errors
-/// As [`png8`].
+/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
+/// not finite.
 pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
     let (values, clipped) = encoded(picture, |value, row| {
         row.extend(((value * 65535.0).round() as u16).to_be_bytes());
@@ -48,7 +48,8 @@ pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError
     Ok(Png { bytes, clipped })
 }
 
-/// One 16-bit grey channel, without a colour space: numbers, not light.
+/// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are
+/// stored as (keyword, text); a pixel is `cell_mm` wide.
 pub fn grey16(
     values: &Field<u16>,
     cell_mm: f64,
@@ -59,8 +60,8 @@ pub fn grey16(
     file(size, cell_mm, (ColorType::Grayscale, BitDepth::Sixteen), texts, &samples)
 }
 
-/// Encoded samples, and how many cells were out of gamut by more than f32
-/// rounds (a millionth, as [`Rgb::in_gamut`] has it).
+/// Encoded samples, and the number of pixels outside the gamut by more than f32 rounding
+/// (see [`Rgb::in_gamut`]).
 fn encoded(
     picture: &Field<[f32; 4]>,
     put: impl Fn(f64, &mut Vec<u8>) + Sync,

@@ -1,82 +1,84 @@
-//! What a mesh must be before it is drawn.
+//! Validity of a mesh: the conditions that rendering relies on.
+
+use spectra::hint::{Explain, Hint};
 
 use super::model::Mesh;
 
-/// What is wrong with a mesh; all indices count from 0.
+/// A defect of a mesh. All indices count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshFault {
-    /// Nothing to be drawn.
-    #[error("it has no triangle")]
+    /// The mesh has no triangles.
+    #[error("the mesh has no triangle")]
     NoTriangle,
-    /// A list of vertices that is too short or too long.
+    /// A per-vertex list has another length than the list of positions.
     #[error("{found} {what} for {wanted} vertices")]
-    Lengths {
-        /// Of what.
+    ListLength {
+        /// Name of the list, for example `normals`.
         what: &'static str,
-        /// So many.
+        /// Length of that list.
         found: usize,
-        /// As there are positions.
+        /// Number of positions.
         wanted: usize,
     },
-    /// Infinite or not a number.
+    /// A vertex attribute is infinite or not a number.
     #[error("vertex {vertex} has the {what} `{found:?}`")]
     NotFinite {
-        /// Which one.
+        /// Index of the vertex.
         vertex: usize,
-        /// Which of its values.
+        /// Name of the attribute, for example `position`.
         what: &'static str,
-        /// As found.
+        /// Value of the attribute.
         found: Vec<f32>,
     },
-    /// A corner beyond the last vertex.
+    /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} has vertex {found}, of {vertices}")]
     NoSuchVertex {
-        /// Which one.
+        /// Index of the triangle.
         triangle: usize,
-        /// The index.
+        /// Vertex index it refers to.
         found: u32,
-        /// How many there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// A material beyond the last.
+    /// A triangle refers to a material that does not exist.
     #[error("triangle {triangle} has material {found}, of {materials}")]
     NoSuchMaterial {
-        /// Which one.
+        /// Index of the triangle.
         triangle: usize,
-        /// The index.
+        /// Material index it refers to.
         found: u32,
-        /// How many there are.
+        /// Number of materials.
         materials: usize,
     },
-    /// A colour out of 0..1.
+    /// A material's colour is outside 0..1.
     #[error("material {material} has the colour `{found:?}`")]
     Color {
-        /// Which one.
+        /// Index of the material.
         material: usize,
-        /// As found.
+        /// The colour, encoded sRGB.
         found: [f32; 3],
     },
-    /// A texture without a texel, or with too few or too many.
+    /// A texture is empty, or its texel count is not width times height.
     #[error("the texture of material {material} has {texels} texels for {width} x {height}")]
     Texture {
-        /// Of which.
+        /// Index of the material.
         material: usize,
-        /// How many there are.
+        /// Number of texels.
         texels: usize,
-        /// Texels in a row.
+        /// Width in texels.
         width: u32,
-        /// Rows.
+        /// Height in texels.
         height: u32,
     },
 }
 
-impl MeshFault {
-    /// What can be done.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for MeshFault {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::NoTriangle => "export the model with its faces; points and lines are not drawn",
-            Self::Lengths { .. } | Self::Texture { .. } => "give every vertex and texel its value",
+            Self::ListLength { .. } | Self::Texture { .. } => {
+                "give every vertex and texel its value"
+            }
             Self::NotFinite { .. } => {
                 "clean the model in the program that made it (Blender: Mesh > Clean Up)"
             }
@@ -84,15 +86,16 @@ impl MeshFault {
                 "the file is damaged: export it again"
             }
             Self::Color { .. } => "colours are encoded sRGB from 0 to 1",
-        }
+        }))
     }
 }
 
 impl Mesh {
-    /// Whether it can be drawn.
+    /// Checks that the mesh can be rendered: consistent list lengths, finite attributes,
+    /// valid indices, colours in 0..1.
     ///
     /// # Errors
-    /// The first [`MeshFault`].
+    /// The first [`MeshFault`] found.
     pub fn check(&self) -> Result<(), MeshFault> {
         let wanted = self.positions.len();
         for (what, found) in [
@@ -101,41 +104,43 @@ impl Mesh {
             ("colours", self.colors.len()),
         ] {
             if found != wanted {
-                return Err(MeshFault::Lengths { what, found, wanted });
+                return Err(MeshFault::ListLength { what, found, wanted });
             }
         }
-        finite("position", &self.positions)?;
-        finite("normal", &self.normals)?;
-        finite("texture coordinate", &self.texture_coordinates)?;
-        finite("colour", &self.colors)?;
-        for (material, it) in self.materials.iter().enumerate() {
-            if it.color.iter().any(|value| !(0.0..=1.0).contains(value)) {
-                return Err(MeshFault::Color { material, found: it.color });
+        check_finite("position", &self.positions)?;
+        check_finite("normal", &self.normals)?;
+        check_finite("texture coordinate", &self.texture_coordinates)?;
+        check_finite("colour", &self.colors)?;
+        for (index, material) in self.materials.iter().enumerate() {
+            if material.color.iter().any(|value| !(0.0..=1.0).contains(value)) {
+                return Err(MeshFault::Color { material: index, found: material.color });
             }
-            let Some(texture) = &it.texture else { continue };
+            let Some(texture) = &material.texture else { continue };
             let (width, height, texels) = (texture.width, texture.height, texture.texels.len());
             if texels == 0 || width as usize * height as usize != texels {
-                return Err(MeshFault::Texture { material, texels, width, height });
+                return Err(MeshFault::Texture { material: index, texels, width, height });
             }
         }
         if self.triangles.is_empty() {
             return Err(MeshFault::NoTriangle);
         }
         let materials = self.materials.len();
-        for (triangle, it) in self.triangles.iter().enumerate() {
-            if let Some(&found) = it.corners.iter().find(|&&corner| corner as usize >= wanted) {
-                return Err(MeshFault::NoSuchVertex { triangle, found, vertices: wanted });
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let corners = triangle.corners;
+            if let Some(&found) = corners.iter().find(|&&corner| corner as usize >= wanted) {
+                return Err(MeshFault::NoSuchVertex { triangle: index, found, vertices: wanted });
             }
-            if it.material as usize >= materials {
-                let found = it.material;
-                return Err(MeshFault::NoSuchMaterial { triangle, found, materials });
+            if triangle.material as usize >= materials {
+                let found = triangle.material;
+                return Err(MeshFault::NoSuchMaterial { triangle: index, found, materials });
             }
         }
         Ok(())
     }
 }
 
-fn finite<const N: usize>(what: &'static str, values: &[[f32; N]]) -> Result<(), MeshFault> {
+/// Checks that all values of an attribute are finite.
+fn check_finite<const N: usize>(what: &'static str, values: &[[f32; N]]) -> Result<(), MeshFault> {
     match values.iter().position(|value| value.iter().any(|number| !number.is_finite())) {
         None => Ok(()),
         Some(vertex) => Err(MeshFault::NotFinite { vertex, what, found: values[vertex].to_vec() }),

@@ -1,4 +1,5 @@
-//! Triangle meshes: what they are, files they come from, shapes made here.
+//! Triangle meshes: the model, checks and normals, files (OBJ, glTF, PLY) and sample
+//! models made by code.
 
 mod model;
 
@@ -15,4 +16,4 @@ mod shapes;
 pub use check::MeshFault;
 pub use file::MeshError;
 pub use model::{Material, Mesh, Texture, Triangle};
-pub use shapes::{Cells, Shape};
+pub use shapes::{GridSize, SampleModel};

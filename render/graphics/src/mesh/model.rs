@@ -1,58 +1,59 @@
-//! Triangles with what a renderer needs of them.
+//! A triangle mesh with materials and textures.
 
 use glam::Vec3;
 
-/// Triangles of vertices. All lists of vertices have the same length.
+/// A triangle mesh. All per-vertex lists have the same length.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
-    /// Places of the vertices, in the model's own unit; y is up.
+    /// Vertex positions in the model's own unit; y points up.
     pub positions: Vec<[f32; 3]>,
-    /// Outward normals of the vertices, of length 1.
+    /// Outward unit normals, one per vertex.
     pub normals: Vec<[f32; 3]>,
-    /// Where in its texture each vertex lies: (0, 0) is the upper left corner,
-    /// (1, 1) the lower right one (as in glTF); textures repeat.
+    /// Texture coordinates per vertex as in glTF: (0, 0) is the upper left corner of the
+    /// texture, (1, 1) the lower right; textures repeat.
     pub texture_coordinates: Vec<[f32; 2]>,
-    /// Colours of the vertices, encoded sRGB in 0..1, which multiply those of the
-    /// material; white where a file has none.
+    /// Vertex colours, encoded sRGB in 0..1, which multiply the material's colour; white
+    /// where a file has none.
     pub colors: Vec<[f32; 3]>,
-    /// The triangles, counter-clockwise seen from outside.
+    /// Triangles, wound counter-clockwise seen from outside.
     pub triangles: Vec<Triangle>,
-    /// The materials; at least one where there are triangles.
+    /// Materials; at least one if there are triangles.
     pub materials: Vec<Material>,
 }
 
-/// Three vertices and what lies between them.
+/// A triangle: three vertex indices and a material index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Triangle {
-    /// Indices of the vertices.
+    /// Indices into the per-vertex lists.
     pub corners: [u32; 3],
-    /// Index of the material.
+    /// Index into [`Mesh::materials`].
     pub material: u32,
 }
 
-/// The colour of a surface.
+/// Colour of a surface: a base colour, optionally times a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Encoded sRGB in 0..1.
+    /// Base colour, encoded sRGB in 0..1.
     pub color: [f32; 3],
-    /// Multiplies the colour.
+    /// Texture that multiplies the base colour, if any.
     pub texture: Option<Texture>,
 }
 
-/// A picture on a surface.
+/// An 8-bit texture image.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texture {
-    /// Texels in a row.
+    /// Width in texels.
     pub width: u32,
-    /// Rows, the uppermost first.
+    /// Height in texels; row 0 is the top.
     pub height: u32,
-    /// Red, green, blue and opacity, encoded sRGB, red in the lowest byte.
+    /// Texels row by row, encoded sRGB with opacity, packed as `0xAABBGGRR` (red in the
+    /// lowest byte).
     pub texels: Vec<u32>,
 }
 
 impl Material {
-    /// One colour all over, encoded sRGB in 0..1.
+    /// A material without texture; `color` is encoded sRGB in 0..1.
     #[must_use]
     pub fn plain(color: [f32; 3]) -> Self {
         Self { color, texture: None }
@@ -60,12 +61,12 @@ impl Material {
 }
 
 impl Mesh {
-    /// The lowest and the highest corner of the box around it; zeros without
+    /// Lowest and highest corner of the axis-aligned bounding box; zeros for a mesh without
     /// vertices.
     #[must_use]
     pub fn bounds(&self) -> [Vec3; 2] {
-        let mut places = self.positions.iter().map(|&place| Vec3::from(place));
-        let Some(first) = places.next() else { return [Vec3::ZERO; 2] };
-        places.fold([first; 2], |[low, high], place| [low.min(place), high.max(place)])
+        let mut positions = self.positions.iter().map(|&position| Vec3::from(position));
+        let Some(first) = positions.next() else { return [Vec3::ZERO; 2] };
+        positions.fold([first; 2], |[low, high], position| [low.min(position), high.max(position)])
     }
 }

@@ -8,8 +8,7 @@ use crate::layer::{Layer, SLOTS};
 use crate::light::Light;
 use crate::scene::Spectral;
 use graphics::export::ExportError;
-use graphics::export::{FloatBits, linear_exr};
-use graphics::export::{png8, png16};
+use graphics::export::{linear_exr, png8, png16};
 use graphics::field::Field;
 
 /// What a picture is written as.
@@ -47,7 +46,7 @@ pub fn picture_file(
         PictureFormat::Png8 => png8(picture, cell_mm)?,
         PictureFormat::Png16 => png16(picture, cell_mm)?,
         PictureFormat::LinearExr => {
-            let bytes = linear_exr(picture, cell_mm, FloatBits::Single)?;
+            let bytes = linear_exr(picture, cell_mm)?;
             return Ok(PictureFile { bytes, clipped: 0.0 });
         }
     };

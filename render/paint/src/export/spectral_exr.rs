@@ -11,9 +11,7 @@ use exr::image::FlatSamples;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::LayerAttributes;
 
-use graphics::export::ExportError;
-use graphics::export::exr_file;
-use graphics::export::{FloatBits, rgb_channels};
+use graphics::export::{ExportError, exr_file, rgb_channels};
 use graphics::field::Field;
 
 /// `planes` of reflectance (0..1) at `wavelengths_nm`, 32 bits each, and
@@ -33,7 +31,7 @@ pub fn spectral_exr(
         let found = format!("{} wavelengths", wavelengths_nm.len());
         return Err(ExportError::Wavelength { plane: planes.len(), found });
     }
-    let mut channels = rgb_channels(picture, FloatBits::Single)?;
+    let mut channels = rgb_channels(picture)?;
     let mut before = 0.0;
     for (index, (&nm, plane)) in wavelengths_nm.iter().zip(planes).enumerate() {
         let name = channel_name(nm);

@@ -7,7 +7,7 @@ use spectra::color::{Rgb, RgbSpace};
 
 use crate::watercolor::PaperSettings;
 use graphics::field::Field;
-use graphics::picture::{Framing, Photograph, PhotographError};
+use graphics::picture::{Photograph, PhotographError};
 use paint::amount::QUANTA_PER_CELL;
 use paint::ground::{GroundError, Making, Paper};
 
@@ -153,7 +153,7 @@ fn scanned(
         |pixels: usize| ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST);
     let (columns, rows) = (side(photograph.size().0), side(photograph.size().1));
     let weights = RgbSpace::Srgb.xyz_from_linear();
-    let picture = photograph.on_canvas(columns, rows, Framing::Stretched);
+    let picture = photograph.on_canvas(columns, rows);
     let mut heights = Field::filled(width, height, 0.0);
     heights.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
         let row = mirrored(y, rows);

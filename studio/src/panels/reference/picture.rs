@@ -5,8 +5,9 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use eframe::egui::{Color32, ColorImage};
 use rayon::prelude::*;
-use render::photograph::{Framing, Photograph, Picture as Linear};
+use render::photograph::{Photograph, Picture as Linear};
 use spectra::color::{Rgb, RgbSpace};
+use spectra::hint::Explain;
 
 /// Pixels of the longer side; larger pictures are reduced.
 const LONGEST: usize = 2048;
@@ -23,10 +24,12 @@ pub(super) struct Picture {
 impl Picture {
     /// Reads a PNG or JPEG, and reduces it in linear light if it is large.
     fn open(path: &Path) -> Result<Self, String> {
-        let photograph =
-            Photograph::open(path).map_err(|error| format!("{error}; {}", error.hint()))?;
+        let photograph = Photograph::open(path).map_err(|error| match error.hint() {
+            Some(hint) => format!("{error}; {hint}"),
+            None => error.to_string(),
+        })?;
         let (width, height) = reduced(photograph.size());
-        Ok(Self { linear: photograph.on_canvas(width, height, Framing::Stretched) })
+        Ok(Self { linear: photograph.on_canvas(width, height) })
     }
 
     /// Width and height in pixels.

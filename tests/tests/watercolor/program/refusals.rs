@@ -256,7 +256,7 @@ fn files_that_cannot_be_written() {
     std::fs::create_dir(folder.file("theirs")).unwrap();
     folder.write("theirs/frame-0002.png", "whose?");
     let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
-    refused(&run, 2, "frame-0002.png: here already", "name an empty folder");
+    refused(&run, 2, "frame-0002.png: the folder holds frames", "name an empty folder");
     folder.write("theirs/animation.json", "{}");
     let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
     refused(&run, 2, "animation.json: missing field", "name an empty folder, or remove this one");

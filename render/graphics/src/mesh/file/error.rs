@@ -1,71 +1,71 @@
-//! Why a file is no model.
+//! Errors of reading models.
+
+use spectra::hint::{Explain, Hint};
 
 use crate::mesh::check::MeshFault;
 
-/// Why a model could not be read; the file is named in each.
+/// A model could not be read. Every message starts with the file's path.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshError {
-    /// The system does not let us.
+    /// The file cannot be opened or read.
     #[error("{name}: {error}")]
     Unreadable {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// Why not.
+        /// Reason given by the system.
         #[source]
         error: std::io::Error,
     },
-    /// A name that does not end in one of ours.
-    #[error("{name}: not the name of a model: it ends in `{ending}`")]
-    Unknown {
-        /// The path.
+    /// The file extension is not one of a supported format.
+    #[error("{name}: no file extension of a model: `{extension}`")]
+    UnknownFormat {
+        /// Path of the file.
         name: String,
-        /// What follows the last dot; may be empty.
-        ending: String,
+        /// The extension, lower case; empty if there is none.
+        extension: String,
     },
-    /// What is in the file is not what its format wants.
+    /// The content violates the file's format.
     #[error("{name}: {place}: {reason}")]
     Malformed {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// The line or element.
+        /// Line or element, for example `line 12`.
         place: String,
-        /// What is wrong, with the offending text.
+        /// Reason, with the offending text.
         reason: String,
     },
-    /// A picture that the model wants.
+    /// A texture image of the model cannot be read.
     #[error("{name}: the texture `{texture}`: {reason}")]
     Texture {
-        /// The path of the model.
+        /// Path of the model.
         name: String,
-        /// The picture, as the model names it.
+        /// Path of the image as the model gives it.
         texture: String,
-        /// Why it cannot be read.
+        /// Reason why it cannot be read.
         reason: String,
     },
-    /// Read, but it cannot be drawn.
+    /// The file was read, but its mesh fails [`Mesh::check`](crate::mesh::Mesh::check).
     #[error("{name}: {fault}")]
     Faulty {
-        /// The path.
+        /// Path of the file.
         name: String,
-        /// Why not.
+        /// The defect found.
         #[source]
         fault: MeshFault,
     },
 }
 
-impl MeshError {
-    /// What can be done.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for MeshError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
-            Self::Unknown { .. } => "models are read from .obj, .gltf, .glb and .ply files",
-            Self::Malformed { .. } => "mend that place, or export the model again",
+            Self::UnknownFormat { .. } => "models are read from .obj, .gltf, .glb and .ply files",
+            Self::Malformed { .. } => "correct that place, or export the model again",
             Self::Texture { .. } => {
                 "put the picture (PNG or JPEG) where the model names it, or export the model \
                  with its pictures"
             }
-            Self::Faulty { fault, .. } => fault.hint(),
-        }
+            Self::Faulty { fault, .. } => return fault.hint(),
+        }))
     }
 }

@@ -1,5 +1,5 @@
-//! glTF 2.0 (Khronos Group, 2021): what its default scene shows in the pose of the
-//! file. Metal, roughness, opacity and all beyond base colours is left out.
+//! glTF 2.0 (Khronos Group, 2021): the default scene in its rest pose. Only base colours
+//! and textures are read; metalness, roughness and opacity are ignored.
 
 use std::path::Path;
 
@@ -8,11 +8,11 @@ use gltf::mesh::{Mode, Semantic};
 use spectra::color::Rgb;
 
 use super::error::MeshError;
-use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, PLACES, check, path_of, slice};
+use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, POSITIONS, check, path_of, slice};
 use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
-/// Reads both forms of glTF; `bytes` say themselves which it is.
+/// Reads a `.gltf` or `.glb` file; the content tells which it is.
 pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let document = gltf::Gltf::from_slice(bytes)
         .map_err(|error| malformed(name, "the document", error.to_string()))?;
@@ -36,7 +36,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
     for material in document.materials() {
         reader.add_material(&material)?;
     }
-    // For those without a material.
+    // Materials of primitives that name none: without and with vertex colours.
     reader.mesh.materials.extend([PLAIN, PAINTED]);
     reader.coordinates.extend([0, 0]);
     let mut met = vec![false; document.nodes().len()];
@@ -70,7 +70,7 @@ fn malformed(name: &str, place: &str, reason: String) -> MeshError {
     MeshError::Malformed { name: name.to_owned(), place: place.to_owned(), reason }
 }
 
-/// Linear as in the file, to encoded.
+/// Converts linear RGB, as glTF stores it, to encoded sRGB.
 fn encoded(linear: [f32; 3]) -> [f32; 3] {
     let linear = linear.map(|value| f64::from(value.clamp(0.0, 1.0)));
     Rgb(linear).encoded().0.map(|value| value.clamp(0.0, 1.0) as f32)
@@ -81,7 +81,7 @@ struct Reader<'a> {
     folder: &'a Path,
     buffers: Vec<gltf::buffer::Data>,
     mesh: Mesh,
-    /// Which set of texture coordinates each material's texture wants.
+    /// Index of the texture coordinate set that each material's texture uses.
     coordinates: Vec<u32>,
 }
 
@@ -110,7 +110,7 @@ impl Reader<'_> {
                 bytes.and_then(Texture::from_bytes).map_err(|reason| texture(number, reason))
             }
             gltf::image::Source::Uri { uri, .. } if uri.starts_with("data:") => {
-                // As a buffer it is decoded all the same.
+                // The buffer loader decodes data URIs too.
                 let source = gltf::buffer::Source::Uri(uri);
                 let found = gltf::buffer::Data::from_source(source, Some(self.folder));
                 let bytes = found.map_err(|error| error.to_string());
@@ -126,7 +126,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Points and lines are left out.
+    /// Adds the triangles of a primitive; points and lines are skipped.
     fn add_primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
@@ -142,7 +142,7 @@ impl Reader<'_> {
         let set = self.coordinates[material];
         for (semantic, accessor) in primitive.attributes() {
             let kind = match semantic {
-                Semantic::Positions => &PLACES,
+                Semantic::Positions => &POSITIONS,
                 Semantic::Normals => &NORMALS,
                 Semantic::TexCoords(found) if found == set => &COORDINATES,
                 Semantic::Colors(0) => &COLORS,
@@ -157,15 +157,15 @@ impl Reader<'_> {
         }
         let buffers = &self.buffers;
         let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &**data));
-        let places = reader.read_positions().ok_or_else(|| "it has no POSITION".to_owned())?;
-        let place = |at: [f32; 3]| model_from_node.transform_point3(at.into()).into();
+        let positions = reader.read_positions().ok_or_else(|| "it has no POSITION".to_owned())?;
+        let transformed = |at: [f32; 3]| model_from_node.transform_point3(at.into()).into();
         let mut part = Part {
-            positions: places.map(place).collect(),
+            positions: positions.map(transformed).collect(),
             material: material as u32,
             ..Part::default()
         };
         let count = part.positions.len();
-        // The transpose of the inverse but for its length, also of flat nodes.
+        // Cofactor matrix: the inverse transpose up to scale, valid for flat nodes too.
         let linear = Mat3::from_mat4(model_from_node);
         let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
         let mirrored = linear.determinant() < 0.0;
@@ -207,7 +207,7 @@ impl Reader<'_> {
     }
 }
 
-/// Three corners a triangle.
+/// Splits strips and fans into a plain list with three indices per triangle.
 fn triangles(mode: Mode, listed: &[u32]) -> Vec<u32> {
     match mode {
         Mode::TriangleStrip => {

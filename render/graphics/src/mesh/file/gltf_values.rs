@@ -1,15 +1,16 @@
-//! What a glTF file refers to, checked before its reader follows it.
+//! Bounds checks of glTF accessors, buffer views and references, made before the glTF
+//! reader follows them.
 
 use gltf::accessor::{Accessor, DataType, Dimensions};
 
-/// What an attribute may be made of.
+/// Component types and dimensions that an attribute may have.
 pub(super) struct Kind {
     pub(super) name: &'static str,
     pub(super) types: &'static [DataType],
     pub(super) dimensions: &'static [Dimensions],
 }
 
-pub(super) const PLACES: Kind =
+pub(super) const POSITIONS: Kind =
     Kind { name: "POSITION", types: &[DataType::F32], dimensions: &[Dimensions::Vec3] };
 
 pub(super) const NORMALS: Kind =
@@ -29,8 +30,8 @@ pub(super) const CORNERS: Kind = Kind {
     dimensions: &[Dimensions::Scalar],
 };
 
-/// Whether all values of an accessor are in its buffer and of the kind wanted;
-/// else what is wrong.
+/// Checks that an accessor has an allowed type and that all of its values lie within its
+/// buffer. The error is the reason as text.
 pub(super) fn check(
     accessor: &Accessor<'_>,
     kind: &Kind,
@@ -57,7 +58,7 @@ pub(super) fn check(
     }
 }
 
-/// The bytes of a buffer view.
+/// Bytes of a buffer view, or the reason why it is out of bounds.
 pub(super) fn slice<'a>(
     view: &gltf::buffer::View<'_>,
     buffers: &'a [gltf::buffer::Data],
@@ -68,7 +69,7 @@ pub(super) fn slice<'a>(
     within.ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))
 }
 
-/// A relative reference as a path, its `%20` and the like decoded.
+/// Decodes the percent escapes of a relative reference (`%20`) into a path.
 pub(super) fn path_of(reference: &str) -> Result<String, String> {
     let mut bytes = Vec::with_capacity(reference.len());
     let mut rest = reference.as_bytes();

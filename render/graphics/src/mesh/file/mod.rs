@@ -1,4 +1,4 @@
-//! Models from files.
+//! Models read from files.
 
 mod error;
 
@@ -23,33 +23,32 @@ pub use error::MeshError;
 use super::model::Mesh;
 
 impl Mesh {
-    /// Reads a model: Wavefront OBJ with its materials, glTF 2.0 (`.gltf` or `.glb`),
-    /// PLY. Told apart by the ending of the name. What has no normals gets smooth
-    /// ones.
+    /// Reads a model from a Wavefront OBJ file with its materials, a glTF 2.0 file (`.gltf`
+    /// or `.glb`) or a PLY file. The format follows from the file extension. Missing normals
+    /// are computed.
     ///
     /// # Errors
-    /// [`MeshError`] with the path, the line or element, and what is wrong there.
+    /// [`MeshError`] with the path, the line or element, and the reason.
     pub fn open(path: &Path) -> Result<Self, MeshError> {
         let name = path.display().to_string();
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let read = match ending.as_str() {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let read = match extension.as_str() {
             "obj" => obj::read,
             "gltf" | "glb" => gltf::read,
             "ply" => ply::read,
-            _ => return Err(MeshError::Unknown { name, ending }),
+            _ => return Err(MeshError::UnknownFormat { name, extension }),
         };
         let bytes = std::fs::read(path)
             .map_err(|error| MeshError::Unreadable { name: name.clone(), error })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut mesh = read(&name, folder, &bytes)?;
-        // Normals are made where the file has none, for which the rest must be whole.
-        let faulty = |fault| MeshError::Faulty { name: name.clone(), fault };
-        mesh.check().map_err(faulty)?;
+        // Computing normals needs a valid mesh.
+        mesh.check().map_err(|fault| MeshError::Faulty { name, fault })?;
         mesh.complete_normals();
         Ok(mesh)
     }
 
-    /// Brings normals to length 1, and makes those that are missing (zeros).
+    /// Normalises the normals, and computes those that are missing (stored as zeros).
     fn complete_normals(&mut self) {
         let unit = |normal: &[f32; 3]| glam::Vec3::from(*normal).try_normalize();
         if self.normals.iter().all(|normal| unit(normal).is_some()) {
@@ -58,9 +57,9 @@ impl Mesh {
             });
             return;
         }
-        let made = self.vertex_normals();
-        for (normal, made) in self.normals.iter_mut().zip(made) {
-            *normal = unit(normal).map_or(made, Into::into);
+        let computed = self.vertex_normals();
+        for (normal, computed) in self.normals.iter_mut().zip(computed) {
+            *normal = unit(normal).map_or(computed, Into::into);
         }
     }
 }

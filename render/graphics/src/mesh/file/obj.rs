@@ -1,4 +1,4 @@
-//! Wavefront OBJ, with its MTL materials and their pictures.
+//! Wavefront OBJ, with its MTL materials and their textures.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -8,8 +8,9 @@ use super::obj_lines::{check_mtl, check_obj};
 use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
-/// Colours of materials and vertices are taken as encoded. Vertices of a group of
-/// which some have no normal or texture coordinate are read as if none had.
+/// Reads an OBJ file. Colours of materials and vertices are taken as encoded sRGB. If
+/// some vertices of a group lack a normal or texture coordinate, none of the group gets
+/// one from the file.
 pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     let at_line = |name: &str, (line, reason): (usize, String)| MeshError::Malformed {
@@ -24,7 +25,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         ignore_points: true,
         ignore_lines: true,
     };
-    // The parser's errors do not say what ours do.
+    // tobj's error type cannot carry our errors out of the callback.
     let failed = RefCell::new(None);
     let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |file| {
         let file = folder.join(file);
@@ -66,7 +67,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         mesh.materials.push(painted(name, folder, material)?);
     }
     let plain = mesh.materials.len() as u32;
-    // All vertices of a file have colours, or none.
+    // Either all vertices of a file have colours or none has.
     let colored = models.iter().any(|model| !model.mesh.vertex_color.is_empty());
     for model in models {
         let tobj::Mesh { positions, normals, texcoords, vertex_color, indices, .. } = model.mesh;
@@ -97,8 +98,8 @@ fn triples(values: Vec<f32>) -> Vec<[f32; 3]> {
     values.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect()
 }
 
-/// The first line that wants a material which no library has; without libraries
-/// all is plain.
+/// First `usemtl` line that names an unknown material. A file without `mtllib` may name
+/// any.
 fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, String)> {
     let line = |(line, number): (&str, usize)| {
         let name = line.trim().strip_prefix("usemtl ")?.trim();
@@ -123,12 +124,12 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
             })?)
         }
     };
-    // A texture without a colour is shown as it is.
+    // A textured material without a colour shows its texture unchanged.
     let color = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.color });
     Ok(Material { color: color.map(|value| value.clamp(0.0, 1.0)), texture })
 }
 
-/// The name of a picture after its options (`-s 1 1 1 wood.png`).
+/// Strips the options in front of a texture's file name (`-s 1 1 1 wood.png`).
 fn without_options(told: &str) -> &str {
     let mut rest = told.trim();
     while rest.starts_with('-') {

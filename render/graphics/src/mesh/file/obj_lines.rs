@@ -1,22 +1,22 @@
-//! The lines of OBJ and MTL files, checked before the parser sees them: it does not
-//! tell lines, and trusts some of them.
+//! Validation of OBJ and MTL files line by line, since the parser reports no line numbers
+//! and panics on some input.
 
-/// What is wrong with a line, counted from 1.
+/// Line number from 1, and the reason.
 pub(super) type LineFault = (usize, String);
 
-/// How many places, texture coordinates and normals a file has.
+/// Number of positions, texture coordinates and normals.
 #[derive(Debug, Default, Clone, Copy)]
 struct Counts {
-    places: usize,
+    positions: usize,
     coordinates: usize,
     normals: usize,
 }
 
-/// Checks the lines that are drawn of an OBJ file.
+/// Checks the lines of an OBJ file that affect the mesh.
 pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     let words = |line: &'_ str| line.split_whitespace().next().map(str::to_owned);
     let count = |of: &str| text.lines().filter(|line| words(line).as_deref() == Some(of)).count();
-    let all = Counts { places: count("v"), coordinates: count("vt"), normals: count("vn") };
+    let all = Counts { positions: count("v"), coordinates: count("vt"), normals: count("vn") };
     let mut so_far = Counts::default();
     let mut colored = None;
     for (line, number) in text.lines().zip(1..) {
@@ -26,13 +26,13 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
         let words: Vec<&str> = words.collect();
         match first {
             "v" => {
-                so_far.places += 1;
+                so_far.positions += 1;
                 let found = numbers(&words).map_err(fault)?;
                 if ![3, 4, 6].contains(&found) {
-                    return Err(fault(format!("{found} numbers for a place: `{line}`")));
+                    return Err(fault(format!("{found} numbers for a position: `{line}`")));
                 }
                 if words.get(3).is_some_and(|w| found == 4 && w.parse() == Ok(0.0f32)) {
-                    return Err(fault(format!("a place divided by 0: `{line}`")));
+                    return Err(fault(format!("a position divided by 0: `{line}`")));
                 }
                 if *colored.get_or_insert(found == 6) != (found == 6) {
                     let reason = "some vertices have colours and some do not";
@@ -69,7 +69,7 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     Ok(())
 }
 
-/// Checks the lines that matter of an MTL file.
+/// Checks the colour lines of an MTL file.
 pub(super) fn check_mtl(text: &str) -> Result<(), LineFault> {
     for (line, number) in text.lines().zip(1..) {
         let mut words = line.split_whitespace();
@@ -85,7 +85,7 @@ pub(super) fn check_mtl(text: &str) -> Result<(), LineFault> {
     Ok(())
 }
 
-/// How many there are, all numbers and finite.
+/// Number of words, if all of them are finite numbers.
 fn numbers(words: &[&str]) -> Result<usize, String> {
     let bad = words.iter().find(|word| !word.parse::<f32>().is_ok_and(f32::is_finite));
     match bad {
@@ -94,11 +94,11 @@ fn numbers(words: &[&str]) -> Result<usize, String> {
     }
 }
 
-/// A corner: place, texture coordinate and normal, of which the last two may be
-/// left out; negative numbers count back from the last so far.
+/// Checks a face corner `position/texture/normal`, of which the last two may be missing.
+/// Negative indices count back from the latest entry.
 fn corner(word: &str, so_far: Counts, all: Counts) -> Result<(), String> {
     let kinds = [
-        ("place", so_far.places, all.places),
+        ("position", so_far.positions, all.positions),
         ("texture coordinate", so_far.coordinates, all.coordinates),
         ("normal", so_far.normals, all.normals),
     ];
@@ -107,7 +107,7 @@ fn corner(word: &str, so_far: Counts, all: Counts) -> Result<(), String> {
         return Err(format!("not a corner: `{word}`"));
     }
     for (index, (kind, so_far, all)) in indices.iter().zip(kinds) {
-        if index.is_empty() && kind != "place" {
+        if index.is_empty() && kind != "position" {
             continue;
         }
         let index: i64 = index.parse().map_err(|_| format!("not a corner: `{word}`"))?;

@@ -1,4 +1,4 @@
-//! Pictures that models wear.
+//! Texture images of models.
 
 use std::io::Cursor;
 
@@ -6,11 +6,11 @@ use image::{ImageReader, Limits};
 
 use crate::mesh::model::Texture;
 
-/// The longest side that is read, in texels.
+/// Longest side of a texture that is read, in texels: what graphics devices hold at most.
 const LONGEST: u32 = 16_384;
 
 impl Texture {
-    /// The texture in a PNG or JPEG file's bytes, or why there is none.
+    /// Decodes a PNG or JPEG image; the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()

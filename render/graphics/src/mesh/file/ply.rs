@@ -1,5 +1,5 @@
-//! PLY (Turk 1994), as text or binary: places, normals, colours, texture coordinates,
-//! and polygons, which are cut into fans.
+//! PLY (Turk 1994), text or binary: positions, normals, colours, texture coordinates, and
+//! polygons, which are split into triangle fans.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::error::MeshError;
 use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
-/// Reads a PLY file; other elements than vertices and faces are passed over.
+/// Reads a PLY file; elements other than vertices and faces are skipped.
 pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let malformed = |place: &str, reason: &str| MeshError::Malformed {
         name: name.to_owned(),
@@ -21,9 +21,9 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
     };
     let failed = |place: &str, text: bool, error: ParseError| match error.line() {
         Some(line) if text => {
-            let told = error.to_string();
-            // It names the line itself too.
-            let reason = told.strip_prefix(&format!("Line {line}: ")).unwrap_or(&told);
+            let message = error.to_string();
+            // The message itself starts with the line too.
+            let reason = message.strip_prefix(&format!("Line {line}: ")).unwrap_or(&message);
             malformed(&format!("line {line}"), reason)
         }
         _ => malformed(place, &error.to_string()),
@@ -61,8 +61,10 @@ fn elements<E: PropertyAccess>(
 }
 
 fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) -> Mesh {
-    let mut part =
-        Part { positions: vertices.iter().map(|vertex| vertex.place).collect(), ..Part::default() };
+    let mut part = Part {
+        positions: vertices.iter().map(|vertex| vertex.position).collect(),
+        ..Part::default()
+    };
     if has("nx") {
         part.normals = vertices.iter().map(|vertex| vertex.normal).collect();
     }
@@ -85,7 +87,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
     mesh
 }
 
-/// As programs name texture coordinates and colours.
+/// Property names of texture coordinates and colours in use among programs.
 const COORDINATES: [[&str; 2]; 4] =
     [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 const COLORS: [[&str; 3]; 3] =
@@ -93,7 +95,7 @@ const COLORS: [[&str; 3]; 3] =
 
 #[derive(Default)]
 struct Vertex {
-    place: [f32; 3],
+    position: [f32; 3],
     normal: [f32; 3],
     coordinates: [f32; 2],
     color: [f32; 3],
@@ -107,9 +109,9 @@ impl PropertyAccess for Vertex {
     fn set_property(&mut self, key: &str, property: Property) -> PropertyAccessResult {
         let Some(value) = property.to_f32_lossy() else { return PropertyAccessResult::Ignored };
         match key {
-            "x" => self.place[0] = value,
-            "y" => self.place[1] = value,
-            "z" => self.place[2] = value,
+            "x" => self.position[0] = value,
+            "y" => self.position[1] = value,
+            "z" => self.position[2] = value,
             "nx" => self.normal[0] = value,
             "ny" => self.normal[1] = value,
             "nz" => self.normal[2] = value,
@@ -118,7 +120,7 @@ impl PropertyAccess for Vertex {
                 if let Some(axis) = COORDINATES.iter().find_map(|row| column(row)) {
                     self.coordinates[axis] = value;
                 } else if let Some(channel) = COLORS.iter().find_map(|row| column(row)) {
-                    // Whole numbers count up to their greatest.
+                    // Integer colours are scaled by the greatest value of their type.
                     self.color[channel] = match property {
                         Property::UChar(_) | Property::Char(_) => value / 255.0,
                         Property::UShort(_) | Property::Short(_) => value / 65535.0,
@@ -145,7 +147,7 @@ impl PropertyAccess for Face {
         if !["vertex_indices", "vertex_index"].contains(&key) {
             return PropertyAccessResult::Ignored;
         }
-        // A negative index is none: it becomes too great.
+        // A negative index is mapped to one that is out of range.
         let whole = |value: i64| u32::try_from(value).unwrap_or(u32::MAX);
         self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(|at| whole(at.into())).collect(),
@@ -160,7 +162,7 @@ impl PropertyAccess for Face {
     }
 }
 
-/// Anything that is passed over.
+/// An element that is skipped.
 struct Other;
 
 impl PropertyAccess for Other {

@@ -1,10 +1,11 @@
-//! Models made here, of any number of triangles: for samples, tests and figures.
+//! Sample models made by code with any number of triangles: for examples, tests and
+//! figures.
 
 mod grid;
 
-mod round;
+mod sphere;
 
-mod turned;
+mod sweep;
 
 mod still_life;
 
@@ -12,5 +13,5 @@ mod village;
 
 mod named;
 
-pub use grid::Cells;
-pub use named::Shape;
+pub use grid::GridSize;
+pub use named::SampleModel;

@@ -1,25 +1,25 @@
-//! The models made here, by name.
+//! The sample models by name.
 
 use crate::mesh::model::Mesh;
 
-/// A model made here.
+/// A sample model made by code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
-    /// A ball.
+pub enum SampleModel {
+    /// Sphere of radius 1.
     Sphere,
-    /// A closed tube in a knot.
+    /// Closed tube along a (2, 3) torus knot.
     TorusKnot,
-    /// A jug and fruit on a striped cloth.
+    /// Jug and fruit on a striped cloth.
     StillLife,
-    /// Houses on a hill.
+    /// Village with a church on a hill.
     Village,
 }
 
-impl Shape {
-    /// All of them.
+impl SampleModel {
+    /// All sample models.
     pub const ALL: [Self; 4] = [Self::StillLife, Self::Village, Self::TorusKnot, Self::Sphere];
 
-    /// As users call it.
+    /// Name as users write it, for example `torus-knot`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,13 +30,13 @@ impl Shape {
         }
     }
 
-    /// The shape of that name.
+    /// The sample model with this name, if there is one.
     #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|shape| shape.name() == name)
     }
 
-    /// The model, of about as many triangles.
+    /// Makes the model with about `triangles` triangles.
     #[must_use]
     pub fn mesh(self, triangles: usize) -> Mesh {
         match self {

@@ -1,12 +1,12 @@
-//! A jug, pears, a lemon and an orange on a striped cloth.
+//! A still life: a jug, pears, a lemon and an orange on a striped cloth.
 
 use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 
-use super::grid::Cells;
-use super::round::on_ball;
-use super::turned::{mixed, rising, rolled, turned};
+use super::grid::GridSize;
+use super::sphere::unit_sphere;
+use super::sweep::{lathe, mix_colors, smoothstep, tube};
 use crate::mesh::model::{Material, Mesh, Texture};
 
 const CLOTH: u32 = 0;
@@ -14,16 +14,15 @@ const GLAZE: u32 = 1;
 const FRUIT: u32 = 2;
 const WOOD: u32 = 3;
 
-/// Of the cloth, spread out.
+/// Radius of the cloth when spread out flat.
 const CLOTH_RADIUS: f32 = 2.95;
 
-/// Of what of it lies flat.
+/// Radius of the part of the cloth that lies flat on the table.
 const TABLE_RADIUS: f32 = 2.05;
 
 impl Mesh {
-    /// A still life of about `triangles` triangles, about 5 across; the table's top
-    /// is at 0. Open at the cloth, painted by materials, a texture, and colours of
-    /// vertices.
+    /// A still life of about `triangles` triangles, about 5 wide, with the table top at y =
+    /// 0. The cloth is open below. It uses materials, a texture and vertex colours.
     #[must_use]
     pub fn still_life(triangles: usize) -> Self {
         let materials = vec![
@@ -49,15 +48,15 @@ impl Mesh {
         mesh
     }
 
-    /// Gives the vertices from `first` on colours by their places.
+    /// Sets the colours of the vertices from index `first` on, by position.
     pub(super) fn tint(&mut self, first: usize, color: impl Fn(Vec3) -> [f32; 3]) {
-        for (place, found) in self.positions[first..].iter().zip(&mut self.colors[first..]) {
-            *found = color(Vec3::from(*place));
+        for (position, found) in self.positions[first..].iter().zip(&mut self.colors[first..]) {
+            *found = color(Vec3::from(*position));
         }
     }
 }
 
-/// Four blue stripes and a red one, on linen.
+/// Four blue stripes and a red one on linen white.
 fn stripes() -> Texture {
     let texel = |x: u32| {
         let (blue, red) = ((8..16).contains(&(x % 32)), (19..21).contains(&(x % 32)));
@@ -71,16 +70,16 @@ fn stripes() -> Texture {
     Texture { width: 64, height: 2, texels: (0..128).map(|i| texel(i % 64)).collect() }
 }
 
-/// A round cloth, flat on the table and in folds beyond its edge.
+/// A round cloth, flat on the table and hanging in folds beyond its edge.
 fn add_cloth(mesh: &mut Mesh, triangles: usize) {
     let first = mesh.positions.len();
-    mesh.add_grid(Cells::of_about(triangles, 3.0), CLOTH, |uv| {
+    mesh.add_grid(GridSize::for_triangles(triangles, 3.0), CLOTH, |uv| {
         let angle = uv.x * TAU;
         let along = CLOTH_RADIUS * uv.y;
         let hanging = (along - TABLE_RADIUS).max(0.0);
-        let folds = rising(0.0, 0.9, hanging);
+        let folds = smoothstep(0.0, 0.9, hanging);
         let fold = (7.0 * angle + 0.8 * (2.0 * angle).sin()).sin() + 0.4 * (11.0 * angle).sin();
-        // Around the edge of the table, then down.
+        // Around the edge of the table, then straight down.
         let bend = (hanging / 0.35).min(1.5);
         let beyond = 0.35 * bend.sin() + 0.13 * fold * folds;
         let radius = along.min(TABLE_RADIUS) + beyond;
@@ -89,7 +88,7 @@ fn add_cloth(mesh: &mut Mesh, triangles: usize) {
         Vec3::new(radius * sin, -drop, radius * cos)
     });
     for at in first..mesh.positions.len() {
-        // Woven before it was laid: along the cloth, not seen from above.
+        // The stripes follow the flat cloth, not the view from above.
         let [u, v] = mesh.texture_coordinates[at];
         let (sin, cos) = (u * TAU + 0.5).sin_cos();
         mesh.texture_coordinates[at] =
@@ -99,7 +98,7 @@ fn add_cloth(mesh: &mut Mesh, triangles: usize) {
 
 fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let first = mesh.positions.len();
-    let body = turned(&[
+    let body = lathe(&[
         [0.0, 0.10],
         [0.40, 0.12],
         [0.62, 0.45],
@@ -120,31 +119,31 @@ fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
         [0.0, 0.0],
     ]);
     let spout = Quat::from_rotation_y(-1.0);
-    mesh.add_grid(Cells::of_about(triangles * 3 / 4, 1.2), GLAZE, |uv| {
-        let place = body(uv);
+    mesh.add_grid(GridSize::for_triangles(triangles * 3 / 4, 1.2), GLAZE, |uv| {
+        let position = body(uv);
         let beside = (uv.x * TAU).sin().atan2((uv.x * TAU).cos());
-        let out = 0.2 * (-(beside * beside) / 0.1).exp() * rising(1.45, 1.86, place.y);
+        let out = 0.2 * (-(beside * beside) / 0.1).exp() * smoothstep(1.45, 1.86, position.y);
         let (sin, cos) = (uv.x * TAU).sin_cos();
-        at + spout * (place + Vec3::new(out * sin, 0.3 * out, out * cos))
+        at + spout * (position + Vec3::new(out * sin, 0.3 * out, out * cos))
     });
     let handle = [[-0.38, 1.66], [-0.72, 1.72], [-0.92, 1.40], [-0.84, 0.95], [-0.58, 0.70]];
     let points = handle.map(|[z, y]| Vec3::new(z, y, 0.0));
-    // Its ends are inside the body.
-    let thickness = |v: f32| (0.085 - 0.02 * v) * rising(0.0, 0.04, v.min(1.0 - v));
-    let handle = rolled(&points, thickness);
+    // Both ends lie inside the body.
+    let thickness = |v: f32| (0.085 - 0.02 * v) * smoothstep(0.0, 0.04, v.min(1.0 - v));
+    let handle = tube(&points, thickness);
     let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
-    mesh.add_grid(Cells::of_about(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
-    mesh.tint(first, |place| {
-        // The foot is bare clay, a band is left pale.
-        let band = rising(0.84, 0.88, place.y) * (1.0 - rising(1.08, 1.12, place.y));
-        let glazed = mixed([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);
-        mixed([0.68, 0.47, 0.35], glazed, rising(0.10, 0.16, place.y))
+    mesh.add_grid(GridSize::for_triangles(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
+    mesh.tint(first, |position| {
+        // The foot is bare clay; a band stays pale.
+        let band = smoothstep(0.84, 0.88, position.y) * (1.0 - smoothstep(1.08, 1.12, position.y));
+        let glazed = mix_colors([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);
+        mix_colors([0.68, 0.47, 0.35], glazed, smoothstep(0.10, 0.16, position.y))
     });
 }
 
 fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) {
     let first = mesh.positions.len();
-    let body = turned(&[
+    let body = lathe(&[
         [0.0, 1.12],
         [0.10, 1.14],
         [0.19, 1.05],
@@ -156,27 +155,27 @@ fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) 
         [0.14, 0.0],
         [0.0, 0.05],
     ]);
-    let placed = |place: Vec3| at + pose * (place * size);
-    mesh.add_grid(Cells::of_about(triangles * 9 / 10, 1.1), FRUIT, |uv| {
-        let place = body(uv);
-        // The neck leans.
-        let lean = 0.09 * rising(0.5, 1.1, place.y);
-        placed(place + Vec3::new(lean, 0.0, 0.4 * lean))
+    let placed = |position: Vec3| at + pose * (position * size);
+    mesh.add_grid(GridSize::for_triangles(triangles * 9 / 10, 1.1), FRUIT, |uv| {
+        let position = body(uv);
+        // The neck leans sideways.
+        let lean = 0.09 * smoothstep(0.5, 1.1, position.y);
+        placed(position + Vec3::new(lean, 0.0, 0.4 * lean))
     });
     let turned_back = pose.inverse();
-    mesh.tint(first, |place| {
-        let own = turned_back * (place - at) / size;
-        let ripe = mixed([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], rising(0.0, 0.9, own.y));
-        mixed(ripe, [0.80, 0.40, 0.24], 0.75 * rising(0.05, 0.42, own.x + 0.3 * own.z))
+    mesh.tint(first, |position| {
+        let own = turned_back * (position - at) / size;
+        let ripe = mix_colors([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], smoothstep(0.0, 0.9, own.y));
+        mix_colors(ripe, [0.80, 0.40, 0.24], 0.75 * smoothstep(0.05, 0.42, own.x + 0.3 * own.z))
     });
     let stem = [[0.08, 1.06, 0.03], [0.10, 1.22, 0.04], [0.16, 1.36, 0.06]].map(Vec3::from);
-    let stem = rolled(&stem, |v| 0.03 * rising(0.0, 0.1, v.min(1.0 - v)));
-    mesh.add_grid(Cells::of_about(triangles / 10, 0.5), WOOD, |uv| placed(stem(uv)));
+    let stem = tube(&stem, |v| 0.03 * smoothstep(0.0, 0.1, v.min(1.0 - v)));
+    mesh.add_grid(GridSize::for_triangles(triangles / 10, 0.5), WOOD, |uv| placed(stem(uv)));
 }
 
 fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let first = mesh.positions.len();
-    let body = turned(&[
+    let body = lathe(&[
         [0.0, 0.46],
         [0.05, 0.45],
         [0.09, 0.39],
@@ -188,20 +187,20 @@ fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {
         [0.0, -0.44],
     ]);
     let pose = Quat::from_rotation_y(0.8) * Quat::from_rotation_z(1.5);
-    mesh.add_grid(Cells::of_about(triangles, 1.3), FRUIT, |uv| at + pose * body(uv));
-    mesh.tint(first, |place| {
-        mixed([0.80, 0.72, 0.22], [0.96, 0.86, 0.30], rising(-0.2, 0.2, place.y - at.y))
+    mesh.add_grid(GridSize::for_triangles(triangles, 1.3), FRUIT, |uv| at + pose * body(uv));
+    mesh.tint(first, |position| {
+        mix_colors([0.80, 0.72, 0.22], [0.96, 0.86, 0.30], smoothstep(-0.2, 0.2, position.y - at.y))
     });
 }
 
 fn add_orange(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let first = mesh.positions.len();
-    mesh.add_grid(Cells::of_about(triangles, 2.0), FRUIT, |uv| {
-        let ball = on_ball(uv);
-        // A dent at the stalk.
+    mesh.add_grid(GridSize::for_triangles(triangles, 2.0), FRUIT, |uv| {
+        let ball = unit_sphere(uv);
+        // Dent at the stalk.
         at + ball * (0.43 - 0.05 * (-(ball.x * ball.x + ball.z * ball.z) / 0.02).exp())
     });
-    mesh.tint(first, |place| {
-        mixed([0.86, 0.44, 0.16], [0.93, 0.58, 0.20], rising(-0.4, 0.4, place.y - at.y))
+    mesh.tint(first, |position| {
+        mix_colors([0.86, 0.44, 0.16], [0.93, 0.58, 0.20], smoothstep(-0.4, 0.4, position.y - at.y))
     });
 }

@@ -1,4 +1,4 @@
-//! A village on a hill: houses about a church, trees, a path.
+//! A village on a hill: houses around a church, trees, a path.
 
 use std::f32::consts::TAU;
 
@@ -6,9 +6,9 @@ use glam::{Quat, Vec2, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::grid::Cells;
-use super::round::on_ball;
-use super::turned::{mixed, rising, turned};
+use super::grid::GridSize;
+use super::sphere::unit_sphere;
+use super::sweep::{lathe, mix_colors, smoothstep};
 use crate::mesh::model::{Material, Mesh};
 
 const LAND: u32 = 0;
@@ -18,10 +18,10 @@ const DARK: u32 = 6;
 const LEAVES: u32 = 7;
 const TRUNK: u32 = 8;
 
-/// From the middle of the land to its edge.
+/// Distance from the centre of the land to its edge.
 const RADIUS: f32 = 10.0;
 
-/// Houses on the hill: angle about the church and distance from it.
+/// Position of each house: angle around the church in radians, and distance from it.
 const HOUSES: [[f32; 2]; 15] = [
     [0.3, 1.9],
     [1.1, 2.1],
@@ -41,7 +41,7 @@ const HOUSES: [[f32; 2]; 15] = [
 ];
 
 impl Mesh {
-    /// A village of about `triangles` triangles (1,500 and up), 20 across. Open below.
+    /// A village of about `triangles` triangles (1,500 or more), 20 wide. Open below.
     #[must_use]
     pub fn village(triangles: usize) -> Self {
         let materials = [
@@ -67,7 +67,7 @@ impl Mesh {
                 rng.random_range(0.55..0.95),
                 rng.random_range(0.62..0.9),
             );
-            // They stand along the slope.
+            // Houses face along the slope.
             let turn = angle + rng.random_range(-0.25..0.25);
             let colors = [WALLS[i % 3], ROOFS[i * 7 % 2]];
             add_house(&mut mesh, at, turn, size, colors);
@@ -95,7 +95,7 @@ fn height([x, z]: [f32; 2]) -> f32 {
     let distance = x.hypot(z);
     let hill = 2.3 * (-(distance / 4.6).powi(2)).exp();
     let waves = 0.35 * (0.55 * x + 1.0).sin() * (0.6 * z - 0.4).cos() + 0.14 * (1.3 * x - z).sin();
-    hill + waves * rising(1.5, 5.0, distance)
+    hill + waves * smoothstep(1.5, 5.0, distance)
 }
 
 fn on_land(angle: f32, distance: f32) -> Vec3 {
@@ -104,53 +104,53 @@ fn on_land(angle: f32, distance: f32) -> Vec3 {
     Vec3::new(x, height([x, z]), z)
 }
 
-/// How much of a place is path, 0..1: it winds down from the church.
-fn on_path(place: Vec3) -> f32 {
-    let distance = place.x.hypot(place.z);
+/// Coverage by the path, 0..1. It winds down from the church.
+fn on_path(position: Vec3) -> f32 {
+    let distance = position.x.hypot(position.z);
     let middle = 0.35 + 0.5 * (0.55 * distance).sin();
-    let away = place.x.atan2(place.z) - middle;
+    let away = position.x.atan2(position.z) - middle;
     let across = distance * (away - TAU * (away / TAU).round()).abs();
-    (1.0 - rising(0.15, 0.42, across)) * rising(0.9, 1.2, distance)
+    (1.0 - smoothstep(0.15, 0.42, across)) * smoothstep(0.9, 1.2, distance)
 }
 
 fn add_land(mesh: &mut Mesh, triangles: usize) {
     let first = mesh.positions.len();
-    mesh.add_grid(Cells::of_about(triangles, 2.2), LAND, |uv| {
+    mesh.add_grid(GridSize::for_triangles(triangles, 2.2), LAND, |uv| {
         let angle = uv.x * TAU;
         let ragged = 1.0 + 0.05 * (5.0 * angle).sin() + 0.03 * (13.0 * angle + 1.0).sin();
         on_land(angle, RADIUS * ragged * uv.y)
     });
-    mesh.tint(first, |place| {
-        let meadow = (0.9 * place.x + 0.4).sin() * (0.7 * place.z).cos();
-        let green = mixed([0.56, 0.66, 0.36], [0.76, 0.76, 0.44], 0.5 + 0.5 * meadow);
-        let fields = rising(5.0, 6.0, place.x - 0.4 * place.z);
-        let sown = mixed(green, [0.84, 0.74, 0.44], 0.8 * fields);
-        mixed(sown, [0.88, 0.80, 0.66], on_path(place))
+    mesh.tint(first, |position| {
+        let meadow = (0.9 * position.x + 0.4).sin() * (0.7 * position.z).cos();
+        let green = mix_colors([0.56, 0.66, 0.36], [0.76, 0.76, 0.44], 0.5 + 0.5 * meadow);
+        let fields = smoothstep(5.0, 6.0, position.x - 0.4 * position.z);
+        let sown = mix_colors(green, [0.84, 0.74, 0.44], 0.8 * fields);
+        mix_colors(sown, [0.88, 0.80, 0.66], on_path(position))
     });
 }
 
-/// A flat piece; corners as they are read, from the upper left one by rows.
+/// A flat quad; corners row by row from the upper left.
 fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
     let [a, b, c, d] = corners;
-    mesh.add_grid(Cells { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
+    mesh.add_grid(GridSize { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
         let (above, below) = (a + (b - a) * x, c + (d - c) * x);
         above + (below - above) * y
     });
 }
 
-/// Walls with gables at two sides, a roof that reaches beyond them, windows. `size` is
-/// half the width, the height of the walls, and half the length.
+/// A house with gables, an overhanging roof, windows and a chimney. `size` is half the
+/// width, the height of the walls, and half the length.
 fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u32; 2]) {
     let turn = Quat::from_rotation_y(turn);
     let placed = |x: f32, y: f32, z: f32| at + turn * Vec3::new(x, y, z);
     let [w, h, l] = size.to_array();
     let (foot, ridge) = (-0.8, h + 1.05 * w);
-    // Half a turn makes the other side of each.
+    // The second side is the first turned by 180 degrees.
     for side in [1.0, -1.0] {
         let on = |x: f32, y: f32, z: f32| placed(side * x, y, side * z);
         add_flat(mesh, [on(w, h, l), on(w, h, -l), on(w, foot, l), on(w, foot, -l)], wall);
         add_flat(mesh, [on(-w, h, l), on(w, h, l), on(-w, foot, l), on(w, foot, l)], wall);
-        // The gable's upper edge is a point.
+        // The upper edge of the gable is a point.
         let top = on(0.0, ridge, l);
         add_flat(mesh, [top, top, on(-w, h, l), on(w, h, l)], wall);
         let (out, low, end) = (w + 0.12, h - 0.126, l + 0.12);
@@ -173,10 +173,15 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
         }
     }
     let chimney = [0.3 * w, ridge - 0.35 * w, 0.4 * l];
-    add_tower(mesh, &|place| at + turn * (place + Vec3::from(chimney)), [0.09, 0.5 * w], wall);
+    add_tower(
+        mesh,
+        &|position| at + turn * (position + Vec3::from(chimney)),
+        [0.09, 0.5 * w],
+        wall,
+    );
 }
 
-/// Four walls and a lid; half its width, and its height.
+/// Four walls and a lid, given by half the width and the height.
 fn add_tower(
     mesh: &mut Mesh,
     placed: &dyn Fn(Vec3) -> Vec3,
@@ -196,7 +201,7 @@ fn add_church(mesh: &mut Mesh) {
     let at = on_land(0.0, 0.0);
     add_house(mesh, at, 0.5, Vec3::new(0.62, 1.25, 1.2), [WALLS[0], ROOFS[1]]);
     let turn = Quat::from_rotation_y(0.5);
-    let tower = |place: Vec3| at + turn * (place + Vec3::new(0.0, -0.5, -1.3));
+    let tower = |position: Vec3| at + turn * (position + Vec3::new(0.0, -0.5, -1.3));
     add_tower(mesh, &tower, [0.42, 3.6], WALLS[0]);
     for quarter in 0..4 {
         let side = Quat::from_rotation_y(quarter as f32 * TAU / 4.0);
@@ -208,32 +213,32 @@ fn add_church(mesh: &mut Mesh) {
     }
 }
 
-/// A round tree, or a slim one.
+/// A tree: round, or slim like a cypress.
 fn add_tree(mesh: &mut Mesh, triangles: usize, at: Vec3, height: f32, slim: bool) {
     let first = mesh.positions.len();
     let wide = if slim { 0.17 } else { 0.42 } * height;
     let middle = at + Vec3::Y * (if slim { 0.75 } else { 0.8 } * height);
     let tall = if slim { 0.72 } else { 0.46 } * height;
     let phase = at.x * 3.0 + at.z;
-    mesh.add_grid(Cells::of_about(triangles * 9 / 10, 1.6), LEAVES, |uv| {
-        let ball = on_ball(uv);
+    mesh.add_grid(GridSize::for_triangles(triangles * 9 / 10, 1.6), LEAVES, |uv| {
+        let ball = unit_sphere(uv);
         let lumps =
             (4.0 * ball.x + phase).sin() * (4.5 * ball.y).cos() * (4.0 * ball.z - phase).sin();
         let size = 1.0 + 0.16 * lumps;
-        // A slim one is a flame.
+        // A slim tree tapers like a flame.
         let taper = if slim { 1.0 - 0.45 * ball.y } else { 1.0 };
         middle + ball * Vec3::new(wide * taper, tall, wide * taper) * size
     });
     let own = 0.5 + 0.5 * (7.0 * phase).sin();
     let leaf = match slim {
         true => [0.30, 0.44, 0.34],
-        false => mixed([0.38, 0.52, 0.26], [0.62, 0.62, 0.28], own),
+        false => mix_colors([0.38, 0.52, 0.26], [0.62, 0.62, 0.28], own),
     };
-    mesh.tint(first, |place| {
-        let light = rising(middle.y - tall, middle.y + tall, place.y);
-        mixed(leaf.map(|value| 0.85 * value), leaf, light)
+    mesh.tint(first, |position| {
+        let light = smoothstep(middle.y - tall, middle.y + tall, position.y);
+        mix_colors(leaf.map(|value| 0.85 * value), leaf, light)
     });
-    let trunk = turned(&[[0.0, 0.6], [0.05, 0.5], [0.055, 0.2], [0.09, -0.1], [0.0, -0.1]]);
+    let trunk = lathe(&[[0.0, 0.6], [0.05, 0.5], [0.055, 0.2], [0.09, -0.1], [0.0, -0.1]]);
     let size = Vec3::new(height, height, height);
-    mesh.add_grid(Cells::of_about(triangles / 10, 1.5), TRUNK, |uv| at + trunk(uv) * size);
+    mesh.add_grid(GridSize::for_triangles(triangles / 10, 1.5), TRUNK, |uv| at + trunk(uv) * size);
 }

@@ -1,29 +1,28 @@
-//! A ball and a knot.
+//! A sphere and a torus knot.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-use super::grid::Cells;
+use super::grid::GridSize;
 use crate::mesh::model::{Material, Mesh};
 
 impl Mesh {
-    /// A ball of radius 1 about the origin, of about `triangles` triangles.
+    /// Sphere of radius 1 around the origin, of about `triangles` triangles.
     #[must_use]
     pub fn sphere(triangles: usize) -> Self {
         let mut mesh = Self::default();
         mesh.materials.push(Material::plain([0.72, 0.38, 0.30]));
-        mesh.add_grid(Cells::of_about(triangles, 2.0), 0, on_ball);
+        mesh.add_grid(GridSize::for_triangles(triangles, 2.0), 0, unit_sphere);
         mesh
     }
 
-    /// A closed tube along a knot of type (2, 3), about 3 across, of about
-    /// `triangles` triangles.
+    /// Closed tube along a (2, 3) torus knot, about 3 wide, of about `triangles` triangles.
     #[must_use]
     pub fn torus_knot(triangles: usize) -> Self {
         let mut mesh = Self::default();
         mesh.materials.push(Material::plain([0.25, 0.47, 0.62]));
-        mesh.add_grid(Cells::of_about(triangles, 8.0), 0, |uv| {
+        mesh.add_grid(GridSize::for_triangles(triangles, 8.0), 0, |uv| {
             let along = uv.x * TAU;
             let forward = (knot(along + 1e-2) - knot(along - 1e-2)).normalize();
             let outward = (knot(along) - forward * knot(along).dot(forward)).normalize();
@@ -34,8 +33,8 @@ impl Mesh {
     }
 }
 
-/// The unit sphere; the poles are v = 0 (up) and 1.
-pub(super) fn on_ball(uv: Vec2) -> Vec3 {
+/// Point of the unit sphere; v = 0 is the north pole, v = 1 the south pole.
+pub(super) fn unit_sphere(uv: Vec2) -> Vec3 {
     let ((sin_u, cos_u), (sin_v, cos_v)) = ((uv.x * TAU).sin_cos(), (uv.y * PI).sin_cos());
     Vec3::new(sin_u * sin_v, cos_v, cos_u * sin_v)
 }
