@@ -10,7 +10,7 @@ use std::io::{BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use spectra::file::write_whole;
+use spectra::file::{FileError, write_whole};
 use spectra::hint::{Explain, Fault, Hint};
 
 use super::frame::{Frame, FrameError, frame_png, read_frame};
@@ -47,6 +47,9 @@ struct Manifest {
 /// A folder of frames cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum SequenceError {
+    /// A frame or the manifest cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A file or folder cannot be read or changed.
     #[error("{}: {source}", .path.display())]
     Io {
@@ -82,7 +85,7 @@ pub enum SequenceError {
 impl Explain for SequenceError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
-            Self::Io { .. } => "is the folder writable, and is there room?",
+            Self::File(_) | Self::Io { .. } => "is the folder writable, and is there room?",
             Self::Foreign { .. } => "name an empty folder, or move the frames away",
             Self::Manifest { .. } => "name an empty folder, or remove this one",
             Self::Frame { source, .. } => return source.hint(),
@@ -91,9 +94,8 @@ impl Explain for SequenceError {
 
     fn fault(&self) -> Fault {
         match self {
-            Self::Io { .. } => Fault::Environment,
-            Self::Foreign { .. } | Self::Manifest { .. } => Fault::Input,
             Self::Frame { source, .. } => source.fault(),
+            _ => Fault::Environment,
         }
     }
 }
@@ -158,7 +160,7 @@ impl Sequence {
         let path = self.path(index);
         let at_path = |source| SequenceError::Frame { path: path.clone(), source };
         self.check_size(frame).map_err(at_path)?;
-        write(&path, &frame_png(frame).map_err(at_path)?)?;
+        write_whole(&path, &frame_png(frame).map_err(at_path)?)?;
         self.remaining.retain(|&other| other != index);
         Ok(())
     }
@@ -192,7 +194,7 @@ impl Sequence {
         let mut text = serde_json::to_vec_pretty(&manifest)
             .map_err(|error| SequenceError::Io { path: path.clone(), source: error.into() })?;
         text.push(b'\n');
-        write(&path, &text)
+        Ok(write_whole(&path, &text)?)
     }
 }
 
@@ -225,10 +227,6 @@ fn remove(path: &Path) -> Result<(), SequenceError> {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(at(path)(error)),
         _ => Ok(()),
     }
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), SequenceError> {
-    write_whole(path, bytes).map_err(|error| at(path)(error.reason))
 }
 
 #[cfg(test)]
