@@ -3,9 +3,7 @@
 use clap::{Args, ValueEnum};
 use render::field::Field;
 use render::gpu::{BackendChoice, Device, DeviceError, choose};
-use render::paint::Engine;
-use render::paint::on_cpu::OnCpu;
-use render::paint::on_gpu::OnGpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::UNDO_BYTES;
 
 use crate::console::Console;
@@ -31,16 +29,15 @@ pub(crate) struct BackendOption {
 impl BackendOption {
     /// The device to compute on; none where it is the processor.
     pub(crate) fn device(&self) -> Result<Option<Device>, DeviceError> {
-        choose(match self.backend {
+        choose(self.choice())
+    }
+
+    fn choice(&self) -> BackendChoice {
+        match self.backend {
             BackendName::Auto => BackendChoice::Auto,
             BackendName::Cpu => BackendChoice::Cpu,
             BackendName::Gpu => BackendChoice::Gpu,
-        })
-    }
-
-    /// Whether a device that cannot do it may give way to the processor.
-    pub(crate) fn gives_way(&self) -> bool {
-        self.backend == BackendName::Auto
+        }
     }
 }
 
@@ -61,17 +58,12 @@ impl EngineOptions {
         &self,
         floor: &Field<i32>,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<Box<dyn Engine>> {
-        let on_cpu = || Box::new(OnCpu::new(floor.clone()));
-        let Some(device) = self.backend.device()? else { return Ok(on_cpu()) };
-        match OnGpu::new(device, floor) {
-            Ok(engine) => Ok(Box::new(engine)),
-            Err(error) if self.backend.gives_way() => {
-                console.warnings(&[format!("{error}; painting on the processor")])?;
-                Ok(on_cpu())
-            }
-            Err(error) => Err(error.into()),
+    ) -> anyhow::Result<PaintEngine> {
+        let opened = PaintEngine::open(self.backend.choice(), floor)?;
+        if let Some(error) = opened.gave_way {
+            console.warnings(&[format!("{error}; painting on the processor")])?;
         }
+        Ok(opened.engine)
     }
 
     /// Bytes for undo.

@@ -8,7 +8,7 @@
 pub use graphics::{
     camera, coherence, field, gpu, image, mesh, orientation, picture, surface, tile, tones,
 };
-pub use paint::{self, amount, composite, layer, light, optics, palette, separation, shade};
+pub use paint::{self, amount, composite, layer, light, node_pigments, optics, separation, shade};
 
 /// Files for others, of pictures and of paintings.
 pub mod export {

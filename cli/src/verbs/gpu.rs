@@ -2,7 +2,7 @@
 
 use clap::Args;
 use render::gpu::{Adapter, BackendChoice, adapters, best};
-use render::paint::on_gpu::largest_canvas;
+use render::paint::engine::max_canvas_cells;
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -51,7 +51,7 @@ impl Gpu {
             console.line(format!(
                 "   a buffer of {} MiB: canvases of up to {} cells ({side} x {side})",
                 adapter.limits.binding_bytes >> 20,
-                largest_canvas(adapter),
+                max_canvas_cells(adapter),
             ))?;
             if let Some(reason) = &adapter.unfit {
                 console.line(format!("   cannot be used: {reason}"))?;
@@ -63,7 +63,7 @@ impl Gpu {
 
 /// The side of the largest square canvas.
 fn side(adapter: &Adapter) -> u64 {
-    largest_canvas(adapter).isqrt()
+    max_canvas_cells(adapter).isqrt()
 }
 
 fn why(found: &[Adapter], used: Option<&Adapter>) -> String {
@@ -82,7 +82,7 @@ fn as_json(adapter: &Adapter) -> Value {
         "backend": adapter.backend,
         "driver": adapter.driver,
         "buffer_bytes": adapter.limits.binding_bytes,
-        "largest_canvas_cells": largest_canvas(adapter),
+        "largest_canvas_cells": max_canvas_cells(adapter),
         "unfit": adapter.unfit,
     })
 }

@@ -11,11 +11,11 @@ use graphics::field::Field;
 use graphics::gpu::{BackendChoice, Device, choose};
 use graphics::tile::{Rect, TileSet};
 use paint::contact::{Contact, Touch};
+use paint::engine::PaintEngine;
 use paint::layer::{Cell, Layer, SLOTS};
-use paint::motion::Motion;
-use paint::on_gpu::OnGpu;
-use paint::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
-use paint::{BrushId, Engine, View};
+use paint::motion::MotionConstants;
+use paint::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
+use paint::{BrushId, View};
 
 fn main() {
     divan::main();
@@ -36,11 +36,11 @@ fn paint(width: usize, height: usize) -> Layer {
 }
 
 /// A canvas of `side` cells with wet paint, and a loaded head of 96 x 96.
-fn engine(side: usize) -> Option<(OnGpu, BrushId)> {
-    let mut engine = OnGpu::new(device()?, &Field::filled(side, side, 0)).unwrap();
+fn engine(side: usize) -> Option<(PaintEngine, BrushId)> {
+    let mut engine = PaintEngine::on_device(device()?, &Field::filled(side, side, 0)).unwrap();
     let brush = engine.add_brush(96, 96).unwrap();
     engine.set_wet(&paint(side, side)).unwrap();
-    engine.set_brush(brush, &paint(96, 96)).unwrap();
+    engine.set_brush_paint(brush, &paint(96, 96)).unwrap();
     Some((engine, brush))
 }
 
@@ -61,7 +61,7 @@ fn sub_steps(bencher: Bencher<'_, '_>, side: usize) {
     let Some((mut engine, brush)) = engine(512) else { return };
     let contacts = contacts(side, 256);
     bencher.counter(ItemsCount::new(256_u32)).bench_local(|| {
-        engine.play(brush, &Motion::default(), &contacts).unwrap();
+        engine.apply_contacts(brush, &MotionConstants::default(), &contacts).unwrap();
         engine.finish().unwrap();
     });
 }
@@ -73,7 +73,9 @@ fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
     let contacts = contacts(side, 16);
     bencher.counter(ItemsCount::new(16_u32)).bench_local(|| {
         for contact in &contacts {
-            engine.play(brush, &Motion::default(), std::slice::from_ref(contact)).unwrap();
+            engine
+                .apply_contacts(brush, &MotionConstants::default(), std::slice::from_ref(contact))
+                .unwrap();
             engine.finish().unwrap();
         }
     });
@@ -82,13 +84,13 @@ fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
 fn scene(dry: usize) -> Scene {
     let per = |slot: usize, node: usize| 1e-7 * (1 + (slot * 3 + node * 5) % 11) as f32;
     let table = std::array::from_fn(|slot| std::array::from_fn(|node| per(slot, node)));
-    let coat = Coat { absorption: table, scattering: table };
+    let coat = LayerOptics { absorption: table, scattering: table };
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
     Scene {
         ground: [0.8; NODES],
         dry: vec![coat; dry],
-        wet: Coat { absorption: [[2e-7; NODES]; SLOTS], ..coat },
-        surface: SceneSurface { k1: 0.03, k2: 0.5, floor: 0.03 },
+        wet: LayerOptics { absorption: [[2e-7; NODES]; SLOTS], ..coat },
+        surface: SceneSurface { k1: 0.03, k2: 0.5, specular: 0.03 },
         rgb_from_nodes: [[0.125; 3]; NODES],
         lamp: Lamp {
             direction: [-0.45, -0.45, 0.771],
@@ -107,7 +109,7 @@ fn one_layer(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };
     let all = TileSet::all(engine.bounds());
     bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
-        engine.light(View::First, &scene(0), &TileSet::default(), &all).unwrap();
+        engine.render(View::First, &scene(0), &TileSet::default(), &all).unwrap();
         engine.finish().unwrap();
     });
 }
@@ -117,11 +119,11 @@ fn one_layer(bencher: Bencher<'_, '_>) {
 fn three_layers(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };
     for _ in 0..2 {
-        engine.push_dry(&paint(1024, 1024)).unwrap();
+        engine.push_dry_layer(&paint(1024, 1024)).unwrap();
     }
     let all = TileSet::all(engine.bounds());
     bencher.counter(ItemsCount::new(1024_u32 * 1024)).bench_local(|| {
-        engine.light(View::First, &scene(2), &all, &TileSet::default()).unwrap();
+        engine.render(View::First, &scene(2), &all, &TileSet::default()).unwrap();
         engine.finish().unwrap();
     });
 }

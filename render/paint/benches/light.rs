@@ -3,13 +3,13 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use graphics::field::Field;
-use paint::composite::lay_over;
+use paint::composite::composite_row;
 use paint::document::{Document, DryLayer, Ground, Lighting, Medium};
 use paint::layer::{Layer, SLOTS};
 use paint::light::{Light, Mixer};
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{picture, scene};
-use paint::shade::{Relief, shade_row};
+use paint::shade::{RowHeights, TopMaterial, shade_row};
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use rand::{RngExt, SeedableRng};
@@ -71,7 +71,7 @@ fn one_layer(bencher: Bencher) {
     bencher
         .counter(ItemsCount::new(cells.len()))
         .with_inputs(|| vec![scene.ground; cells.len()])
-        .bench_local_refs(|internal| lay_over(&scene.wet, cells, internal));
+        .bench_local_refs(|internal| composite_row(&scene.wet, cells, internal));
 }
 
 /// The same to linear RGB without relief, in rows on as many threads.
@@ -81,13 +81,13 @@ fn one_layer_to_rgb(bencher: Bencher, threads: usize) {
     scene.lamp.relief = 0.0;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let level = vec![0; WIDTH + 2];
-    let relief = Relief { above: &level, here: &level, below: &level };
+    let heights = RowHeights { above: &level, here: &level, below: &level };
     let cells = document.wet.pigments.values();
     let mut out = vec![[0.0; 4]; cells.len()];
     let row = |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
         internal.fill(scene.ground);
-        lay_over(&scene.wet, cells, internal);
-        shade_row(&scene, &relief, internal, &[0; WIDTH], out);
+        composite_row(&scene.wet, cells, internal);
+        shade_row(&scene, &heights, internal, &[TopMaterial::Wet; WIDTH], out);
     };
     bencher.counter(ItemsCount::new(cells.len())).bench_local(|| {
         pool.install(|| {

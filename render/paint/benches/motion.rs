@@ -10,12 +10,12 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use graphics::field::Field;
 use graphics::tile::Rect;
+use paint::BrushId;
 use paint::amount::QUANTA_PER_CELL;
 use paint::contact::{Contact, Touch};
+use paint::engine::PaintEngine;
 use paint::layer::{Cell, Layer};
-use paint::motion::Motion;
-use paint::on_cpu::OnCpu;
-use paint::{BrushId, Engine};
+use paint::motion::MotionConstants;
 
 fn main() {
     divan::main();
@@ -38,11 +38,11 @@ fn paint(width: usize, height: usize, cells: f64) -> Layer {
     layer
 }
 
-fn engine() -> (OnCpu, BrushId) {
-    let mut engine = OnCpu::new(Field::filled(CANVAS, CANVAS, 0));
+fn engine() -> (PaintEngine, BrushId) {
+    let mut engine = PaintEngine::on_cpu(Field::filled(CANVAS, CANVAS, 0));
     engine.set_wet(&paint(CANVAS, CANVAS, 1.0)).expect("room");
     let brush = engine.add_brush(HEAD, HEAD).expect("room");
-    engine.set_brush(brush, &paint(HEAD, HEAD, 2.0)).expect("room");
+    engine.set_brush_paint(brush, &paint(HEAD, HEAD, 2.0)).expect("room");
     (engine, brush)
 }
 
@@ -73,7 +73,7 @@ fn run(bencher: Bencher<'_, '_>, size: usize, whole: bool, batch: usize) {
     let items = ItemsCount::new(size * size * contacts.len());
     bencher.counter(items).with_inputs(engine).bench_local_refs(|(engine, brush)| {
         for contacts in contacts.chunks(batch) {
-            engine.play(*brush, &Motion::default(), contacts).expect("played");
+            engine.apply_contacts(*brush, &MotionConstants::default(), contacts).expect("played");
         }
     });
 }

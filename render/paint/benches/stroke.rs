@@ -23,9 +23,9 @@ use divan::counter::{CyclesCount, ItemsCount};
 use paint::amount::QUANTA_PER_CELL;
 use paint::brush::HeadShape;
 use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use paint::engine::PaintEngine;
 use paint::ground::GroundSpec;
 use paint::layer::{Cell, Layer, SLOTS};
-use paint::on_cpu::OnCpu;
 use paint::painting::Painting;
 use paint::pose::Sample;
 use paint::session::PaintingSession;
@@ -65,8 +65,8 @@ fn painting(width: usize, height: usize, dry: usize) -> Painting {
     document.wet = paint(width, height, 0);
     let layer = |seed| DryLayer { slots, opacity: 1.0, paint: paint(width, height, seed) };
     document.dry = (1..=dry).map(layer).collect();
-    let engine = OnCpu::new(document.ground.height.clone());
-    Painting::open(document, Box::new(engine), UNDO_BYTES).expect("a painting")
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    Painting::open(document, engine, UNDO_BYTES).expect("a painting")
 }
 
 /// A head, its size in mm and its pressure.
@@ -143,7 +143,7 @@ fn replay_the_color_study(bencher: Bencher<'_, '_>) {
     bencher
         .counter(ItemsCount::new(strokes))
         .with_inputs(|| {
-            let engine = Box::new(OnCpu::new(bare.ground.height.clone()));
+            let engine = PaintEngine::on_cpu(bare.ground.height.clone());
             let canvas = Painting::open(bare.clone(), engine, UNDO_BYTES).expect("a painting");
             PaintingSession::new(canvas, None).expect("a canvas alone")
         })

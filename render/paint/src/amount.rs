@@ -1,42 +1,40 @@
-//! Amounts of paint, in whole quanta.
+//! Amounts of paint in whole quanta of height.
 //!
-//! A column of paint over one cell is counted in quanta of height; 2^21 of them
-//! are as high as the cell is wide (at 0.1 mm a quantum is 0.05 nm). Whole
-//! numbers are only ever moved, so that every pigment's total stays exactly;
-//! and their sums do not depend on order, so that threads, backends and
-//! machines agree bit for bit.
+//! The column of paint over a cell is measured in quanta; 2^21 quanta are as high as a
+//! cell is wide (with cells of 0.1 mm a quantum is 0.05 nm). Quanta are only moved,
+//! never created or lost, so every pigment's total is exact; and integer sums do not
+//! depend on their order, so threads, backends and machines agree bit for bit.
 
-/// How many quanta high a column is that is as high as its cell is wide.
+/// Height in quanta of a column as high as its cell is wide.
 pub const QUANTA_PER_CELL: u32 = 1 << 21;
 
-/// The most that a cell may hold: 512 cell widths of height.
-pub const FULL: u32 = 1 << 30;
+/// Maximum height in quanta of the column over a cell: 512 cell widths.
+pub const MAX_COLUMN: u32 = 1 << 30;
 
-/// `amount * share / 256`, rounded down, for a `share` of 0 to 256; the
-/// product would not fit 32 bits, and shaders have no more.
+/// Computes `amount * share / 256`, rounded down, for a `share` of 0 to 256. Splits the
+/// product, which would not fit the 32 bits that shaders have.
 #[inline(always)]
 #[must_use]
 pub const fn share_of_256(amount: u32, share: u32) -> u32 {
     (amount >> 8) * share + (((amount & 0xff) * share) >> 8)
 }
 
-/// `amount * share / 65536`, rounded down, for a `share` of 0 to 65536.
+/// Computes `amount * share / 65536`, rounded down, for a `share` of 0 to 65536.
 #[inline(always)]
 #[must_use]
 pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
     (amount >> 16) * share + (((amount & 0xffff) * share) >> 16)
 }
 
-/// The quanta of a height of `height_mm` over cells of `cell_mm`, to the nearest.
-///
-/// Heights beyond [`FULL`] are cut there, those below 0 count as 0.
+/// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to
+/// [`MAX_COLUMN`]. `cell_mm` is the width of a cell in mm.
 #[must_use]
 pub fn quanta_from_mm(height_mm: f64, cell_mm: f64) -> u32 {
     let quanta = height_mm / cell_mm * f64::from(QUANTA_PER_CELL);
-    quanta.round().clamp(0.0, f64::from(FULL)) as u32
+    quanta.round().clamp(0.0, f64::from(MAX_COLUMN)) as u32
 }
 
-/// The height in mm of `quanta` over cells of `cell_mm`.
+/// Converts a height in quanta to mm. `cell_mm` is the width of a cell in mm.
 #[must_use]
 pub fn mm_from_quanta(quanta: u32, cell_mm: f64) -> f64 {
     f64::from(quanta) / f64::from(QUANTA_PER_CELL) * cell_mm
@@ -47,8 +45,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_are_those_of_wide_arithmetic() {
-        for amount in [0, 1, 255, 256, 65535, 65536, 123_456_789, FULL, u32::MAX] {
+    fn shares_agree_with_64_bit_arithmetic() {
+        for amount in [0, 1, 255, 256, 65535, 65536, 123_456_789, MAX_COLUMN, u32::MAX] {
             for share in [0_u32, 1, 77, 255, 256] {
                 let wide = (u64::from(amount) * u64::from(share) / 256) as u32;
                 assert_eq!(share_of_256(amount, share), wide, "{amount} {share}");
@@ -61,12 +59,12 @@ mod tests {
     }
 
     #[test]
-    fn millimetres_come_back() {
+    fn millimetres_survive_conversion_to_quanta() {
         for mm in [0.0, 0.001, 0.1, 7.5] {
             let back = mm_from_quanta(quanta_from_mm(mm, 0.1), 0.1);
             assert!((back - mm).abs() < 1e-7, "{mm}: {back}");
         }
         assert_eq!(quanta_from_mm(-1.0, 0.1), 0);
-        assert_eq!(quanta_from_mm(1e9, 0.1), FULL);
+        assert_eq!(quanta_from_mm(1e9, 0.1), MAX_COLUMN);
     }
 }

@@ -1,4 +1,4 @@
-// Parts of an amount, in whole quanta; twin of amount.rs.
+// Shares of amounts, rounded down to whole quanta; twin of amount.rs.
 
 fn share_of_256(amount: u32, share: u32) -> u32 {
     return (amount >> 8u) * share + (((amount & 0xffu) * share) >> 8u);

@@ -1,9 +1,9 @@
-//! Kubelka-Munk, layer upon layer: the internal reflectance of painted cells.
+//! Composites Kubelka-Munk layers: the internal reflectance of painted cells.
 //!
-//! The layer equations as printed in Baxter, Wendt and Lin 2004 (eq. 8 and 9)
-//! are misprinted; see `spectra::optics::Layer::new` for the form with decaying
-//! exponentials. With d = 1 that form over a backing g is, freed of differences
-//! of near values and of all divisions but one:
+//! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted; see
+//! [`spectra::optics::Layer::new`] for the form with decaying exponentials. With d = 1
+//! over a backing g, and rearranged so that it subtracts no nearly equal values and
+//! divides once, that form is:
 //! ```text
 //! x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e)
 //! den   = (K + S) (1 - e) + (1 + e) x
@@ -14,22 +14,21 @@
 use pulp::Simd;
 
 use crate::layer::SLOTS;
-use crate::optics::{Coat, NODES};
+use crate::optics::{LayerOptics, NODES};
 use graphics::lanes::{decay, greater, lesser, multiply_add};
 
-/// Lays the paint of a row of cells, `pigments` in quanta by slot, over what has
-/// the internal reflectance `backing`, in place. Vehicle is clear.
+/// Composites a layer over a row of cells, in place: `pigments` holds the amounts in
+/// quanta by slot, `backing` the internal reflectance below, then that of the result.
+/// Vehicle is transparent.
 ///
-/// Within 5e-7 of the same in f64 (tested) for K d and S d of 0 to 1e4 and backings of 0
-/// to 1; the result lies in 0..=1. Cells without paint keep their bits. Slots
-/// that are empty over the whole row cost nothing, and change nothing: a row may
-/// be cut anywhere.
+/// Agrees within 5e-7 with f64 arithmetic for K d and S d of 0 to 1e4 and backings of 0
+/// to 1; results lie in 0 to 1. Cells without paint keep their bits. Slots that are empty
+/// over the whole row are skipped, which changes no result: rows may be split anywhere.
 ///
 /// # Panics
-/// If there is not one backing for each cell.
-pub fn lay_over(coat: &Coat, pigments: &[[u32; SLOTS]], backing: &mut [[f32; NODES]]) {
-    let found = pigments.len();
-    assert_eq!(found, backing.len(), "a backing for each cell, found {found} cells of paint");
+/// If `pigments` and `backing` differ in length.
+pub fn composite_row(layer: &LayerOptics, pigments: &[[u32; SLOTS]], backing: &mut [[f32; NODES]]) {
+    assert_eq!(pigments.len(), backing.len(), "each cell of paint needs a backing");
     let mut any = [0; SLOTS];
     for amounts in pigments {
         for (any, amount) in any.iter_mut().zip(amounts) {
@@ -43,40 +42,42 @@ pub fn lay_over(coat: &Coat, pigments: &[[u32; SLOTS]], backing: &mut [[f32; NOD
         count += usize::from(any != 0);
     }
     if count > 0 {
-        pulp::Arch::new().dispatch(LayOver { coat, slots: &slots[..count], pigments, backing });
+        let slots = &slots[..count];
+        pulp::Arch::new().dispatch(CompositeRow { layer, slots, pigments, backing });
     }
 }
 
-struct LayOver<'a> {
-    coat: &'a Coat,
+struct CompositeRow<'a> {
+    layer: &'a LayerOptics,
+    /// Indices of the slots that are not empty.
     slots: &'a [usize],
     pigments: &'a [[u32; SLOTS]],
     backing: &'a mut [[f32; NODES]],
 }
 
-impl pulp::WithSimd for LayOver<'_> {
+impl pulp::WithSimd for CompositeRow<'_> {
     type Output = ();
 
     #[expect(
         clippy::needless_range_loop,
-        reason = "with iterators the compiler gives up on vectors: seven times slower"
+        reason = "with iterators the compiler does not vectorise: seven times slower"
     )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { coat, slots, pigments, backing } = self;
+        let Self { layer, slots, pigments, backing } = self;
         for (amounts, backing) in pigments.iter().zip(backing) {
             let mut absorption = [0.0; NODES];
             let mut scattering = [0.0; NODES];
             for &slot in slots {
                 let slot = slot % SLOTS;
-                // A cell holds 2^31 at most, and i32 is quicker to convert.
+                // A cell holds at most 2^31 quanta, and i32 converts faster than u32.
                 let amount = amounts[slot].min(i32::MAX as u32) as i32 as f32;
                 for i in 0..NODES {
-                    let k = coat.absorption[slot][i];
+                    let k = layer.absorption[slot][i];
                     absorption[i] = multiply_add::<S>(amount, k, absorption[i]);
                 }
                 for i in 0..NODES {
-                    let s = coat.scattering[slot][i];
+                    let s = layer.scattering[slot][i];
                     scattering[i] = multiply_add::<S>(amount, s, scattering[i]);
                 }
             }
@@ -87,14 +88,15 @@ impl pulp::WithSimd for LayOver<'_> {
     }
 }
 
-/// Thinner films are computed as if alpha d were this; off by its square.
-const THINNEST: f32 = 1e-5;
+/// Minimum of x = alpha d. Thinner films are computed with this x, which changes the
+/// reflectance by about its square.
+const MIN_X: f32 = 1e-5;
 
-/// The reflectance of a film of unit thickness over `backing`.
+/// Internal reflectance of a film of unit thickness over `backing`.
 #[inline(always)]
 fn film<S: Simd>(absorption: f32, scattering: f32, backing: f32) -> f32 {
     let (k, s, g) = (absorption, scattering, backing);
-    let x = greater((k * multiply_add::<S>(2.0, s, k)).sqrt(), THINNEST);
+    let x = greater((k * multiply_add::<S>(2.0, s, k)).sqrt(), MIN_X);
     let (e, rest) = decay::<S>(2.0 * x);
     let through = multiply_add::<S>(e, x, x);
     let n = s * rest;
@@ -111,29 +113,30 @@ mod tests {
 
     use super::*;
 
-    /// K d or S d from nothing to 1e4.
+    /// Values of K d and S d to test.
     const GRID: [f32; 15] =
         [0.0, 1e-12, 1e-7, 1e-5, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 50.0, 300.0, 2000.0, 1e4];
     const BACKINGS: [f32; 8] = [0.0, 1e-4, 0.03, 0.2, 0.5, 0.8, 0.97, 1.0];
 
-    /// A coat whose slots 0 and 1 bring K d and S d in even amounts of 1/16384.
-    fn coat(k: f32, s: f32) -> Coat {
-        let mut coat =
-            Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
-        coat.absorption[0] = [k / 16384.0; NODES];
-        coat.scattering[1] = [s / 16384.0; NODES];
-        coat
+    /// A layer in which 16384 quanta of slot 0 have the absorption `k` and none else, and
+    /// 16384 quanta of slot 1 the scattering `s`.
+    fn layer(k: f32, s: f32) -> LayerOptics {
+        let mut layer =
+            LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
+        layer.absorption[0] = [k / 16384.0; NODES];
+        layer.scattering[1] = [s / 16384.0; NODES];
+        layer
     }
 
-    /// The film of K d = `k` and S d = `s` times `parts` / 16384 over `backing`.
+    /// A film of K d = `k` and S d = `s`, both times `parts` / 16384, over `backing`.
     fn over(k: f32, s: f32, parts: u32, backing: [f32; NODES]) -> [f32; NODES] {
         let mut row = [backing];
-        lay_over(&coat(k, s), &[[parts, parts, 0, 0, 0, 0, 0, 0]], &mut row);
+        composite_row(&layer(k, s), &[[parts, parts, 0, 0, 0, 0, 0, 0]], &mut row);
         row[0]
     }
 
     #[test]
-    fn films_are_those_of_f64() {
+    fn films_agree_with_f64_arithmetic() {
         let mut worst = (0.0, (0.0, 0.0, 0.0));
         for k in GRID {
             for s in GRID {
@@ -153,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layer_cut_in_two_is_the_same_layer() {
+    fn a_layer_split_in_two_composites_to_the_same_reflectance() {
         for k in GRID {
             for s in GRID {
                 let whole = over(k, s, 16384, BACKINGS);
@@ -168,11 +171,11 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_the_backing_and_great_thickness_forgets_it() {
+    fn no_paint_keeps_the_backing_and_thick_paint_hides_it() {
         assert_eq!(over(1e4, 1e4, 0, BACKINGS), BACKINGS);
-        // Another cell of the row is painted: bits stay all the same.
+        // Painting another cell of the row changes no bit of this one.
         let mut row = [BACKINGS, BACKINGS];
-        lay_over(&coat(1.0, 1.0), &[[0; SLOTS], [9, 9, 0, 0, 0, 0, 0, 0]], &mut row);
+        composite_row(&layer(1.0, 1.0), &[[0; SLOTS], [9, 9, 0, 0, 0, 0, 0, 0]], &mut row);
         assert_eq!(row[0], BACKINGS);
         assert_ne!(row[1], BACKINGS);
         for (k, s) in [(1.0, 2000.0), (50.0, 1.0), (1e4, 1e4)] {
@@ -182,7 +185,7 @@ mod tests {
                 assert!((f64::from(seen) - hiding).abs() < 1e-6, "{k} {s}: {seen} {hiding}");
             }
         }
-        // A full cell of the strongest paint there is.
+        // A full cell of a paint stronger than any in the libraries.
         for seen in over(2e-3 * 16384.0, 1e-3 * 16384.0, 1 << 31, BACKINGS) {
             assert!((0.0..0.5).contains(&seen), "{seen}");
         }
@@ -212,15 +215,15 @@ mod tests {
     }
 
     #[test]
-    fn slots_add_up_and_vehicle_is_clear() {
-        let mut all = coat(0.0, 0.0);
+    fn slots_add_up() {
+        let mut all = layer(0.0, 0.0);
         for slot in 0..SLOTS {
             all.absorption[slot] = std::array::from_fn(|i| (slot + i) as f32 * 1e-5);
             all.scattering[slot] = std::array::from_fn(|i| (slot * i + 1) as f32 * 1e-5);
         }
         let amounts: [u32; SLOTS] = [3000, 1, 70_000, 0, 12, 123_456, 9, 40_000];
         let mut row = [BACKINGS; 3];
-        lay_over(&all, &[[0; SLOTS], amounts, [0; SLOTS]], &mut row);
+        composite_row(&all, &[[0; SLOTS], amounts, [0; SLOTS]], &mut row);
         for i in 0..NODES {
             let sum = |table: &[[f32; NODES]; SLOTS]| -> f64 {
                 amounts.iter().zip(table).map(|(&a, row)| f64::from(a) * f64::from(row[i])).sum()

@@ -1,37 +1,37 @@
-// A Kubelka-Munk film over a backing, at eight wavelengths; twin of composite.rs.
-// Wavelengths 0 to 3 are `low`, 4 to 7 `high`.
+// Composites a Kubelka-Munk film over a backing at eight wavelengths; twin of
+// composite.rs. Wavelengths 0 to 3 are `low`, 4 to 7 `high`.
 
 struct Nodes {
     low: vec4<f32>,
     high: vec4<f32>,
 }
 
-// K and S by slot, two vectors each.
-struct Coat {
+// K and S per quantum, two vectors per slot.
+struct LayerOptics {
     absorption: array<vec4<f32>, 16>,
     scattering: array<vec4<f32>, 16>,
 }
 
-// 1 - exp(-y) and its complement; by series where the difference loses digits.
-fn decay_rest(y: vec4<f32>, e: vec4<f32>) -> vec4<f32> {
+// 1 - exp(-y), given e = exp(-y); by a series where the difference would lose digits.
+fn one_minus_exp(y: vec4<f32>, e: vec4<f32>) -> vec4<f32> {
     let tail = 1.0 - y / 4.0 * (1.0 - y / 5.0 * (1.0 - y / 6.0 * (1.0 - y / 7.0)));
     let series = y * (1.0 - y / 2.0 * (1.0 - y / 3.0 * tail));
     return select(1.0 - e, series, y < vec4(0.5));
 }
 
-// The form of Layer::new with d = 1 over a backing, freed of differences:
+// Internal reflectance of a film of unit thickness over the backing g; see composite.rs:
 //   x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e)
 //   den = (K + S) (1 - e) + (1 + e) x       above = den - n g
 //   R = (n above + 4 e x^2 g) / (den above)
 fn film(k: vec4<f32>, s: vec4<f32>, g: vec4<f32>) -> vec4<f32> {
     let x = max(sqrt(k * (k + 2.0 * s)), vec4(1e-5));
     let e = exp(-2.0 * x);
-    let rest = decay_rest(2.0 * x, e);
+    let rest = one_minus_exp(2.0 * x, e);
     let through = e * x + x;
     let n = s * rest;
     let den = (k + s) * rest + through;
     let above = (k + s * (1.0 - g)) * rest + through;
-    // Each quotient by itself, as their product may pass what f32 holds.
+    // Separate quotients, since the product of the denominators may overflow f32.
     let r = n / den + (2.0 * x / den) * (2.0 * x / above) * e * g;
     return select(min(r, vec4(1.0)), g, k + s <= vec4(0.0));
 }
@@ -41,24 +41,25 @@ struct Sums {
     s: Nodes,
 }
 
-// What binds `now` gives it a `coat`: a uniform is not handed to functions.
+// Adds one slot's K and S. The uniform `params` of the including shader has a field
+// `layer`; uniforms cannot be passed to functions.
 fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
     let amount = f32(quanta);
     return Sums(
         Nodes(
-            sums.k.low + amount * now.coat.absorption[2u * slot],
-            sums.k.high + amount * now.coat.absorption[2u * slot + 1u],
+            sums.k.low + amount * params.layer.absorption[2u * slot],
+            sums.k.high + amount * params.layer.absorption[2u * slot + 1u],
         ),
         Nodes(
-            sums.s.low + amount * now.coat.scattering[2u * slot],
-            sums.s.high + amount * now.coat.scattering[2u * slot + 1u],
+            sums.s.low + amount * params.layer.scattering[2u * slot],
+            sums.s.high + amount * params.layer.scattering[2u * slot + 1u],
         ),
     );
 }
 
-// Amounts in quanta, by slot. Written out, as an index that varies sends a
-// vector through memory.
-fn lay_over(low: vec4<u32>, high: vec4<u32>, backing: Nodes) -> Nodes {
+// Composites the amounts `low` and `high`, in quanta by slot, over `backing`. Unrolled,
+// since a variable index would send the vectors through memory.
+fn composite(low: vec4<u32>, high: vec4<u32>, backing: Nodes) -> Nodes {
     var sums = with_slot(Sums(), 0u, low.x);
     sums = with_slot(sums, 1u, low.y);
     sums = with_slot(sums, 2u, low.z);

@@ -1,4 +1,4 @@
-// What the head is over one cell of the canvas; twin of contact.rs.
+// The head's surface above one cell of the canvas; twin of contact.rs.
 
 struct Touch {
     height: i32,
@@ -7,9 +7,9 @@ struct Touch {
     weights: u32,
 }
 
-// Two numbers in one, each a two's complement of 16 bits.
-fn halves(both: u32) -> vec2<i32> {
-    let signed = bitcast<i32>(both);
+// Unpacks two 16-bit numbers in two's complement: low half, high half.
+fn halves(packed: u32) -> vec2<i32> {
+    let signed = bitcast<i32>(packed);
     return vec2((signed << 16u) >> 16u, signed >> 16u);
 }
 
@@ -17,7 +17,7 @@ fn touch_velocity(touch: Touch) -> vec2<i32> {
     return halves(touch.velocity);
 }
 
-fn touch_speed(touch: Touch) -> u32 {
+fn touch_transfer_weight(touch: Touch) -> u32 {
     return touch.weights & 0xffffu;
 }
 

@@ -1,25 +1,24 @@
-//! A layer of paint: for every cell, how much of each of eight pigments, and of
-//! vehicle.
+//! A layer of paint: the amounts of eight pigments and of vehicle in every cell.
 
 use crate::amount::{share_of_256, share_of_65536};
 use graphics::field::Field;
 use graphics::tile::Rect;
 
-/// How many pigments a layer can hold.
+/// Number of pigments that a layer can hold, each in a slot of its own.
 pub const SLOTS: usize = 8;
 
-/// What one cell holds, in quanta: the paint of each of the layer's pigments,
-/// and transparent vehicle (oil, medium). Their sum is the cell's volume.
+/// The paint in one cell, in quanta: the paint of each pigment and transparent vehicle
+/// (oil, medium). Their sum is the cell's volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cell {
-    /// Of each pigment's paint, by slot.
+    /// Amount of each pigment's paint in quanta, by slot.
     pub pigments: [u32; SLOTS],
-    /// Of vehicle.
+    /// Amount of vehicle in quanta.
     pub vehicle: u32,
 }
 
 impl Cell {
-    /// The height of the column, in quanta.
+    /// Sum of all amounts, which is the height of the column in quanta.
     #[inline(always)]
     #[must_use]
     pub fn volume(&self) -> u32 {
@@ -30,10 +29,10 @@ impl Cell {
         volume
     }
 
-    /// `share` of 65536 parts of everything, rounded down.
+    /// Computes `amount * share / 65536` of each amount, rounded down.
     #[inline(always)]
     #[must_use]
-    pub fn share(&self, share: u32) -> Self {
+    pub fn share_of_65536(&self, share: u32) -> Self {
         self.with(
             self,
             #[inline(always)]
@@ -41,10 +40,10 @@ impl Cell {
         )
     }
 
-    /// `share` of 256 parts of everything, rounded down.
+    /// Computes `amount * share / 256` of each amount, rounded down.
     #[inline(always)]
     #[must_use]
-    pub fn small_share(&self, share: u32) -> Self {
+    pub fn share_of_256(&self, share: u32) -> Self {
         self.with(
             self,
             #[inline(always)]
@@ -52,7 +51,7 @@ impl Cell {
         )
     }
 
-    /// This and `other` together.
+    /// Adds `other`, amount by amount.
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
@@ -63,7 +62,7 @@ impl Cell {
         )
     }
 
-    /// This without `part`, which it holds.
+    /// Subtracts `part`, none of whose amounts exceeds this cell's.
     #[inline(always)]
     #[must_use]
     pub fn minus(&self, part: &Self) -> Self {
@@ -74,7 +73,7 @@ impl Cell {
         )
     }
 
-    /// This and `other` together, modulo 2^32: for sums that owe in between.
+    /// Adds `other` modulo 2^32, for sums whose intermediate results may be negative.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_plus(&self, other: &Self) -> Self {
@@ -85,7 +84,7 @@ impl Cell {
         )
     }
 
-    /// This without `part`, modulo 2^32.
+    /// Subtracts `part` modulo 2^32.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_minus(&self, part: &Self) -> Self {
@@ -96,9 +95,9 @@ impl Cell {
         )
     }
 
-    /// `act` on each amount and that of `other`. A loop, as the closures of
-    /// `map` and `from_fn` are not always inlined, and then are not compiled for
-    /// the instructions that the caller chose.
+    /// Applies `act` to each pair of amounts. Written as a loop, since the closures of
+    /// `map` and `from_fn` are not always inlined and then are not compiled for the
+    /// instruction set that the caller chose.
     #[inline(always)]
     fn with(&self, other: &Self, act: impl Fn(u32, u32) -> u32) -> Self {
         let mut result = *self;
@@ -112,18 +111,18 @@ impl Cell {
     }
 }
 
-/// Paint over a rectangle of cells: wet or dry on the canvas, or on the head of
-/// a brush. 36 bytes a cell.
+/// Paint over a rectangle of cells: wet or dry on the canvas, or on the head of a brush.
+/// 36 bytes a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Of each pigment's paint, in quanta, by slot.
+    /// Amount of each pigment's paint in quanta, by slot.
     pub pigments: Field<[u32; SLOTS]>,
-    /// Of vehicle, in quanta.
+    /// Amount of vehicle in quanta.
     pub vehicle: Field<u32>,
 }
 
 impl Layer {
-    /// No paint.
+    /// A layer of `width` x `height` cells without paint.
     #[must_use]
     pub fn empty(width: usize, height: usize) -> Self {
         Self {
@@ -132,51 +131,52 @@ impl Layer {
         }
     }
 
-    /// Cells in a row.
+    /// Width in cells.
     #[must_use]
     pub fn width(&self) -> usize {
         self.vehicle.width()
     }
 
-    /// Rows.
+    /// Height in cells.
     #[must_use]
     pub fn height(&self) -> usize {
         self.vehicle.height()
     }
 
-    /// The cell of this `index`, counted row by row.
+    /// The paint in the cell with this index, counted row by row.
     #[inline(always)]
     #[must_use]
     pub fn cell(&self, index: usize) -> Cell {
         Cell { pigments: self.pigments.values()[index], vehicle: self.vehicle.values()[index] }
     }
 
-    /// Puts `cell` at this `index`.
+    /// Replaces the paint in the cell with this index, counted row by row.
     #[inline(always)]
     pub fn set_cell(&mut self, index: usize, cell: Cell) {
         self.pigments.values_mut()[index] = cell.pigments;
         self.vehicle.values_mut()[index] = cell.vehicle;
     }
 
-    /// The paint in `rect`.
+    /// Copies the paint in `rect`.
     ///
     /// # Panics
-    /// If it has cells that the layer has not.
+    /// If `rect` reaches beyond the layer.
     #[must_use]
     pub fn part(&self, rect: Rect) -> Self {
         Self { pigments: self.pigments.part(rect), vehicle: self.vehicle.part(rect) }
     }
 
-    /// Puts `part` in the place of what begins at column `x` of row `y`.
+    /// Replaces the cells under `part`, whose upper left cell goes to column `x` of
+    /// row `y`.
     ///
     /// # Panics
-    /// If it reaches beyond the layer.
+    /// If `part` reaches beyond the layer.
     pub fn put(&mut self, (x, y): (usize, usize), part: &Self) {
         self.pigments.put((x, y), &part.pigments);
         self.vehicle.put((x, y), &part.vehicle);
     }
 
-    /// The sum of each pigment over all cells, and of vehicle last.
+    /// Sums each pigment over all cells, in quanta; the last element is vehicle.
     #[must_use]
     pub fn totals(&self) -> [u64; SLOTS + 1] {
         let mut totals = [0; SLOTS + 1];

@@ -1,4 +1,4 @@
-// What one cell holds; twin of layer.rs. Pigments 0 to 3 are `low`, 4 to 7 `high`.
+// The paint in one cell in quanta; twin of layer.rs. Slots 0 to 3 are `low`, 4 to 7 `high`.
 
 struct Cell {
     low: vec4<u32>,
@@ -11,11 +11,11 @@ fn volume(cell: Cell) -> u32 {
     return both.x + both.y + both.z + both.w + cell.vehicle;
 }
 
-fn share(cell: Cell, parts: u32) -> Cell {
+fn cell_share_of_65536(cell: Cell, share: u32) -> Cell {
     return Cell(
-        shares_of_65536(cell.low, parts),
-        shares_of_65536(cell.high, parts),
-        share_of_65536(cell.vehicle, parts),
+        shares_of_65536(cell.low, share),
+        shares_of_65536(cell.high, share),
+        share_of_65536(cell.vehicle, share),
     );
 }
 

@@ -17,7 +17,7 @@ pub mod layer;
 
 pub mod optics;
 
-pub mod palette;
+pub mod node_pigments;
 
 pub mod light;
 
@@ -31,7 +31,7 @@ pub mod contact;
 
 pub mod motion;
 
-mod engine;
+pub mod engine;
 
 pub mod document;
 
@@ -42,10 +42,6 @@ pub mod separation;
 pub mod brush;
 
 pub mod stroke;
-
-pub mod on_cpu;
-
-pub mod on_gpu;
 
 pub mod history;
 
@@ -61,4 +57,4 @@ pub mod file;
 
 pub mod export;
 
-pub use engine::{BrushId, Engine, Slot, View};
+pub use engine::{BrushId, PaintEngine, UndoSlot, View};

@@ -1,44 +1,46 @@
-//! Where a brush is held.
+//! Position and attitude of a brush: a pen's sample in mm, and a pose in cells.
 
-/// A brush at one moment, as a pen tells it.
+/// Position and attitude of a brush at one moment, as a pen reports it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Seconds since the stroke began, never falling.
+    /// Seconds since the stroke began; never less than in the sample before.
     pub seconds: f64,
-    /// From the left edge of the canvas to where the tip would touch, in mm.
+    /// Distance in mm from the left edge of the canvas to the point where the axis of
+    /// the handle meets it.
     pub x_mm: f64,
-    /// From the upper edge, in mm.
+    /// Distance in mm from the upper edge of the canvas to that point.
     pub y_mm: f64,
-    /// 0 (just above the canvas) to 1 (as far down as the head bends).
+    /// Pressure from 0 (just above the canvas) to 1 (as far down as the head bends).
     pub pressure: f64,
-    /// Lean to the right, -90..90 degrees from upright.
+    /// Tilt of the handle to the right, -90 to 90 degrees from upright.
     pub tilt_x_deg: f64,
-    /// Lean towards the lower edge, -90..90 degrees from upright.
+    /// Tilt of the handle towards the lower edge, -90 to 90 degrees from upright.
     pub tilt_y_deg: f64,
-    /// Turn about the handle, clockwise seen from above, in degrees; at 0 the
-    /// broad side of a flat head runs along x.
+    /// Rotation about the handle in degrees, clockwise seen from above; at 0 the broad
+    /// side of a flat head runs along x.
     pub twist_deg: f64,
 }
 
-/// Where a brush is at one sub-step, in cells of the canvas.
+/// Position and attitude of a brush at one sub-step, with positions in cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// From the left edge to where the tip would touch, in cells.
+    /// Distance in cells from the left edge of the canvas to the point where the axis of
+    /// the handle meets it.
     pub x: f64,
-    /// From the upper edge, in cells.
+    /// Distance in cells from the upper edge of the canvas to that point.
     pub y: f64,
-    /// As in [`Sample`].
+    /// Pressure from 0 (just above the canvas) to 1 (as far down as the head bends).
     pub pressure: f64,
-    /// As in [`Sample`].
+    /// Tilt of the handle to the right, in degrees from upright.
     pub tilt_x_deg: f64,
-    /// As in [`Sample`].
+    /// Tilt of the handle towards the lower edge, in degrees from upright.
     pub tilt_y_deg: f64,
-    /// As in [`Sample`].
+    /// Rotation about the handle in degrees, clockwise seen from above.
     pub twist_deg: f64,
 }
 
 impl Pose {
-    /// Whether every number is one.
+    /// Whether all numbers are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         let numbers =
@@ -48,7 +50,7 @@ impl Pose {
 }
 
 impl Sample {
-    /// The pose over cells that are `cell_mm` wide.
+    /// Converts the position to cells that are `cell_mm` wide.
     #[must_use]
     pub fn pose(&self, cell_mm: f64) -> Pose {
         Pose {

@@ -257,7 +257,7 @@ mod tests {
         let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
         assert_eq!(dab.len(), DAB.len() - 2);
         let paints = |contact: &Contact| {
-            contact.touches.iter().any(|touch| touch.height < 0 && touch.speed() == 256)
+            contact.touches.iter().any(|touch| touch.height < 0 && touch.transfer_weight() == 256)
         };
         assert!(dab.iter().any(paints));
     }

@@ -8,15 +8,15 @@
 use super::plan::Plan;
 use super::planned::{COVER, samples};
 use graphics::field::Field;
+use paint::BrushId;
 use paint::amount::{mm_from_quanta, quanta_from_mm};
 use paint::brush::{Head, HeadShape, Relief};
+use paint::engine::PaintEngine;
 use paint::layer::Layer;
-use paint::motion::Motion;
-use paint::on_cpu::OnCpu;
+use paint::motion::MotionConstants;
 use paint::painting::PaintingError;
 use paint::pose::Sample;
 use paint::stroke::{contacts, substeps};
-use paint::{BrushId, Engine};
 
 /// The most times that a brush goes over one path.
 const MOST_PASSES: usize = 4;
@@ -109,7 +109,7 @@ struct Trial<'a> {
     head: Head,
     plan: &'a Plan,
     relief: Relief,
-    engine: OnCpu,
+    engine: PaintEngine,
     brush: BrushId,
 }
 
@@ -124,7 +124,7 @@ impl<'a> Trial<'a> {
         let size = size_mm / cell_mm;
         let (width, height) = (((LENGTH + 3.0) * size).ceil(), (3.0 * size).ceil());
         let (width, height) = (width as usize, height as usize);
-        let mut engine = OnCpu::new(Field::filled(width, height, 0));
+        let mut engine = PaintEngine::on_cpu(Field::filled(width, height, 0));
         let (around, along) = head.paint_grid();
         let brush = engine.add_brush(around, along)?;
         let relief = Relief::flat(width, height, cell_mm);
@@ -142,14 +142,14 @@ impl<'a> Trial<'a> {
         let (around, along) = self.head.paint_grid();
         let mut loaded = Layer::empty(around, along);
         loaded.vehicle.values_mut().fill(quanta_from_mm(load_mm, cell_mm));
-        self.engine.set_brush(self.brush, &loaded)?;
+        self.engine.set_brush_paint(self.brush, &loaded)?;
         let points = (4.0 * LENGTH) as usize;
         let path: Vec<[f64; 2]> =
             (0..=points).map(|point| [size * (1.5 + 0.25 * point as f64), middle]).collect();
         let samples = to_and_fro(&samples(&path, self.plan, size, cell_mm), passes);
         let poses = substeps(&samples, cell_mm)?;
         for contact in contacts(&mut self.head, poses, &self.relief, bounds) {
-            self.engine.play(self.brush, &Motion::default(), &[contact])?;
+            self.engine.apply_contacts(self.brush, &MotionConstants::default(), &[contact])?;
         }
         let wet = self.engine.wet()?;
         let span = |middle: f64, reach: f64| (middle - reach) as usize..(middle + reach) as usize;

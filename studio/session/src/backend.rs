@@ -1,10 +1,8 @@
 //! What computes the paintings: the processor or a graphics device.
 
 use render::field::Field;
-use render::gpu::{BackendChoice, choose};
-use render::paint::Engine;
-use render::paint::on_cpu::OnCpu;
-use render::paint::on_gpu::OnGpu;
+use render::gpu::BackendChoice;
+use render::paint::engine::{OpenedEngine, PaintEngine};
 
 /// Where to compute.
 #[derive(Debug)]
@@ -32,16 +30,14 @@ impl Backend {
     /// own. Where there is none, or none that holds the canvas, the processor
     /// paints from now on, and why comes with it if a device was asked for or
     /// there.
-    pub(super) fn engine(&mut self, floor: &Field<i32>) -> (Box<dyn Engine>, Option<String>) {
-        let reason = match choose(self.choice) {
-            Ok(Some(device)) => match OnGpu::new(device, floor) {
-                Ok(engine) => return (Box::new(engine), None),
-                Err(error) => Some(error.to_string()),
-            },
-            Ok(None) => None,
-            Err(error) => Some(error.to_string()),
-        };
-        self.fall_back();
-        (Box::new(OnCpu::new(floor.clone())), reason)
+    pub(super) fn engine(&mut self, floor: &Field<i32>) -> (PaintEngine, Option<String>) {
+        let opened = PaintEngine::open(self.choice, floor).unwrap_or_else(|error| OpenedEngine {
+            engine: PaintEngine::on_cpu(floor.clone()),
+            gave_way: Some(error),
+        });
+        if opened.engine.device().is_none() {
+            self.fall_back();
+        }
+        (opened.engine, opened.gave_way.map(|error| error.to_string()))
     }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use render::gpu::{BackendChoice, choose};
 use render::paint::document::Document;
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::session::PaintingSession;
@@ -21,8 +21,8 @@ pub(crate) fn session() -> PaintingSession {
     let Origin::Blank { script, library } = small() else { panic!("a bare canvas") };
     let (canvas, palette) = script.surfaces(&library, None).unwrap();
     let painting = |document: Document| {
-        let engine = OnCpu::new(document.ground.height.clone());
-        Painting::open(document, Box::new(engine), 1 << 28).unwrap()
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
+        Painting::open(document, engine, 1 << 28).unwrap()
     };
     let mut session =
         PaintingSession::recorded(painting(canvas), palette.map(painting), &script).unwrap();

@@ -3,8 +3,7 @@
 use render::field::Field;
 use render::gpu::DeviceError;
 use render::layer::Layer;
-use render::paint::Engine;
-use render::paint::on_gpu::OnGpu;
+use render::paint::engine::PaintEngine;
 use spectra::hint::Explain;
 
 #[test]
@@ -16,7 +15,7 @@ fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     if cells > 1 << 26 {
         return;
     }
-    let error = OnGpu::new(device, &Field::filled(cells, 1, 0)).unwrap_err();
+    let error = PaintEngine::on_device(device, &Field::filled(cells, 1, 0)).unwrap_err();
     let bytes = 32 * cells as u64;
     assert_eq!(error, DeviceError::TooLarge { what: "the canvas", bytes, limit });
     assert_eq!(error.hint().unwrap().to_string(), "paint on the processor: `backend = cpu`");
@@ -25,16 +24,16 @@ fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
 #[test]
 fn a_lost_device_is_an_error_of_every_call() {
     let Some(device) = crate::device() else { return };
-    let mut engine = OnGpu::new(device, &Field::filled(70, 70, 0)).unwrap();
+    let mut engine = PaintEngine::on_device(device, &Field::filled(70, 70, 0)).unwrap();
     let brush = engine.add_brush(4, 4).unwrap();
-    engine.device().close();
+    engine.device().unwrap().close();
     let lost = |found: Result<(), DeviceError>| {
         assert!(matches!(found, Err(DeviceError::Lost { .. })), "{found:?}");
     };
     lost(engine.set_wet(&Layer::empty(70, 70)));
-    lost(engine.set_brush(brush, &Layer::empty(4, 4)));
+    lost(engine.set_brush_paint(brush, &Layer::empty(4, 4)));
     lost(engine.wet().map(drop));
-    lost(engine.brush(brush).map(drop));
+    lost(engine.brush_paint(brush).map(drop));
     lost(engine.dry(100));
     lost(engine.floor().map(drop));
     lost(engine.picture().map(drop));

@@ -7,7 +7,7 @@ use render::{paint, watercolor};
 
 /// Those of all techniques.
 fn kernels() -> Vec<&'static Kernel> {
-    [paint::on_gpu::kernels(), watercolor::kernels()].concat()
+    [paint::engine::kernels(), watercolor::kernels()].concat()
 }
 
 fn parsed(kernel: &Kernel) -> naga::Module {

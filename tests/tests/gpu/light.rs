@@ -5,9 +5,9 @@ use rand_chacha::ChaCha8Rng;
 use render::amount::QUANTA_PER_CELL;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
-use render::optics::{Coat, Gloss, Lamp, NODES, Scene, SceneSurface};
-use render::paint::on_gpu::OnGpu;
-use render::paint::{Engine, View};
+use render::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
+use render::paint::View;
+use render::paint::engine::PaintEngine;
 use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
@@ -18,9 +18,10 @@ const NEAR: f64 = 3e-6;
 /// The same for three films, relief and gloss. Found on lavapipe: 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
 
-const NO_COAT: Coat = Coat { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
+const NO_LAYER: LayerOptics =
+    LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
 
-fn flat_scene(ground: f32, wet: Coat, dry: Vec<Coat>) -> Scene {
+fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
     // Red, green and blue each see other wavelengths.
     let rgb = |node: usize| [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0];
@@ -28,7 +29,7 @@ fn flat_scene(ground: f32, wet: Coat, dry: Vec<Coat>) -> Scene {
         ground: [ground; NODES],
         dry,
         wet,
-        surface: SceneSurface { k1: 0.03, k2: 0.5, floor: 0.03 },
+        surface: SceneSurface { k1: 0.03, k2: 0.5, specular: 0.03 },
         rgb_from_nodes: std::array::from_fn(rgb),
         lamp: Lamp {
             direction: [-0.45, -0.45, 0.771],
@@ -53,7 +54,7 @@ fn color(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
     sum
 }
 
-fn film(coat: &Coat, cell: &Cell, node: usize, backing: f64) -> f64 {
+fn film(coat: &LayerOptics, cell: &Cell, node: usize, backing: f64) -> f64 {
     let of = |per: &[[f32; NODES]; SLOTS]| -> f64 {
         let parts = per.iter().zip(cell.pigments);
         parts.map(|(per, amount)| f64::from(per[node]) * f64::from(amount)).sum()
@@ -95,16 +96,17 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
     }
     for per_quantum in [1e-9, 1e-7, 1e-5] {
         for ground in [0.0, 0.04, 0.5, 1.0] {
-            let mut coat = NO_COAT;
+            let mut coat = NO_LAYER;
             // Absorption falls over the wavelengths, scattering rises.
             coat.absorption[0] = std::array::from_fn(|i| per_quantum * (8 - i) as f32);
             coat.scattering[1] = std::array::from_fn(|i| per_quantum * (1 + i) as f32);
             let scene = flat_scene(ground, coat, Vec::new());
             let Some(device) = crate::device() else { return };
-            let mut engine = OnGpu::new(device, &Field::filled(count, count, 0)).unwrap();
+            let mut engine =
+                PaintEngine::on_device(device, &Field::filled(count, count, 0)).unwrap();
             engine.set_wet(&wet).unwrap();
             let all = TileSet::all(engine.bounds());
-            engine.light(View::First, &scene, &all, &TileSet::default()).unwrap();
+            engine.render(View::First, &scene, &all, &TileSet::default()).unwrap();
             let picture = engine.picture().unwrap();
             let (off, cell) = largest(&picture, |i| {
                 let nodes =
@@ -128,9 +130,9 @@ fn painted(rng: &mut ChaCha8Rng, size: usize) -> Layer {
     layer
 }
 
-fn any_coat(rng: &mut ChaCha8Rng) -> Coat {
+fn any_layer(rng: &mut ChaCha8Rng) -> LayerOptics {
     let mut any = || std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(0.0..4e-6)));
-    Coat { absorption: any(), scattering: any() }
+    LayerOptics { absorption: any(), scattering: any() }
 }
 
 #[test]
@@ -141,19 +143,19 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     let floor = (0..SIZE * SIZE).map(|_| rng.random_range(-(1 << 19)..1 << 19)).collect();
     let floor = Field::from_values(SIZE, SIZE, floor);
     let layers: Vec<_> = (0..3).map(|_| painted(&mut rng, SIZE)).collect();
-    let coats: Vec<_> = (0..3).map(|_| any_coat(&mut rng)).collect();
-    let mut engine = OnGpu::new(device, &floor).unwrap();
-    engine.push_dry(&layers[0]).unwrap();
-    engine.push_dry(&layers[1]).unwrap();
+    let coats: Vec<_> = (0..3).map(|_| any_layer(&mut rng)).collect();
+    let mut engine = PaintEngine::on_device(device, &floor).unwrap();
+    engine.push_dry_layer(&layers[0]).unwrap();
+    engine.push_dry_layer(&layers[1]).unwrap();
     engine.set_wet(&layers[2]).unwrap();
     let floor = engine.floor().unwrap();
     let mut scene = flat_scene(0.8, coats[2], coats[..2].to_vec());
     scene.lamp.relief = 0.7;
     let all = TileSet::all(engine.bounds());
     // Baked under nothing, then shown only: no tile needs both at once.
-    engine.light(View::First, &scene, &all, &TileSet::default()).unwrap();
+    engine.render(View::First, &scene, &all, &TileSet::default()).unwrap();
     scene.lamp.ambient = 0.2;
-    engine.light(View::First, &scene, &TileSet::default(), &all).unwrap();
+    engine.render(View::First, &scene, &TileSet::default(), &all).unwrap();
 
     let top = |x: isize, y: isize| {
         let end = SIZE as isize - 1;
@@ -212,14 +214,14 @@ fn bare(layers: &[Layer], cell: usize) -> u8 {
 #[test]
 fn only_the_tiles_that_are_named_change() {
     let Some(device) = crate::device() else { return };
-    let mut engine = OnGpu::new(device, &Field::filled(200, 130, 0)).unwrap();
+    let mut engine = PaintEngine::on_device(device, &Field::filled(200, 130, 0)).unwrap();
     let all = TileSet::all(engine.bounds());
-    engine.light(View::First, &flat_scene(0.5, NO_COAT, Vec::new()), &all, &all).unwrap();
+    engine.render(View::First, &flat_scene(0.5, NO_LAYER, Vec::new()), &all, &all).unwrap();
     let before = engine.picture().unwrap();
     let mut one = TileSet::default();
     one.insert(render::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
     engine
-        .light(View::First, &flat_scene(0.9, NO_COAT, Vec::new()), &one, &TileSet::default())
+        .render(View::First, &flat_scene(0.9, NO_LAYER, Vec::new()), &one, &TileSet::default())
         .unwrap();
     let after = engine.picture().unwrap();
     for y in 0..130 {

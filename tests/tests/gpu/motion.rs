@@ -3,9 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
-use render::paint::Engine;
-use render::paint::motion::Motion;
-use render::paint::on_gpu::OnGpu;
+use render::paint::engine::PaintEngine;
+use render::paint::motion::MotionConstants;
 use render::tile::Rect;
 
 use crate::reference::{Amounts, Reference, contact, paint};
@@ -27,11 +26,11 @@ fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> render::paint
     contact(rng, rect, top, (HEAD.0 * HEAD.1) as u32)
 }
 
-fn engine(start: &Reference) -> Option<(OnGpu, render::paint::BrushId)> {
-    let mut engine = OnGpu::new(crate::device()?, &start.floor).unwrap();
+fn engine(start: &Reference) -> Option<(PaintEngine, render::paint::BrushId)> {
+    let mut engine = PaintEngine::on_device(crate::device()?, &start.floor).unwrap();
     let brush = engine.add_brush(HEAD.0, HEAD.1).unwrap();
     engine.set_wet(&start.wet).unwrap();
-    engine.set_brush(brush, &start.brush).unwrap();
+    engine.set_brush_paint(brush, &start.brush).unwrap();
     Some((engine, brush))
 }
 
@@ -68,11 +67,11 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
         let Some((mut engine, brush)) = engine(&wanted) else { return };
         for rect in rects() {
             let contact = contact_on(&mut rng, &wanted, rect);
-            wanted.step(&Motion::default(), &contact);
-            engine.play(brush, &Motion::default(), &[contact]).unwrap();
+            wanted.step(&MotionConstants::default(), &contact);
+            engine.apply_contacts(brush, &MotionConstants::default(), &[contact]).unwrap();
             let told = format!("canvas {canvas:?}, head {head:?}, {rect:?}");
             assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {told}");
-            assert!(engine.brush(brush).unwrap() == wanted.brush, "the head, {told}");
+            assert!(engine.brush_paint(brush).unwrap() == wanted.brush, "the head, {told}");
         }
     }
 }
@@ -80,19 +79,29 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
 #[test]
 fn other_constants_are_followed_too() {
     for motion in [
-        Motion { push: 1, adhesion: 0, most: 65535, cutoff: 256 },
-        Motion { push: 1 << 30, adhesion: 65535, most: 0, cutoff: 1 << 31 },
+        MotionConstants {
+            push_quanta: 1,
+            adhesion_quanta: 0,
+            max_transfer_quanta: 65535,
+            full_transfer_quanta: 256,
+        },
+        MotionConstants {
+            push_quanta: 1 << 30,
+            adhesion_quanta: 65535,
+            max_transfer_quanta: 0,
+            full_transfer_quanta: 1 << 31,
+        },
     ] {
-        let mut rng = ChaCha8Rng::seed_from_u64(motion.most.into());
+        let mut rng = ChaCha8Rng::seed_from_u64(motion.max_transfer_quanta.into());
         let mut wanted = reference(&mut rng, Amounts::Usual, Amounts::Usual);
         let Some((mut engine, brush)) = engine(&wanted) else { return };
         for rect in rects() {
             let contact = contact_on(&mut rng, &wanted, rect);
             wanted.step(&motion, &contact);
-            engine.play(brush, &motion, &[contact]).unwrap();
+            engine.apply_contacts(brush, &motion, &[contact]).unwrap();
         }
         assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {motion:?}");
-        assert!(engine.brush(brush).unwrap() == wanted.brush, "the head, {motion:?}");
+        assert!(engine.brush_paint(brush).unwrap() == wanted.brush, "the head, {motion:?}");
     }
 }
 
@@ -108,11 +117,11 @@ fn ten_thousand_sub_steps_keep_every_pigment() {
         })
         .collect();
     for _ in 0..100 {
-        engine.play(brush, &Motion::default(), &contacts).unwrap();
+        engine.apply_contacts(brush, &MotionConstants::default(), &contacts).unwrap();
     }
     let end = Reference {
         wet: engine.wet().unwrap(),
-        brush: engine.brush(brush).unwrap(),
+        brush: engine.brush_paint(brush).unwrap(),
         ..start.clone()
     };
     assert_eq!(end.totals(), start.totals());

@@ -6,10 +6,12 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::{Cell, Layer};
 use render::paint::contact::{Contact, Touch};
-use render::paint::motion::Motion;
+use render::paint::motion::MotionConstants;
 use render::paint::motion::advect::{mobile_share, outflow};
-use render::paint::motion::press::{APART, CROWDED, penetration, velocity, yielding};
-use render::paint::motion::transfer::{Giver, exchange, handed_over};
+use render::paint::motion::press::{
+    CROWDED_VOLUME, NO_CONTACT, avoid_crowded_columns, penetration, velocity,
+};
+use render::paint::motion::transfer::{Exchange, Source, exchange};
 use render::tile::Rect;
 
 /// A canvas and one head.
@@ -21,7 +23,7 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    pub(crate) fn step(&mut self, motion: &Motion, contact: &Contact) {
+    pub(crate) fn step(&mut self, motion: &MotionConstants, contact: &Contact) {
         let canvas = self.floor.bounds();
         let width = canvas.width;
         let touch = |x: isize, y: isize| {
@@ -33,12 +35,12 @@ impl Reference {
         let before = self.wet.clone();
         let depth = |x: isize, y: isize| {
             let i = || y as usize * width + x as usize;
-            touch(x, y).map_or(APART, |touch| {
+            touch(x, y).map_or(NO_CONTACT, |touch| {
                 penetration(touch, self.floor.values()[i()], before.cell(i()).volume())
             })
         };
         let pressed = |x: isize, y: isize| match depth(x, y) {
-            APART => 0,
+            NO_CONTACT => 0,
             depth => depth,
         };
         let moving = contact.rect.grown(1, canvas);
@@ -55,9 +57,9 @@ impl Reference {
                 };
                 u = if stays(i, u, canvas.width) { u } else { 0 };
                 v = if stays(j, v, canvas.height) { v } else { 0 };
-                let (u, v) = yielding((u, v), |to_x, to_y| {
+                let (u, v) = avoid_crowded_columns((u, v), |to_x, to_y| {
                     let there = (j + to_y as isize) as usize * width + (i + to_x as isize) as usize;
-                    before.cell(there).volume() > CROWDED
+                    before.cell(there).volume() > CROWDED_VOLUME
                 });
                 let here = y * width + x;
                 let cell = before.cell(here);
@@ -65,7 +67,7 @@ impl Reference {
                 let out = outflow(&cell, share, (u.unsigned_abs(), v.unsigned_abs()));
                 let (right, below) = (u.signum() as isize, v.signum() as isize);
                 for (part, to_x, to_y) in
-                    [(out.beside, right, 0), (out.along, 0, below), (out.corner, right, below)]
+                    [(out.in_x, right, 0), (out.in_y, 0, below), (out.diagonal, right, below)]
                 {
                     let there = (j + to_y) as usize * width + (i + to_x) as usize;
                     self.wet.set_cell(here, self.wet.cell(here).minus(&part));
@@ -79,17 +81,19 @@ impl Reference {
             for x in contact.rect.x..contact.rect.x + contact.rect.width {
                 let (i, j) = (x as isize, y as isize);
                 let penetration = depth(i, j);
-                let Some(touch) = touch(i, j).filter(|_| penetration != APART) else { continue };
+                let Some(touch) = touch(i, j).filter(|_| penetration != NO_CONTACT) else {
+                    continue;
+                };
                 let (here, there) = (y * width + x, touch.brush_cell as usize);
                 let (cell, brush) = (self.wet.cell(here), head.cell(there));
-                let (giver, share) =
+                let Exchange { source, share } =
                     exchange(motion, touch, penetration as u32, cell.volume(), brush.volume());
-                if giver == Giver::Brush {
-                    let part = handed_over(&brush, share);
+                if source == Source::Brush {
+                    let part = brush.share_of_65536(share);
                     self.wet.set_cell(here, cell.plus(&part));
                     self.brush.set_cell(there, self.brush.cell(there).minus(&part));
                 } else {
-                    let part = handed_over(&cell, share);
+                    let part = cell.share_of_65536(share);
                     self.wet.set_cell(here, cell.minus(&part));
                     given_back.push((there, part));
                 }

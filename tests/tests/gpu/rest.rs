@@ -4,20 +4,20 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::Layer;
-use render::paint::on_gpu::OnGpu;
-use render::paint::{Engine, Slot};
+use render::paint::UndoSlot;
+use render::paint::engine::PaintEngine;
 use render::tile::{TILE, Tile};
 
 use crate::reference::{Amounts, paint};
 
 const SIZE: (usize, usize) = (150, 70);
 
-fn canvas(seed: u64) -> Option<(OnGpu, Field<i32>, Layer)> {
+fn canvas(seed: u64) -> Option<(PaintEngine, Field<i32>, Layer)> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let floor = (0..SIZE.0 * SIZE.1).map(|_| rng.random_range(-1000..1000)).collect();
     let floor = Field::from_values(SIZE.0, SIZE.1, floor);
     let wet = paint(&mut rng, SIZE, Amounts::Usual);
-    let mut engine = OnGpu::new(crate::device()?, &floor).unwrap();
+    let mut engine = PaintEngine::on_device(crate::device()?, &floor).unwrap();
     engine.set_wet(&wet).unwrap();
     Some((engine, floor, wet))
 }
@@ -37,12 +37,12 @@ fn paint_dries_from_the_bottom_and_the_floor_rises() {
         let mut dried = Layer::empty(SIZE.0, SIZE.1);
         let mut left = dried.clone();
         for i in 0..SIZE.0 * SIZE.1 {
-            dried.set_cell(i, wet.cell(i).share(share));
+            dried.set_cell(i, wet.cell(i).share_of_65536(share));
             left.set_cell(i, wet.cell(i).minus(&dried.cell(i)));
         }
         engine.dry(share).unwrap();
         assert!(engine.wet().unwrap() == left, "what is left of {share}");
-        assert_eq!(engine.dry_count(), 1);
+        assert_eq!(engine.dry_layer_count(), 1);
         assert!(engine.dry_layer(0).unwrap() == dried, "what dried of {share}");
         assert!(engine.floor().unwrap() == raised(&floor, &dried), "the floor of {share}");
     }
@@ -51,15 +51,15 @@ fn paint_dries_from_the_bottom_and_the_floor_rises() {
 #[test]
 fn a_dry_layer_comes_and_goes() {
     let Some((mut engine, floor, wet)) = canvas(5) else { return };
-    engine.push_dry(&wet).unwrap();
+    engine.push_dry_layer(&wet).unwrap();
     engine.dry(20000).unwrap();
-    let top = engine.pop_dry().unwrap();
-    assert_eq!(engine.dry_count(), 1);
+    let top = engine.pop_dry_layer().unwrap();
+    assert_eq!(engine.dry_layer_count(), 1);
     assert!(engine.floor().unwrap() == raised(&floor, &wet), "the floor of one layer");
-    engine.push_dry(&top).unwrap();
+    engine.push_dry_layer(&top).unwrap();
     assert!(engine.dry_layer(1).unwrap() == top, "the layer that came back");
-    engine.pop_dry().unwrap();
-    assert!(engine.pop_dry().unwrap() == wet, "the first layer");
+    engine.pop_dry_layer().unwrap();
+    assert!(engine.pop_dry_layer().unwrap() == wet, "the first layer");
     assert!(engine.floor().unwrap() == floor, "the floor of none");
 }
 
@@ -71,14 +71,14 @@ fn undo_then_redo_is_the_identity() {
         .flat_map(|row| (0..SIZE.0.div_ceil(TILE)).map(move |column| Tile { row, column }))
         .collect();
     // Slots of two stores, not in order.
-    let slot = |i: usize| Slot(200 - 30 * i);
+    let slot = |i: usize| UndoSlot(200 - 30 * i);
     for (i, &tile) in tiles.iter().enumerate() {
-        engine.save(tile, slot(i)).unwrap();
+        engine.save_tile(tile, slot(i)).unwrap();
     }
     engine.set_wet(&after).unwrap();
     for wanted in [&before, &after, &before] {
         for (i, &tile) in tiles.iter().enumerate() {
-            engine.swap(tile, slot(i)).unwrap();
+            engine.swap_tile(tile, slot(i)).unwrap();
         }
         assert!(engine.wet().unwrap() == *wanted, "undo or redo");
     }

@@ -6,17 +6,19 @@ use render::optics::{Gloss, Scene};
 use render::paint::document::Lighting;
 use render::paint::ground::GroundSpec;
 use render::paint::scene::{picture, scene};
-use render::shade::{Relief, shade_row};
+use render::shade::{RowHeights, TopMaterial, shade_row};
+
+use TopMaterial::{Dry, Ground, Wet};
 
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay};
 
 /// The light of one cell of grey whose neighbours rise by `slopes`, in cells.
-fn lit(scene: &Scene, slopes: (f32, f32), bare: u8) -> f32 {
+fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
     let quanta = |cells: f32| (cells * (1 << 21) as f32) as i32;
     let (x, y) = (quanta(slopes.0), quanta(slopes.1));
     let mut out = [[0.0; 4]];
-    let relief = Relief { above: &[0, -y, 0], here: &[-x, 0, x], below: &[0, y, 0] };
-    shade_row(scene, &relief, &[[0.5; 8]], &[bare], &mut out);
+    let heights = RowHeights { above: &[0, -y, 0], here: &[-x, 0, x], below: &[0, y, 0] };
+    shade_row(scene, &heights, &[[0.5; 8]], &[material], &mut out);
     assert_eq!(out[0][3], 1.0, "the fourth number");
     out[0][1]
 }
@@ -29,14 +31,15 @@ fn studio(lighting: Lighting) -> Scene {
 #[test]
 fn a_level_surface_shows_what_was_measured() {
     let flat = studio(Lighting { relief: 0.0, ..Lighting::default() });
-    let measured = lit(&flat, (0.0, 0.0), 0);
+    let measured = lit(&flat, (0.0, 0.0), Wet);
     for elevation_deg in [5.0, 50.0, 90.0] {
         for ambient in [0.0, 0.5, 1.0] {
             let mut scene = studio(Lighting { elevation_deg, ambient, ..Lighting::default() });
             scene.lamp.ground = Gloss { strength: 3.0, exponent: 8.0 };
-            for bare in 0..3 {
-                let found = lit(&scene, (0.0, 0.0), bare);
-                assert!((found - measured).abs() < 1e-6, "{elevation_deg} {ambient} {bare}");
+            for material in [Wet, Dry, Ground] {
+                let found = lit(&scene, (0.0, 0.0), material);
+                let off = (found - measured).abs();
+                assert!(off < 1e-6, "{elevation_deg} {ambient} {material:?}");
             }
         }
     }
@@ -60,22 +63,22 @@ fn a_level_surface_shows_what_was_measured() {
 fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
     // From the upper left: rising to the right and downwards faces it.
     let scene = studio(Lighting::default());
-    let level = lit(&scene, (0.0, 0.0), 2);
-    assert!(lit(&scene, (0.2, 0.0), 2) > level * 1.02);
-    assert!(lit(&scene, (0.0, 0.2), 2) > level * 1.02);
-    assert!(lit(&scene, (-0.2, 0.0), 2) < level * 0.98);
-    assert!(lit(&scene, (0.0, -0.2), 2) < level * 0.98);
+    let level = lit(&scene, (0.0, 0.0), Ground);
+    assert!(lit(&scene, (0.2, 0.0), Ground) > level * 1.02);
+    assert!(lit(&scene, (0.0, 0.2), Ground) > level * 1.02);
+    assert!(lit(&scene, (-0.2, 0.0), Ground) < level * 0.98);
+    assert!(lit(&scene, (0.0, -0.2), Ground) < level * 0.98);
     // By Lambert's law, as told in the module.
     let [x, y, z] = scene.lamp.direction;
     let (a, b) = (0.3f32, -0.1f32);
     let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
-    let found = lit(&scene, (a, b), 2) / level;
+    let found = lit(&scene, (a, b), Ground) / level;
     assert!((found - (0.5 + 0.5 * lambert)).abs() < 1e-5, "{found} {lambert}");
     // All light ambient: no relief.
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
-    assert!((lit(&soft, (0.2, 0.1), 0) - level).abs() < 1e-6);
+    assert!((lit(&soft, (0.2, 0.1), Wet) - level).abs() < 1e-6);
     // Turned away from the lamp altogether: what is ambient is left.
-    let steep = lit(&scene, (-5.0, -5.0), 2) / level;
+    let steep = lit(&scene, (-5.0, -5.0), Ground) / level;
     assert!((steep - 0.5).abs() < 1e-5, "{steep}");
 }
 
@@ -88,16 +91,16 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     let [x, y, z] = scene.lamp.direction;
     // The normal that is h: slopes -h_x / h_z.
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
-    let [wet, dry, ground] = [0, 1, 2].map(|bare| lit(&scene, mirror, bare));
+    let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;
     assert!((f64::from(wet - ground) - 0.5 * veil).abs() < 1e-4, "{wet} {ground} {veil}");
     assert!((f64::from(dry - ground) - 0.25 * veil).abs() < 1e-4, "{dry} {ground} {veil}");
     for off in [0.8, 1.2] {
         let slopes = (mirror.0 * off, mirror.1 * off);
-        assert!(lit(&scene, slopes, 0) - lit(&scene, slopes, 2) < wet - ground, "{off}");
+        assert!(lit(&scene, slopes, Wet) - lit(&scene, slopes, Ground) < wet - ground, "{off}");
     }
     let away = (-mirror.0, -mirror.1);
-    assert_eq!(lit(&scene, away, 0), lit(&scene, away, 2), "no gloss away from the lamp");
+    assert_eq!(lit(&scene, away, Wet), lit(&scene, away, Ground), "no gloss away from the lamp");
 }
 
 #[test]
@@ -117,7 +120,7 @@ fn a_row_may_be_cut_anywhere() {
                 [(&document.dry[0].paint, &scene.dry[0]), (&document.wet, &scene.wet)]
             {
                 let cells = layer.pigments.row(y, first, count);
-                render::composite::lay_over(coat, cells, &mut internal);
+                render::composite::composite_row(coat, cells, &mut internal);
             }
             let top = |x: usize, y: usize| {
                 let index = y * width + x.clamp(1, width) - 1;
@@ -127,21 +130,21 @@ fn a_row_may_be_cut_anywhere() {
             };
             let row = |y: usize| (first..first + count + 2).map(|x| top(x, y)).collect::<Vec<_>>();
             let (above, here, below) = (row(y - 1), row(y), row(y + 1));
-            let bare: Vec<u8> = (first..first + count)
+            let materials: Vec<TopMaterial> = (first..first + count)
                 .map(|x| {
                     match (
                         document.wet.cell(y * width + x).volume(),
                         document.dry[0].paint.cell(y * width + x).volume(),
                     ) {
-                        (0, 0) => 2,
-                        (0, _) => 1,
-                        _ => 0,
+                        (0, 0) => Ground,
+                        (0, _) => Dry,
+                        _ => Wet,
                     }
                 })
                 .collect();
             let mut out = vec![[0.0; 4]; count];
-            let relief = Relief { above: &above, here: &here, below: &below };
-            shade_row(&scene, &relief, &internal, &bare, &mut out);
+            let heights = RowHeights { above: &above, here: &here, below: &below };
+            shade_row(&scene, &heights, &internal, &materials, &mut out);
             assert_eq!(out, whole.row(y, first, count), "{first} {count}");
         }
     }

@@ -32,8 +32,8 @@ fn relighting_gives_what_a_painting_opened_under_that_light_shows() {
         painting.relight(lamp.clone()).unwrap();
         let relit = painting.picture().unwrap();
         let document = painting.document().unwrap();
-        let engine = render::paint::on_cpu::OnCpu::new(document.ground.height.clone());
-        let mut opened = Painting::open(document, Box::new(engine), UNDO_BYTES).unwrap();
+        let engine = render::paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
+        let mut opened = Painting::open(document, engine, UNDO_BYTES).unwrap();
         let off = differences(&relit, &opened.picture().unwrap());
         assert!(off[off.len() - 1] < 0.01, "{:?} off", off.last());
         let moved = differences(&daylight, &relit);

@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::amount::{FULL, mm_from_quanta};
+use render::amount::{MAX_COLUMN, mm_from_quanta};
 use render::layer::{Layer, SLOTS};
 use render::paint::brush::HeadShape;
 use render::paint::painting::Painting;
@@ -19,7 +19,7 @@ fn totals(painting: &mut Painting, brushes: &[usize]) -> [u64; SLOTS + 1] {
         for index in 0..layer.vehicle.values().len() {
             let cell = layer.cell(index);
             let sum: u64 = cell.pigments.iter().chain([&cell.vehicle]).map(|&a| u64::from(a)).sum();
-            assert!(sum < u64::from(FULL), "cell {index} holds {sum}, as if it owed paint");
+            assert!(sum < u64::from(MAX_COLUMN), "cell {index} holds {sum}, as if it owed paint");
         }
     }
     let mut sums = [0; SLOTS + 1];
@@ -97,7 +97,7 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
         let wet = painting.wet().unwrap();
         let highest = (0..1600).map(|index| wet.cell(index).volume()).max().unwrap();
         tell(&format!("{}: {} cell widths at most", painting.backend(), highest >> 21));
-        assert!(highest < FULL / 2, "{highest} quanta on {}", painting.backend());
+        assert!(highest < MAX_COLUMN / 2, "{highest} quanta on {}", painting.backend());
         // So it can be dried and saved.
         painting.dry(1.0).unwrap();
         assert!(render::paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");

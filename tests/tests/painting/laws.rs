@@ -1,6 +1,6 @@
 //! What any painter would expect of paint.
 
-use render::amount::{FULL, QUANTA_PER_CELL};
+use render::amount::{MAX_COLUMN, QUANTA_PER_CELL};
 use render::layer::Layer;
 use render::paint::brush::HeadShape;
 use render::paint::painting::{Painting, PaintingError};
@@ -157,12 +157,12 @@ fn paint_too_high_for_whole_numbers_is_refused_when_opened() {
     let mut document = bare(60, 60);
     let mut layer = Layer::empty(60, 60);
     let mut cell = layer.cell(77);
-    cell.vehicle = FULL;
+    cell.vehicle = MAX_COLUMN;
     layer.set_cell(77, cell);
     let slots = document.slots;
     document.dry =
         vec![render::paint::document::DryLayer { slots, opacity: 1.0, paint: layer.clone() }; 2];
-    let engine = render::paint::on_cpu::OnCpu::new(document.ground.height.clone());
-    let error = Painting::open(document, Box::new(engine), 0).unwrap_err();
+    let engine = render::paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
+    let error = Painting::open(document, engine, 0).unwrap_err();
     assert!(matches!(error, PaintingError::TooHigh { x: 17, y: 1 }), "{error}");
 }

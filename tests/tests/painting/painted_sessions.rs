@@ -4,10 +4,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::layer::Layer;
 use render::optics::Gloss;
-use render::paint::Engine;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::UNDO_BYTES;
 use render::paint::pose::Sample;
 use render::paint::session::{Outcome, PaintingSession};
@@ -29,11 +28,11 @@ pub(crate) fn header() -> StrokeScript {
 }
 
 /// How a backend is made for a document.
-pub(crate) type Backend = fn(&Document) -> Option<Box<dyn Engine>>;
+pub(crate) type Backend = fn(&Document) -> Option<PaintEngine>;
 
 /// The processor, and a graphics device where there is one.
 pub(crate) const BACKENDS: [Backend; 2] =
-    [|document| Some(Box::new(OnCpu::new(document.ground.height.clone()))), gpu_engine];
+    [|document| Some(PaintEngine::on_cpu(document.ground.height.clone())), gpu_engine];
 
 /// The surfaces that a script describes, and a record of what is done there.
 pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<PaintingSession> {

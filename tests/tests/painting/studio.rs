@@ -9,12 +9,10 @@ use render::field::Field;
 use render::gpu::{BackendChoice, choose};
 use render::layer::SLOTS;
 use render::light::Light;
-use render::paint::Engine;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Ground, Lighting, Medium, Slots};
+use render::paint::engine::PaintEngine;
 use render::paint::ground::GroundSpec;
-use render::paint::on_cpu::OnCpu;
-use render::paint::on_gpu::OnGpu;
 use render::paint::painting::{Painting, UNDO_BYTES};
 use render::paint::pose::Sample;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
@@ -83,7 +81,7 @@ pub(crate) fn bare_on(json: &str, width: usize, height: usize) -> Document {
 
 /// `document` under daylight, on the processor.
 pub(crate) fn on_cpu(document: Document) -> Painting {
-    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
     open(document, engine, UNDO_BYTES)
 }
 
@@ -97,15 +95,15 @@ pub(crate) fn on_both(document: &Document) -> Vec<Painting> {
     std::iter::once(on_cpu(document.clone())).chain(on_gpu(document.clone())).collect()
 }
 
-pub(crate) fn gpu_engine(document: &Document) -> Option<Box<dyn Engine>> {
+pub(crate) fn gpu_engine(document: &Document) -> Option<PaintEngine> {
     let Some(device) = choose(BackendChoice::Gpu).ok().flatten() else {
         let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
         return None;
     };
-    Some(Box::new(OnGpu::new(device, &document.ground.height).unwrap()))
+    Some(PaintEngine::on_device(device, &document.ground.height).unwrap())
 }
 
-pub(crate) fn open(document: Document, engine: Box<dyn Engine>, undo_bytes: u64) -> Painting {
+pub(crate) fn open(document: Document, engine: PaintEngine, undo_bytes: u64) -> Painting {
     Painting::open_under(document, daylight(), engine, undo_bytes).unwrap()
 }
 

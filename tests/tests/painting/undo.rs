@@ -8,7 +8,7 @@ use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
 use render::paint::history::TILE_BYTES;
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::{LayerRef, Painting};
 
 use super::studio::{
@@ -118,7 +118,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
         let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
         painting.brush_paint(brush).unwrap().vehicle.values().len() as u64 * 36
     };
-    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let mut painting = open(document, engine, 3 * (TILE_BYTES + brush_bytes));
     let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.5);
     let mut past = Vec::new();
@@ -142,7 +142,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
 #[test]
 fn a_drying_keeps_only_the_tiles_that_were_wet() {
     let document = bare(400, 400);
-    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let mut painting = open(document, engine, 4 * TILE_BYTES);
     let brush = loaded(&mut painting, HeadShape::Round, 1.0, YELLOW, 0.5);
     painting.stroke(brush, &along(&[(4.0, 4.0), (5.0, 4.0)], 0.5)).unwrap();

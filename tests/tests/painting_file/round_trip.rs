@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use exr::prelude::{ReadChannels, ReadLayers};
 use proptest::prelude::*;
-use render::amount::{FULL, mm_from_quanta};
+use render::amount::{MAX_COLUMN, mm_from_quanta};
 use render::layer::SLOTS;
 use render::paint::file::{read, write};
 
@@ -24,7 +24,7 @@ proptest! {
         height in 1_usize..60,
         dry in 0_usize..4,
         // Thin, at the edge of what floats hold, and as thick as nine can be.
-        highest in prop::sample::select(vec![0, 1000, (1 << 23) - 1, 1 << 25, FULL / 9]),
+        highest in prop::sample::select(vec![0, 1000, (1 << 23) - 1, 1 << 25, MAX_COLUMN / 9]),
     ) {
         let document = painting(seed, (width, height), dry, highest);
         let bytes = write(&document).unwrap();
@@ -50,7 +50,7 @@ fn an_empty_painting_and_one_cell_come_back() {
 fn a_cell_filled_to_the_brim_comes_back() {
     let mut document = small();
     let slot = document.slots.iter().position(Option::is_some).unwrap();
-    for amount in [FULL, FULL - 1, (1 << 23) + 1, 1 << 24, 16_777_217] {
+    for amount in [MAX_COLUMN, MAX_COLUMN - 1, (1 << 23) + 1, 1 << 24, 16_777_217] {
         let cell = render::layer::Cell::default();
         document.wet.set_cell(7, cell);
         document.wet.pigments.values_mut()[7][slot] = amount;

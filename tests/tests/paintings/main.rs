@@ -21,7 +21,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use render::field::Field;
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::{Painting, UNDO_BYTES};
 use render::paint::session::{PaintingSession, ReplayReport};
 use render::paint::strokes::StrokeScript;
@@ -33,7 +33,7 @@ fn shipped(name: &str) -> String {
 
 fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     let (document, _) = script.surfaces(&suite::oils::library(), None).unwrap();
-    let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let canvas = Painting::open(document, engine, UNDO_BYTES).unwrap();
     let mut easel = PaintingSession::new(canvas, None).unwrap();
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use render::field::Field;
 use render::paint::document::Document;
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
 use render::paint::session::{PaintingSession, ReplayReport};
 use render::paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
@@ -48,7 +48,7 @@ fn opened(script: &StrokeScript) -> Painting {
     let resolved = script.resolve(&STUDIO.library).unwrap();
     let (width, height) = script.canvas.cells();
     let ground = script.canvas.ground.ground(width, height, CELL_MM, &STUDIO.library).unwrap();
-    let engine = Box::new(OnCpu::new(ground.height.clone()));
+    let engine = PaintEngine::on_cpu(ground.height.clone());
     Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
 }
 

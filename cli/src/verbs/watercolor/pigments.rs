@@ -6,8 +6,8 @@ use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::light::Light;
 use render::paint::document::{Document, Lighting, Slots};
+use render::paint::engine::PaintEngine;
 use render::paint::ground::{ColorPrimer, Primer};
-use render::paint::on_cpu::OnCpu;
 use render::paint::painting::Painting;
 use render::watercolor::{Glazes, Settings, Textures, Wash};
 
@@ -87,7 +87,7 @@ impl Glazing {
         settings: &Settings,
     ) -> anyhow::Result<Painting> {
         let document = self.document(title, wash, textures, settings)?;
-        let engine = Box::new(OnCpu::new(document.ground.height.clone()));
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
         Ok(Painting::open_under(document, self.light.clone(), engine, 0)?)
     }
 

@@ -117,14 +117,14 @@ fn the_surface_moves_with_the_handle() {
     for (x, y, touch) in under(&contact, 0.0) {
         let (right, down) = touch.velocity();
         assert!((right - 256).abs() < 8 && down.abs() < 8, "{x} {y}: {right} {down}");
-        assert_eq!(touch.speed(), 256);
+        assert_eq!(touch.transfer_weight(), 256);
     }
     // It stands still: nothing moves, nothing changes sides.
     let rest = Pose { x: 159.0, twist_deg: 90.0, ..POSE };
     for _ in 0..100 {
         head.advance(&rest, &plane(), BOUNDS, &mut contact);
     }
-    assert!(under(&contact, 0.0).iter().all(|cell| cell.2.speed() == 0));
+    assert!(under(&contact, 0.0).iter().all(|cell| cell.2.transfer_weight() == 0));
 }
 
 #[test]

@@ -37,7 +37,7 @@ impl Millimetres {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::amount::FULL;
+    use crate::amount::MAX_COLUMN;
 
     #[test]
     fn quanta_come_back_without_rest_below_the_rough_and_with_it_above() {
@@ -50,7 +50,7 @@ mod tests {
                 assert_eq!(back(quanta), quanta, "{cell_mm}");
                 assert_eq!(back(-quanta), -quanta, "{cell_mm}");
             }
-            let high = (0..100_000_u32).map(|i| FULL - i * 10_737);
+            let high = (0..100_000_u32).map(|i| MAX_COLUMN - i * 10_737);
             for quanta in high.filter(|q| *q >= ROUGH).map(f64::from) {
                 let rest = scale.rest(quanta);
                 assert_eq!(scale.quanta(scale.mm(quanta), rest), quanta, "{cell_mm}");

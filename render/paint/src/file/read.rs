@@ -14,7 +14,7 @@ use super::header::{ATTRIBUTE, FileHeader};
 use super::layout::{PartLayout, Plane, layout};
 use super::millimetres::Millimetres;
 use super::parts::BASE;
-use crate::amount::FULL;
+use crate::amount::MAX_COLUMN;
 use crate::document::{Document, DryLayer, Ground};
 use crate::layer::{Cell, Layer};
 use graphics::field::Field;
@@ -198,7 +198,7 @@ impl Place<'_> {
                 cell.vehicle = (quanta as i32) as u32;
                 continue;
             }
-            if quanta.is_nan() || mm < 0.0 || quanta < 0.0 || quanta > f64::from(FULL) {
+            if quanta.is_nan() || mm < 0.0 || quanta < 0.0 || quanta > f64::from(MAX_COLUMN) {
                 let wanted = "an amount is 0 to 512 cell widths";
                 return Err(self.value(x, &plane.name, wanted, told()));
             }
@@ -215,7 +215,7 @@ impl Place<'_> {
         for (x, cell) in cells.iter().enumerate() {
             let volume: u64 =
                 cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q)).sum();
-            if volume > u64::from(FULL) {
+            if volume > u64::from(MAX_COLUMN) {
                 let found = format!("{volume} quanta");
                 return Err(self.value(x, "thickness", "a cell holds 512 cell widths", found));
             }

@@ -15,7 +15,7 @@ use super::error::PaintingFileError;
 use super::header::{ATTRIBUTE, FileHeader};
 use super::millimetres::Millimetres;
 use super::parts::{Part, parts};
-use crate::amount::FULL;
+use crate::amount::MAX_COLUMN;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
 
@@ -105,7 +105,7 @@ fn check_paint(slots: &Slots, paint: &Layer) -> Result<(), String> {
         let (x, y) = (index % paint.width(), index / paint.width());
         let amounts = cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q));
         let volume: u64 = amounts.sum();
-        if volume > u64::from(FULL) {
+        if volume > u64::from(MAX_COLUMN) {
             return Err(format!("holds more than a cell can at x {x}, y {y}: `{volume}` quanta"));
         }
         let stray = (0..SLOTS).find(|&s| slots[s].is_none() && cell.pigments[s] > 0);

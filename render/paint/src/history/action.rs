@@ -1,43 +1,43 @@
-//! What one action keeps, and its exchange with what is there.
+//! The state that one action saved, and its swap with the present state.
 
 use graphics::gpu::DeviceError;
 use std::collections::BTreeMap;
 
-use crate::engine::{BrushId, Engine, Slot};
+use crate::engine::{BrushId, PaintEngine, UndoSlot};
 use crate::layer::{Layer, SLOTS};
 use graphics::tile::{TILE, Tile, TileSet};
 
-/// What a tile takes, in bytes: 144 KiB.
+/// Memory of a saved tile in bytes: 144 KiB.
 pub const TILE_BYTES: u64 = (TILE * TILE) as u64 * CELL_BYTES;
 
 const CELL_BYTES: u64 = 4 * (SLOTS as u64 + 1);
 
-/// What an undo or redo brought back.
+/// The effect of an undo or redo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Restored<T> {
-    /// What the caller had kept.
+    /// The caller's value that belongs to the restored state.
     pub caller: T,
     /// Tiles whose wet paint changed.
     pub tiles: TileSet,
-    /// Whether dry layers came or went, and with them the floor.
+    /// Whether dry layers were added or removed, which changes the floor too.
     pub dry_changed: bool,
 }
 
-/// What is exchanged with the engine to undo, and again to redo.
+/// The state before an action (or after it, once undone).
 #[derive(Debug)]
 pub(super) struct Action<T> {
     caller: T,
-    pub(super) tiles: BTreeMap<Tile, Slot>,
+    pub(super) tiles: BTreeMap<Tile, UndoSlot>,
     pub(super) brushes: BTreeMap<BrushId, Layer>,
-    /// In the order in which they were done.
+    /// Changes of the stack of dry layers, in order.
     pub(super) dry: Vec<DryChange>,
 }
 
 #[derive(Debug)]
 pub(super) enum DryChange {
-    /// A layer was put on top, and is in the engine.
+    /// A layer was added on top; the engine holds it.
     Pushed,
-    /// The topmost layer was taken away.
+    /// This layer was removed from the top.
     Popped(Layer),
 }
 
@@ -47,7 +47,7 @@ impl<T> Action<T> {
         Self { caller, tiles, brushes, dry }
     }
 
-    /// The memory of the paint it keeps.
+    /// Memory of the saved paint in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let brushes = self.brushes.values();
         let dry = self.dry.iter().filter_map(|change| match change {
@@ -57,28 +57,29 @@ impl<T> Action<T> {
         self.tiles.len() as u64 * TILE_BYTES + brushes.chain(dry).map(bytes_of).sum::<u64>()
     }
 
-    /// Exchanges all that it keeps with what is there.
-    pub(super) fn exchange(
+    /// Swaps the saved state with that of the engine, and the caller's value with
+    /// `current`.
+    pub(super) fn swap(
         &mut self,
-        engine: &mut dyn Engine,
+        engine: &mut PaintEngine,
         current: T,
     ) -> Result<Restored<T>, DeviceError> {
         let mut tiles = TileSet::default();
         for (&tile, &slot) in &self.tiles {
-            engine.swap(tile, slot)?;
+            engine.swap_tile(tile, slot)?;
             tiles.insert_tile(tile);
         }
         for (&brush, paint) in &mut self.brushes {
-            let now = engine.brush(brush)?;
-            engine.set_brush(brush, paint)?;
-            *paint = now;
+            let present = engine.brush_paint(brush)?;
+            engine.set_brush_paint(brush, paint)?;
+            *paint = present;
         }
         self.dry.reverse();
         for change in &mut self.dry {
             *change = match change {
-                DryChange::Pushed => DryChange::Popped(engine.pop_dry()?),
+                DryChange::Pushed => DryChange::Popped(engine.pop_dry_layer()?),
                 DryChange::Popped(layer) => {
-                    engine.push_dry(layer)?;
+                    engine.push_dry_layer(layer)?;
                     DryChange::Pushed
                 }
             };

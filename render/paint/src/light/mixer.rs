@@ -4,8 +4,8 @@ use pigment::library::{PigmentLibrary, RecipeError};
 use pulp::Simd;
 
 use super::studio::Light;
+use crate::node_pigments::{at_nodes, scene_surface};
 use crate::optics::{NODES, SceneSurface};
-use crate::palette::{at_nodes, scene_surface};
 use graphics::lanes::{greater, lesser, multiply_add};
 
 /// Two paints of a library under one light: K and S at its wavelengths, kept, so
@@ -68,7 +68,7 @@ impl Mixer {
     /// Linear sRGB of a block of mixtures, by channel.
     #[inline(always)]
     fn block<S: Simd>(&self, shares: &[f32; BLOCK]) -> [[f32; BLOCK]; 3] {
-        let SceneSurface { k1, k2, floor } = self.surface;
+        let SceneSurface { k1, k2, specular } = self.surface;
         let through = (1.0 - k1) * (1.0 - k2);
         let mut rgb = [[0.0; BLOCK]; 3];
         for node in 0..NODES {
@@ -81,7 +81,7 @@ impl Mixer {
                 // R = S / den of a film that hides, then Saunderson, in one division.
                 let den = (k + s) + (k * multiply_add::<S>(2.0, s, k)).sqrt();
                 let den = greater(multiply_add::<S>(-k2, s, den), f32::MIN_POSITIVE);
-                *measured = floor + through * s / den;
+                *measured = specular + through * s / den;
             }
             for (channel, weight) in rgb.iter_mut().zip(self.rgb_from_nodes[node]) {
                 for (sum, &measured) in channel.iter_mut().zip(&measured) {

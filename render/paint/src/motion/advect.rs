@@ -1,43 +1,43 @@
-//! Conservative advection: the column over a cell moves by its velocity and is
-//! shared among the cells it then covers.
+//! Conservative advection: the column over a cell moves by its velocity and is divided
+//! among the cells that it then covers.
 //!
-//! Baxter, Wendt and Lin 2004, section 4.1. As the column moves by one cell at
-//! most in x and in y, it covers four cells: where it was, beside, above or
-//! below, and the corner between.
+//! Baxter, Wendt and Lin 2004, section 4.1. As the column moves by at most one cell along
+//! x and y, it covers four cells: its own, the neighbours in x and in y, and the diagonal
+//! neighbour.
 
-use super::Motion;
+use super::constants::MotionConstants;
 use crate::layer::Cell;
 
-/// What leaves a cell, and where to; what stays is the rest.
+/// Paint that leaves a cell, by destination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outflow {
-    /// To the neighbour in x.
-    pub beside: Cell,
-    /// To the neighbour in y.
-    pub along: Cell,
-    /// To the neighbour in both.
-    pub corner: Cell,
+    /// Paint that moves to the neighbour in x.
+    pub in_x: Cell,
+    /// Paint that moves to the neighbour in y.
+    pub in_y: Cell,
+    /// Paint that moves to the diagonal neighbour.
+    pub diagonal: Cell,
 }
 
-/// Of 65536 parts, those of a column of `volume` that may move: all but the
+/// Share of a column of `volume` quanta that may move, in parts of 65536: all but the
 /// adhesion.
 #[inline(always)]
 #[must_use]
-pub fn mobile_share(motion: &Motion, volume: u32) -> u32 {
-    if volume <= motion.adhesion {
+pub fn mobile_share(motion: &MotionConstants, volume: u32) -> u32 {
+    if volume <= motion.adhesion_quanta {
         return 0;
     }
-    65536 - (motion.adhesion << 16).div_ceil(volume)
+    65536 - (motion.adhesion_quanta << 16).div_ceil(volume)
 }
 
-/// What leaves `cell` at `speed`, the absolute velocity in 1/256 cell, if
-/// `mobile` of 65536 parts may move.
+/// Computes the paint that leaves `cell` in one sub-step. `mobile` is the share that may
+/// move in parts of 65536, `speed` the absolute velocity along x and y in 1/256 cell.
 #[inline(always)]
 #[must_use]
 pub fn outflow(cell: &Cell, mobile: u32, speed: (u32, u32)) -> Outflow {
-    let moving = cell.share(mobile);
-    let sideways = moving.small_share(speed.0);
-    let corner = sideways.small_share(speed.1);
-    let along = moving.minus(&sideways).small_share(speed.1);
-    Outflow { beside: sideways.minus(&corner), along, corner }
+    let moving = cell.share_of_65536(mobile);
+    let sideways = moving.share_of_256(speed.0);
+    let diagonal = sideways.share_of_256(speed.1);
+    let in_y = moving.minus(&sideways).share_of_256(speed.1);
+    Outflow { in_x: sideways.minus(&diagonal), in_y, diagonal }
 }

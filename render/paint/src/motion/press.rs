@@ -1,48 +1,58 @@
-//! How deep the head is in the paint, and which way it pushes it.
+//! How deep the head is pressed into the paint, and the velocity that it gives to the
+//! paint.
 //!
-//! Baxter, Wendt and Lin 2004, section 4.2: paint moves with half the velocity
-//! of the brush, and down the slope of the penetration.
+//! Baxter, Wendt and Lin 2004, section 4.2: paint moves with half the velocity of the
+//! brush, and down the gradient of the penetration.
 
-use super::Motion;
-use crate::amount::FULL;
+use super::constants::MotionConstants;
+use crate::amount::MAX_COLUMN;
 use crate::contact::Touch;
 
-/// Cells in contact have a penetration of 0 and up; others this.
-pub const APART: i32 = -1;
+/// Value that stands for "no contact" among penetrations, which are 0 and up.
+pub const NO_CONTACT: i32 = -1;
 
-/// A column higher than this, some fifty cells, stays where it is, and nothing
-/// flows into it: so that no column, which eight others may flow into at once,
-/// ever passes [`FULL`].
-pub const CROWDED: u32 = FULL / 10;
+/// Columns higher than this, in quanta (some fifty cell widths), do not move and receive
+/// no inflow. Eight columns may flow into one at once, so this keeps every column below
+/// [`MAX_COLUMN`].
+pub const CROWDED_VOLUME: u32 = MAX_COLUMN / 10;
 
-/// How far the head is below the top of the paint, in quanta; [`APART`] where
-/// it does not touch. `floor` is the height of what is dry, `volume` that of
-/// the wet paint upon it.
+/// Penetration of the head: how far it is below the top of the paint, in quanta, or
+/// [`NO_CONTACT`]. `floor` is the height of ground and dry paint, `volume` that of the
+/// wet paint on it, both in quanta.
 #[inline(always)]
 #[must_use]
 pub fn penetration(touch: Touch, floor: i32, volume: u32) -> i32 {
     let top = floor + volume as i32;
-    if touch.height <= top { top - touch.height } else { APART }
+    if touch.height <= top { top - touch.height } else { NO_CONTACT }
 }
 
-/// The velocity of a cell's paint in 1/256 cell a sub-step, each component from
+/// Velocity of a cell's paint along x and y in 1/256 cell a sub-step, each component from
 /// -256 to 256.
 ///
-/// `here` is the cell's penetration, `slopes` the differences of penetration
-/// right - left and below - above, where apart counts as 0.
+/// `penetration` is that of the cell; `slopes` are the differences of penetration between
+/// the right and left and the lower and upper neighbours, where no contact counts as 0.
 #[inline(always)]
 #[must_use]
-pub fn velocity(motion: &Motion, touch: Touch, here: i32, slopes: (i32, i32)) -> (i32, i32) {
-    let (x, y) = if here == APART { (0, 0) } else { touch.velocity() };
-    let along = |brush: i32, slope: i32| (brush / 2 - slope / motion.push).clamp(-256, 256);
+pub fn velocity(
+    motion: &MotionConstants,
+    touch: Touch,
+    penetration: i32,
+    slopes: (i32, i32),
+) -> (i32, i32) {
+    let (x, y) = if penetration == NO_CONTACT { (0, 0) } else { touch.velocity() };
+    let along = |brush: i32, slope: i32| (brush / 2 - slope / motion.push_quanta).clamp(-256, 256);
     (along(x, slopes.0), along(y, slopes.1))
 }
 
-/// What is left of a `velocity` near columns above [`CROWDED`]; `crowded` tells
-/// of the cell so many columns to the right and rows down.
+/// Removes the components of `velocity` that would move a column above
+/// [`CROWDED_VOLUME`] or move paint into one. `crowded(dx, dy)` says whether the column
+/// `dx` cells to the right and `dy` cells down is such a column.
 #[inline(always)]
 #[must_use]
-pub fn yielding(velocity: (i32, i32), crowded: impl Fn(i32, i32) -> bool) -> (i32, i32) {
+pub fn avoid_crowded_columns(
+    velocity: (i32, i32),
+    crowded: impl Fn(i32, i32) -> bool,
+) -> (i32, i32) {
     let (mut x, mut y) = velocity;
     if crowded(0, 0) {
         return (0, 0);

@@ -1,13 +1,14 @@
-// Paint changing sides between canvas and head; twin of transfer.rs.
+// Transfer of paint between canvas and head; twin of transfer.rs.
 
-// Whether the brush gives, and of the giver's whole cell how many of 65536 parts.
 struct Exchange {
-    brush_gives: bool,
-    parts: u32,
+    // Whether paint is taken from the brush, not from the canvas.
+    from_brush: bool,
+    // Share of the source's whole cell that is transferred, in parts of 65536.
+    share: u32,
 }
 
 fn exchange(
-    motion: Motion,
+    motion: MotionConstants,
     touch: Touch,
     penetration: u32,
     canvas_volume: u32,
@@ -15,15 +16,16 @@ fn exchange(
 ) -> Exchange {
     let canvas = min(canvas_volume, penetration);
     let brush = brush_volume / max(touch_sharers(touch), 1u);
-    let brush_gives = brush > canvas;
-    let amount = select(canvas, brush, brush_gives);
-    let whole = select(canvas_volume, brush_volume, brush_gives);
-    let difference = max(brush, canvas) - min(brush, canvas);
-    let unlike = min(difference / (motion.cutoff / 256u), 256u);
-    let wanted = share_of_256(share_of_256(amount / 10u, unlike), touch_speed(touch));
-    let given = min(wanted, motion.most);
+    let from_brush = brush > canvas;
+    let amount = select(canvas, brush, from_brush);
+    let whole = select(canvas_volume, brush_volume, from_brush);
+    let quanta_apart = max(brush, canvas) - min(brush, canvas);
+    let difference = min(quanta_apart / (motion.full_transfer_quanta / 256u), 256u);
+    let wanted =
+        share_of_256(share_of_256(amount / 10u, difference), touch_transfer_weight(touch));
+    let transferred = min(wanted, motion.max_transfer_quanta);
     if whole == 0u {
-        return Exchange(brush_gives, 0u);
+        return Exchange(from_brush, 0u);
     }
-    return Exchange(brush_gives, (given << 16u) / whole);
+    return Exchange(from_brush, (transferred << 16u) / whole);
 }

@@ -2,7 +2,7 @@
 
 use super::failure::PaintingError;
 use super::state::Painting;
-use crate::amount::{FULL, mm_from_quanta, quanta_from_mm};
+use crate::amount::{MAX_COLUMN, mm_from_quanta, quanta_from_mm};
 use crate::brush::{Head, HeadShape};
 use crate::engine::BrushId;
 use crate::layer::{Cell, Layer, SLOTS};
@@ -17,8 +17,8 @@ pub struct Brush {
 }
 
 /// The most that a cell of a head holds, as quanta: 64 cell widths, far more
-/// than clings to bristles, and little enough that no pile reaches [`FULL`].
-const CAPACITY: u32 = FULL / 16;
+/// than clings to bristles, and little enough that no pile reaches [`MAX_COLUMN`].
+const CAPACITY: u32 = MAX_COLUMN / 16;
 
 impl Painting {
     /// Takes a new, clean brush; its number, by which the other calls know it, is
@@ -55,7 +55,7 @@ impl Painting {
     ) -> Result<(), PaintingError> {
         let fresh = self.mixture(recipe, vehicle, amount_mm)?;
         let Brush { id, cells, .. } = self.brushes[brush];
-        let mut paint = self.engine.brush(id)?;
+        let mut paint = self.engine.brush_paint(id)?;
         let cells = 0..cells.0 * cells.1;
         let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
         let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm);
@@ -118,9 +118,9 @@ impl Painting {
     /// [`PaintingError`] for a share outside 0..1.
     pub fn wipe(&mut self, brush: usize, kept: f64) -> Result<(), PaintingError> {
         let share = share_of_65536_parts("kept", kept)?;
-        let mut paint = self.engine.brush(self.brushes[brush].id)?;
+        let mut paint = self.engine.brush_paint(self.brushes[brush].id)?;
         for index in 0..paint.vehicle.values().len() {
-            paint.set_cell(index, paint.cell(index).share(share));
+            paint.set_cell(index, paint.cell(index).share_of_65536(share));
         }
         self.change_brush(brush, &paint)
     }
@@ -139,7 +139,7 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
-        Ok(self.engine.brush(self.brushes[brush].id)?)
+        Ok(self.engine.brush_paint(self.brushes[brush].id)?)
     }
 
     /// Puts `paint` on a brush in place of what it holds: paint that comes from
@@ -170,7 +170,7 @@ impl Painting {
     }
 
     fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
-        Ok(self.engine.set_brush(self.brushes[brush].id, paint)?)
+        Ok(self.engine.set_brush_paint(self.brushes[brush].id, paint)?)
     }
 }
 

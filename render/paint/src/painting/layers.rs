@@ -23,7 +23,7 @@ impl Painting {
     /// [`PaintingError`] for a share outside 0..1, or without memory.
     pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
         let share = share_of_65536_parts("fraction", fraction)?;
-        let painted = self.engine.painted()?;
+        let painted = self.engine.wet_tiles()?;
         if share == 0 || painted.is_empty() {
             return Ok(false);
         }
@@ -31,7 +31,7 @@ impl Painting {
             return Err(PaintingError::TooHigh { x, y });
         }
         self.acting(|painting| {
-            painting.history.dry(painting.engine.as_mut(), share)?;
+            painting.history.dry(&mut painting.engine, share)?;
             painting.state.dry.push(DryLayerState { slots: painting.state.slots, opacity: 1.0 });
             painting.feel_floor()?;
             painted.iter().for_each(|tile| painting.views.touch_dry(tile));
@@ -49,7 +49,7 @@ impl Painting {
         self.acting(|painting| {
             // What they take up from now on is paint of this palette.
             for brush in &painting.brushes {
-                painting.history.touch_brush(painting.engine.as_mut(), brush.id)?;
+                painting.history.save_brush(&mut painting.engine, brush.id)?;
             }
             painting.state.slots = slots;
             Ok(())

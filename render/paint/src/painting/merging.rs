@@ -29,7 +29,7 @@ impl Painting {
         let (slots, place) = united(lower, upper)?;
         let mut paint = self.engine.dry_layer(index)?;
         add(&mut paint, &self.engine.dry_layer(index + 1)?, &place);
-        let above = (index + 2..self.engine.dry_count()).map(|i| self.engine.dry_layer(i));
+        let above = (index + 2..self.engine.dry_layer_count()).map(|i| self.engine.dry_layer(i));
         let above: Vec<Layer> = above.collect::<Result<_, _>>()?;
         let merged: Vec<Layer> = std::iter::once(paint).chain(above).collect();
         let state = DryLayerState { slots, opacity: self.state.dry[index].opacity };
@@ -49,11 +49,11 @@ impl Painting {
         }
 
         self.acting(|painting| {
-            while painting.engine.dry_count() > index {
-                painting.history.pop_dry(painting.engine.as_mut())?;
+            while painting.engine.dry_layer_count() > index {
+                painting.history.pop_dry_layer(&mut painting.engine)?;
             }
             for layer in &merged {
-                painting.history.push_dry(painting.engine.as_mut(), layer)?;
+                painting.history.push_dry_layer(&mut painting.engine, layer)?;
             }
             painting.state.dry.splice(index..index + 2, [state]);
             painting.floor_changed()
@@ -63,11 +63,11 @@ impl Painting {
     /// Puts `layers` in place of the dry layers from `index` up; gives those.
     fn replace_dry(&mut self, index: usize, layers: &[Layer]) -> Result<Vec<Layer>, PaintingError> {
         let mut taken = Vec::new();
-        while self.engine.dry_count() > index {
-            taken.insert(0, self.engine.pop_dry()?);
+        while self.engine.dry_layer_count() > index {
+            taken.insert(0, self.engine.pop_dry_layer()?);
         }
         for layer in layers {
-            self.engine.push_dry(layer)?;
+            self.engine.push_dry_layer(layer)?;
         }
         Ok(taken)
     }

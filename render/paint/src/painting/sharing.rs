@@ -21,8 +21,8 @@ impl Painting {
     pub fn hand_over(&mut self, brush: usize) -> Result<Layer, PaintingError> {
         self.acting(|painting| {
             let id = painting.brushes[brush].id;
-            painting.history.touch_brush(painting.engine.as_mut(), id)?;
-            let paint = painting.engine.brush(id)?;
+            painting.history.save_brush(&mut painting.engine, id)?;
+            let paint = painting.engine.brush_paint(id)?;
             painting.wash(brush)?;
             Ok(paint)
         })

@@ -81,7 +81,7 @@ impl Painting {
     /// If `rect` is empty, or has cells that the canvas has not.
     pub fn reflectance_in(&mut self, rect: Rect) -> Result<Vec<f64>, PaintingError> {
         assert!(!rect.is_empty(), "a reflectance of no cells");
-        let dry = (0..self.state.dry.len()).map(|index| self.engine.dry_in(index, rect));
+        let dry = (0..self.state.dry.len()).map(|index| self.engine.dry_layer_in(index, rect));
         let mut layers = dry.collect::<Result<Vec<_>, _>>()?;
         layers.push(self.engine.wet_in(rect)?);
         let dry = self.dry_states();
@@ -134,7 +134,7 @@ impl Painting {
     fn compute(&mut self, view: View, scene: &Scene) -> Result<(), PaintingError> {
         let unseen = self.unseen_of(view);
         let (baked, shown) = (unseen.baked.clone(), unseen.shown.clone());
-        self.engine.light(view, scene, &baked, &shown)?;
+        self.engine.render(view, scene, &baked, &shown)?;
         let unseen = self.unseen_of(view);
         (unseen.baked, unseen.shown) = Default::default();
         for tile in baked.iter().chain(shown.iter()) {
@@ -157,14 +157,14 @@ mod tests {
     use super::*;
     use crate::brush::HeadShape;
     use crate::document::{Document, Medium};
+    use crate::engine::PaintEngine;
     use crate::ground::GroundSpec;
     use crate::layer::SLOTS;
-    use crate::on_cpu::OnCpu;
     use crate::pose::Sample;
 
     fn opened(document: Document) -> Painting {
-        let engine = OnCpu::new(document.ground.height.clone());
-        Painting::open(document, Box::new(engine), 1 << 24).unwrap()
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
+        Painting::open(document, engine, 1 << 24).unwrap()
     }
 
     fn bare() -> Painting {

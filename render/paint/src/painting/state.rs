@@ -9,14 +9,14 @@ use super::failure::PaintingError;
 use super::strokes::OpenStroke;
 use super::undoing::{Adjusting, Before};
 use super::views::Views;
-use crate::amount::{FULL, mm_from_quanta};
+use crate::amount::{MAX_COLUMN, mm_from_quanta};
 use crate::brush::Relief;
 use crate::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
-use crate::engine::Engine;
+use crate::engine::PaintEngine;
 use crate::history::History;
 use crate::layer::{Layer, SLOTS};
 use crate::light::Light;
-use crate::motion::Motion;
+use crate::motion::MotionConstants;
 use graphics::tile::Rect;
 
 /// How a dry layer is seen: what can be changed of it later.
@@ -48,8 +48,8 @@ pub struct Painting {
     pub(super) cell_mm: f64,
     pub(super) ground: Ground,
     pub(super) library: PigmentLibrary,
-    pub(super) motion: Motion,
-    pub(super) engine: Box<dyn Engine>,
+    pub(super) motion: MotionConstants,
+    pub(super) engine: PaintEngine,
     pub(super) state: State,
     pub(super) light: Arc<Light>,
     pub(super) relief: Relief,
@@ -67,7 +67,7 @@ pub struct Painting {
 
 /// The most that ground and dry paint rise together, and wet paint on them, in
 /// quanta: 512 cell widths, so that no sum passes 32 bits.
-pub(super) const HIGHEST: u32 = FULL / 2;
+pub(super) const HIGHEST: u32 = MAX_COLUMN / 2;
 
 /// The bytes that undo may keep unless told otherwise: 512 MiB.
 pub const UNDO_BYTES: u64 = 512 << 20;
@@ -81,7 +81,7 @@ impl Painting {
     /// the device has no room.
     pub fn open(
         document: Document,
-        engine: Box<dyn Engine>,
+        engine: PaintEngine,
         undo_bytes: u64,
     ) -> Result<Self, PaintingError> {
         let Lighting { illuminant, observer, .. } = &document.lighting;
@@ -97,7 +97,7 @@ impl Painting {
     pub fn open_under(
         document: Document,
         light: impl Into<Arc<Light>>,
-        mut engine: Box<dyn Engine>,
+        mut engine: PaintEngine,
         undo_bytes: u64,
     ) -> Result<Self, PaintingError> {
         check_heights(&document)?;
@@ -105,7 +105,7 @@ impl Painting {
             document;
         let mut states = Vec::with_capacity(dry.len());
         for DryLayer { slots, opacity, paint } in dry {
-            engine.push_dry(&paint)?;
+            engine.push_dry_layer(&paint)?;
             states.push(DryLayerState { slots, opacity });
         }
         engine.set_wet(&wet)?;
@@ -116,7 +116,7 @@ impl Painting {
             cell_mm,
             ground,
             library,
-            motion: Motion::default(),
+            motion: MotionConstants::default(),
             engine,
             state: State { slots, dry: states, lighting, medium },
             light: light.into(),
@@ -222,7 +222,8 @@ impl Painting {
     pub fn wet_totals_mm(&mut self) -> Result<[f64; SLOTS + 1], PaintingError> {
         let mut totals = self.engine.wet()?.totals();
         for brush in &self.brushes {
-            for (total, more) in totals.iter_mut().zip(self.engine.brush(brush.id)?.totals()) {
+            for (total, more) in totals.iter_mut().zip(self.engine.brush_paint(brush.id)?.totals())
+            {
                 *total += more;
             }
         }
@@ -260,7 +261,7 @@ impl Painting {
         if index >= count {
             return Err(PaintingError::NoLayer { index, count });
         }
-        Ok(self.engine.dry_in(index, rect)?)
+        Ok(self.engine.dry_layer_in(index, rect)?)
     }
 }
 

@@ -4,7 +4,7 @@ use super::failure::PaintingError;
 use super::state::Painting;
 use crate::brush::{Head, Relief};
 use crate::contact::Contact;
-use crate::history::Kept;
+use crate::history::CommitOutcome;
 use crate::layer::Layer;
 use crate::pose::Sample;
 use crate::stroke::{Path, StrokeError};
@@ -165,11 +165,10 @@ impl Painting {
         self.assert_idle("a stroke");
         let id = self.brushes[stroke.brush].id;
         self.history.begin(self.now());
-        let opened =
-            self.history.touch_brush(self.engine.as_mut(), id).and_then(|()| match paint {
-                Some(paint) => self.engine.set_brush(id, paint),
-                None => Ok(()),
-            });
+        let opened = self.history.save_brush(&mut self.engine, id).and_then(|()| match paint {
+            Some(paint) => self.engine.set_brush_paint(id, paint),
+            None => Ok(()),
+        });
         match opened {
             Ok(()) => self.stroke = Some(stroke),
             Err(_) => self.history.abandon(),
@@ -230,7 +229,7 @@ impl Painting {
         let stroke = self.stroke.as_mut().expect(OPEN);
         let tool = &mut self.brushes[stroke.brush];
         let (head, relief) = (&mut tool.head, &self.relief);
-        let (engine, history) = (self.engine.as_mut(), &mut self.history);
+        let (engine, history) = (&mut self.engine, &mut self.history);
         stroke.set_down(head, relief);
         let mut left = if stroke.down { most_substeps } else { 0 };
         while left > 0 {
@@ -242,9 +241,9 @@ impl Painting {
             let (played, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
-                        history.touch(engine, contact.rect.grown(2, bounds))?;
+                        history.save_tiles(engine, contact.rect.grown(2, bounds))?;
                     }
-                    engine.play(tool.id, &self.motion, playing)
+                    engine.apply_contacts(tool.id, &self.motion, playing)
                 },
                 || {
                     if all {
@@ -300,7 +299,7 @@ impl Painting {
             self.history.abandon();
             report.undoable = true;
         } else {
-            report.undoable = self.history.commit() == Kept::Undoable;
+            report.undoable = self.history.commit() == CommitOutcome::Undoable;
         }
         painted?;
         Ok(report)

@@ -4,7 +4,7 @@ use super::failure::PaintingError;
 use super::state::{HIGHEST, Painting};
 use crate::amount::QUANTA_PER_CELL;
 use crate::layer::{Cell, Layer, SLOTS};
-use crate::motion::press::CROWDED;
+use crate::motion::press::CROWDED_VOLUME;
 use graphics::tile::Rect;
 
 /// The most that is squeezed out at once, in mm3: a litre.
@@ -15,7 +15,7 @@ const STEEPNESS: f64 = 2.0 / 3.0;
 
 /// No heap is higher than this many quanta, half of what a brush can still move:
 /// where cells are small, large heaps are flatter.
-const HIGHEST_HEAP: f64 = CROWDED as f64 / 2.0;
+const HIGHEST_HEAP: f64 = CROWDED_VOLUME as f64 / 2.0;
 
 /// The volume of a heap, over its height and the square of its radius.
 const FULLNESS: f64 = std::f64::consts::PI / 1.75;
@@ -131,7 +131,7 @@ impl Painting {
         }
         let quanta = volume_mm3 / self.cell_mm.powi(3) * f64::from(QUANTA_PER_CELL);
         let natural = Heap::new(middle, quanta, HIGHEST_HEAP);
-        let room = f64::from(CROWDED) - f64::from(self.fullest(natural.rect(bounds))?);
+        let room = f64::from(CROWDED_VOLUME) - f64::from(self.fullest(natural.rect(bounds))?);
         let heap = Heap::new(middle, quanta, room.clamp(f64::from(QUANTA_PER_CELL), HIGHEST_HEAP));
         let rect = heap.rect(bounds);
         let mut paint = self.engine.wet_in(rect)?;
@@ -158,7 +158,7 @@ impl Painting {
             return Err(PaintingError::NoRoom { x_mm, y_mm });
         }
         self.acting(|painting| {
-            painting.history.touch(painting.engine.as_mut(), rect)?;
+            painting.history.save_tiles(&mut painting.engine, rect)?;
             painting.views.touch(rect);
             Ok(painting.engine.set_wet_in(rect, &paint)?)
         })
@@ -178,13 +178,13 @@ impl Painting {
     /// [`PaintingError`] if the device was lost.
     pub fn scrape(&mut self) -> Result<bool, PaintingError> {
         let bounds = self.engine.bounds();
-        let painted = self.engine.painted()?;
+        let painted = self.engine.wet_tiles()?;
         if painted.is_empty() {
             return Ok(false);
         }
         self.acting(|painting| {
             for tile in painted.iter() {
-                painting.history.touch(painting.engine.as_mut(), tile.rect(bounds))?;
+                painting.history.save_tiles(&mut painting.engine, tile.rect(bounds))?;
                 painting.views.touch_tile(tile);
             }
             let rect = painted.extent(bounds);

@@ -41,7 +41,7 @@ impl Painting {
     pub fn undo(&mut self) -> Result<bool, PaintingError> {
         self.assert_idle("an undo");
         let now = self.now();
-        match self.history.undo(self.engine.as_mut(), now)? {
+        match self.history.undo(&mut self.engine, now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
             None => Ok(false),
         }
@@ -57,7 +57,7 @@ impl Painting {
     pub fn redo(&mut self) -> Result<bool, PaintingError> {
         self.assert_idle("a redo");
         let now = self.now();
-        match self.history.redo(self.engine.as_mut(), now)? {
+        match self.history.redo(&mut self.engine, now)? {
             Some(restored) => self.back_to(restored).map(|()| true),
             None => Ok(false),
         }
@@ -99,13 +99,13 @@ impl Painting {
     /// The bytes of paint that undo keeps, and the most that it may keep.
     #[must_use]
     pub fn undo_bytes(&self) -> (u64, u64) {
-        (self.history.bytes(), self.history.limit())
+        (self.history.bytes(), self.history.limit_bytes())
     }
 
     /// Sets the most bytes that undo may keep; what is furthest from now is
     /// forgotten until the rest fits.
     pub fn set_undo_bytes(&mut self, limit: u64) {
-        self.history.set_limit(limit);
+        self.history.set_limit_bytes(limit);
     }
 
     /// Does `change` as one action of the history, or as part of the adjustment
@@ -155,7 +155,7 @@ impl Painting {
         if other_palette {
             for brush in &self.brushes[brushes.min(self.brushes.len())..] {
                 let clean = Layer::empty(brush.cells.0, brush.cells.1);
-                self.engine.set_brush(brush.id, &clean)?;
+                self.engine.set_brush_paint(brush.id, &clean)?;
             }
         }
         if restored.dry_changed {

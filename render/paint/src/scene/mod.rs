@@ -10,8 +10,8 @@ pub use spectral::{Films, Spectral};
 
 use crate::document::{Document, Ground, Lighting, Medium, Slots};
 use crate::light::Light;
+use crate::node_pigments::{at_nodes, layer_optics, scene_surface, thickness_per_quantum};
 use crate::optics::{Lamp, Scene};
-use crate::palette::{at_nodes, coat, scene_surface, thickness_per_quantum};
 use pigment::library::PigmentLibrary;
 
 /// The lowest that a lamp may stand, in degrees; colours are told relative to
@@ -60,12 +60,13 @@ impl<'a> Appearance<'a> {
     pub fn scene(&self, light: &Light) -> Scene {
         let Self { library, medium, ground, lighting, .. } = *self;
         let thickness = thickness_per_quantum(self.cell_mm, medium.scattering_per_mm);
-        let coat = |slots, opacity| coat(library, slots, &light.quadrature, thickness, opacity);
+        let optics =
+            |slots, opacity| layer_optics(library, slots, &light.quadrature, thickness, opacity);
         let below = internal_ground(library, &ground.reflectance);
         Scene {
             ground: at_nodes(&light.quadrature, library.grid, &below, 1.0),
-            dry: self.dry.iter().map(|(slots, opacity)| coat(slots, *opacity)).collect(),
-            wet: coat(self.slots, 1.0),
+            dry: self.dry.iter().map(|(slots, opacity)| optics(slots, *opacity)).collect(),
+            wet: optics(self.slots, 1.0),
             surface: scene_surface(&library.saunderson),
             rgb_from_nodes: light.rgb_from_nodes,
             lamp: Lamp {

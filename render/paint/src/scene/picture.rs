@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::composite::lay_over;
+use crate::composite::composite_row;
 use crate::document::Document;
 use crate::layer::Layer;
 use crate::optics::Scene;
-use crate::shade::{Relief, shade_row};
+use crate::shade::{RowHeights, TopMaterial, shade_row};
 use graphics::field::Field;
 
 /// Linear sRGB of every cell, white at 1, and 1; what a backend shows of the
@@ -23,15 +23,20 @@ pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
     }
     let last = picture.height().saturating_sub(1);
     picture.values_mut().par_chunks_mut(width).enumerate().for_each_init(
-        || (vec![scene.ground; width], vec![0; width], [(); 3].map(|()| vec![0; width + 2])),
-        |(internal, bare, heights), (y, out)| {
+        || {
+            let heights = [(); 3].map(|()| vec![0; width + 2]);
+            (vec![scene.ground; width], vec![TopMaterial::Ground; width], heights)
+        },
+        |(internal, materials, heights), (y, out)| {
             internal.fill(scene.ground);
-            bare.fill(2);
+            materials.fill(TopMaterial::Ground);
             let dry = document.dry.iter().map(|layer| &layer.paint).zip(&scene.dry);
             let wet = std::iter::once((&document.wet, &scene.wet));
-            for (kind, (layer, coat)) in dry.map(|d| (1, d)).chain(wet.map(|w| (0, w))) {
-                lay_over(coat, layer.pigments.row(y, 0, width), internal);
-                mark(layer, y, kind, bare);
+            let dry = dry.map(|layer| (TopMaterial::Dry, layer));
+            let wet = wet.map(|layer| (TopMaterial::Wet, layer));
+            for (material, (layer, optics)) in dry.chain(wet) {
+                composite_row(optics, layer.pigments.row(y, 0, width), internal);
+                mark(layer, y, material, materials);
             }
             for (row, y) in heights.iter_mut().zip([y.saturating_sub(1), y, (y + 1).min(last)]) {
                 let tops = tops.row(y, 0, width);
@@ -39,18 +44,18 @@ pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
                 (row[0], row[width + 1]) = (tops[0], tops[width - 1]);
             }
             let [above, here, below] = &*heights;
-            shade_row(scene, &Relief { above, here, below }, internal, bare, out);
+            shade_row(scene, &RowHeights { above, here, below }, internal, materials, out);
         },
     );
     picture
 }
 
-/// Puts `kind` where `layer` has anything in row `y`.
-fn mark(layer: &Layer, y: usize, kind: u8, bare: &mut [u8]) {
+/// Sets `materials` to `material` in each cell of row `y` where `layer` has paint.
+fn mark(layer: &Layer, y: usize, material: TopMaterial, materials: &mut [TopMaterial]) {
     let first = y * layer.width();
-    for (i, bare) in bare.iter_mut().enumerate() {
+    for (i, top) in materials.iter_mut().enumerate() {
         if layer.cell(first + i).volume() > 0 {
-            *bare = kind;
+            *top = material;
         }
     }
 }

@@ -10,7 +10,7 @@ use spectra::optics::{Layer as Film, Surface};
 use super::{Appearance, internal_ground};
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
-use crate::palette::thickness_per_quantum;
+use crate::node_pigments::thickness_per_quantum;
 use graphics::field::Field;
 
 /// What a stack of layers over a ground is made of, by wavelength; lit flat: no

@@ -6,7 +6,7 @@ use super::failure::SessionError;
 use super::record::Limits;
 use super::state::PaintingSession;
 use crate::brush::HeadShape;
-use crate::on_cpu::OnCpu;
+use crate::engine::PaintEngine;
 use crate::painting::Painting;
 use crate::pose::Sample;
 use crate::strokes::{Action, BrushSpec, StrokeScript, SurfaceId};
@@ -18,7 +18,7 @@ fn recorded() -> PaintingSession {
         "canvas": {"width_mm": 8, "height_mm": 6, "cell_mm": 0.2}, "palette": ["Lead White"]}"#;
     let script = StrokeScript::from_json("header", text.as_bytes()).unwrap();
     let (canvas, _) = script.surfaces(&library, None).unwrap();
-    let engine = Box::new(OnCpu::new(canvas.ground.height.clone()));
+    let engine = PaintEngine::on_cpu(canvas.ground.height.clone());
     let canvas = Painting::open(canvas, engine, 1 << 24).unwrap();
     let mut session = PaintingSession::recorded(canvas, None, &script).unwrap();
     session.set_brush("round", &round(1.0)).unwrap();

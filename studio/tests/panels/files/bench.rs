@@ -10,7 +10,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::Document;
-use render::paint::on_cpu::OnCpu;
+use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::strokes::StrokeScript;
@@ -58,8 +58,8 @@ pub(super) fn painted(title: &str) -> Document {
 
 /// The painting at work on the processor.
 pub(super) fn opened(document: Document) -> Painting {
-    let engine = OnCpu::new(document.ground.height.clone());
-    Painting::open(document, Box::new(engine), 1 << 24).unwrap()
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    Painting::open(document, engine, 1 << 24).unwrap()
 }
 
 /// What the window would know of `document`.

@@ -1,0 +1,192 @@
+//! The state of a painting in the machine's memory, and what changes it.
+
+use super::columns::Columns;
+use super::render::{PaintLayers, RenderedView};
+use super::sparse::SparseLayer;
+use super::sub_steps::SubStepRunner;
+use crate::contact::Contact;
+use crate::engine::ids::{BrushId, UndoSlot, View};
+use crate::layer::Layer;
+use crate::motion::MotionConstants;
+use crate::optics::Scene;
+use graphics::field::Field;
+use graphics::tile::{Rect, Tile, TileSet};
+
+/// The paint of one painting in the machine's memory; used through
+/// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
+#[derive(Debug)]
+pub struct CpuPaint {
+    /// Height of the ground in quanta.
+    ground: Field<i32>,
+    /// Height of ground and dry paint in quanta.
+    floor: Field<i32>,
+    pub(super) wet: Columns,
+    brushes: Vec<Columns>,
+    /// Dry layers, lowest first.
+    pub(super) dry: Vec<SparseLayer>,
+    saved_tiles: Vec<Option<Layer>>,
+    /// By [`View`].
+    views: [RenderedView; 2],
+    runner: SubStepRunner,
+}
+
+impl CpuPaint {
+    /// A canvas without paint over a ground of height `floor`, in quanta.
+    pub(crate) fn new(floor: Field<i32>) -> Self {
+        Self {
+            wet: Columns::new(Layer::empty(floor.width(), floor.height())),
+            ground: floor.clone(),
+            floor,
+            brushes: Vec::new(),
+            dry: Vec::new(),
+            saved_tiles: Vec::new(),
+            views: Default::default(),
+            runner: SubStepRunner::default(),
+        }
+    }
+
+    pub(crate) fn name(&self) -> String {
+        let threads = rayon::current_num_threads();
+        let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
+        let wide = !matches!(pulp::Arch::new(), pulp::Arch::Scalar);
+        format!("the processor, {threads}{}", if wide { ", AVX2" } else { "" })
+    }
+
+    pub(crate) fn bounds(&self) -> Rect {
+        self.floor.bounds()
+    }
+
+    pub(crate) fn apply_contacts(
+        &mut self,
+        brush: BrushId,
+        motion: &MotionConstants,
+        contacts: &[Contact],
+    ) {
+        let brush = &mut self.brushes[brush.0];
+        self.runner.apply(motion, contacts, &self.floor, &mut self.wet, brush);
+    }
+
+    pub(crate) fn add_brush(&mut self, width: usize, height: usize) -> BrushId {
+        self.brushes.push(Columns::new(Layer::empty(width, height)));
+        BrushId(self.brushes.len() - 1)
+    }
+
+    pub(crate) fn brush_paint(&self, brush: BrushId) -> Layer {
+        self.brushes[brush.0].layer().clone()
+    }
+
+    pub(crate) fn set_brush_paint(&mut self, brush: BrushId, paint: &Layer) {
+        let brush = &mut self.brushes[brush.0];
+        let cells = brush.layer().vehicle.bounds();
+        assert_eq!(paint.vehicle.bounds(), cells, "paint must cover the brush's cells");
+        *brush = Columns::new(paint.clone());
+    }
+
+    pub(crate) fn wet_in(&self, rect: Rect) -> Layer {
+        self.wet.layer().part(rect)
+    }
+
+    pub(crate) fn set_wet_in(&mut self, rect: Rect, paint: &Layer) {
+        let size = (paint.width(), paint.height());
+        assert_eq!(size, (rect.width, rect.height), "paint must cover {rect:?}");
+        self.wet.put((rect.x, rect.y), paint);
+    }
+
+    pub(crate) fn wet_tiles(&self) -> TileSet {
+        TileSet::with(self.bounds(), |index| self.wet.volume()[index] > 0)
+    }
+
+    pub(crate) fn dry(&mut self, share: u32) {
+        let bounds = self.bounds();
+        let mut layer = SparseLayer::empty(bounds);
+        for tile in self.wet_tiles().iter() {
+            let rect = tile.rect(bounds);
+            let mut part = Layer::empty(rect.width, rect.height);
+            for index in 0..rect.width * rect.height {
+                let at = canvas_index(rect, index, bounds);
+                let cell = self.wet.cell(at);
+                let dried = cell.share_of_65536(share);
+                part.set_cell(index, dried);
+                self.wet.set_cell(at, cell.minus(&dried));
+            }
+            layer.set_tile(tile, part);
+        }
+        self.push_sparse(layer);
+    }
+
+    pub(crate) fn dry_layer_count(&self) -> usize {
+        self.dry.len()
+    }
+
+    pub(crate) fn dry_layer_in(&self, index: usize, rect: Rect) -> Layer {
+        let bounds = self.bounds();
+        assert_eq!(rect.intersection(bounds), rect, "a rectangle must lie within {bounds:?}");
+        self.dry[index].part(rect)
+    }
+
+    pub(crate) fn push_dry_layer(&mut self, layer: &Layer) {
+        assert_eq!(layer.vehicle.bounds(), self.bounds(), "a dry layer must cover the canvas");
+        self.push_sparse(SparseLayer::from_layer(layer));
+    }
+
+    pub(crate) fn pop_dry_layer(&mut self) -> Layer {
+        let layer = self.dry.pop().expect("the caller checks that there is a dry layer");
+        layer.for_each_column(&mut self.floor, |floor, volume| floor - volume as i32);
+        layer.part(self.bounds())
+    }
+
+    pub(crate) fn floor(&self) -> Field<i32> {
+        self.floor.clone()
+    }
+
+    pub(crate) fn save_tile(&mut self, tile: Tile, slot: UndoSlot) {
+        let rect = self.rect_of(tile);
+        self.saved_tiles.resize(self.saved_tiles.len().max(slot.0 + 1), None);
+        self.saved_tiles[slot.0] = Some(self.wet.layer().part(rect));
+    }
+
+    pub(crate) fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) {
+        let (rect, bounds) = (self.rect_of(tile), self.bounds());
+        let saved = self.saved_tiles.get_mut(slot.0).and_then(Option::as_mut);
+        let saved = saved.expect("a tile is saved to a slot before it is swapped with it");
+        let size = (saved.width(), saved.height());
+        assert_eq!(size, (rect.width, rect.height), "{tile:?} was not saved to {slot:?}");
+        for index in 0..rect.width * rect.height {
+            let at = canvas_index(rect, index, bounds);
+            let cell = self.wet.cell(at);
+            self.wet.set_cell(at, saved.cell(index));
+            saved.set_cell(index, cell);
+        }
+    }
+
+    pub(crate) fn render(&mut self, view: View, scene: &Scene, baked: &TileSet, shown: &TileSet) {
+        let Self { ground, floor, wet, dry, views, .. } = self;
+        views[view as usize].render(scene, &PaintLayers { ground, floor, wet, dry }, baked, shown);
+    }
+
+    pub(crate) fn picture_in(&mut self, view: View, rect: Rect) -> Field<[f32; 4]> {
+        let bounds = self.bounds();
+        self.views[view as usize].picture(bounds).part(rect)
+    }
+
+    pub(crate) fn forget_view(&mut self, view: View) {
+        self.views[view as usize] = RenderedView::default();
+    }
+
+    fn rect_of(&self, tile: Tile) -> Rect {
+        let rect = tile.rect(self.bounds());
+        assert!(!rect.is_empty(), "{tile:?} lies outside {:?}", self.bounds());
+        rect
+    }
+
+    /// Adds a dry layer on top and raises the floor by its height.
+    fn push_sparse(&mut self, layer: SparseLayer) {
+        layer.for_each_column(&mut self.floor, |floor, volume| floor + volume as i32);
+        self.dry.push(layer);
+    }
+}
+
+/// Index into a canvas of `bounds` of the cell that has `index` within `rect`.
+fn canvas_index(rect: Rect, index: usize, bounds: Rect) -> usize {
+    (rect.y + index / rect.width) * bounds.width + rect.x + index % rect.width
+}

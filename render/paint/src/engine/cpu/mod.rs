@@ -1,0 +1,28 @@
+//! The paint engine on the processor, using all cores.
+//!
+//! The result does not depend on the number of threads. Memory: 44 bytes per canvas
+//! cell (wet paint 36, its volume 4, floor 4) and 4 for the ground; 48 more for each
+//! view that has been rendered; a dry layer takes 36 bytes for each cell of its
+//! painted tiles.
+
+mod columns;
+
+mod penetration;
+
+mod band;
+
+mod sub_steps;
+
+mod sparse;
+
+mod render;
+
+mod cpu_paint;
+
+#[cfg(test)]
+mod reference;
+
+#[cfg(test)]
+mod tests;
+
+pub use cpu_paint::CpuPaint;

@@ -1,0 +1,183 @@
+//! Runs sub-steps in order, each on as many threads as its contact is worth.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::band::{Band, SubStep};
+use super::columns::{Columns, Rows};
+use super::penetration::PenetrationMap;
+use crate::contact::Contact;
+use crate::motion::MotionConstants;
+use graphics::field::Field;
+use graphics::tile::Rect;
+
+/// Minimum number of cells of a contact's reach per thread: a contact of 26 x 26 cells
+/// stays on one thread, one of 88 x 88 cells may use three.
+const CELLS_PER_BAND: usize = 2500;
+
+/// Runs sub-steps. Holds their buffers, so that no sub-step allocates.
+#[derive(Debug, Default)]
+pub(super) struct SubStepRunner {
+    penetration: PenetrationMap,
+    bands: Vec<Band>,
+}
+
+/// Number of bands that a reach is cut into, one thread each.
+fn band_count(reach: Rect) -> usize {
+    let worth = reach.width * reach.height / CELLS_PER_BAND;
+    worth.min(rayon::current_num_threads()).clamp(1, reach.height.max(1))
+}
+
+impl SubStepRunner {
+    /// Applies one sub-step for each of `contacts`, in order.
+    ///
+    /// # Panics
+    /// If a contact reaches beyond the canvas, or does not have one touch per cell.
+    pub(super) fn apply(
+        &mut self,
+        motion: &MotionConstants,
+        contacts: &[Contact],
+        floor: &Field<i32>,
+        wet: &mut Columns,
+        brush: &mut Columns,
+    ) {
+        let bounds = floor.bounds();
+        for Contact { rect, touches } in contacts {
+            let inside =
+                rect.x + rect.width <= bounds.width && rect.y + rect.height <= bounds.height;
+            assert!(inside, "a contact over {rect:?} must lie within the canvas {bounds:?}");
+            let cells = rect.width * rect.height;
+            assert_eq!(touches.len(), cells, "a contact over {rect:?} has a touch per cell");
+        }
+        let arch = Arch::new();
+        let mut all = || {
+            for contact in contacts.iter().filter(|contact| !contact.rect.is_empty()) {
+                self.sub_step(arch, motion, contact, floor, wet, brush);
+            }
+        };
+        // Enter the thread pool once for all sub-steps rather than once for each.
+        if contacts.iter().any(|contact| band_count(contact.rect) > 1) {
+            rayon::scope(|_| all());
+        } else {
+            all();
+        }
+    }
+
+    fn sub_step(
+        &mut self,
+        arch: Arch,
+        motion: &MotionConstants,
+        contact: &Contact,
+        floor: &Field<i32>,
+        wet: &mut Columns,
+        brush: &mut Columns,
+    ) {
+        let bounds = floor.bounds();
+        let reach = contact.rect.grown(2, bounds);
+        let count = band_count(reach);
+        self.bands.resize_with(self.bands.len().max(count), Band::default);
+        let bands = &mut self.bands[..count];
+        for (i, band) in bands.iter_mut().enumerate() {
+            let edge = |i: usize| reach.y + reach.height * i / count;
+            band.begin(edge(i)..edge(i + 1), reach, brush.volume().len());
+        }
+        let penetration = &mut self.penetration;
+        arch.dispatch(MeasurePenetration { penetration, contact, reach, floor, wet });
+        let step = SubStep { motion, contact, bounds, reach, penetration, brush };
+        let mut rows = wet.rows(reach.y, reach.height);
+        on_each_band(bands, &mut rows, &|band, rows| {
+            arch.dispatch(Advect { band, step, rows });
+        });
+        for i in 1..count {
+            let (above, below) = bands.split_at_mut(i);
+            above[i - 1].exchange_border_rows(&mut below[0], reach.width);
+        }
+        on_each_band(bands, &mut rows, &|band, rows| {
+            arch.dispatch(AddInflowAndTransfer { band, step, rows });
+        });
+        for band in bands {
+            arch.dispatch(AddBrushGains { band, brush });
+        }
+    }
+}
+
+/// Calls `act` for each band with its rows, each band on a thread of its own.
+fn on_each_band(
+    bands: &mut [Band],
+    rows: &mut Rows<'_>,
+    act: &(impl Fn(&mut Band, &mut Rows<'_>) + Sync),
+) {
+    if let [band] = bands {
+        act(band, rows);
+        return;
+    }
+    let (above, below) = bands.split_at_mut(bands.len() / 2);
+    let (mut rows_above, mut rows_below) = rows.split(below[0].rows.start);
+    rayon::join(
+        || on_each_band(above, &mut rows_above, act),
+        || on_each_band(below, &mut rows_below, act),
+    );
+}
+
+// The work that pulp compiles once per instruction set. Closures will not do: their
+// shims are not inlined, and only inlined code is compiled anew.
+
+struct MeasurePenetration<'a> {
+    penetration: &'a mut PenetrationMap,
+    contact: &'a Contact,
+    reach: Rect,
+    floor: &'a Field<i32>,
+    wet: &'a Columns,
+}
+
+struct Advect<'a, 'b> {
+    band: &'a mut Band,
+    step: SubStep<'a>,
+    rows: &'a mut Rows<'b>,
+}
+
+struct AddInflowAndTransfer<'a, 'b> {
+    band: &'a mut Band,
+    step: SubStep<'a>,
+    rows: &'a mut Rows<'b>,
+}
+
+struct AddBrushGains<'a> {
+    band: &'a mut Band,
+    brush: &'a mut Columns,
+}
+
+impl WithSimd for MeasurePenetration<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.penetration.measure(self.contact, self.reach, self.floor, self.wet);
+    }
+}
+
+impl WithSimd for Advect<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.advect(&self.step, self.rows);
+    }
+}
+
+impl WithSimd for AddInflowAndTransfer<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.add_inflow_and_transfer(&self.step, self.rows);
+    }
+}
+
+impl WithSimd for AddBrushGains<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.band.add_brush_gains(self.brush);
+    }
+}

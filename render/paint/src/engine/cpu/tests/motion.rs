@@ -1,0 +1,251 @@
+//! What a sub-step keeps, over random contacts.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::amount::{MAX_COLUMN, QUANTA_PER_CELL};
+use crate::contact::{Contact, Touch};
+use crate::engine::BrushId;
+use crate::engine::cpu::CpuPaint;
+use crate::engine::cpu::reference::sub_step;
+use crate::layer::{Cell, Layer, SLOTS};
+use crate::motion::MotionConstants;
+use crate::motion::press::CROWDED_VOLUME;
+use graphics::field::Field;
+use graphics::tile::Rect;
+
+const BRUSH: BrushId = BrushId(0);
+
+fn random_layer(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u32) -> Layer {
+    let mut layer = Layer::empty(width, height);
+    for index in 0..width * height {
+        // A third of the cells stay bare, and most pigments are in few cells.
+        if random.random_range(0..3) > 0 {
+            let mut amount = || match random.random_range(0..4) {
+                0 => random.random_range(0..=highest / 9),
+                1 => random.random_range(0..100),
+                _ => 0,
+            };
+            let pigments = std::array::from_fn(|_| amount());
+            layer.set_cell(index, Cell { pigments, vehicle: amount() });
+        }
+    }
+    layer
+}
+
+/// An engine with paint up to four cells high on it and on its brush.
+fn painted(random: &mut ChaCha8Rng, canvas: (usize, usize), brush: (usize, usize)) -> CpuPaint {
+    painted_to(4 * QUANTA_PER_CELL, random, canvas, brush)
+}
+
+/// The same, the paint on the canvas up to `highest` high.
+fn painted_to(
+    highest: u32,
+    random: &mut ChaCha8Rng,
+    canvas: (usize, usize),
+    brush: (usize, usize),
+) -> CpuPaint {
+    let heights = (0..canvas.0 * canvas.1).map(|_| random.random_range(-9999..300_000)).collect();
+    let mut engine = CpuPaint::new(Field::from_values(canvas.0, canvas.1, heights));
+    let wet = random_layer(random, canvas.0, canvas.1, highest);
+    engine.set_wet(&wet);
+    engine.add_brush(brush.0, brush.1);
+    let paint = random_layer(random, brush.0, brush.1, 4 * QUANTA_PER_CELL);
+    engine.set_brush_paint(BRUSH, &paint);
+    engine
+}
+
+/// A head with holes at random heights, `coarse` cells of the canvas under each
+/// of its own, in x and in y; at `speed` of 256.
+fn random_contact(
+    random: &mut ChaCha8Rng,
+    canvas: (usize, usize),
+    brush: (usize, usize),
+    speed: Option<u16>,
+) -> Contact {
+    let (width, height) =
+        (random.random_range(1..=canvas.0.min(40)), random.random_range(1..=canvas.1.min(40)));
+    let x = random.random_range(0..=canvas.0 - width);
+    let y = random.random_range(0..=canvas.1 - height);
+    let coarse = random.random_range(1..=3);
+    let cell = |i: usize| {
+        ((i / width) / coarse % brush.1 * brush.0 + (i % width) / coarse % brush.0) as u32
+    };
+    let mut sharers = vec![0_u16; brush.0 * brush.1];
+    (0..width * height).for_each(|i| sharers[cell(i) as usize] += 1);
+    let lowest = random.random_range(-1..=2) * QUANTA_PER_CELL as i32;
+    let touches = (0..width * height).map(|i| {
+        if random.random_range(0..5) == 0 {
+            return Touch::NONE;
+        }
+        let height = lowest + random.random_range(0..2 * QUANTA_PER_CELL as i32);
+        let velocity = (random.random_range(-300..=300), random.random_range(-300..=300));
+        let speed = speed.unwrap_or_else(|| random.random_range(0..=256));
+        Touch::new(height, cell(i), velocity, speed, sharers[cell(i) as usize])
+    });
+    Contact { rect: Rect { x, y, width, height }, touches: touches.collect() }
+}
+
+fn totals(engine: &mut CpuPaint) -> [u64; SLOTS + 1] {
+    let wet = engine.wet().totals();
+    let brush = engine.brush_paint(BRUSH).totals();
+    std::array::from_fn(|i| wet[i] + brush[i])
+}
+
+#[test]
+fn over_ten_thousand_sub_steps_no_pigment_is_lost_or_made_and_no_cell_is_overfull() {
+    let random = &mut ChaCha8Rng::seed_from_u64(1);
+    let (canvas, brush) = ((60, 44), (24, 17));
+    let mut engine = painted(random, canvas, brush);
+    let before = totals(&mut engine);
+    for _ in 0..100 {
+        let contacts: Vec<_> =
+            (0..100).map(|_| random_contact(random, canvas, brush, None)).collect();
+        engine.apply_contacts(BRUSH, &MotionConstants::default(), &contacts);
+    }
+    assert_eq!(totals(&mut engine), before);
+    let wet = engine.wet();
+    let highest = (0..60 * 44).map(|i| wet.cell(i).volume()).max();
+    assert!(highest.is_some_and(|highest| highest <= MAX_COLUMN), "{highest:?} in a cell");
+}
+
+#[test]
+fn the_fast_path_agrees_with_the_specification() {
+    let random = &mut ChaCha8Rng::seed_from_u64(2);
+    let low = 4 * QUANTA_PER_CELL;
+    for (canvas, highest) in [
+        ((50, 30), low),
+        ((7, 90), low),
+        ((1, 1), low),
+        ((3, 2), low),
+        ((90, 90), low),
+        ((50, 30), 4 * CROWDED_VOLUME),
+        ((1, 9), 4 * CROWDED_VOLUME),
+    ] {
+        let brush = (11, 13);
+        let mut engine = painted_to(highest, random, canvas, brush);
+        let motions = [
+            MotionConstants::default(),
+            MotionConstants {
+                push_quanta: 7,
+                adhesion_quanta: 65535,
+                max_transfer_quanta: 65535,
+                full_transfer_quanta: 256,
+            },
+            MotionConstants {
+                push_quanta: 1 << 30,
+                adhesion_quanta: 0,
+                max_transfer_quanta: 0,
+                full_transfer_quanta: 1 << 30,
+            },
+        ];
+        for (i, motion) in motions.iter().cycle().take(60).enumerate() {
+            let contact = random_contact(random, canvas, brush, None);
+            let (mut wet, mut paint) = (engine.wet(), engine.brush_paint(BRUSH));
+            let floor = engine.floor();
+            sub_step(motion, &contact, &floor, &mut wet, &mut paint);
+            engine.apply_contacts(BRUSH, motion, &[contact]);
+            assert!(engine.wet() == wet, "canvas {canvas:?}, sub-step {i}");
+            assert!(engine.brush_paint(BRUSH) == paint, "brush, sub-step {i}");
+            let columns = (0..wet.vehicle.values().len()).map(|at| wet.cell(at).volume());
+            assert!(engine.wet.volume().iter().copied().eq(columns), "volumes, sub-step {i}");
+        }
+    }
+}
+
+#[test]
+fn columns_pushed_together_stay_below_full_and_whole() {
+    let random = &mut ChaCha8Rng::seed_from_u64(8);
+    let (canvas, brush) = ((40, 40), (9, 9));
+    let mut engine = CpuPaint::new(Field::filled(40, 40, 0));
+    let vehicle = Field::filled(40, 40, CROWDED_VOLUME - 1);
+    let wet = Layer { vehicle, ..Layer::empty(40, 40) };
+    engine.set_wet(&wet);
+    engine.add_brush(brush.0, brush.1);
+    let before = totals(&mut engine);
+    let pushy = MotionConstants { push_quanta: 7, ..MotionConstants::default() };
+    for _ in 0..400 {
+        let contact = random_contact(random, canvas, brush, None);
+        engine.apply_contacts(BRUSH, &pushy, &[contact]);
+    }
+    let wet = engine.wet();
+    let highest = (0..40 * 40).map(|i| wet.cell(i).volume()).max().expect("cells");
+    assert!((CROWDED_VOLUME..MAX_COLUMN).contains(&highest), "{highest} in a cell");
+    assert_eq!(totals(&mut engine), before);
+}
+
+#[test]
+fn a_still_brush_moves_no_paint_across_sides_and_leaves_the_adhesion() {
+    let random = &mut ChaCha8Rng::seed_from_u64(3);
+    let (canvas, brush) = ((40, 40), (9, 9));
+    let mut engine = painted(random, canvas, brush);
+    let motion = MotionConstants::default();
+    let head = engine.brush_paint(BRUSH);
+    for _ in 0..200 {
+        let before = engine.wet();
+        let contact = random_contact(random, canvas, brush, Some(0));
+        engine.apply_contacts(BRUSH, &motion, &[contact]);
+        let after = engine.wet();
+        for index in 0..canvas.0 * canvas.1 {
+            let stays = before.cell(index).volume().min(motion.adhesion_quanta);
+            let volume = after.cell(index).volume();
+            assert!(volume >= stays, "cell {index}: {volume} of {stays}");
+        }
+    }
+    assert!(engine.brush_paint(BRUSH) == head, "the head's paint changed");
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let play = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let random = &mut ChaCha8Rng::seed_from_u64(4);
+            let (canvas, brush) = ((150, 130), (60, 60));
+            let mut engine = painted(random, canvas, brush);
+            let contacts: Vec<_> = (0..20).map(|_| whole_contact(random, canvas, brush)).collect();
+            engine.apply_contacts(BRUSH, &MotionConstants::default(), &contacts);
+            (engine.wet(), engine.brush_paint(BRUSH))
+        })
+    };
+    let alone = play(1);
+    for threads in [2, 3, 5] {
+        assert!(play(threads) == alone, "{threads} threads");
+    }
+}
+
+/// A contact that covers the canvas with random ones, enough for many threads.
+fn whole_contact(
+    random: &mut ChaCha8Rng,
+    canvas: (usize, usize),
+    brush: (usize, usize),
+) -> Contact {
+    let part = random_contact(random, (40, 40), brush, None);
+    let touch = |i: usize| {
+        let (x, y) = (i % canvas.0 % part.rect.width, i / canvas.0 % part.rect.height);
+        let touch = part.touches[y * part.rect.width + x];
+        let sharers = (canvas.0 * canvas.1) as u16;
+        Touch { weights: touch.transfer_weight() | u32::from(sharers) << 16, ..touch }
+    };
+    let rect = Rect { x: 0, y: 0, width: canvas.0, height: canvas.1 };
+    Contact { rect, touches: (0..canvas.0 * canvas.1).map(touch).collect() }
+}
+
+#[test]
+fn paint_stays_on_the_canvas() {
+    let random = &mut ChaCha8Rng::seed_from_u64(5);
+    let mut engine = painted(random, (12, 9), (1, 1));
+    engine.set_brush_paint(BRUSH, &Layer::empty(1, 1));
+    let before = totals(&mut engine);
+    let touch = Touch::new(i32::MIN / 4, 0, (256, 256), 0, 108);
+    let contact = Contact { rect: engine.bounds(), touches: vec![touch; 108] };
+    engine.apply_contacts(BRUSH, &MotionConstants::default(), &vec![contact; 100]);
+    assert_eq!(totals(&mut engine), before);
+    let wet = engine.wet();
+    let edge: u64 = (0..108)
+        .filter(|i| i % 12 >= 8 || i / 12 >= 6)
+        .map(|i| u64::from(wet.cell(i).volume()))
+        .sum();
+    let all: u64 = before.iter().sum();
+    assert!(edge * 10 > all * 9, "{edge} of {all} quanta were pushed into the corner");
+}

@@ -1,0 +1,112 @@
+//! The buffers that hold paint on the device, and copies to and from them.
+
+use crate::layer::{Layer, SLOTS};
+use graphics::field::Field;
+use graphics::gpu::{Buffer, Device, DeviceError, Rows};
+use graphics::tile::Rect;
+
+/// Bytes of a cell's pigment amounts.
+pub(super) const PIGMENT_BYTES: u64 = 4 * SLOTS as u64;
+
+/// A layer of paint on the device; the handles are cheap to clone.
+#[derive(Debug, Clone)]
+pub(super) struct PaintBuffers {
+    /// Eight u32 amounts per cell, by slot.
+    pub(super) pigments: Buffer,
+    /// One u32 amount per cell.
+    pub(super) vehicle: Buffer,
+}
+
+impl PaintBuffers {
+    /// Allocates `cells` cells without paint; `label` names them in errors.
+    pub(super) fn empty(
+        device: &Device,
+        label: &'static str,
+        cells: usize,
+    ) -> Result<Self, DeviceError> {
+        Ok(Self {
+            pigments: device.buffer(label, PIGMENT_BYTES * cells as u64)?,
+            vehicle: device.buffer(label, 4 * cells as u64)?,
+        })
+    }
+
+    /// Uploads `layer` to the cells of `rect`, in a buffer whose rows have `width` cells.
+    pub(super) fn upload(
+        &self,
+        device: &mut Device,
+        (rect, width): (Rect, usize),
+        layer: &Layer,
+    ) -> Result<(), DeviceError> {
+        let rows = Rows::of(rect, width);
+        device.write(&self.pigments, rows, layer.pigments.values())?;
+        device.write(&self.vehicle, rows, layer.vehicle.values())
+    }
+
+    /// Downloads the cells of `rect`, from a buffer whose rows have `width` cells.
+    pub(super) fn download(
+        &self,
+        device: &mut Device,
+        (rect, width): (Rect, usize),
+    ) -> Result<Layer, DeviceError> {
+        let rows = Rows::of(rect, width);
+        let pigments = device.read(&self.pigments, rows)?;
+        let vehicle = device.read(&self.vehicle, rows)?;
+        Ok(Layer {
+            pigments: Field::from_values(rect.width, rect.height, pigments),
+            vehicle: Field::from_values(rect.width, rect.height, vehicle),
+        })
+    }
+}
+
+/// The paint on the head of a brush.
+#[derive(Debug)]
+pub(super) struct BrushBuffers {
+    /// Width and height in cells.
+    pub(super) size: (usize, usize),
+    pub(super) paint: PaintBuffers,
+}
+
+impl BrushBuffers {
+    pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, DeviceError> {
+        let cells = size.0 * size.1;
+        Ok(Self { size, paint: PaintBuffers::empty(device, "the head of a brush", cells)? })
+    }
+
+    /// The rectangle of all cells, and the width of a row.
+    pub(super) fn all_cells(&self) -> (Rect, usize) {
+        let (width, height) = self.size;
+        (Rect { x: 0, y: 0, width, height }, width)
+    }
+
+    pub(super) fn cell_count(&self) -> u32 {
+        (self.size.0 * self.size.1) as u32
+    }
+}
+
+/// Intermediate results that the kernels of a sub-step pass to each other.
+#[derive(Debug)]
+pub(super) struct SubStepBuffers {
+    /// Number of cells that fit.
+    pub(super) cells: usize,
+    /// Penetration and volume of each cell, i32 each.
+    pub(super) depths: Buffer,
+    /// Paint of the head's cell above each cell.
+    pub(super) above: Buffer,
+    /// Velocity and mobile share of each cell.
+    pub(super) flow: Buffer,
+    /// Paint of each cell after advection.
+    pub(super) moved: Buffer,
+}
+
+impl SubStepBuffers {
+    pub(super) fn new(device: &Device, cells: usize) -> Result<Self, DeviceError> {
+        let buffer = |bytes| device.buffer("the paint in motion", bytes * cells as u64);
+        Ok(Self {
+            cells,
+            depths: buffer(8)?,
+            above: buffer(48)?,
+            flow: buffer(8)?,
+            moved: buffer(48)?,
+        })
+    }
+}

@@ -1,0 +1,51 @@
+// Computes the paint of every cell after advection: its own minus what flows out, plus
+// what flows in from its eight neighbours.
+
+@group(0) @binding(0) var<uniform> params: SubStepParams;
+@group(0) @binding(1) var<storage, read> pigments: array<vec4<u32>>;
+@group(0) @binding(2) var<storage, read> vehicle: array<u32>;
+// x: velocity, packed as in `Touch`; y: mobile share of 65536.
+@group(0) @binding(3) var<storage, read> flow: array<vec2<u32>>;
+@group(0) @binding(4) var<storage, read_write> moved: array<Cell>;
+
+fn cell_at(place: vec2<u32>) -> Cell {
+    let i = canvas_index(place);
+    return Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
+}
+
+@compute @workgroup_size(8, 8)
+fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= params.region.zw) {
+        return;
+    }
+    let width = params.region.z;
+    var cell = cell_at(id.xy);
+    let own = flow[id.y * width + id.x];
+    if own.x != 0u {
+        let out = outflow(cell, own.y, vec2<u32>(abs(halves(own.x))));
+        cell = minus(cell, plus(out.in_x, plus(out.in_y, out.diagonal)));
+    }
+    for (var i = 0; i < 9; i++) {
+        let direction = vec2(i % 3, i / 3) - vec2(1);
+        // To the left of and above the region this wraps and so lies outside it.
+        let source = id.xy - vec2<u32>(direction);
+        if i == 4 || any(source >= params.region.zw) {
+            continue;
+        }
+        let at = source.y * width + source.x;
+        let speed = halves(flow[at].x);
+        // Paint flows here only if it moves this way along both axes that matter.
+        if any((direction != vec2(0)) & (sign(speed) != direction)) {
+            continue;
+        }
+        let out = outflow(cell_at(source), flow[at].y, vec2<u32>(abs(speed)));
+        if direction.y == 0 {
+            cell = plus(cell, out.in_x);
+        } else if direction.x == 0 {
+            cell = plus(cell, out.in_y);
+        } else {
+            cell = plus(cell, out.diagonal);
+        }
+    }
+    moved[id.y * width + id.x] = cell;
+}

@@ -1,0 +1,33 @@
+// Computes the state at the start of a sub-step: penetration and volume of every cell,
+// and a copy of the head's cell above it.
+
+@group(0) @binding(0) var<uniform> params: SubStepParams;
+@group(0) @binding(1) var<storage, read> touches: array<Touch>;
+@group(0) @binding(2) var<storage, read> pigments: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read> vehicle: array<u32>;
+@group(0) @binding(4) var<storage, read> floor_height: array<i32>;
+@group(0) @binding(5) var<storage, read> brush_pigments: array<vec4<u32>>;
+@group(0) @binding(6) var<storage, read> brush_vehicle: array<u32>;
+@group(0) @binding(7) var<storage, read_write> depths: array<vec2<i32>>;
+@group(0) @binding(8) var<storage, read_write> above: array<Cell>;
+
+@compute @workgroup_size(8, 8)
+fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= params.region.zw) {
+        return;
+    }
+    let place = id.y * params.region.z + id.x;
+    let i = canvas_index(id.xy);
+    let wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
+    var depth = NO_CONTACT;
+    if within_contact(id.xy) {
+        let touch = touches[touch_index(id.xy)];
+        depth = penetration(touch, floor_height[i], wet);
+        if depth != NO_CONTACT {
+            let b = touch.brush_cell;
+            above[place] =
+                Cell(brush_pigments[2u * b], brush_pigments[2u * b + 1u], brush_vehicle[b]);
+        }
+    }
+    depths[place] = vec2(depth, bitcast<i32>(wet));
+}

@@ -1,0 +1,47 @@
+// Drying, and the floor's rise and fall with dry layers.
+
+struct DryParams {
+    // Width and height in cells.
+    canvas: vec2<u32>,
+    // Share of the wet paint that dries, in parts of 65536.
+    share: u32,
+    // 1 when the layer is added, -1 when it is removed.
+    rise: i32,
+}
+
+@group(0) @binding(0) var<uniform> params: DryParams;
+@group(0) @binding(1) var<storage, read_write> floor_height: array<i32>;
+@group(0) @binding(2) var<storage, read_write> dry_pigments: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read_write> dry_vehicle: array<u32>;
+@group(0) @binding(4) var<storage, read_write> pigments: array<vec4<u32>>;
+@group(0) @binding(5) var<storage, read_write> vehicle: array<u32>;
+
+// Moves a share of the wet paint to the new layer and raises the floor.
+@compute @workgroup_size(8, 8)
+fn dry_cells(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= params.canvas) {
+        return;
+    }
+    let i = id.y * params.canvas.x + id.x;
+    let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
+    let dried = cell_share_of_65536(wet, params.share);
+    let left = minus(wet, dried);
+    pigments[2u * i] = left.low;
+    pigments[2u * i + 1u] = left.high;
+    vehicle[i] = left.vehicle;
+    dry_pigments[2u * i] = dried.low;
+    dry_pigments[2u * i + 1u] = dried.high;
+    dry_vehicle[i] = dried.vehicle;
+    floor_height[i] += params.rise * bitcast<i32>(volume(dried));
+}
+
+// Raises or lowers the floor by a layer that exists already.
+@compute @workgroup_size(8, 8)
+fn move_floor(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= params.canvas) {
+        return;
+    }
+    let i = id.y * params.canvas.x + id.x;
+    let dried = Cell(dry_pigments[2u * i], dry_pigments[2u * i + 1u], dry_vehicle[i]);
+    floor_height[i] += params.rise * bitcast<i32>(volume(dried));
+}

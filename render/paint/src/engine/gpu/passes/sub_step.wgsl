@@ -1,0 +1,31 @@
+// Uniforms and indices of one sub-step; twin of `SubStepParams` in ../sub_step.rs.
+// Rectangles are x, y, width, height in cells; `place` is a cell relative to the
+// region's upper left corner.
+
+struct SubStepParams {
+    motion: MotionConstants,
+    // The contact's rectangle grown by 2: all cells that may change.
+    region: vec4<u32>,
+    contact: vec4<u32>,
+    // Width and height in cells.
+    canvas: vec2<u32>,
+    // Index of the contact's first touch in the batch.
+    first_touch: u32,
+    padding: u32,
+}
+
+fn canvas_index(place: vec2<u32>) -> u32 {
+    let at = params.region.xy + place;
+    return at.y * params.canvas.x + at.x;
+}
+
+// To the left of or above the contact the difference wraps to a large number, which
+// lies outside as well.
+fn within_contact(place: vec2<u32>) -> bool {
+    return all(params.region.xy + place - params.contact.xy < params.contact.zw);
+}
+
+fn touch_index(place: vec2<u32>) -> u32 {
+    let at = params.region.xy + place - params.contact.xy;
+    return params.first_touch + at.y * params.contact.z + at.x;
+}

@@ -1,0 +1,294 @@
+//! Rendering on the device: dry layers are baked, the wet layer is composited over
+//! them and shaded.
+//!
+//! Twins of [`crate::composite`] and [`crate::shade`] in f32; tests state how close
+//! the two backends agree.
+
+use super::buffers::PaintBuffers;
+use crate::amount::QUANTA_PER_CELL;
+use crate::layer::SLOTS;
+use crate::optics::{Gloss, Lamp, NODES, Scene};
+use graphics::gpu::{
+    Buffer, Device, DeviceError, GROUP, Kernel, Layout, Recording, Storage, layout,
+};
+use graphics::tile::{TILE, TileSet};
+
+/// Maximum number of tiles in one dispatch: the WebGPU limit of workgroups along an
+/// axis.
+const MAX_TILES: usize = 65535;
+
+/// [`crate::optics::LayerOptics`] as a uniform.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct LayerOptics {
+    absorption: [[f32; NODES]; SLOTS],
+    scattering: [[f32; NODES]; SLOTS],
+}
+
+/// Uniforms of [`PRIME`] and [`BAKE`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct BakeParams {
+    layer: LayerOptics,
+    /// Internal reflectance of the ground.
+    ground: [f32; NODES],
+    /// Width and height of the canvas in cells.
+    canvas: [u32; 2],
+    /// Index of the first tile in the batch.
+    first_tile: u32,
+    padding: u32,
+}
+
+/// Saunderson's shares of the surface between paint and air.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct SurfaceParams {
+    k1: f32,
+    k2: f32,
+    specular: f32,
+    /// 0 to skip relief and gloss.
+    relief_on: u32,
+}
+
+/// The lamp, prepared for shading slopes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct LampParams {
+    towards_lamp: [f32; 2],
+    ambient: f32,
+    slope: f32,
+    halfway: [f32; 4],
+    gloss: [[f32; 4]; 3],
+}
+
+/// Uniforms of [`SHOW`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct ShowParams {
+    layer: LayerOptics,
+    rgb_from_nodes: [[f32; 4]; NODES],
+    surface: SurfaceParams,
+    lamp: LampParams,
+    /// Width and height of the canvas in cells.
+    canvas: [u32; 2],
+    /// Index of the first tile in the batch.
+    first_tile: u32,
+    padding: u32,
+}
+
+const LAYER_OPTICS: Layout = layout!(LayerOptics { absorption, scattering });
+
+const BAKE_SOURCE: &str = concat!(
+    include_str!("../../amount.wgsl"),
+    include_str!("../../layer.wgsl"),
+    include_str!("../../composite.wgsl"),
+    include_str!("passes/bake_tiles.wgsl"),
+);
+
+const BAKE_PARAMS: Layout = layout!(BakeParams { layer, ground, canvas, first_tile, padding });
+
+const BAKE_STORAGE: &[Storage] =
+    &[Storage::Batch, Storage::Read, Storage::Read, Storage::Write, Storage::Write];
+
+/// Sets tiles to the reflectance of the bare ground.
+pub(super) static PRIME: Kernel = Kernel {
+    name: "prime_tiles",
+    source: BAKE_SOURCE,
+    parameters: BAKE_PARAMS,
+    structs: &[LAYER_OPTICS],
+    storage: BAKE_STORAGE,
+};
+
+/// Composites one dry layer over the baked reflectance.
+pub(super) static BAKE: Kernel = Kernel {
+    name: "bake_tiles",
+    source: BAKE_SOURCE,
+    parameters: BAKE_PARAMS,
+    structs: &[LAYER_OPTICS],
+    storage: BAKE_STORAGE,
+};
+
+/// Composites the wet layer over the baked reflectance and shades it.
+pub(super) static SHOW: Kernel = Kernel {
+    name: "show_tiles",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("../../composite.wgsl"),
+        include_str!("../../shade.wgsl"),
+        include_str!("passes/show_tiles.wgsl"),
+    ),
+    parameters: layout!(ShowParams {
+        layer,
+        rgb_from_nodes,
+        surface,
+        lamp,
+        canvas,
+        first_tile,
+        padding
+    }),
+    structs: &[
+        LAYER_OPTICS,
+        layout!(SurfaceParams { k1, k2, specular, relief_on }),
+        layout!(LampParams { towards_lamp, ambient, slope, halfway, gloss }),
+    ],
+    storage: &[
+        Storage::Batch,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Write,
+    ],
+};
+
+/// The layers of the canvas, as rendering reads them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CanvasBuffers<'a> {
+    /// Width and height in cells.
+    pub(super) size: [u32; 2],
+    pub(super) wet: &'a PaintBuffers,
+    /// Height of ground and dry paint in quanta.
+    pub(super) floor: &'a Buffer,
+    /// Dry layers, lowest first.
+    pub(super) dry: &'a [PaintBuffers],
+}
+
+/// The buffers of one view; the handles are cheap to clone.
+#[derive(Debug, Clone)]
+pub(super) struct ViewBuffers {
+    /// Internal reflectance of ground and dry layers at the eight wavelengths.
+    baked: Buffer,
+    /// Material below the wet paint: 1 dry paint, 2 bare ground.
+    material: Buffer,
+    /// Linear sRGB and 1.
+    pub(super) picture: Buffer,
+}
+
+impl From<&crate::optics::LayerOptics> for LayerOptics {
+    fn from(layer: &crate::optics::LayerOptics) -> Self {
+        Self { absorption: layer.absorption, scattering: layer.scattering }
+    }
+}
+
+impl LampParams {
+    fn new(lamp: &Lamp) -> Self {
+        let [x, y, z] = lamp.direction;
+        let length = (x * x + y * y + (z + 1.0) * (z + 1.0)).sqrt();
+        let halfway = [x / length, y / length, (z + 1.0) / length];
+        let gloss = |Gloss { strength, exponent }: Gloss| {
+            [strength * (1.0 - lamp.ambient), exponent, halfway[2].powf(exponent), 0.0]
+        };
+        Self {
+            towards_lamp: [-x / z, -y / z],
+            ambient: lamp.ambient,
+            slope: lamp.relief / (2.0 * QUANTA_PER_CELL as f32),
+            halfway: [halfway[0], halfway[1], halfway[2], 0.0],
+            gloss: [lamp.wet, lamp.dry, lamp.ground].map(gloss),
+        }
+    }
+}
+
+impl ViewBuffers {
+    /// Allocates a black picture of `cells` cells.
+    pub(super) fn new(device: &Device, cells: usize) -> Result<Self, DeviceError> {
+        let cells = cells as u64;
+        Ok(Self {
+            baked: device.buffer("the light of dry layers", 4 * NODES as u64 * cells)?,
+            material: device.buffer("the light of dry layers", 4 * cells)?,
+            picture: device.buffer("the picture", 16 * cells)?,
+        })
+    }
+
+    /// Records the rendering of `shown` and `baked` tiles, after baking `baked` ones.
+    ///
+    /// # Panics
+    /// If `scene` does not describe each dry layer.
+    pub(super) fn record(
+        &self,
+        recording: &mut Recording,
+        canvas: &CanvasBuffers<'_>,
+        scene: &Scene,
+        baked: &TileSet,
+        shown: &TileSet,
+    ) {
+        let count = canvas.dry.len();
+        assert_eq!(scene.dry.len(), count, "the scene must describe each dry layer");
+        let mut shown = shown.clone();
+        for tile in baked.iter() {
+            shown.insert_tile(tile);
+        }
+        for tiles in columns_and_rows(baked).chunks(MAX_TILES) {
+            self.record_bake(recording, canvas, scene, tiles);
+        }
+        for tiles in columns_and_rows(&shown).chunks(MAX_TILES) {
+            self.record_show(recording, canvas, scene, tiles);
+        }
+    }
+
+    fn record_bake(
+        &self,
+        recording: &mut Recording,
+        canvas: &CanvasBuffers<'_>,
+        scene: &Scene,
+        tiles: &[[u32; 2]],
+    ) {
+        let empty =
+            LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
+        let params = BakeParams {
+            layer: empty,
+            ground: scene.ground,
+            canvas: canvas.size,
+            first_tile: recording.batch(tiles),
+            padding: 0,
+        };
+        let workgroups = workgroups(tiles);
+        let buffers = |paint: &PaintBuffers| {
+            [&paint.pigments, &paint.vehicle, &self.baked, &self.material].map(Clone::clone)
+        };
+        let ground = buffers(canvas.wet);
+        recording.dispatch(&PRIME, &params, &ground.each_ref(), workgroups);
+        for (layer, paint) in scene.dry.iter().zip(canvas.dry) {
+            let params = BakeParams { layer: layer.into(), ..params };
+            recording.dispatch(&BAKE, &params, &buffers(paint).each_ref(), workgroups);
+        }
+    }
+
+    fn record_show(
+        &self,
+        recording: &mut Recording,
+        canvas: &CanvasBuffers<'_>,
+        scene: &Scene,
+        tiles: &[[u32; 2]],
+    ) {
+        let surface = scene.surface;
+        let params = ShowParams {
+            layer: (&scene.wet).into(),
+            rgb_from_nodes: scene.rgb_from_nodes.map(|[r, g, b]| [r, g, b, 0.0]),
+            surface: SurfaceParams {
+                k1: surface.k1,
+                k2: surface.k2,
+                specular: surface.specular,
+                relief_on: u32::from(scene.lamp.relief != 0.0),
+            },
+            lamp: LampParams::new(&scene.lamp),
+            canvas: canvas.size,
+            first_tile: recording.batch(tiles),
+            padding: 0,
+        };
+        let PaintBuffers { pigments, vehicle } = canvas.wet;
+        let buffers = [pigments, vehicle, canvas.floor, &self.baked, &self.material, &self.picture];
+        recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles));
+    }
+}
+
+fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
+    tiles.iter().map(|tile| [tile.column as u32, tile.row as u32]).collect()
+}
+
+/// Workgroups that cover whole tiles, one tile per z.
+fn workgroups(tiles: &[[u32; 2]]) -> [u32; 3] {
+    let across = TILE as u32 / GROUP;
+    [across, across, tiles.len() as u32]
+}
