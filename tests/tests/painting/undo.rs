@@ -7,8 +7,8 @@ use render::layer::Layer;
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
-use render::paint::history::TILE_BYTES;
 use render::paint::engine::PaintEngine;
+use render::paint::history::TILE_BYTES;
 use render::paint::painting::{LayerRef, Painting};
 
 use super::studio::{
