@@ -95,6 +95,10 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<LampError>,
         as_explained::<LightError>,
         as_explained::<SwatchFileError>,
+        as_explained::<PaintingError>,
+        as_explained::<SessionError>,
+        as_explained::<ScriptStartError>,
+        as_explained::<ScriptError>,
         as_explained::<PhotographError>,
         as_explained::<MeshError>,
         as_explained::<CameraPathError>,
@@ -153,19 +157,7 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
 
 /// Hints of what paints.
 fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
-    if let Some(error) = cause.downcast_ref::<PaintingError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<SessionError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<ScriptStartError>() {
-        return error.hint();
-    }
     if let Some(error) = cause.downcast_ref::<LightFailure>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<ScriptError>() {
         return error.hint();
     }
     if let Some(error) = cause.downcast_ref::<PaintingFileError>() {

@@ -37,6 +37,8 @@ pub mod document;
 
 pub mod ground;
 
+pub mod canvas;
+
 pub mod separation;
 
 pub mod brush;

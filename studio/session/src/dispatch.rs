@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use spectra::hint::Hint;
+
 use render::layer::SLOTS;
 use render::paint::session::{Outcome, PaintingSession, SessionError};
 use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
@@ -75,7 +77,7 @@ impl WorkerLoop<'_> {
             if let Err(error) = live.extend(&mut stage.opened.session, sample, *arrived)
                 && !std::mem::replace(&mut live.refused, true)
             {
-                let hint = Some("the stroke goes on without it".to_owned());
+                let hint = Some(Hint::new("the stroke goes on without it"));
                 (self.tell)(Event::Message { text: error.to_string(), hint, failed: true });
             }
         }
@@ -124,7 +126,7 @@ impl WorkerLoop<'_> {
             command if self.stage.is_some() => return self.change(command),
             command => {
                 let text = format!("no painting is open for {}", command.name());
-                self.say(text, Some("open one, or begin a new one".to_owned()), true);
+                self.say(text, Some(Hint::new("open one, or begin a new one")), true);
             }
         }
         Ok(())
@@ -168,7 +170,7 @@ impl WorkerLoop<'_> {
                 let Some([x_mm, y_mm]) = roomiest(palette, &places, reach_mm)? else {
                     let hint = "squeeze it out of the tubes";
                     let text = "there is no place for it on the palette";
-                    self.say(text.to_owned(), Some(hint.to_owned()), true);
+                    self.say(text.to_owned(), Some(Hint::new(hint)), true);
                     return Ok(());
                 };
                 let on = SurfaceId::Palette;
@@ -212,7 +214,7 @@ impl WorkerLoop<'_> {
         let total: f64 = amounts.iter().sum();
         if total <= 0.0 {
             let hint = "dry paint stays where it is; its recipe can be loaded from the tubes";
-            self.say("there was no wet paint".to_owned(), Some(hint.to_owned()), true);
+            self.say("there was no wet paint".to_owned(), Some(Hint::new(hint)), true);
             return Ok(());
         }
         let slots = wet.map_or([None; SLOTS], |wet| wet.slots);
@@ -252,7 +254,7 @@ impl WorkerLoop<'_> {
                 }
                 None => {
                     let text = "a painting that was recovered has no recording";
-                    self.say(text.to_owned(), Some("save the painting itself".to_owned()), true);
+                    self.say(text.to_owned(), Some(Hint::new("save the painting itself")), true);
                 }
             },
             Command::Pick { surface, x_mm, y_mm, radius_mm } => {

@@ -7,6 +7,7 @@ use render::layer::SLOTS;
 use render::paint::document::{Document, Slots};
 use render::paint::strokes::{StrokeScript, SurfaceId};
 use render::tile::Rect;
+use spectra::hint::Hint;
 
 use super::state::{PaintingState, Performance};
 
@@ -106,7 +107,7 @@ pub enum Event {
         /// One sentence.
         text: String,
         /// What to try.
-        hint: Option<String>,
+        hint: Option<Hint>,
         /// Whether something failed.
         failed: bool,
     },

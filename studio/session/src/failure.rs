@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use spectra::hint::Explain;
+
 /// One sentence, and what to try.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
@@ -28,6 +30,11 @@ impl FileFailure {
             cause = deeper.source();
         }
         Self { what, hint: hint.map(Into::into) }
+    }
+
+    /// A failure with the message, the causes and the hint of a library's error.
+    pub fn explained(error: &dyn Explain) -> Self {
+        Self::told(error, error.hint().map(|hint| hint.to_string()))
     }
 
     /// `path` cannot be `verb`ed: what the system says.

@@ -5,6 +5,7 @@ use std::time::Instant;
 use pigment::library::PigmentLibrary;
 use render::paint::session::SessionError;
 use render::paint::strokes::StrokeScript;
+use spectra::hint::{Explain, Hint};
 
 use super::command::{Origin, Pace};
 use super::event::{Event, Snapshot};
@@ -116,7 +117,7 @@ impl WorkerLoop<'_> {
         if playing.unsaved > 0 {
             let text =
                 format!("{} files that the recording saves were not written", playing.unsaved);
-            self.say(text, Some("save the painting yourself".to_owned()), false);
+            self.say(text, Some(Hint::new("save the painting yourself")), false);
         }
         self.stale = true;
         (self.tell)(Event::Replayed);
@@ -138,7 +139,7 @@ impl WorkerLoop<'_> {
         let Some(Snapshot { canvas, palette, .. }) = self.kept.take() else {
             let hint = "open the painting again; what was saved by itself can be recovered";
             let text = "the painting was on the device, and is lost".to_owned();
-            return self.say(text, Some(hint.to_owned()), true);
+            return self.say(text, Some(Hint::new(hint)), true);
         };
         let session = Origin::Recovered {
             canvas: Box::new((*canvas).clone()),
@@ -224,6 +225,6 @@ mod tests {
         let Some(Event::Message { hint: Some(hint), failed: true, .. }) = told.last() else {
             panic!("a message with a hint: {told:?}");
         };
-        assert!(hint.contains("recovered"), "{hint}");
+        assert!(hint.to_string().contains("recovered"), "{hint}");
     }
 }

@@ -9,6 +9,7 @@ use render::paint::file::PaintingFileError;
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::session::{PaintingSession, SessionError};
 use render::paint::strokes::{ScriptStartError, StrokeScript};
+use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
 use super::command::Origin;
@@ -29,25 +30,25 @@ pub(super) struct PreparedPainting {
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
     #[error(transparent)]
-    Beginning(#[from] ScriptStartError),
+    ScriptStart(#[from] ScriptStartError),
     #[error(transparent)]
     Painting(#[from] PaintingError),
     #[error(transparent)]
-    PaintingSession(#[from] SessionError),
+    Session(#[from] SessionError),
     #[error("the painting that the script goes on with: {path}: {reason}")]
     Start { path: String, reason: String },
     #[error("the painting that the script goes on with: {0}")]
     StartFile(#[from] PaintingFileError),
 }
 
-impl OpenError {
-    pub(super) fn hint(&self) -> Option<String> {
+impl Explain for OpenError {
+    fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Beginning(error) => error.hint(),
+            Self::ScriptStart(error) => error.hint(),
             Self::Painting(error) => error.hint(),
-            Self::PaintingSession(error) => error.hint(),
-            Self::Start { .. } => Some("put it back where the script names it".to_owned()),
-            Self::StartFile(error) => error.hint().map(str::to_owned),
+            Self::Session(error) => error.hint(),
+            Self::Start { .. } => Some(Hint::new("put it back where the script names it")),
+            Self::StartFile(error) => error.hint().map(Hint::new),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::thread;
 
 use render::gpu::BackendChoice;
 use render::paint::painting::UNDO_BYTES;
+use spectra::hint::Hint;
 
 use super::backend::Backend;
 use super::command::Command;
@@ -86,7 +87,7 @@ fn watched(tell: &dyn Fn(Event), work: impl FnOnce()) {
     let reason = text.unwrap_or("no reason given");
     tell(Event::Message {
         text: format!("painting has stopped by a fault of the program: {reason}"),
-        hint: Some("start it again; it takes up what was saved last".to_owned()),
+        hint: Some(Hint::new("start it again; it takes up what was saved last")),
         failed: true,
     });
 }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use render::gpu::DeviceError;
 use render::paint::painting::PaintingError;
 use render::paint::session::SessionError;
+use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
 use super::event::{Event, Snapshot};
@@ -186,7 +187,7 @@ impl<'a> WorkerLoop<'a> {
     }
 
     /// Tells why something could not be done.
-    pub(super) fn say(&self, text: String, hint: Option<String>, failed: bool) {
+    pub(super) fn say(&self, text: String, hint: Option<Hint>, failed: bool) {
         (self.tell)(Event::Message { text, hint, failed });
     }
 

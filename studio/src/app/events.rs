@@ -47,7 +47,9 @@ impl Studio {
             Event::Recording { number, .. } => self.answered = Some(number),
             // Of the files.
             Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
-            Event::Message { text, hint, failed } => self.say(text, hint, failed),
+            Event::Message { text, hint, failed } => {
+                self.say(text, hint.map(|hint| hint.to_string()), failed)
+            }
         }
     }
 

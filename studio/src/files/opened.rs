@@ -167,8 +167,8 @@ fn library(name: &str, text: &str) -> Result<Opened, FileFailure> {
 }
 
 fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailure> {
-    let mut script = StrokeScript::from_json(name, bytes)
-        .map_err(|error| FileFailure::told(&error, error.hint()))?;
+    let mut script =
+        StrokeScript::from_json(name, bytes).map_err(|error| FileFailure::explained(&error))?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let mut remarks = Vec::new();
     let library = named_library(&script, &folder, &mut remarks)?;
@@ -176,7 +176,7 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailur
         // Its pigments are those of that painting.
         *start = folder.join(&start).display().to_string();
     } else {
-        script.resolve(&library).map_err(|error| FileFailure::told(&error, error.hint()))?;
+        script.resolve(&library).map_err(|error| FileFailure::explained(&error))?;
     }
     for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
         if let GroundRelief::Image(picture) = &mut surface.ground.relief {

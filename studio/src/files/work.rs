@@ -171,7 +171,7 @@ impl Files {
         self.begin_work(WorkKind::Shown, label, move |_| {
             let script = with_its_start(&path, &script, start)?;
             let text = script.to_json();
-            let text = text.map_err(|error| FileFailure::told(&error, error.hint()))?;
+            let text = text.map_err(|error| FileFailure::explained(&error))?;
             whole::write(&path, text.as_bytes())?;
             Ok(Done::Recorded(path))
         });

@@ -182,7 +182,9 @@ impl Window {
     /// The next message: its words, its hint, and whether something failed.
     pub(crate) fn message(&mut self) -> (String, Option<String>, bool) {
         self.wait("a message", |event| match event {
-            Event::Message { text, hint, failed } => Some((text.clone(), hint.clone(), *failed)),
+            Event::Message { text, hint, failed } => {
+                Some((text.clone(), hint.as_ref().map(ToString::to_string), *failed))
+            }
             _ => None,
         })
     }

@@ -8,6 +8,7 @@ use render::paint::file;
 use render::paint::painting::{MERGE_TOLERANCE, Painting, PaintingError};
 use render::paint::scene::Spectral;
 use spectra::color::{Adaptation, Rgb, RgbSpace};
+use spectra::hint::Explain;
 
 use super::studio::{
     BLUE, CELL_MM, WHITE, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu,

@@ -7,6 +7,7 @@ use render::paint::brush::{HeadMesh, HeadShape};
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::pose::Sample;
 use render::paint::stroke::StrokeError;
+use spectra::hint::Explain;
 
 use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both};
 

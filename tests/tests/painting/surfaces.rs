@@ -9,6 +9,7 @@ use render::paint::history::TILE_BYTES;
 use render::paint::painting::PaintingError;
 use render::paint::session::{Outcome, PaintingSession, SessionError};
 use render::paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
+use spectra::hint::Explain;
 
 use super::painted_sessions::{
     BACKENDS, header, live, load, loaded, seeded, sessions, set_up, something, spec, squeeze,
@@ -284,7 +285,7 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let before = whole(&mut session);
     let mut told = |action: Action| {
         let error = session.apply(&action).unwrap_err();
-        (error.to_string(), error.hint().unwrap_or_default())
+        (error.to_string(), error.hint().map(|hint| hint.to_string()).unwrap_or_default())
     };
     let (error, hint) = told(load("flatt", "Lead White", 0.1));
     assert_eq!((&*error, &*hint), ("brush: one of `brushes`, found `flatt`", "did you mean flat?"));
@@ -299,7 +300,7 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let (error, hint) = told(load("flat", "Lead White", 99.0));
     assert!(error.contains("holds") && hint.contains("wipe"), "{error} {hint}");
     let (error, _) = told(Action::Save { path: "a.exr".to_owned() });
-    assert_eq!(error, "an session saves nothing");
+    assert_eq!(error, "a session saves nothing");
     let mut samples = along(&[(1.0, 1.0), (9.0, 9.0)], 0.5);
     samples[1].pressure = 1.5;
     session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();

@@ -6,6 +6,7 @@ use render::paint::brush::HeadShape;
 use render::paint::history::TILE_BYTES;
 use render::paint::painting::{Painting, PaintingError};
 use render::tile::{Rect, TileSet};
+use spectra::hint::Explain;
 
 use super::studio::{BLUE, CELL_MM, WHITE, YELLOW, along, bare, bare_on, loaded, on_both, pure};
 

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, MAX_FILE_BYTES, MAX_SAMPLES, ScriptError, StrokeScript};
+use spectra::hint::Explain;
 
 use crate::{SOUND, refused};
 
@@ -92,7 +93,7 @@ fn a_canvas_beyond_memory_is_told_with_a_way_out() {
     let error = refused("\"cell_mm\": 0.1", "\"cell_mm\": 0.001");
     let wanted = "a.json: canvas: at most 67108864 cells, which take 6 GB, found `100000 x 80000`";
     assert_eq!(error.to_string(), wanted);
-    let hint = error.hint().unwrap();
+    let hint = error.hint().unwrap().to_string();
     let tried = SOUND.replace("\"cell_mm\": 0.1", &hint);
     assert!(StrokeScript::from_json("a.json", tried.as_bytes()).is_ok(), "{hint} helps");
 }
@@ -101,7 +102,7 @@ fn a_canvas_beyond_memory_is_told_with_a_way_out() {
 fn names_that_nobody_declared_are_told_with_the_nearest() {
     let error = refused("{\"wash\": {\"brush\": \"big\"}}", "{\"wash\": {\"brush\": \"bigg\"}}");
     assert_eq!(error.to_string(), "a.json: action 3 (wash), brush: one of `brushes`, found `bigg`");
-    assert_eq!(error.hint().unwrap(), "did you mean big?");
+    assert_eq!(error.hint().unwrap().to_string(), "did you mean big?");
     let error = refused("\"shape\": \"flat\"", "\"shape\": \"flatt\"");
     assert!(
         error.to_string().contains("unknown variant `flatt`, expected one of `round`, `flat`"),
@@ -157,7 +158,7 @@ fn other_formats_versions_and_encodings_are_told() {
     let error = refused("\"version\": 1", "\"version\": 2");
     let wanted = "a.json: this program reads strokes up to version 1, found `2`";
     assert_eq!(error.to_string(), wanted);
-    assert_eq!(error.hint().unwrap(), "a newer impasto may read it");
+    assert_eq!(error.hint().unwrap().to_string(), "a newer impasto may read it");
     let newer = SOUND.replace("\"version\": 1", "\"smell\": 1, \"version\": 2");
     let error = StrokeScript::from_json("a.json", newer.as_bytes()).unwrap_err();
     assert!(matches!(error, ScriptError::Version { .. }), "{error}");

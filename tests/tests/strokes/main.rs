@@ -9,6 +9,7 @@ mod round_trip;
 mod surfaces;
 
 use render::paint::strokes::{ScriptError, StrokeScript};
+use spectra::hint::Explain;
 
 /// A script with every action.
 const SOUND: &str = r##"{
@@ -75,5 +76,5 @@ fn lights_and_observers_nobody_knows_are_refused_before_painting() {
     );
     let error = refused("\"observer\": \"1931-2\"", "\"observer\": \"1932\"");
     assert!(error.to_string().contains("action 9 (light), observer"), "{error}");
-    assert!(error.hint().unwrap().contains("1931-2"), "{:?}", error.hint());
+    assert!(error.hint().unwrap().to_string().contains("1931-2"), "{:?}", error.hint());
 }

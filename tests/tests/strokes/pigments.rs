@@ -1,6 +1,7 @@
 //! Pigments by name.
 
 use render::paint::strokes::{ActionPigments, StrokeScript};
+use spectra::hint::Explain;
 use suite::oils::library;
 
 use crate::SOUND;
@@ -8,7 +9,9 @@ use crate::SOUND;
 fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (String, String)> {
     let script = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();
     let told = script.resolve(&library());
-    told.map_err(|error| (error.to_string(), error.hint().unwrap_or_default()))
+    told.map_err(|error| {
+        (error.to_string(), error.hint().map(|hint| hint.to_string()).unwrap_or_default())
+    })
 }
 
 #[test]

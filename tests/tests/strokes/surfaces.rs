@@ -6,6 +6,7 @@ use render::paint::document::Document;
 use render::paint::strokes::{
     Action, ScriptError, ScriptStartError, Squeeze, StrokeScript, SurfaceId,
 };
+use spectra::hint::Explain;
 
 use crate::SOUND;
 
@@ -32,7 +33,10 @@ fn mixed() -> String {
 fn told(text: &str) -> (String, String) {
     let error = StrokeScript::from_json("a.json", text.as_bytes()).unwrap_err();
     let text = error.to_string();
-    (text.strip_prefix("a.json: ").unwrap().to_owned(), error.hint().unwrap_or_default())
+    (
+        text.strip_prefix("a.json: ").unwrap().to_owned(),
+        error.hint().map(|hint| hint.to_string()).unwrap_or_default(),
+    )
 }
 
 fn changed(from: &str, to: &str) -> String {

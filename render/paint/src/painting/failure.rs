@@ -1,190 +1,198 @@
-//! Why a painting refuses something.
+//! Errors of a painting.
 
 use crate::brush::BrushError;
 use crate::light::LightFailure;
 use crate::stroke::StrokeError;
 use graphics::gpu::DeviceError;
-use spectra::hint::Explain;
+use spectra::hint::{Explain, Fault, Hint};
 
-/// What a painting refuses.
+/// Why a painting refuses an action. Nothing is changed then, unless the device failed.
 #[derive(Debug, thiserror::Error)]
 pub enum PaintingError {
-    /// The backend could not go on.
+    /// The graphics device failed.
     #[error(transparent)]
     Engine(#[from] DeviceError),
-    /// No such light.
+    /// The light is unknown or has no wavelengths in common with the library.
     #[error(transparent)]
     Light(#[from] LightFailure),
-    /// No such brush.
+    /// A brush head cannot have this size.
     #[error(transparent)]
     Brush(#[from] BrushError),
-    /// A stroke with impossible samples.
+    /// A stroke has a sample that cannot be painted, or none.
     #[error(transparent)]
     Stroke(#[from] StrokeError),
-    /// A recipe without parts, or with negative ones.
+    /// A recipe has no parts above 0, or a negative part.
     #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
     NoMixture,
-    /// A share outside 0..1.
+    /// A share lies outside 0 to 1.
     #[error("{what} is a share of 0 to 1, found `{value}`")]
     Share {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
-        /// What was given.
+        /// The value.
         value: f64,
     },
-    /// An amount that is none.
+    /// An amount of paint on a brush is negative or not a number.
     #[error("an amount of paint is 0 mm or more, found `{value}`")]
     Amount {
-        /// What was given.
+        /// The amount in mm.
         value: f64,
     },
-    /// A volume that is none.
+    /// A volume of paint is not above 0, or more than a litre.
     #[error("a volume of paint is above 0 mm3 and at most a litre, 1000000 mm3, found `{value}`")]
     Volume {
-        /// What was given.
+        /// The volume in mm3.
         value: f64,
     },
-    /// A place beside the canvas.
+    /// A place lies beside the canvas.
     #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
     OffCanvas {
-        /// From the left edge.
+        /// Distance from the left edge in mm.
         x_mm: f64,
-        /// From the upper edge.
+        /// Distance from the upper edge in mm.
         y_mm: f64,
     },
-    /// A heap where paint is piled up already.
+    /// The paint at a place is too high for a heap on it.
     #[error("the paint {x_mm} mm from the left and `{y_mm}` mm from the top is too high for more")]
     NoRoom {
-        /// From the left edge.
+        /// Distance from the left edge in mm.
         x_mm: f64,
-        /// From the upper edge.
+        /// Distance from the upper edge in mm.
         y_mm: f64,
     },
-    /// A shine that is none.
+    /// A gloss is out of range.
     #[error(
         "a gloss has a strength of 0 to 100 and an exponent of 0 to 1e6, found `{strength}` and `{exponent}`"
     )]
     Gloss {
-        /// What was given.
+        /// Strength of the highlight.
         strength: f32,
-        /// What was given.
+        /// Exponent of the highlight.
         exponent: f32,
     },
-    /// Paint of a slot that holds no pigment.
+    /// A recipe has parts of a slot without pigment.
     #[error("no pigment is squeezed out in slot {slot}")]
     EmptySlot {
-        /// Which.
+        /// Index of the slot, from 0.
         slot: usize,
     },
-    /// More than a head holds.
+    /// A brush cannot hold that much more paint.
     #[error("the brush holds {most_mm:.2} mm more at most, found `{amount_mm}`")]
     Overloaded {
-        /// What was given.
+        /// Height of the paint to load, in mm.
         amount_mm: f64,
-        /// What there is room for.
+        /// Height that the head can still take, in mm.
         most_mm: f64,
     },
-    /// A pigment that is still wet on canvas or brush.
+    /// A pigment cannot leave the palette while it is wet on the canvas or on a brush.
     #[error("{pigment} is still wet, so it cannot leave the palette")]
     StillWet {
-        /// Which.
+        /// Name of the pigment.
         pigment: String,
     },
-    /// More pigments than a layer holds.
+    /// A layer would need more pigments than it has slots.
     #[error("a layer holds 8 pigments, found `{found}`")]
     TooManyPigments {
-        /// How many.
+        /// Number of pigments.
         found: usize,
     },
-    /// A pigment the layer does not have.
+    /// The layer does not contain the pigment.
     #[error("the layer has no {pigment}")]
     NotThere {
-        /// Which.
+        /// Name of the pigment.
         pigment: String,
     },
-    /// A pigment the layer has already.
+    /// The layer contains the pigment already.
     #[error("the layer has {pigment} already")]
     AlreadyThere {
-        /// Which.
+        /// Name of the pigment.
         pigment: String,
     },
-    /// A pigment that is not on the palette now.
+    /// The pigment is not on the palette now.
     #[error("{pigment} is not on the palette now")]
     OffPalette {
-        /// Which.
+        /// Name of the pigment.
         pigment: String,
     },
-    /// An opacity of wet paint.
+    /// The wet layer has no opacity.
     #[error("wet paint has no opacity of its own")]
     WetOpacity,
-    /// An opacity out of range.
+    /// An opacity lies outside 0 to 1000.
     #[error("an opacity is 0 to 1000, found `{value}`")]
     Opacity {
-        /// What was given.
+        /// The opacity.
         value: f64,
     },
-    /// No room left above.
+    /// Ground and dry paint are as high as the arithmetic allows.
     #[error("the paint is piled as high as it can be, 512 cell widths, at column {x}, row `{y}`")]
     TooHigh {
-        /// The column of cells.
+        /// Column of the cell, from 0.
         x: usize,
-        /// The row.
+        /// Row of the cell, from 0.
         y: usize,
     },
-    /// Two layers to be merged that are seen differently.
+    /// Two layers with different opacities cannot be merged.
     #[error("the two layers have different opacities")]
     UnlikeOpacity,
-    /// A dry layer that does not exist.
+    /// There is no dry layer with this index.
     #[error("there are {count} dry layers, counted from 0, found `{index}`")]
     NoLayer {
-        /// What was given.
+        /// The index, from 0 for the lowest.
         index: usize,
-        /// How many there are.
+        /// Number of dry layers.
         count: usize,
     },
-    /// Two layers that cannot become one without being seen.
+    /// Merging two layers would change a colour visibly.
     #[error(
         "merging these layers would move a colour by {delta_e:.2} CIEDE2000 (at column {x}, row {y})"
     )]
     MergeShows {
-        /// The largest difference.
+        /// Largest colour difference in CIEDE2000.
         delta_e: f64,
-        /// Where.
+        /// Column of that cell, from 0.
         x: usize,
-        /// Where.
+        /// Row of that cell, from 0.
         y: usize,
     },
 }
 
-impl PaintingError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        match self {
-            Self::Engine(error) => error.hint().map(|hint| {
-                hint.with_settings(|name, value| format!("--{name} {}", value.unwrap_or_default()))
-            }),
-            Self::Light(error) => error.hint(),
-            Self::Brush(error) => Some(error.hint().to_owned()),
-            Self::Stroke(error) => Some(error.hint().to_owned()),
-            Self::TooHigh { .. } => Some("paint thinner, or with larger cells".to_owned()),
-            Self::StillWet { .. } => Some("dry the painting and wash the brushes first".to_owned()),
-            Self::TooManyPigments { .. } => {
-                Some("dry the painting, then go on with another palette".to_owned())
-            }
-            Self::MergeShows { .. } => Some("keep them apart; layers are unlimited".to_owned()),
+impl Explain for PaintingError {
+    fn hint(&self) -> Option<Hint> {
+        let hint = match self {
+            Self::Engine(error) => return error.hint(),
+            Self::Light(error) => return error.hint().map(Hint::new),
+            Self::Brush(error) => error.hint(),
+            Self::Stroke(error) => error.hint(),
+            Self::TooHigh { .. } => "paint thinner, or with larger cells",
+            Self::StillWet { .. } => "dry the painting and wash the brushes first",
+            Self::TooManyPigments { .. } => "dry the painting, then go on with another palette",
+            Self::MergeShows { .. } => "keep them apart; layers are unlimited",
             Self::AlreadyThere { .. } => {
-                Some("a layer holds each pigment once: choose one that it lacks".to_owned())
+                "a layer holds each pigment once: choose one that it lacks"
             }
-            Self::OffCanvas { .. } => Some("places are in mm from the canvas's corner".to_owned()),
-            Self::NoRoom { .. } => Some("squeeze beside it, or spread it first".to_owned()),
-            Self::WetOpacity => Some("dry it first".to_owned()),
-            Self::OffPalette { .. } => {
-                Some("put it there with a palette action, or undo less".to_owned())
-            }
-            Self::UnlikeOpacity => Some("give both the same opacity".to_owned()),
-            Self::Overloaded { .. } => Some("wipe or wash the brush first".to_owned()),
-            _ => None,
+            Self::OffCanvas { .. } => "places are in mm from the canvas's corner",
+            Self::NoRoom { .. } => "squeeze beside it, or spread it first",
+            Self::WetOpacity => "dry it first",
+            Self::OffPalette { .. } => "put it there with a palette action, or undo less",
+            Self::UnlikeOpacity => "give both the same opacity",
+            Self::Overloaded { .. } => "wipe or wash the brush first",
+            Self::NoMixture
+            | Self::Share { .. }
+            | Self::Amount { .. }
+            | Self::Volume { .. }
+            | Self::Gloss { .. }
+            | Self::EmptySlot { .. }
+            | Self::NotThere { .. }
+            | Self::Opacity { .. }
+            | Self::NoLayer { .. } => return None,
+        };
+        Some(Hint::new(hint))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Engine(error) => error.fault(),
+            _ => Fault::Input,
         }
     }
 }

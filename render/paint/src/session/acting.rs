@@ -7,7 +7,8 @@ use super::state::{Outcome, PaintingSession};
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
 use crate::strokes::{
-    Action, ActionPigments, At, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId, check_brush,
+    Action, ActionPigments, CheckContext, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId,
+    check_brush,
 };
 
 /// On the canvas alone.
@@ -48,7 +49,7 @@ impl PaintingSession {
 
     /// Whether numbers and names of an action will do.
     pub(super) fn check(&self, action: &Action) -> Result<(), SessionError> {
-        let at = At::default();
+        let at = CheckContext::default();
         if let Some(brush) = action.brush() {
             check_brush(&at, brush, self.brushes.names().map(|(name, _)| name))?;
         }
@@ -63,7 +64,8 @@ impl PaintingSession {
     ) -> Result<(Action, ActionPigments), SessionError> {
         self.check(action)?;
         let action = action.rounded();
-        let pigments = self.scope.action(&At::default(), &action, self.canvas.library())?;
+        let pigments =
+            self.scope.pigments_of(&CheckContext::default(), &action, self.canvas.library())?;
         Ok((action, pigments))
     }
 
@@ -188,7 +190,7 @@ impl PaintingSession {
         name: &str,
         change: impl FnOnce(&mut Painting, usize) -> Result<(), PaintingError>,
     ) -> Result<(), SessionError> {
-        check_brush(&At::default(), name, self.brushes.names().map(|(name, _)| name))?;
+        check_brush(&CheckContext::default(), name, self.brushes.names().map(|(name, _)| name))?;
         let Some(tool) = self.brushes.find(name) else { return Ok(()) };
         let at = self.brushes.tools[tool].at;
         let fresh = self.brushes.tools[tool].numbers[at as usize].is_none();
@@ -234,7 +236,7 @@ impl PaintingSession {
             self.history.add(Entry { label, on, carried: None });
             self.follow();
         }
-        self.scope.learn(action, pigments);
+        self.scope.add_palette_of(action, pigments);
         self.note(self.named_in_full(action, pigments));
     }
 

@@ -1,52 +1,60 @@
-//! Why an session refuses something.
+//! Errors of a painting session.
+
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::painting::PaintingError;
 use crate::strokes::{InvalidValue, ScriptError};
 
-/// What an session refuses. Nothing is changed then, unless the backend failed.
+/// Why a session refuses an action. Nothing is changed then, unless the device failed.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
-    /// A surface refuses it, or its backend could not go on.
+    /// A surface refuses the action, or its device failed.
     #[error(transparent)]
     Painting(#[from] PaintingError),
-    /// A number out of range, or a name that nothing has.
+    /// A number is out of range, or a name is unknown.
     #[error(transparent)]
     Invalid(#[from] Box<InvalidValue>),
-    /// A header that cannot be recorded under.
+    /// The header of a recording is invalid.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// A canvas and a palette that do not go together.
+    /// Canvas and palette do not go together.
     #[error("canvas and palette have different {what}")]
     Unlike {
-        /// What differs.
+        /// Name of what differs.
         what: &'static str,
     },
-    /// Saving is for whoever has the files.
-    #[error("an session saves nothing")]
+    /// A session does not write files: its owner does.
+    #[error("a session saves nothing")]
     Save,
-    /// Samples without a brush on a surface.
+    /// There is no open stroke, or it was lifted.
     #[error("no stroke is open")]
     NoStroke,
-    /// Dragging something that is no slider.
+    /// An action other than light, gloss and opacity was adjusted.
     #[error("`{kind}` cannot be adjusted bit by bit")]
     NoControl {
-        /// The key of the action.
+        /// Key of the action in a script.
         kind: &'static str,
     },
 }
 
-impl SessionError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
+impl Explain for SessionError {
+    fn hint(&self) -> Option<Hint> {
+        let hint = match self {
+            Self::Painting(error) => return error.hint(),
+            Self::Invalid(invalid) => return invalid.hint(),
+            Self::Script(error) => return error.hint(),
+            Self::Unlike { .. } => "set the palette up after the canvas",
+            Self::Save => "write the documents of the session",
+            Self::NoStroke => "set the brush down first",
+            Self::NoControl { .. } => "light, gloss and opacity can be",
+        };
+        Some(Hint::new(hint))
+    }
+
+    fn fault(&self) -> Fault {
         match self {
-            Self::Painting(error) => error.hint(),
-            Self::Invalid(fault) => fault.hint.clone(),
-            Self::Script(error) => error.hint(),
-            Self::Unlike { .. } => Some("set the palette up after the canvas".to_owned()),
-            Self::Save => Some("write the documents of the session".to_owned()),
-            Self::NoStroke => Some("set the brush down first".to_owned()),
-            Self::NoControl { .. } => Some("light, gloss and opacity can be".to_owned()),
+            Self::Painting(error) => error.fault(),
+            _ => Fault::Input,
         }
     }
 }

@@ -8,7 +8,8 @@ use crate::painting::{PaintingError, StrokeReport};
 use crate::pose::Sample;
 use crate::stroke::Path;
 use crate::strokes::{
-    Action, ActionPigments, At, Stroke, SurfaceId, check_brush, check_sample, sample_as_written,
+    Action, ActionPigments, CheckContext, SampleDecimals, Stroke, SurfaceId, check_brush,
+    check_sample,
 };
 
 /// A stroke that is open.
@@ -33,7 +34,7 @@ impl PaintingSession {
     pub fn begin_stroke(&mut self, on: SurfaceId, brush: &str) -> Result<(), SessionError> {
         self.finish_open()?;
         self.surface_mut(on)?;
-        check_brush(&At::default(), brush, self.brushes.names().map(|(name, _)| name))?;
+        check_brush(&CheckContext::default(), brush, self.brushes.names().map(|(name, _)| name))?;
         if let Some(tool) = self.brushes.find(brush) {
             let samples = Vec::new();
             self.live = Some(Live { on, tool, samples, from: None, lifted: false });
@@ -53,10 +54,10 @@ impl PaintingSession {
         for sample in samples {
             let live = self.live.as_ref().filter(|live| !live.lifted);
             let live = live.ok_or(SessionError::NoStroke)?;
-            let at = At::default().sample(live.samples.len());
-            let far_mm = surfaces.far_mm(&at, live.on)?;
+            let at = CheckContext::default().sample(live.samples.len());
+            let far_mm = surfaces.reach_mm(&at, live.on)?;
             let before = live.samples.last().map_or(0.0, |sample| sample.seconds);
-            let sample = sample_as_written(sample);
+            let sample = SampleDecimals::RECORDING.round(sample);
             check_sample(&at, &sample, before, far_mm)?;
             if live.from.is_none() {
                 // A stroke without a sample that could be painted was none.

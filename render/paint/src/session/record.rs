@@ -1,7 +1,8 @@
 //! What was done, as a script.
 
 use crate::strokes::{
-    Action, BrushSpec, MAX_ACTIONS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES, StrokeScript, line,
+    Action, BrushSpec, MAX_ACTIONS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES, StrokeScript,
+    action_line,
 };
 
 /// Bytes of a file that are kept for all but its actions.
@@ -46,7 +47,9 @@ impl Record {
         if self.stopped.is_some() {
             return;
         }
-        let Ok(text) = line(&action) else { return self.stop("an action cannot be written") };
+        let Ok(text) = action_line(&action) else {
+            return self.stop("an action cannot be written");
+        };
         let samples = match &action {
             Action::Stroke(stroke) => stroke.samples.len(),
             _ => 0,

@@ -11,8 +11,8 @@ use crate::document::Document;
 use crate::layer::Layer;
 use crate::painting::{Painting, PaintingError, StrokeReport};
 use crate::strokes::{
-    Action, At, BrushSpec, InvalidValue, PaletteSpec, Scope, StrokeScript, SurfaceId, Surfaces,
-    check_size, names, six,
+    Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, PaletteSpec, PigmentNames,
+    StrokeScript, SurfaceId, check_size, pigment_names, six_digits,
 };
 
 /// A canvas, a palette beside it, brushes, and the record of what was done.
@@ -22,7 +22,7 @@ pub struct PaintingSession {
     pub(super) palette: Option<Painting>,
     pub(super) brushes: Brushes,
     /// What names of pigments mean by now.
-    pub(super) scope: Scope,
+    pub(super) scope: PigmentNames,
     pub(super) history: SharedHistory,
     pub(super) record: Option<Record>,
     pub(super) live: Option<Live>,
@@ -64,8 +64,8 @@ impl PaintingSession {
                 return Err(SessionError::Unlike { what });
             }
         }
-        let own = PaletteSpec::from_names(names(&canvas.state().slots, canvas.library()));
-        let (scope, _) = Scope::new(&own, canvas.library())?;
+        let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
+        let (scope, _) = PigmentNames::new(&own, canvas.library())?;
         Ok(Self {
             canvas,
             palette,
@@ -92,9 +92,9 @@ impl PaintingSession {
         let mut session = Self::new(canvas, palette)?;
         let mut header = script.rounded_header()?;
         let (canvas, slots) = (&session.canvas, session.canvas.state().slots);
-        let (scope, named) = Scope::new(&header.palette, canvas.library())?;
+        let (scope, named) = PigmentNames::new(&header.palette, canvas.library())?;
         let own = (&slots, canvas.library());
-        header.check_agreement(canvas.bounds(), canvas.cell_mm(), own, &named)?;
+        header.check_painting(canvas.bounds(), canvas.cell_mm(), own, &named)?;
         let cells = session.palette.as_ref().map(|palette| palette.bounds());
         let cells = cells.map(|bounds| (bounds.width, bounds.height));
         if cells != header.mixing.as_ref().map(|mixing| mixing.cells()) {
@@ -107,7 +107,7 @@ impl PaintingSession {
         if bare && header.lighting.clone().unwrap_or_default() != canvas.state().lighting {
             return Err(SessionError::Unlike { what: "lights than the script describes" });
         }
-        header.palette = PaletteSpec::from_names(names(&slots, canvas.library()));
+        header.palette = PaletteSpec::from_names(pigment_names(&slots, canvas.library()));
         header.brushes.clear();
         header.library.get_or_insert_with(|| canvas.library().title.clone());
         session.record = Some(Record::new(header));
@@ -152,8 +152,8 @@ impl PaintingSession {
     /// [`SessionError`] for heads that there are not on cells of this width, or if
     /// the device was lost.
     pub fn set_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), SessionError> {
-        let spec = BrushSpec { size_mm: six(spec.size_mm), ..spec.clone() };
-        check_size(&At::default(), "size_mm", spec.size_mm)?;
+        let spec = BrushSpec { size_mm: six_digits(spec.size_mm), ..spec.clone() };
+        check_size(&CheckContext::default(), "size_mm", spec.size_mm)?;
         Head::new(spec.shape, spec.size_mm, self.canvas.cell_mm()).map_err(PaintingError::from)?;
         self.finish_open()?;
         let wash = Action::Wash { brush: name.to_owned() };
@@ -220,22 +220,23 @@ impl PaintingSession {
     /// From now on `palette`'s short names mean its pigments.
     pub(super) fn know(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
         let action = Action::Palette(palette.clone());
-        let slots = self.scope.action(&At::default(), &action, self.canvas.library())?;
-        self.scope.learn(&action, &slots);
+        let slots =
+            self.scope.pigments_of(&CheckContext::default(), &action, self.canvas.library())?;
+        self.scope.add_palette_of(&action, &slots);
         Ok(())
     }
 
     /// Where actions may be, for checks.
-    pub(super) fn surfaces(&self) -> Surfaces {
+    pub(super) fn surfaces(&self) -> ActionLimits {
         let side_mm = |painting: &Painting| {
             let bounds = painting.bounds();
             bounds.width.max(bounds.height) as f64 * painting.cell_mm()
         };
-        let own = Surfaces {
+        let own = ActionLimits {
             canvas_mm: side_mm(&self.canvas),
             palette_mm: self.palette.as_ref().map(side_mm),
         };
-        self.recording().map_or(own, StrokeScript::sides)
+        self.recording().map_or(own, StrokeScript::limits)
     }
 
     /// The painting of a surface; a fault where there is none.
@@ -243,7 +244,7 @@ impl PaintingSession {
         &mut self,
         surface: SurfaceId,
     ) -> Result<&mut Painting, SessionError> {
-        self.surfaces().far_mm(&At::default(), surface)?;
+        self.surfaces().reach_mm(&CheckContext::default(), surface)?;
         Ok(match (surface, &mut self.palette) {
             (SurfaceId::Palette, Some(palette)) => palette,
             _ => &mut self.canvas,

@@ -1,4 +1,4 @@
-//! What a painter does.
+//! Actions: what is done to a painting, one by one.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,94 +8,96 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::names::distinct_keys;
 use super::palette::PaletteSpec;
-use super::rows;
+use super::sample_rows;
+use super::surface_id::SurfaceId;
 use crate::document::Lighting;
 use crate::optics::Gloss;
 use crate::painting::LayerRef;
 use crate::pose::Sample;
 
-/// Parts by pigment: a name of the library, or a short one of a palette.
+/// Parts by volume of each pigment, by its name in the library or a short name of a
+/// palette.
 pub type Recipe = BTreeMap<String, f64>;
 
-/// One action.
+/// One action of a script.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Action {
-    /// Puts paint on a brush, beside what it has: wash it for a clean colour.
+    /// Adds paint to that on a brush. Wash the brush first for a clean colour.
     Load(Load),
-    /// Leads a brush over the canvas.
+    /// Moves a brush over a surface.
     Stroke(Stroke),
-    /// Takes paint off a brush.
+    /// Wipes paint off a brush.
     Wipe {
-        /// The brush.
+        /// Name of the brush.
         brush: String,
-        /// The share of its paint that stays, 0..1.
+        /// Share of its paint that stays, 0 to 1.
         keep: f64,
     },
-    /// Takes all paint off a brush.
+    /// Removes all paint from a brush.
     Wash {
-        /// The brush.
+        /// Name of the brush.
         brush: String,
     },
-    /// Dries the wet paint from the bottom, into a new dry layer.
+    /// Dries wet paint of the canvas, from the bottom up, into a new dry layer.
     Dry {
-        /// Which share of it, above 0 to 1; all if not given.
-        #[serde(default = "all")]
+        /// Share of the wet paint that dries, above 0 to 1; 1 by default.
+        #[serde(default = "whole")]
         fraction: f64,
     },
-    /// Other pigments for the wet layer.
+    /// Sets the pigments of the wet layer.
     Palette(PaletteSpec),
-    /// Takes the last action back.
+    /// Undoes the last action.
     Undo {},
-    /// Does again what was taken back.
+    /// Does the last undone action again.
     Redo {},
-    /// Another light.
+    /// Sets the light.
     Light(Lighting),
-    /// What a layer's optical thickness is multiplied with.
+    /// Sets the factor on the optical thickness of a dry layer.
     Opacity {
-        /// The layer.
+        /// The layer, which must be dry.
         layer: LayerRef,
-        /// 0 hides it, 1 is as painted; up to 1000.
+        /// Factor from 0 (hidden) over 1 (as painted) to 1000.
         value: f64,
     },
-    /// Exchanges a pigment of a layer for another.
+    /// Replaces a pigment of a layer by another.
     Swap {
-        /// The layer.
+        /// The layer, wet or dry.
         layer: LayerRef,
-        /// The pigment that goes.
+        /// Name of the pigment to replace.
         from: String,
-        /// The one that takes its place.
+        /// Name of the pigment that takes its place.
         to: String,
     },
-    /// Makes one of a dry layer and the one below it.
+    /// Merges a dry layer with the one below it.
     Merge {
-        /// The upper of the two, counted from the lowest, 0; so 1 and up.
+        /// Index of the upper of the two, from 1; the lowest dry layer is 0.
         layer: usize,
     },
-    /// Puts a heap of paint down, as from a tube.
+    /// Puts down a heap of paint, as from a tube.
     Squeeze(Squeeze),
-    /// Takes all wet paint of a surface away.
+    /// Removes all wet paint of a surface.
     Scrape {
-        /// The surface; the canvas if not given.
+        /// The surface; the canvas by default.
         #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
         on: SurfaceId,
     },
-    /// Another shine of the binder.
+    /// Sets the gloss of the binder.
     Gloss {
-        /// Of wet paint.
+        /// Gloss of wet paint.
         wet: Gloss,
-        /// Of dry paint.
+        /// Gloss of dry paint.
         dry: Gloss,
     },
     /// Saves the painting (`.exr`) or its picture (`.png`).
     Save {
-        /// Where: below the folder that the one who replays chooses.
+        /// Relative path of the file, below a folder that the player of the script chooses.
         path: String,
     },
 }
 
 impl Action {
-    /// Its key in the file.
+    /// Key of the action in a file, such as `stroke`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -118,7 +120,7 @@ impl Action {
         }
     }
 
-    /// The brush that it is done with, if with one.
+    /// Name of the brush that the action uses, if it uses one.
     #[must_use]
     pub fn brush(&self) -> Option<&str> {
         match self {
@@ -130,6 +132,7 @@ impl Action {
         }
     }
 
+    /// Like [`Action::brush`], to rename the brush.
     pub(crate) fn brush_mut(&mut self) -> Option<&mut String> {
         match self {
             Self::Load(Load { brush, .. })
@@ -141,80 +144,62 @@ impl Action {
     }
 }
 
-fn all() -> f64 {
+fn whole() -> f64 {
     1.0
 }
 
-/// Paint for a brush.
+/// Paint that a brush takes up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// The brush.
+    /// Name of the brush.
     pub brush: String,
-    /// The paint.
+    /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of the whole that is clear vehicle, 0..1; none if not given.
+    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
     #[serde(default)]
     pub vehicle: f64,
-    /// How high it lies on the head, in mm.
+    /// Height of the paint on the head in mm.
     pub amount_mm: f64,
 }
 
-/// A stroke.
+/// A stroke of a brush.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stroke {
-    /// The brush.
+    /// Name of the brush.
     pub brush: String,
-    /// The surface; the canvas if not given.
+    /// The surface; the canvas by default.
     #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
     pub on: SurfaceId,
-    /// Where it was held, in order of time.
-    #[serde(with = "rows")]
+    /// Samples of the pen in order of time.
+    #[serde(with = "sample_rows")]
     pub samples: Vec<Sample>,
 }
 
-/// A heap of paint.
+/// A heap of paint, as squeezed from a tube.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Squeeze {
-    /// The surface; the canvas if not given.
+    /// The surface; the canvas by default.
     #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
     pub on: SurfaceId,
-    /// The paint.
+    /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of the whole that is clear vehicle, 0..1; none if not given.
+    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
     #[serde(default)]
     pub vehicle: f64,
-    /// Its middle, from the left edge of the surface in mm.
+    /// Distance of the heap's centre from the left edge of the surface, in mm.
     pub x_mm: f64,
-    /// From the upper edge, in mm.
+    /// Distance of the heap's centre from the upper edge, in mm.
     pub y_mm: f64,
-    /// How much, in cubic millimetres.
+    /// Volume in cubic millimetres.
     pub volume_mm3: f64,
 }
 
-/// Where wet paint lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SurfaceId {
-    /// What is painted on.
-    #[default]
-    Canvas,
-    /// What is mixed on.
-    Palette,
-}
-
-impl SurfaceId {
-    /// Whether this is the canvas.
-    #[must_use]
-    pub fn is_canvas(&self) -> bool {
-        *self == Self::Canvas
-    }
-}
-
+/// A layer is `"wet"`, or the index of a dry layer from 0, the lowest.
 impl Serialize for LayerRef {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

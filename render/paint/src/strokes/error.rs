@@ -1,15 +1,17 @@
-//! Why a script cannot be replayed.
+//! Errors of scripts.
 
 use std::fmt;
 
-/// Where in a script something is.
+use spectra::hint::{Explain, Hint};
+
+/// Location of a value in a script.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ValueLocation {
-    /// The action, counted from 0, with its key; none outside of the actions.
+    /// Index of the action from 0, and its key; `None` for a value of the header.
     pub action: Option<(usize, &'static str)>,
-    /// The sample of a stroke, counted from 0.
+    /// Index of the sample in its stroke, from 0.
     pub sample: Option<usize>,
-    /// The field, such as `pressure` or `canvas.cell_mm`.
+    /// Path of the field, such as `pressure` or `canvas.cell_mm`.
     pub field: String,
 }
 
@@ -25,97 +27,101 @@ impl fmt::Display for ValueLocation {
     }
 }
 
-/// A value that no script may have.
+/// A value that is out of range or does not fit the rest of the script.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{place}: {wanted}, found `{found}`")]
+#[error("{location}: {wanted}, found `{found}`")]
 pub struct InvalidValue {
-    /// Where.
-    pub place: ValueLocation,
-    /// What was wanted.
+    /// Location of the value.
+    pub location: ValueLocation,
+    /// Description of the values that are allowed.
     pub wanted: String,
-    /// What stands there.
+    /// The value as text.
     pub found: String,
-    /// What to try.
-    pub hint: Option<String>,
+    /// The way out, where there is one to name.
+    pub hint: Option<Hint>,
 }
 
-/// Why a script cannot be replayed.
+impl Explain for InvalidValue {
+    fn hint(&self) -> Option<Hint> {
+        self.hint.clone()
+    }
+}
+
+/// Why a script cannot be read or played.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScriptError {
-    /// Longer than is read.
+    /// The file is longer than [`MAX_FILE_BYTES`](super::MAX_FILE_BYTES).
     #[error("{file}: a script has at most {limit} bytes, found `{bytes}`")]
     TooLong {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its length.
+        /// Length of the file in bytes.
         bytes: usize,
-        /// The limit.
+        /// Longest length in bytes.
         limit: usize,
     },
-    /// No UTF-8.
+    /// The file is not UTF-8.
     #[error("{file}: line {line}: no UTF-8, found byte `0x{byte:02x}`")]
     Encoding {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Where, from 1.
+        /// Line number from 1.
         line: usize,
-        /// The byte that is not part of a letter.
+        /// First byte that is not part of a UTF-8 sequence.
         byte: u8,
     },
-    /// No JSON, or keys and values that do not fit.
+    /// The file is not JSON, or its keys and types are not those of a script.
     #[error("{file}: line {line}, column {column}: {reason}")]
     Syntax {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Where, from 1.
+        /// Line number from 1.
         line: usize,
-        /// Where, from 1.
+        /// Column number from 1.
         column: usize,
-        /// What the parser said.
+        /// Message of the JSON parser.
         reason: String,
     },
-    /// Another kind of file.
+    /// The file is JSON of another format.
     #[error("{file}: `format` must be \"strokes\", found `{found}`")]
     Format {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What stands there.
+        /// Value of the key `format`.
         found: String,
     },
-    /// Another version.
+    /// The script has a version that this program does not know.
     #[error("{file}: this program reads strokes up to version {newest}, found `{found}`")]
     Version {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its version.
+        /// Value of the key `version`.
         found: String,
-        /// The newest known.
+        /// Newest version that can be read.
         newest: u64,
     },
-    /// A value out of range in a file.
-    #[error("{file}: {fault}")]
+    /// A value of a file is invalid.
+    #[error("{file}: {invalid}")]
     Value {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What and where.
-        fault: Box<InvalidValue>,
+        /// The value and its location.
+        invalid: Box<InvalidValue>,
     },
-    /// A value out of range in a script at hand.
+    /// A value of a script in memory is invalid.
     #[error(transparent)]
     Invalid(#[from] Box<InvalidValue>),
 }
 
-impl ScriptError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
+impl Explain for ScriptError {
+    fn hint(&self) -> Option<Hint> {
         match self {
             Self::TooLong { .. } => {
-                Some("record fewer samples a second, or several scripts".into())
+                Some(Hint::new("record fewer samples a second, or several scripts"))
             }
-            Self::Encoding { .. } => Some("save the script as UTF-8".into()),
-            Self::Version { .. } => Some("a newer impasto may read it".into()),
-            Self::Value { fault, .. } | Self::Invalid(fault) => fault.hint.clone(),
+            Self::Encoding { .. } => Some(Hint::new("save the script as UTF-8")),
+            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
+            Self::Value { invalid, .. } | Self::Invalid(invalid) => invalid.hint(),
             Self::Syntax { .. } | Self::Format { .. } => None,
         }
     }

@@ -1,8 +1,8 @@
-//! Recorded strokes: the format `strokes`, version 1.
+//! Stroke scripts: the file format `strokes`, version 1.
 //!
-//! JSON that says what is painted on, with which pigments and brushes, and what
-//! is done, action by action: one format for replay, tests, benches and
-//! recording. Units are mm, seconds and degrees.
+//! A script is JSON with a canvas, its pigments and brushes, and a list of actions. It is
+//! written by hand, by a program, or by a session that records. Units are mm, seconds and
+//! degrees.
 //!
 //! ```json
 //! {
@@ -20,63 +20,71 @@
 //! }
 //! ```
 //!
-//! A sample is `[seconds, x, y, pressure, tilt x, tilt y, twist]`; what is left
-//! out at its end is 0. A palette is an object of short names, or a list of at
-//! most eight pigments; recipes name either. See [`Action`] for what can be done.
+//! A sample is `[seconds, x, y, pressure, tilt x, tilt y, twist]`; numbers left out at its
+//! end are 0. A palette is an object of short names, or a list, of at most eight pigments;
+//! recipes use short names or names of the library. [`Action`] lists all actions.
 //!
-//! A second surface to mix on is described as `mixing`, another canvas with cells
-//! of the same width; strokes, heaps and scraping are done there with
-//! `"on": "palette"`. With `start`, the path of a painting (`.exr`), the script
-//! goes on with that painting, which has a size, pigments, a medium and a light
-//! of its own: `canvas` and `palette` must agree with it, `medium` and `lighting`
-//! are left out.
+//! The key `mixing` describes a palette to mix on, as a second canvas with cells of the
+//! same width; strokes, heaps and scraping act on it with `"on": "palette"`. With `start`,
+//! the path of a painting (`.exr`), the script continues that painting: `canvas` and
+//! `palette` must agree with it, `medium` and `lighting` are left out.
 //!
-//! A script may come from anywhere. Unknown and repeated keys, numbers out of
-//! range and files that are too long are refused with their place; what it saves
-//! stays below the folder that the caller chooses.
+//! Scripts are untrusted input. Unknown and repeated keys, numbers out of range and files
+//! that are too long are refused with their location, and a script saves only below a
+//! folder that the caller chooses.
 
 mod limits;
 
 mod names;
 
+mod error;
+
+mod check_context;
+
 mod palette;
 
-mod rows;
+mod surface_id;
+
+mod sample_rounding;
+
+mod sample_rows;
 
 mod action;
 
-mod digits;
+mod rounding;
 
 mod script;
 
-mod error;
+mod save_path;
 
-mod at;
+mod action_limits;
 
-mod saved_path;
+mod script_check;
 
-mod bounds;
-
-mod check;
-
-mod file;
+mod json;
 
 mod resolve;
 
-mod beginning;
+mod start;
 
+#[cfg(test)]
+mod tests;
+
+pub use crate::canvas::Canvas;
 pub use crate::painting::LayerRef;
-pub use action::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
-pub use beginning::ScriptStartError;
+pub use action::{Action, Load, Recipe, Squeeze, Stroke};
 pub use error::{InvalidValue, ScriptError, ValueLocation};
 pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES};
 pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
-pub use script::{BrushSpec, Canvas, StrokeScript};
+pub use sample_rounding::SampleDecimals;
+pub use script::{BrushSpec, StrokeScript};
+pub use start::ScriptStartError;
+pub use surface_id::{PerSurface, SurfaceId};
 
-pub(super) use at::At;
-pub(super) use beginning::names;
-pub(super) use bounds::{Surfaces, check_brush, check_sample, check_size};
-pub(super) use digits::{sample as sample_as_written, six};
-pub(super) use file::line;
-pub(super) use resolve::Scope;
+pub(super) use action_limits::{ActionLimits, check_brush, check_sample, check_size};
+pub(super) use check_context::CheckContext;
+pub(super) use json::action_line;
+pub(super) use resolve::PigmentNames;
+pub(super) use rounding::six_digits;
+pub(super) use start::pigment_names;

@@ -1,4 +1,5 @@
-//! Names: objects that hold none twice, and which one may have been meant.
+//! JSON objects with free names: duplicate keys are refused, and a misspelt name gets
+//! suggestions.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,7 +9,8 @@ use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
 use super::limits::MAX_NAMES;
 
-/// An object whose keys all differ; plain maps would keep the last silently.
+/// Deserializes an object and refuses duplicate keys, of which a plain map would silently
+/// keep the last. At most [`MAX_NAMES`] keys.
 pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {
@@ -41,14 +43,17 @@ pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer.deserialize_map(Entries(PhantomData))
 }
 
-/// Up to three of `known` that are near to `name` by spelling, nearest first.
-pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+/// Up to three of `known` that are spelt like `name`, the most similar first.
+pub(super) fn similar_names<'a>(
+    name: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Vec<&'a str> {
     let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
     let mut ranked: Vec<_> = known
         .into_iter()
         .map(|other| {
             let letters: Vec<char> = other.to_lowercase().chars().collect();
-            (edits(&name, &letters), other)
+            (edit_distance(&name, &letters), other)
         })
         .filter(|(edits, other)| *edits <= (name.len().max(other.len()) / 3).max(1))
         .collect();
@@ -56,16 +61,16 @@ pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
     ranked.into_iter().take(3).map(|(_, other)| other).collect()
 }
 
-/// The edits that make `b` of `a` (Levenshtein 1966): letters put in, taken out
-/// or exchanged.
-fn edits(a: &[char], b: &[char]) -> usize {
+/// Edit distance between `a` and `b` (Levenshtein 1966): insertions, deletions and
+/// substitutions of letters.
+fn edit_distance(a: &[char], b: &[char]) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, left) in a.iter().enumerate() {
         let mut diagonal = std::mem::replace(&mut row[0], i + 1);
         for (j, right) in b.iter().enumerate() {
-            let exchanged = diagonal + usize::from(left != right);
+            let substituted = diagonal + usize::from(left != right);
             diagonal = row[j + 1];
-            row[j + 1] = exchanged.min(row[j] + 1).min(diagonal + 1);
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
         }
     }
     row[b.len()]
@@ -78,9 +83,9 @@ mod tests {
     #[test]
     fn a_misspelt_pigment_finds_its_name() {
         let known = ["Zinc White", "Prussian Blue", "Viridian", "Cobalt Blue"];
-        assert_eq!(nearest("prusian blue", known), ["Prussian Blue"]);
-        assert_eq!(nearest("Viridan", known), ["Viridian"]);
-        assert!(nearest("Octarine", known).is_empty(), "nothing is near");
-        assert_eq!(edits(&['a', 'b'], &['b', 'a', 'c']), 2);
+        assert_eq!(similar_names("prusian blue", known), ["Prussian Blue"]);
+        assert_eq!(similar_names("Viridan", known), ["Viridian"]);
+        assert!(similar_names("Octarine", known).is_empty(), "no similar name");
+        assert_eq!(edit_distance(&['a', 'b'], &['b', 'a', 'c']), 2);
     }
 }

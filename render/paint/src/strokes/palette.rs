@@ -1,4 +1,4 @@
-//! The pigments that may be on the canvas at one time.
+//! The pigments of a script's palette.
 
 use std::fmt;
 
@@ -8,30 +8,30 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::layer::SLOTS;
 
-/// Up to eight pigments in the order of their slots: a list of names, or an
-/// object of short names (`{"W": "Zinc White"}`).
+/// Up to eight pigments in the order of their slots: a list of names, or an object of
+/// short names (`{"W": "Zinc White"}`).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PaletteSpec {
-    /// Short name, if it has one, and name.
+    /// Short name, where there is one, and name in the library.
     pub pigments: Vec<(Option<String>, String)>,
 }
 
 impl PaletteSpec {
-    /// A palette without short names.
+    /// A palette of pigments by their names in the library, without short names.
     pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         Self { pigments: names.into_iter().map(|name| (None, name.to_owned())).collect() }
     }
 
-    /// The name behind a short one.
+    /// Library name of the pigment with this short name.
     #[must_use]
-    pub fn behind(&self, short: &str) -> Option<&str> {
+    pub fn library_name(&self, short: &str) -> Option<&str> {
         let found = self.pigments.iter().find(|(own, _)| own.as_deref() == Some(short));
         found.map(|(_, name)| name.as_str())
     }
 }
 
 impl Serialize for PaletteSpec {
-    /// A list, unless every pigment has a short name.
+    /// Writes a list, unless every pigment has a short name.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let short: Option<Vec<&String>> =
             self.pigments.iter().map(|(short, _)| short.as_ref()).collect();
@@ -66,7 +66,7 @@ impl<'de> Deserialize<'de> for PaletteSpec {
             if palette.pigments.len() == SLOTS {
                 return Err(E::custom(format!("more than {SLOTS} pigments, at `{name}`")));
             }
-            if short.as_ref().is_some_and(|short| palette.behind(short).is_some()) {
+            if short.as_ref().is_some_and(|short| palette.library_name(short).is_some()) {
                 let short = short.unwrap_or_default();
                 return Err(E::custom(format!("duplicate key `{short}`")));
             }

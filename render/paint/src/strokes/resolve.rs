@@ -1,96 +1,98 @@
-//! Names of pigments become those of a library.
+//! Lookup of pigment names in a library.
 
 use pigment::library::{PigmentLibrary, RecipeError};
+use spectra::hint::Hint;
 
 use super::action::{Action, Load, Recipe, Squeeze};
-use super::at::{At, near};
+use super::check_context::{CheckContext, did_you_mean};
 use super::error::{InvalidValue, ScriptError};
 use super::palette::PaletteSpec;
 use super::script::StrokeScript;
 use crate::document::Slots;
 use crate::layer::SLOTS;
 
-/// The pigments of a script, by index into a library.
+/// The pigments of a script, as indices into a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
-    /// The palette at first.
+    /// Pigments of the wet layer before the first action.
     pub slots: Slots,
-    /// What each action names, action by action.
+    /// Pigments that each action names, in the order of the actions.
     pub actions: Vec<ActionPigments>,
 }
 
 /// The pigments that an action names.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ActionPigments {
-    /// It names none.
+    /// The action names no pigment.
     None,
-    /// Of a load or a heap: pigment and parts, in order of the library; parts above 0.
+    /// Pigments and parts of a load or a heap, in the order of the library. Parts are
+    /// above 0.
     Recipe(Vec<(usize, f64)>),
-    /// Of a palette.
+    /// Pigments of a palette by slot.
     Palette(Slots),
-    /// Of a swap.
+    /// Pigments of a swap.
     Swap {
-        /// The pigment that goes.
+        /// Pigment to replace.
         from: usize,
-        /// The one that takes its place.
+        /// Pigment that takes its place.
         to: usize,
     },
 }
 
 impl StrokeScript {
-    /// The pigments that the script names, looked up in `library` after it was
-    /// checked. Short names are those of the latest palette that has them.
+    /// Checks the script and looks its pigments up in `library`. A short name means the
+    /// pigment of the latest palette that has it.
     ///
-    /// A recipe may only name pigments of the first palette or of one that an
-    /// earlier action sets; whether it is the palette of that moment depends on
-    /// what was undone, so the painter sees to it.
+    /// A recipe may only name pigments of the first palette or of a palette that an
+    /// earlier action sets. Whether that palette is still set depends on what was undone,
+    /// so it is checked when the action is applied.
     ///
     /// # Errors
     /// [`ScriptError::Invalid`] for values out of range (see [`StrokeScript::check`]),
-    /// names that the library has not or that fit several, a pigment named twice
-    /// in a palette or a recipe, and recipes beyond the palettes.
+    /// names that match no pigment or several, a pigment named twice in a palette or a
+    /// recipe, and recipes with pigments of no palette.
     pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, ScriptError> {
         self.check()?;
-        let (mut scope, slots) = Scope::new(&self.palette, library)?;
+        let (mut names, slots) = PigmentNames::new(&self.palette, library)?;
         let mut actions = Vec::with_capacity(self.actions.len());
         for (index, action) in self.actions.iter().enumerate() {
-            let at = At::action(index, action.kind());
-            let pigments = scope.action(&at, action, library)?;
-            scope.learn(action, &pigments);
+            let at = CheckContext::action(index, action.kind());
+            let pigments = names.pigments_of(&at, action, library)?;
+            names.add_palette_of(action, &pigments);
             actions.push(pigments);
         }
         Ok(Resolved { slots, actions })
     }
 }
 
-/// What names mean at some action.
+/// Meaning of pigment names at one action of a script.
 #[derive(Debug)]
-pub(crate) struct Scope {
-    /// Those set so far.
+pub(crate) struct PigmentNames {
+    /// Palettes set so far, with their slots.
     palettes: Vec<(PaletteSpec, Slots)>,
 }
 
-impl Scope {
-    /// Before the first action, with the pigments that there are at first.
+impl PigmentNames {
+    /// The names before the first action, and the slots of `palette`.
     pub(crate) fn new(
         palette: &PaletteSpec,
         library: &PigmentLibrary,
     ) -> Result<(Self, Slots), Box<InvalidValue>> {
-        let slots = slots(&At::default(), palette, library)?;
+        let slots = slots(&CheckContext::default(), palette, library)?;
         Ok((Self { palettes: vec![(palette.clone(), slots)] }, slots))
     }
 
-    /// After an action that may have set a palette.
-    pub(crate) fn learn(&mut self, action: &Action, pigments: &ActionPigments) {
+    /// Adds the palette that an action sets, if it sets one.
+    pub(crate) fn add_palette_of(&mut self, action: &Action, pigments: &ActionPigments) {
         if let (Action::Palette(palette), ActionPigments::Palette(slots)) = (action, pigments) {
             self.palettes.push((palette.clone(), *slots));
         }
     }
 
-    /// The pigments that an action names.
-    pub(crate) fn action(
+    /// Looks up the pigments that an action names.
+    pub(crate) fn pigments_of(
         &self,
-        at: &At,
+        at: &CheckContext,
         action: &Action,
         library: &PigmentLibrary,
     ) -> Result<ActionPigments, Box<InvalidValue>> {
@@ -109,7 +111,7 @@ impl Scope {
 
     fn recipe(
         &self,
-        at: &At,
+        at: &CheckContext,
         recipe: &Recipe,
         library: &PigmentLibrary,
     ) -> Result<Vec<(usize, f64)>, Box<InvalidValue>> {
@@ -119,11 +121,11 @@ impl Scope {
             if !self.palettes.iter().any(|(_, slots)| slots.contains(&Some(index))) {
                 let known = self.palettes.iter().flat_map(|(palette, _)| &palette.pigments);
                 let known: Vec<_> = known.map(|(_, name)| name.as_str()).collect();
-                let hint = format!("the palette has {}", known.join(", "));
-                return Err(at.fault("recipe", "pigments of the palette", name, Some(hint)));
+                let hint = Hint::new(format!("the palette has {}", known.join(", ")));
+                return Err(at.invalid("recipe", "pigments of the palette", name, Some(hint)));
             }
             if parts.iter().any(|(other, _)| *other == index) {
-                return Err(at.fault("recipe", "each pigment once", name, None));
+                return Err(at.invalid("recipe", "each pigment once", name, None));
             }
             if part > 0.0 {
                 parts.push((index, part));
@@ -133,37 +135,37 @@ impl Scope {
         Ok(parts)
     }
 
-    /// The pigment behind a short name, or a name of the library.
+    /// Index of the pigment with a short name or a name of the library.
     fn pigment(
         &self,
-        at: &At,
+        at: &CheckContext,
         field: &str,
         name: &str,
         library: &PigmentLibrary,
     ) -> Result<usize, Box<InvalidValue>> {
-        let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.behind(name));
-        named(at, field, short.unwrap_or(name), library)
+        let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.library_name(name));
+        find_pigment(at, field, short.unwrap_or(name), library)
     }
 }
 
 fn slots(
-    at: &At,
+    at: &CheckContext,
     palette: &PaletteSpec,
     library: &PigmentLibrary,
 ) -> Result<Slots, Box<InvalidValue>> {
     let mut slots = [None; SLOTS];
     for (slot, (_, name)) in palette.pigments.iter().enumerate() {
-        let index = named(at, "palette", name, library)?;
+        let index = find_pigment(at, "palette", name, library)?;
         if slots.contains(&Some(index)) {
-            return Err(at.fault("palette", "each pigment once", name, None));
+            return Err(at.invalid("palette", "each pigment once", name, None));
         }
         slots[slot] = Some(index);
     }
     Ok(slots)
 }
 
-fn named(
-    at: &At,
+fn find_pigment(
+    at: &CheckContext,
     field: &str,
     name: &str,
     library: &PigmentLibrary,
@@ -171,9 +173,11 @@ fn named(
     library.find(name).map_err(|error| {
         let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
         let hint = match &error {
-            RecipeError::UnknownPigment { .. } => near(name, known).or_else(|| error.hint()),
-            _ => error.hint(),
+            RecipeError::UnknownPigment { .. } => {
+                did_you_mean(name, known).or_else(|| error.hint().map(Hint::new))
+            }
+            _ => error.hint().map(Hint::new),
         };
-        at.fault(field, "a pigment of the library", &name, hint)
+        at.invalid(field, "a pigment of the library", &name, hint)
     })
 }

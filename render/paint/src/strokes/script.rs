@@ -1,57 +1,59 @@
-//! A script: what there is, and what is done with it.
+//! A stroke script in memory.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use super::action::Action;
+use super::limits::MAX_ACTIONS;
 use super::names::distinct_keys;
 use super::palette::PaletteSpec;
 use crate::brush::HeadShape;
+use crate::canvas::Canvas;
 use crate::document::{Lighting, Medium};
-use crate::ground::GroundSpec;
 
-/// A script of strokes.
+/// A script: canvas, pigments and brushes, and the actions done with them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StrokeScript {
-    /// Always `strokes`.
+    /// The name `strokes`.
     pub(super) format: FormatName,
-    /// Always 1.
+    /// The version number 1.
     pub(super) version: FormatVersion,
-    /// What is painted.
+    /// Title of the painting.
     #[serde(default)]
     pub title: String,
-    /// Under which licence it may be used.
+    /// Licence of the script, such as `CC0-1.0`.
     #[serde(default)]
     pub licence: String,
-    /// What is painted on.
+    /// Size and ground of the canvas.
     pub canvas: Canvas,
-    /// What is mixed on, if on anything: the surface `palette` of actions. Its
-    /// cells are as wide as the canvas's.
+    /// Size and ground of the palette that paint is mixed on, if there is one. Its cells
+    /// are as wide as those of the canvas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mixing: Option<Canvas>,
-    /// A painting (`.exr`) to go on with instead of a bare canvas, for whoever
-    /// replays it to find; its size, pigments, medium and light are its own.
+    /// Path of a painting (`.exr`) to continue instead of a bare canvas. Its size, pigments,
+    /// medium and light are its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
-    /// The binder; oil if not given.
+    /// The binder; oil by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub medium: Option<Medium>,
-    /// The light; daylight from the upper left if not given.
+    /// The light; daylight from the upper left by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<Lighting>,
-    /// Which pigment library the script was made for: a path or a title, for
-    /// whoever replays it.
+    /// Pigment library that the script was made for: a path, or the title of a library.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<String>,
-    /// The pigments at first.
+    /// Pigments of the wet layer before the first action.
     pub palette: PaletteSpec,
     /// Brushes by name.
     #[serde(deserialize_with = "distinct_keys")]
     pub brushes: BTreeMap<String, BrushSpec>,
-    /// What is done, in this order.
-    #[serde(deserialize_with = "super::rows::bounded_actions")]
+    /// The actions in order.
+    #[serde(deserialize_with = "bounded_actions")]
     pub actions: Vec<Action>,
 }
 
@@ -76,7 +78,7 @@ impl StrokeScript {
         }
     }
 
-    /// All but the actions.
+    /// The script without its actions.
     #[must_use]
     pub fn header(&self) -> Self {
         let Self { format, version, title, licence, canvas, mixing, start, .. } = self;
@@ -99,46 +101,33 @@ impl StrokeScript {
     }
 }
 
-/// What is painted on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Canvas {
-    /// Width in mm.
-    pub width_mm: f64,
-    /// Height in mm.
-    pub height_mm: f64,
-    /// Width and height of a cell in mm; 0.1 (254 to the inch) if not given.
-    #[serde(default = "tenth")]
-    pub cell_mm: f64,
-    /// Its ground; linen if not given.
-    #[serde(default)]
-    pub ground: GroundSpec,
-}
+/// Deserializes a list of actions, and stops at the first beyond [`MAX_ACTIONS`].
+fn bounded_actions<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Action>, D::Error> {
+    struct Actions;
 
-impl Canvas {
-    /// Cells in a row and rows: as many as cover it, at least one.
-    #[must_use]
-    pub fn cells(&self) -> (usize, usize) {
-        let Self { width_mm, height_mm, cell_mm, .. } = *self;
-        (cells_within(width_mm, cell_mm), cells_within(height_mm, cell_mm))
+    impl<'de> Visitor<'de> for Actions {
+        type Value = Vec<Action>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("a list of actions")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Action>, A::Error> {
+            let mut actions = Vec::new();
+            while let Some(action) = list.next_element()? {
+                if actions.len() == MAX_ACTIONS {
+                    return Err(de::Error::custom(format!("more than {MAX_ACTIONS} actions")));
+                }
+                actions.push(action);
+            }
+            Ok(actions)
+        }
     }
 
-    pub(super) fn greatest_side_mm(&self) -> f64 {
-        self.width_mm.max(self.height_mm)
-    }
+    deserializer.deserialize_seq(Actions)
 }
 
-/// As many cells as cover a side.
-pub(super) fn cells_within(side_mm: f64, cell_mm: f64) -> usize {
-    // What rounding left over is no cell of its own.
-    ((side_mm / cell_mm - 1e-6).ceil() as usize).max(1)
-}
-
-fn tenth() -> f64 {
-    0.1
-}
-
-/// A brush.
+/// Shape and size of a brush.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BrushSpec {
@@ -148,21 +137,21 @@ pub struct BrushSpec {
     pub size_mm: f64,
 }
 
-/// The name of the format, which nothing else is.
+/// The name of the format; serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum FormatName {
-    /// This one.
+    /// Written `strokes` in a file.
     Strokes,
 }
 
-/// The version that this program reads and writes.
+/// The version that is read and written; serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u64", into = "u64")]
 pub(super) struct FormatVersion;
 
 impl FormatVersion {
-    /// Its number.
+    /// Version number in a file.
     pub(super) const NUMBER: u64 = 1;
 }
 

@@ -59,7 +59,9 @@ impl Studio {
             match event {
                 Event::Opened(state) | Event::State(state) => self.easel = Some(state),
                 Event::Recording { number, .. } => self.answered = number,
-                Event::Message { text, hint, .. } => self.messages.push((text, hint)),
+                Event::Message { text, hint, .. } => {
+                    self.messages.push((text, hint.map(|hint| hint.to_string())))
+                }
                 _ => {}
             }
         }

@@ -1,9 +1,9 @@
-//! Where a script may save: nowhere but below the folder that is chosen for it.
+//! Paths that a script may save to: only below the folder chosen by its player.
 
-/// What is wrong with `path`, if anything. It must be relative, go down only,
-/// hide nothing, name nothing that a system takes for a device, and end in
-/// `.exr` or `.png`, so that no script writes over what it should not.
-pub(super) fn fault(path: &str) -> Option<&'static str> {
+/// Describes the paths that are allowed, if `path` is not one of them. It must be
+/// relative, without `..`, hidden names and names of Windows devices, and end in `.exr` or
+/// `.png`.
+pub(super) fn violation(path: &str) -> Option<&'static str> {
     if path.len() > 255 {
         return Some("a path of at most 255 bytes");
     }
@@ -34,7 +34,7 @@ mod tests {
     #[test]
     fn scripts_save_below_their_folder_only() {
         for path in ["a.exr", "out/a b.png", "sub/dir/x.EXR", "compass.png", "x.y.png"] {
-            assert_eq!(fault(path), None, "{path}");
+            assert_eq!(violation(path), None, "{path}");
         }
         for path in [
             "",
@@ -60,8 +60,8 @@ mod tests {
             "a.exr ",
             "a /b.exr",
         ] {
-            assert!(fault(path).is_some(), "{path:?}");
+            assert!(violation(path).is_some(), "{path:?}");
         }
-        assert!(fault(&format!("{}.exr", "a".repeat(300))).is_some(), "too long");
+        assert!(violation(&format!("{}.exr", "a".repeat(300))).is_some(), "too long");
     }
 }

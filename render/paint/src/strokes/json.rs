@@ -1,4 +1,4 @@
-//! Scripts as JSON.
+//! Scripts as JSON: one action per line.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -9,12 +9,12 @@ use super::limits::MAX_FILE_BYTES;
 use super::script::{FormatVersion, StrokeScript};
 
 impl StrokeScript {
-    /// The script in `bytes`, the content of `file`.
+    /// Reads a script from `bytes`, the content of the file named `file`.
     ///
     /// # Errors
-    /// [`ScriptError`]: too long, no UTF-8, no JSON, another format, a newer
-    /// version, unknown, missing or repeated keys, or values out of range
-    /// (see [`StrokeScript::check`]).
+    /// [`ScriptError`] for a file that is too long, not UTF-8, not JSON, or of another
+    /// format or version, for unknown, missing and repeated keys, and for values out of
+    /// range (see [`StrokeScript::check`]).
     pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, ScriptError> {
         let named = || file.to_owned();
         if bytes.len() > MAX_FILE_BYTES {
@@ -29,24 +29,23 @@ impl StrokeScript {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let script: Self =
             serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
-        script.check_values().map_err(|fault| ScriptError::Value { file: named(), fault })?;
+        script.check_values().map_err(|invalid| ScriptError::Value { file: named(), invalid })?;
         Ok(script)
     }
 
-    /// All but the actions, its numbers rounded as a file has them.
+    /// The script without its actions, with numbers rounded to the digits of a file.
     ///
     /// # Errors
-    /// [`ScriptError`] for values out of range, see [`StrokeScript::check`].
+    /// [`ScriptError`] for values out of range (see [`StrokeScript::check`]).
     pub fn rounded_header(&self) -> Result<Self, ScriptError> {
         Self::from_json(&self.title, self.header().to_json()?.as_bytes())
     }
 
-    /// The script as JSON text, an action a line; the same script gives the same
-    /// bytes. Samples have four decimals (a tenth of a micrometre), all other
-    /// numbers six digits.
+    /// Writes the script as JSON with one action per line. Samples have four decimals, all
+    /// other numbers six significant digits. The same script gives the same bytes.
     ///
     /// # Errors
-    /// [`ScriptError`] for values out of range, see [`StrokeScript::check`].
+    /// [`ScriptError`] for values out of range (see [`StrokeScript::check`]).
     pub fn to_json(&self) -> Result<String, ScriptError> {
         self.check()?;
         let unwritable = |error: serde_json::Error| ScriptError::Syntax {
@@ -55,7 +54,7 @@ impl StrokeScript {
             column: 0,
             reason: error.to_string(),
         };
-        // Without its actions, which are many: they are written one by one.
+        // The actions are written one by one: as one value they would take much memory.
         let head = serde_json::to_value(self.header()).map_err(unwritable)?;
         let mut text = "{\n".to_owned();
         for (key, value) in
@@ -68,21 +67,21 @@ impl StrokeScript {
         text.push_str("  \"actions\": [");
         for (index, action) in self.actions.iter().enumerate() {
             text.push_str(if index == 0 { "\n    " } else { ",\n    " });
-            text.push_str(&line(action).map_err(unwritable)?);
+            text.push_str(&action_line(action).map_err(unwritable)?);
         }
         text.push_str(if self.actions.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
         Ok(text)
     }
 }
 
-/// An action as it stands in a file.
-pub(crate) fn line(action: &Action) -> Result<String, serde_json::Error> {
+/// An action as one line of a file.
+pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> {
     let mut text = String::new();
     write(&serde_json::to_value(action)?, &mut text);
     Ok(text)
 }
 
-/// A parser's error, told as another format or version where it is one.
+/// The error of a parser, or that of another format or version where this is the cause.
 fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     #[derive(Deserialize)]
     struct Kind {
@@ -103,14 +102,14 @@ fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
             return ScriptError::Version { file, found: version.to_string(), newest };
         }
     }
-    // The parser ends with the place, which is told already.
+    // The parser's message ends with the place, which this error names by itself.
     let reason = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let reason = reason.strip_suffix(&place).unwrap_or(&reason).to_owned();
     ScriptError::Syntax { file, line: error.line(), column: error.column(), reason }
 }
 
-/// `value` on one line.
+/// Appends `value` to `text` on one line.
 fn write(value: &Value, text: &mut String) {
     match value {
         Value::Object(map) => {
@@ -128,7 +127,7 @@ fn write(value: &Value, text: &mut String) {
             for (index, item) in items.iter().enumerate() {
                 text.push_str(if index == 0 { "" } else { ", " });
                 match item {
-                    // Samples are rounded already.
+                    // Numbers of samples are already rounded.
                     Value::Array(row) => write_row(row, text),
                     _ => write(item, text),
                 }
@@ -157,7 +156,7 @@ fn write_row(row: &[Value], text: &mut String) {
     text.push(']');
 }
 
-/// A number without `.0` or a minus before 0.
+/// A number without `.0`, and without the sign of -0.
 fn plain(number: f64) -> String {
     if number == 0.0 { "0".to_owned() } else { number.to_string() }
 }

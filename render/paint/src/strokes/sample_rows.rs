@@ -1,4 +1,5 @@
-//! Samples as rows of numbers, and actions within bounds.
+//! Samples as rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`, where
+//! zeros at the end may be left out.
 
 use std::fmt;
 
@@ -6,15 +7,15 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::ser::{SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
-use super::action::Action;
-use super::limits::MAX_ACTIONS;
+use super::sample_rounding::SampleDecimals;
 use crate::pose::Sample;
 
-/// How many numbers a row has at least: seconds, x, y, pressure.
+/// Fewest numbers of a row: seconds, x, y, pressure.
 const SHORTEST: usize = 4;
-/// And at most: tilt x, tilt y and twist besides.
+/// Most numbers of a row: also tilt x, tilt y and twist.
 const LONGEST: usize = 7;
 
+/// The numbers of a sample in the order of a row.
 pub(super) fn numbers(sample: &Sample) -> [f64; LONGEST] {
     let Sample { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg } = *sample;
     [seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg]
@@ -24,16 +25,10 @@ struct Row(Sample);
 
 impl Serialize for Row {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let numbers = numbers(&self.0).map(short);
+        let numbers = numbers(&SampleDecimals::RECORDING.round(&self.0));
         let used = numbers.iter().rposition(|number| *number != 0.0).map_or(0, |last| last + 1);
         numbers[..used.max(SHORTEST)].serialize(serializer)
     }
-}
-
-/// Four decimals: a tenth of a micrometre, a tenth of a millisecond. The file
-/// knows no zero below zero.
-pub(super) fn short(number: f64) -> f64 {
-    (number * 1e4).round() / 1e4 + 0.0
 }
 
 impl<'de> Deserialize<'de> for Row {
@@ -103,32 +98,4 @@ pub(super) fn deserialize<'de, D: Deserializer<'de>>(
     }
 
     deserializer.deserialize_seq(Samples)
-}
-
-/// The actions, refused while they are read once there are too many.
-pub(super) fn bounded_actions<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Vec<Action>, D::Error> {
-    struct Actions;
-
-    impl<'de> Visitor<'de> for Actions {
-        type Value = Vec<Action>;
-
-        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-            formatter.write_str("a list of actions")
-        }
-
-        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Action>, A::Error> {
-            let mut actions = Vec::new();
-            while let Some(action) = list.next_element()? {
-                if actions.len() == MAX_ACTIONS {
-                    return Err(de::Error::custom(format!("more than {MAX_ACTIONS} actions")));
-                }
-                actions.push(action);
-            }
-            Ok(actions)
-        }
-    }
-
-    deserializer.deserialize_seq(Actions)
 }

@@ -1,15 +1,20 @@
-//! Whether what a script says can be done at all.
+//! Checks of a whole script before it is played.
+
+use spectra::hint::Hint;
 
 use super::action::Action;
-use super::at::{At, Checked};
-use super::bounds::{Surfaces, check_brush, check_gloss, check_light, check_palette, check_size};
+use super::action_limits::{
+    ActionLimits, check_brush, check_gloss, check_light, check_palette, check_size,
+};
+use super::check_context::{CheckContext, Checked};
 use super::error::ScriptError;
 use super::limits::{MAX_ACTIONS, MAX_CELLS, MAX_SAMPLES};
-use super::script::{Canvas, StrokeScript};
+use super::script::StrokeScript;
+use crate::canvas::Canvas;
 use crate::document::Medium;
 
 impl StrokeScript {
-    /// Whether every number is in range and every brush declared. Pigments are
+    /// Checks that every number is in range and every brush is declared. Pigments are
     /// looked up by [`StrokeScript::resolve`].
     ///
     /// # Errors
@@ -23,37 +28,42 @@ impl StrokeScript {
         let mut samples = 0;
         if self.actions.len() > MAX_ACTIONS {
             let wanted = format!("at most {MAX_ACTIONS}");
-            return Err(At::default().fault("actions", &wanted, &self.actions.len(), None));
+            return Err(CheckContext::default().invalid(
+                "actions",
+                &wanted,
+                &self.actions.len(),
+                None,
+            ));
         }
-        let surfaces = self.sides();
+        let limits = self.limits();
         for (index, action) in self.actions.iter().enumerate() {
-            let at = At::action(index, action.kind());
+            let at = CheckContext::action(index, action.kind());
             if let Some(brush) = action.brush() {
                 check_brush(&at, brush, self.brushes.keys().map(String::as_str))?;
             }
-            surfaces.check(&at, action)?;
+            limits.check(&at, action)?;
             if let Action::Stroke(stroke) = action {
                 samples += stroke.samples.len();
             }
             if samples > MAX_SAMPLES {
                 let wanted = format!("at most {MAX_SAMPLES} of all strokes so far");
-                let hint = Some("record fewer samples a second, or several scripts".to_owned());
-                return Err(at.fault("samples", &wanted, &samples, hint));
+                let hint = Hint::new("record fewer samples a second, or several scripts");
+                return Err(at.invalid("samples", &wanted, &samples, Some(hint)));
             }
         }
         Ok(())
     }
 
     fn check_header(&self) -> Checked {
-        let top = At::default();
+        let top = CheckContext::default();
         check_canvas("canvas", &self.canvas)?;
         if let Some(mixing) = &self.mixing {
             check_canvas("mixing", mixing)?;
             let cell_mm = self.canvas.cell_mm;
             if mixing.cell_mm != cell_mm {
-                let hint = Some(format!("\"cell_mm\": {cell_mm}"));
+                let hint = Some(Hint::new(format!("\"cell_mm\": {cell_mm}")));
                 let wanted = format!("that of the canvas, {cell_mm}");
-                return Err(top.fault("mixing.cell_mm", &wanted, &mixing.cell_mm, hint));
+                return Err(top.invalid("mixing.cell_mm", &wanted, &mixing.cell_mm, hint));
             }
         }
         if let Some(start) = &self.start {
@@ -61,11 +71,11 @@ impl StrokeScript {
             let own = [("medium", self.medium.is_some()), ("lighting", self.lighting.is_some())];
             if let Some((field, _)) = own.iter().find(|(_, given)| *given) {
                 let wanted = "left out with `start`: that painting has its own";
-                return Err(top.fault(
+                return Err(top.invalid(
                     field,
                     wanted,
                     &"both",
-                    Some(format!("leave `{field}` out")),
+                    Some(Hint::new(format!("leave `{field}` out"))),
                 ));
             }
         }
@@ -82,17 +92,17 @@ impl StrokeScript {
         Ok(())
     }
 
-    /// The surfaces that its actions may name.
-    pub(crate) fn sides(&self) -> Surfaces {
-        Surfaces {
-            canvas_mm: self.canvas.greatest_side_mm(),
-            palette_mm: self.mixing.as_ref().map(Canvas::greatest_side_mm),
+    /// Limits of its actions.
+    pub(crate) fn limits(&self) -> ActionLimits {
+        ActionLimits {
+            canvas_mm: self.canvas.longer_side_mm(),
+            palette_mm: self.mixing.as_ref().map(Canvas::longer_side_mm),
         }
     }
 }
 
 fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
-    let at = At::default();
+    let at = CheckContext::default();
     at.range(&format!("{key}.cell_mm"), canvas.cell_mm, 0.001, 10.0)?;
     for (field, side) in [("width_mm", canvas.width_mm), ("height_mm", canvas.height_mm)] {
         at.range(&format!("{key}.{field}"), side, 0.001, 1e6)?;
@@ -101,13 +111,15 @@ fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
     if (width as u64).saturating_mul(height as u64) > MAX_CELLS {
         let wanted = format!("at most {MAX_CELLS} cells, which take 6 GB");
         let least = (canvas.width_mm * canvas.height_mm / MAX_CELLS as f64).sqrt();
-        let hint = format!("\"cell_mm\": {:.3}", (least * 1000.0).ceil() / 1000.0 + 0.001);
-        return Err(at.fault(key, &wanted, &format!("{width} x {height}"), Some(hint)));
+        let cell_mm = (least * 1000.0).ceil() / 1000.0 + 0.001;
+        let hint = Hint::new(format!("\"cell_mm\": {cell_mm:.3}"));
+        return Err(at.invalid(key, &wanted, &format!("{width} x {height}"), Some(hint)));
     }
     Ok(())
 }
 
-/// A painting is read from anywhere, as a library is, but nothing else is.
+/// Checks the path of the painting that a script continues. It may lie anywhere, as that
+/// of a library.
 fn check_start(path: &str) -> Checked {
     let fits = (1..=1024).contains(&path.len())
         && !path.contains(char::is_control)
@@ -116,11 +128,12 @@ fn check_start(path: &str) -> Checked {
         return Ok(());
     }
     let wanted = "the path of a painting, which ends in .exr";
-    Err(At::default().fault("start", wanted, &path, Some("save it with `impasto paint`".into())))
+    let hint = Hint::new("save the painting as an .exr file");
+    Err(CheckContext::default().invalid("start", wanted, &path, Some(hint)))
 }
 
 fn check_medium(medium: &Medium) -> Checked {
-    let at = At::default();
+    let at = CheckContext::default();
     at.range("medium.scattering_per_mm", medium.scattering_per_mm, 1e-3, 1e6)?;
     check_gloss(&at, "medium.", medium.wet, medium.dry)
 }

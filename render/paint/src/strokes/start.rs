@@ -1,41 +1,41 @@
-//! What a script begins on: bare surfaces, or a painting to go on with.
+//! The surfaces that a script starts on: bare ones, or a painting to continue.
 
 use pigment::digits::rounded;
 use pigment::library::PigmentLibrary;
 
-use super::at::{At, Checked};
+use super::check_context::{CheckContext, Checked};
 use super::error::ScriptError;
 use super::palette::PaletteSpec;
 use super::resolve::Resolved;
-use super::script::{Canvas, StrokeScript, cells_within};
+use super::script::StrokeScript;
+use crate::canvas::{Canvas, covering_cells};
 use crate::document::{Document, Ground, Slots};
 use crate::ground::{GroundError, GroundSpec};
 use graphics::tile::Rect;
+use spectra::hint::{Explain, Hint};
 
-/// Why a script cannot begin.
+/// Why the surfaces of a script cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScriptStartError {
-    /// The script cannot be played, or not on that painting.
+    /// The script is invalid, or does not describe the painting that it continues.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// There is no such ground.
+    /// A ground cannot be made.
     #[error(transparent)]
     Ground(#[from] GroundError),
 }
 
-impl ScriptStartError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
+impl Explain for ScriptStartError {
+    fn hint(&self) -> Option<Hint> {
         match self {
             Self::Script(error) => error.hint(),
-            Self::Ground(error) => error.hint(),
+            Self::Ground(error) => error.hint().map(Hint::new),
         }
     }
 }
 
 impl StrokeScript {
-    /// The bare canvas of this script: its ground, no paint yet.
+    /// The canvas of this script without paint, on `ground`.
     #[must_use]
     pub fn bare(&self, library: &PigmentLibrary, resolved: &Resolved, ground: Ground) -> Document {
         Document::bare(
@@ -49,14 +49,16 @@ impl StrokeScript {
         )
     }
 
-    /// The canvas before the first action, and the palette beside it if the
-    /// script has one, as its file describes them: numbers count as written. `start` is the painting that the script names as such, if
-    /// it names one; the pigments are then those of its own library.
+    /// The canvas before the first action, and the palette if the script has one. Numbers
+    /// are rounded to the digits of a file.
+    ///
+    /// `start` is the painting that the script continues, if it names one; pigments are
+    /// then those of its library, and `library` is not used.
     ///
     /// # Errors
-    /// [`ScriptStartError`] where the script cannot be played (see
-    /// [`StrokeScript::resolve`]), where `start` is missing, not asked for, or of
-    /// another size or other pigments, and for grounds that cannot be.
+    /// [`ScriptStartError`] for a script that cannot be played (see
+    /// [`StrokeScript::resolve`]), for a `start` that is missing, not asked for, or of
+    /// another size or other pigments, and for a ground that cannot be made.
     pub fn surfaces(
         &self,
         library: &PigmentLibrary,
@@ -66,31 +68,31 @@ impl StrokeScript {
         let resolved = header.resolve(start.as_ref().map_or(library, |start| &start.library))?;
         let canvas = match (&self.start, start) {
             (None, None) => {
-                let ground = ground(&header.canvas, library)?;
+                let ground = header.canvas.ground(library)?;
                 header.bare(library, &resolved, ground)
             }
             (Some(_), Some(start)) => {
                 let bounds = start.ground.height.bounds();
                 let pigments = (&start.slots, &start.library);
                 header
-                    .check_agreement(bounds, start.cell_mm, pigments, &resolved.slots)
+                    .check_painting(bounds, start.cell_mm, pigments, &resolved.slots)
                     .map_err(ScriptError::from)?;
                 start
             }
-            (named, given) => {
+            (named, start) => {
                 let named = named.as_deref().unwrap_or("none");
-                let found = given.map_or("none".to_owned(), |document| document.title);
+                let found = start.map_or("none".to_owned(), |document| document.title);
                 let wanted = format!("the painting that the script begins on, {named}");
-                let hint = Some("read that painting, or leave `start` out".to_owned());
-                let fault = At::default().fault("start", &wanted, &found, hint);
-                return Err(ScriptError::from(fault).into());
+                let hint = Some(Hint::new("read that painting, or leave `start` out"));
+                let invalid = CheckContext::default().invalid("start", &wanted, &found, hint);
+                return Err(ScriptError::from(invalid).into());
             }
         };
         let palette = header.mixing.as_ref().map(|mixing| {
             Ok::<_, GroundError>(Document::bare(
                 &canvas.title,
                 canvas.cell_mm,
-                ground(mixing, &canvas.library)?,
+                mixing.ground(&canvas.library)?,
                 canvas.library.clone(),
                 canvas.medium.clone(),
                 canvas.slots,
@@ -100,27 +102,28 @@ impl StrokeScript {
         Ok((canvas, palette.transpose()?))
     }
 
-    /// Whether the canvas of cells `bounds`, each `cell_mm` wide, is that of the
-    /// script, and has the pigments `slots` that the script begins with.
-    pub(crate) fn check_agreement(
+    /// Checks that the script describes a painting with cells `bounds` of width `cell_mm`
+    /// and the pigments `own` of `library`; `slots` are the pigments that the script starts
+    /// with.
+    pub(crate) fn check_painting(
         &self,
         bounds: Rect,
         cell_mm: f64,
         (own, library): (&Slots, &PigmentLibrary),
         slots: &Slots,
     ) -> Checked {
-        let at = At::default();
+        let at = CheckContext::default();
         let (width, height) = self.canvas.cells();
         let Rect { width: columns, height: rows, .. } = bounds;
         if (columns, rows) != (width, height) {
             let wanted = format!("as many cells as the painting has, {columns} x {rows}");
-            return Err(at.fault("canvas", &wanted, &format!("{width} x {height}"), None));
+            return Err(at.invalid("canvas", &wanted, &format!("{width} x {height}"), None));
         }
         let cell_mm = rounded(cell_mm);
         if rounded(self.canvas.cell_mm) != cell_mm {
             let wanted = format!("that of the painting, {cell_mm}");
-            let hint = Some(format!("\"cell_mm\": {cell_mm}"));
-            return Err(at.fault("canvas.cell_mm", &wanted, &self.canvas.cell_mm, hint));
+            let hint = Some(Hint::new(format!("\"cell_mm\": {cell_mm}")));
+            return Err(at.invalid("canvas.cell_mm", &wanted, &self.canvas.cell_mm, hint));
         }
         let sorted = |slots: &Slots| {
             let mut pigments: Vec<usize> = slots.iter().flatten().copied().collect();
@@ -128,23 +131,24 @@ impl StrokeScript {
             pigments
         };
         if sorted(slots) != sorted(own) {
-            let wanted = format!("that of the painting, {}", names(own, library).join(", "));
+            let wanted =
+                format!("that of the painting, {}", pigment_names(own, library).join(", "));
             let named: Vec<&str> = self.palette.pigments.iter().map(|(_, name)| &**name).collect();
-            return Err(at.fault("palette", &wanted, &named.join(", "), None));
+            return Err(at.invalid("palette", &wanted, &named.join(", "), None));
         }
         Ok(())
     }
 
-    /// A script without actions that goes on with a painting, which whoever
-    /// replays it finds at `start`; without a palette to mix on.
+    /// A script without actions and palette that continues `painting`, which is saved at
+    /// the path `start`.
     #[must_use]
     pub fn continue_from(start: &str, painting: &Document) -> Self {
         let cell_mm = rounded(painting.cell_mm);
         let side_mm = |cells: usize| {
-            // Rounded up, it could be a cell more.
+            // A side that was rounded up could have one cell more.
             let exact = rounded(cells as f64 * cell_mm);
-            let within = rounded((cells as f64 - 0.5) * cell_mm);
-            if cells_within(exact, cell_mm) == cells { exact } else { within }
+            let shorter = rounded((cells as f64 - 0.5) * cell_mm);
+            if covering_cells(exact, cell_mm) == cells { exact } else { shorter }
         };
         let height = &painting.ground.height;
         let canvas = Canvas {
@@ -153,7 +157,7 @@ impl StrokeScript {
             cell_mm,
             ground: GroundSpec::default(),
         };
-        let palette = PaletteSpec::from_names(names(&painting.slots, &painting.library));
+        let palette = PaletteSpec::from_names(pigment_names(&painting.slots, &painting.library));
         let mut script = Self::new(&painting.title, "", canvas, palette);
         script.start = Some(start.to_owned());
         script.library = Some(painting.library.title.clone());
@@ -161,12 +165,7 @@ impl StrokeScript {
     }
 }
 
-fn ground(canvas: &Canvas, library: &PigmentLibrary) -> Result<Ground, GroundError> {
-    let (width, height) = canvas.cells();
-    canvas.ground.ground(width, height, canvas.cell_mm, library)
-}
-
-/// The names of the pigments of `slots`, in their order.
-pub(crate) fn names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
+/// The names of the pigments of `slots`, in the order of the slots.
+pub(crate) fn pigment_names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
     slots.iter().flatten().map(|&pigment| library.pigments[pigment].name.as_str()).collect()
 }
