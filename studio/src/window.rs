@@ -38,7 +38,7 @@ pub fn run(start: Start) -> Result<(), FileFailure> {
             let mut files = Files::new(context, start.home, start.preferences);
             files.pace = start.pace;
             start.failures.into_iter().for_each(|failure| files.say(failure));
-            let pen = Pen::over(creation, PenSettings::default());
+            let pen = Pen::for_window(creation, PenSettings::default());
             let parts = Parts { begun, pen, files, open: start.file, log: start.figures };
             Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
         }),

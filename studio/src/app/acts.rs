@@ -23,7 +23,7 @@ const ZOOM: f64 = std::f64::consts::SQRT_2;
 impl Studio {
     /// Does what was asked for.
     pub(super) fn act(&mut self, intent: Intent, context: &Context) {
-        let room = self.canvas.room();
+        let room = self.canvas.rect();
         let density = context.pixels_per_point();
         let zoom = |studio: &mut Self, factor: f64| {
             studio.canvas.view.zoom_by(factor, room.center(), room, density);

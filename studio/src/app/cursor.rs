@@ -59,7 +59,7 @@ impl Studio {
     fn brush(&mut self, ui: &Ui, easel: &PaintingState) {
         let look = |name: &str| {
             let brush = easel.brushes.iter().find(|brush| brush.name == name);
-            HeadLook::under(&easel.lighting, brush.and_then(|brush| brush.color))
+            HeadLook::lit_by(&easel.lighting, brush.and_then(|brush| brush.color))
         };
         if let Some(head) = &self.head {
             self.view(head.surface).show_head(ui, head, look(&self.tools.brush));
@@ -85,10 +85,10 @@ impl Studio {
     /// A ring of the colour below the pointer, within a neutral one.
     fn ring(&self, ui: &Ui) {
         let Some(point) = ui.input(|input| input.pointer.hover_pos()) else { return };
-        let over = |surface: &SurfaceId| self.view(*surface).place(point).is_some();
+        let over = |surface: &SurfaceId| self.view(*surface).position(point).is_some();
         let Some(surface) = self.surfaces_shown().into_iter().find(over) else { return };
         let Some(color) = self.color_at(surface, point) else { return };
-        let painter = ui.painter_at(self.view(surface).room());
+        let painter = ui.painter_at(self.view(surface).rect());
         painter.circle_stroke(point, RING + 6.0, Stroke::new(6.0, theme::SURROUND));
         painter.circle_stroke(point, RING, Stroke::new(8.0, color));
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
@@ -97,7 +97,7 @@ impl Studio {
     /// The colour on the screen of the cell at a point of the window.
     fn color_at(&self, surface: SurfaceId, point: Pos2) -> Option<Color32> {
         let view = self.view(surface);
-        let [x, y] = view.place(point)?;
+        let [x, y] = view.position(point)?;
         let beyond = x >= f64::from(self.tools.split) * view.cells().0 as f64;
         let second = view.picture(true).filter(|_| beyond);
         let (x, y) = (x as usize, y as usize);

@@ -55,8 +55,8 @@ impl Studio {
 
     /// Another painting is there.
     fn take_up(&mut self, state: Arc<PaintingState>) {
-        self.canvas.take_up(state.canvas_cells);
-        self.palette.take_up(state.palette_cells);
+        self.canvas.open(state.canvas_cells);
+        self.palette.open(state.palette_cells);
         self.head = None;
         self.hover = None;
         self.know(state);

@@ -8,7 +8,7 @@ use super::Studio;
 use super::{menus, status, toolbar};
 use crate::panels::Desk;
 use crate::theme;
-use crate::view::fill;
+use crate::view::fill_rect;
 
 impl Studio {
     /// The window from its edges inwards.
@@ -26,13 +26,13 @@ impl Studio {
             let state = menus::State { open: easel.is_some(), history, shown, mirror };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
-                fill(ui.painter(), ui.clip_rect(), theme::BAR);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
                 asked = menus::show(ui, state, &title);
             });
             Panel::bottom("line").frame(bar).exact_size(24.0).show_separator_line(false).show(
                 ui,
                 |ui| {
-                    fill(ui.painter(), ui.clip_rect(), theme::BAR);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
                     self.line(ui);
                 },
             );
@@ -43,7 +43,7 @@ impl Studio {
                 .exact_size(42.0)
                 .show_separator_line(false)
                 .show(ui, |ui| {
-                    fill(ui.painter(), ui.clip_rect(), theme::BAR);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
                     let mode = self.keys.mode(self.tools.mode);
                     let state = toolbar::State { mode, mirror, history };
                     asked = asked.or(toolbar::show(ui, state));
@@ -55,7 +55,7 @@ impl Studio {
                 .exact_size(theme::PANEL_WIDTH)
                 .show_separator_line(false)
                 .show(ui, |ui| {
-                    fill(ui.painter(), ui.clip_rect(), theme::PANEL);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
                     let Some(easel) = &easel else { return };
                     let asked = &mut self.asked;
                     let mut desk = Desk { easel, tools: &mut self.tools, asked };
@@ -78,7 +78,7 @@ impl Studio {
         let (width, height) = easel.canvas_cells;
         let mm = |cells: usize| cells as f64 * easel.cell_mm;
         let view = self.canvas.view;
-        let turn = (view.caught_turn().to_degrees().round() as i64).rem_euclid(360);
+        let turn = (view.snapped_turn().to_degrees().round() as i64).rem_euclid(360);
         let turn = if turn == 0 { String::new() } else { format!(", {turn} degrees") };
         let mirrored = if view.mirror { ", mirrored" } else { "" };
         let second =

@@ -8,7 +8,7 @@ use render::paint::strokes::SurfaceId;
 use super::Studio;
 use super::surfaces::Hover;
 use crate::panels::Mode;
-use crate::pen::{Device, PenEvent, Sight, View};
+use crate::pen::{Device, PenEvent, PenTargets, SurfaceTransform};
 use session::Command;
 
 /// The brush that the other end of a pen is, if the stand has it: it scrapes.
@@ -17,7 +17,7 @@ const ERASER: &str = "knife";
 impl Studio {
     /// Hears the pens of the system, before the window's library sees the input.
     pub fn raw_input(&mut self, context: &Context, input: &mut RawInput) {
-        self.pen.hear(context, input);
+        self.pen.read_systems(context, input);
     }
 
     /// Takes in what pen, mouse and fingers did since the last frame, over the
@@ -25,13 +25,13 @@ impl Studio {
     pub(super) fn lead(&mut self, ui: &Ui, mode: Mode) {
         let now = Instant::now();
         let Some(easel) = self.easel.clone() else { return };
-        let sights: Vec<Sight> = self
+        let transforms: Vec<SurfaceTransform> = self
             .surfaces_shown()
             .into_iter()
             .map(|surface| {
                 let view = self.view(surface);
                 let placement = view.placement();
-                Sight::new(surface, view.room(), |point| {
+                SurfaceTransform::new(surface, view.rect(), |point| {
                     let [x, y] = placement.cell(point);
                     (x * easel.cell_mm, y * easel.cell_mm)
                 })
@@ -45,17 +45,17 @@ impl Studio {
             let above = context.layer_id_at(point);
             other
                 || above.is_some_and(|layer| layer.order != Order::Background)
-                || self.canvas.knob().is_some_and(|knob| knob.contains(point))
+                || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
                 || self.shown.palette
-                    && self.palette.room().contains(point)
-                    && self.palette.place(point).is_none()
+                    && self.palette.rect().contains(point)
+                    && self.palette.position(point).is_none()
         };
-        let view = View { surfaces: &sights, covered: &covered };
+        let view = PenTargets { surfaces: &transforms, covered: &covered };
         // Copied: the context is asked for what covers a place meanwhile.
         let (heard, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
-        let events = self.pen.frame(&heard, modifiers, now, &view);
+        let events = self.pen.process_frame(&heard, modifiers, now, &view);
         events.into_iter().for_each(|event| self.led(event));
-        if let Some(soon) = self.pen.next_frame(Instant::now()) {
+        if let Some(soon) = self.pen.repaint_after(Instant::now()) {
             context.request_repaint_after(soon);
         }
     }

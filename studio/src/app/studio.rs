@@ -94,7 +94,7 @@ impl Studio {
         let open = open.map(|path| Request::File(FileRequest::Open(Some(path))));
         Self {
             tools,
-            canvas: SurfaceView::new("Canvas", Outline::Sheet, 22.0),
+            canvas: SurfaceView::new("Canvas", Outline::Rectangle, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
             shown: Shown { panels: true, palette: true, keys: false },
             pen,

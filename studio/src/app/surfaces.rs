@@ -14,7 +14,7 @@ use super::side::Tab;
 use crate::panels::tubes::{DraggedTube, squeeze};
 use crate::panels::{Desk, Mode, figures};
 use crate::theme;
-use crate::view::{Hand, Split, fill};
+use crate::view::{DragMode, Split, fill_rect};
 use session::Command;
 
 /// The most that the tubes take beside the palette, in points.
@@ -35,13 +35,13 @@ impl Studio {
     /// Shows both surfaces in what is left of the window.
     pub(super) fn surfaces(&mut self, ui: &mut Ui) {
         let mode = self.keys.mode(self.tools.mode);
-        let hand = match mode {
-            Mode::Pan => Hand::Pan,
-            Mode::Rotate => Hand::Rotate,
-            Mode::Zoom => Hand::Zoom,
-            Mode::Paint | Mode::Pick | Mode::Squeeze => Hand::Free,
+        let drag = match mode {
+            Mode::Pan => DragMode::Pan,
+            Mode::Rotate => DragMode::Rotate,
+            Mode::Zoom => DragMode::Zoom,
+            Mode::Paint | Mode::Pick | Mode::Squeeze => DragMode::None,
         };
-        fill(ui.painter(), ui.max_rect(), theme::SURROUND);
+        fill_rect(ui.painter(), ui.max_rect(), theme::SURROUND);
         if self.shown.palette && self.shown.panels {
             let height = (0.3 * ui.available_height()).clamp(150.0, 236.0);
             Panel::bottom("palette")
@@ -50,7 +50,7 @@ impl Studio {
                 .show_separator_line(false)
                 .default_size(height)
                 .size_range(110.0..=520.0)
-                .show(ui, |ui| self.table(ui, hand, mode));
+                .show(ui, |ui| self.table(ui, drag, mode));
         }
         if self.panels.reference.is_open() && self.shown.panels {
             Panel::left("reference")
@@ -59,7 +59,7 @@ impl Studio {
                 .default_size(0.3 * ui.available_width())
                 .size_range(160.0..=0.6 * ui.available_width())
                 .show(ui, |ui| {
-                    fill(ui.painter(), ui.clip_rect(), theme::PANEL);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
                     let before = self.tools.wanted;
                     self.with_desk(|panels, desk| panels.reference.show(ui, desk));
                     if self.tools.wanted != before {
@@ -74,7 +74,7 @@ impl Studio {
             Some([easel.lighting.illuminant.as_str(), second.illuminant.as_str()])
         });
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
-        let response = self.canvas.show(ui, room, hand, split);
+        let response = self.canvas.show(ui, room, drag, split);
         self.used(ui, SurfaceId::Canvas, &response, mode);
         self.lead(ui, mode);
         self.cursor(ui, mode);
@@ -86,21 +86,21 @@ impl Studio {
     }
 
     /// The palette with the tubes beside it.
-    fn table(&mut self, ui: &mut Ui, hand: Hand, mode: Mode) {
+    fn table(&mut self, ui: &mut Ui, drag: DragMode, mode: Mode) {
         let whole = ui.available_rect_before_wrap();
         // The table keeps its height, whatever lies on it.
         ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
         let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
-        let response = self.palette.show(ui, room, hand, None);
+        let response = self.palette.show(ui, room, drag, None);
         self.used(ui, SurfaceId::Palette, &response, mode);
         let right = whole.right().min(room.right() + SHELF);
         let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
         let beside = beside.shrink2(vec2(6.0, 8.0));
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
         // The middle at little cost; the rest is a line with round corners.
-        fill(ui.painter(), beside.shrink(1.0), theme::PANEL);
+        fill_rect(ui.painter(), beside.shrink(1.0), theme::PANEL);
         let edge = Stroke::new(3.0, theme::PANEL);
         ui.painter().rect_stroke(beside, 6, edge, StrokeKind::Inside);
         let shelf = Frame::new().inner_margin(Margin::same(8));
@@ -119,7 +119,9 @@ impl Studio {
     fn used(&mut self, ui: &Ui, surface: SurfaceId, response: &Response, mode: Mode) {
         let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
         let pointer = ui.input(|input| input.pointer.latest_pos());
-        let Some(place) = pointer.and_then(|point| self.view(surface).place(point)) else { return };
+        let Some(place) = pointer.and_then(|point| self.view(surface).position(point)) else {
+            return;
+        };
         let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
         if let Some(tube) = response.dnd_release_payload::<DraggedTube>() {
             self.with_desk(|_, desk| squeeze(desk, tube.slot, surface, x_mm, y_mm));

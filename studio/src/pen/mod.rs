@@ -1,10 +1,11 @@
-//! From pens, mice and fingers to samples.
+//! Input from styluses, mice and fingers.
 //!
-//! [`Pen`] hears every source, once a frame, and tells strokes: [`PenEvent`].
+//! [`Pen`] collects the reports of all devices once a frame and returns strokes and hover
+//! events as [`PenEvent`]s.
 
 mod report;
 
-mod sight;
+mod transform;
 
 mod settings;
 
@@ -25,19 +26,19 @@ mod wayland;
 
 mod tablet;
 
-mod stroke;
+mod pen_stroke;
 
 mod systems;
 
-mod hand;
+mod input;
 
 mod script;
 
 #[cfg(test)]
-mod trials;
+mod tests;
 
-pub use hand::{Pen, PenEvent};
-pub use report::{Device, Hold, Report, What};
+pub use input::{Pen, PenEvent};
+pub use report::{Device, PointerState, Report, ReportKind};
 pub use script::Script;
 pub use settings::{Grip, PenSettings};
-pub use sight::{Sight, View};
+pub use transform::{PenTargets, SurfaceTransform};

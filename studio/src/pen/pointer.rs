@@ -1,139 +1,149 @@
-//! Mice and fingers, from what egui tells.
+//! Reports of mice and fingers, made from egui's events.
 
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 
-use super::report::{Device, Hold, Report, What};
+use super::report::{Device, PointerState, Report, ReportKind};
 
-/// A finger paints once it has moved this far, in points, or been down this
-/// long: until then a second finger may make it a gesture.
+/// A finger paints after it has moved this far, in points. Until then a second finger can
+/// turn the touch into a gesture.
 const DECIDED_POINTS: f32 = 6.0;
+/// A finger that rests paints after this time.
 const DECIDED: Duration = Duration::from_millis(70);
 
-/// What happened between two frames is thought to have happened within this.
+/// Events between two frames are spread over at most this time, the duration of a slow
+/// frame.
 const FRAME: Duration = Duration::from_millis(34);
 
-/// Mice and fingers.
+/// Mouse and touch input of a window.
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
     last_frame: Option<Instant>,
-    /// Fingers that are down; the first may paint.
+    /// Fingers that are down, in order of contact. Only the first can paint.
     fingers: Vec<TouchId>,
     finger: Finger,
 }
 
-/// What the first finger does.
+/// State of the finger that can paint.
 #[derive(Debug, Default)]
 enum Finger {
-    /// It is not there.
+    /// No finger is down.
     #[default]
     Up,
-    /// Too soon to tell. What it did is kept: nothing of a stroke is lost.
+    /// It may still become a gesture. Its reports are kept, so that no part of a stroke is
+    /// lost.
     Undecided { from: Pos2, since: Option<Instant>, kept: Vec<Report> },
-    /// It paints.
+    /// The finger paints.
     Paints,
-    /// It zooms or pans with others, until all are lifted.
+    /// The fingers zoom or pan until all of them are lifted.
     Gesture,
 }
 
 impl Pointer {
-    /// What happened since the last frame, in order. egui tells no times: they
-    /// are spread evenly between the last frame and `now`.
+    /// Reports since the last frame, in order. egui's events carry no times, so they are
+    /// spread evenly between the last frame and `now`.
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
-        let mut told = Vec::new();
+        let mut reports = Vec::new();
         for event in events {
-            self.hear(event, now, &mut told);
+            self.read_event(event, now, &mut reports);
         }
         let from = self.last_frame.unwrap_or(now);
         let from = from.max(now.checked_sub(FRAME).unwrap_or(now)).min(now);
-        let count = u32::try_from(told.len()).unwrap_or(u32::MAX).max(1);
-        for (order, report) in (1..=count).zip(&mut told) {
+        let count = u32::try_from(reports.len()).unwrap_or(u32::MAX).max(1);
+        for (order, report) in (1..=count).zip(&mut reports) {
             report.arrived = from + (now - from).mul_f64(f64::from(order) / f64::from(count));
         }
         self.last_frame = Some(now);
-        self.decide(told, now)
+        self.decide(reports, now)
     }
 
-    /// Whether a finger waits to be told from a gesture.
+    /// Whether it is still open if the finger paints or makes a gesture.
     pub(super) fn undecided(&self) -> bool {
         matches!(self.finger, Finger::Undecided { .. })
     }
 
-    fn hear(&mut self, event: &Event, now: Instant, told: &mut Vec<Report>) {
-        let mut tell = |device, what| told.push(Report { device, arrived: now, what });
+    fn read_event(&mut self, event: &Event, now: Instant, reports: &mut Vec<Report>) {
+        let mut report = |device, kind| reports.push(Report { device, arrived: now, kind });
         match *event {
             Event::Touch { id, phase, pos, force, .. } => {
-                let hold = Hold { pressure: force.map(f64::from), ..Hold::at(pos) };
+                let state =
+                    PointerState { pressure: force.map(f64::from), ..PointerState::at(pos) };
                 let first = self.fingers.first() == Some(&id);
                 match phase {
                     TouchPhase::Start => {
                         self.fingers.push(id);
                         if self.fingers.len() == 1 {
-                            tell(Device::Touch, What::Pressed(hold));
+                            report(Device::Touch, ReportKind::Pressed(state));
                         } else {
-                            // More than one: `decide` takes it for a gesture.
-                            tell(Device::Touch, What::Gone);
+                            // More than one finger: `decide` makes it a gesture.
+                            report(Device::Touch, ReportKind::Gone);
                         }
                     }
-                    TouchPhase::Move if first => tell(Device::Touch, What::Moved(hold)),
+                    TouchPhase::Move if first => report(Device::Touch, ReportKind::Moved(state)),
                     TouchPhase::Move => {}
                     TouchPhase::End | TouchPhase::Cancel => {
                         self.fingers.retain(|&finger| finger != id);
                         if first || self.fingers.is_empty() {
-                            tell(Device::Touch, What::Released);
+                            report(Device::Touch, ReportKind::Released);
                         }
                     }
                 }
             }
-            // A finger moves the pointer too.
+            // egui moves its pointer with the finger too.
             _ if !self.fingers.is_empty() => {}
-            Event::PointerMoved(at) => tell(Device::Mouse, What::Moved(Hold::at(at))),
-            Event::PointerButton { pos, button: PointerButton::Primary, pressed, .. } => {
-                let what = if pressed { What::Pressed(Hold::at(pos)) } else { What::Released };
-                tell(Device::Mouse, what);
+            Event::PointerMoved(at) => {
+                report(Device::Mouse, ReportKind::Moved(PointerState::at(at)))
             }
-            Event::PointerGone => tell(Device::Mouse, What::Gone),
-            Event::WindowFocused(false) => tell(Device::Mouse, What::Released),
+            Event::PointerButton { pos, button: PointerButton::Primary, pressed, .. } => {
+                let kind = if pressed {
+                    ReportKind::Pressed(PointerState::at(pos))
+                } else {
+                    ReportKind::Released
+                };
+                report(Device::Mouse, kind);
+            }
+            Event::PointerGone => report(Device::Mouse, ReportKind::Gone),
+            Event::WindowFocused(false) => report(Device::Mouse, ReportKind::Released),
             _ => {}
         }
     }
 
-    /// Holds back what a finger did until it is known to paint.
-    fn decide(&mut self, told: Vec<Report>, now: Instant) -> Vec<Report> {
+    /// Withholds the reports of a finger until it is known to paint.
+    fn decide(&mut self, reports: Vec<Report>, now: Instant) -> Vec<Report> {
         let mut out = Vec::new();
-        for report in told {
+        for report in reports {
             if report.device != Device::Touch {
                 out.push(report);
                 continue;
             }
-            match (&mut self.finger, report.what) {
-                (Finger::Up, What::Pressed(hold)) => {
-                    let (from, since) = (hold.at, Some(report.arrived));
+            match (&mut self.finger, report.kind) {
+                (Finger::Up, ReportKind::Pressed(state)) => {
+                    let (from, since) = (state.at, Some(report.arrived));
                     self.finger = Finger::Undecided { from, since, kept: vec![report] };
                 }
-                (Finger::Undecided { from, kept, .. }, What::Moved(hold)) => {
+                (Finger::Undecided { from, kept, .. }, ReportKind::Moved(state)) => {
                     kept.push(report);
-                    if hold.at.distance(*from) > DECIDED_POINTS {
+                    if state.at.distance(*from) > DECIDED_POINTS {
                         out.append(kept);
                         self.finger = Finger::Paints;
                     }
                 }
-                (Finger::Undecided { kept, .. }, What::Released) => {
+                (Finger::Undecided { kept, .. }, ReportKind::Released) => {
                     kept.push(report);
                     out.append(kept);
                     self.finger = Finger::Up;
                 }
-                (Finger::Paints, What::Gone) => {
-                    out.push(Report { what: What::Released, ..report });
+                (Finger::Paints, ReportKind::Gone) => {
+                    out.push(Report { kind: ReportKind::Released, ..report });
                     self.finger = Finger::Gesture;
                 }
-                (_, What::Gone) => self.finger = Finger::Gesture,
-                (Finger::Paints, What::Released) => {
+                (_, ReportKind::Gone) => self.finger = Finger::Gesture,
+                (Finger::Paints, ReportKind::Released) => {
                     out.push(report);
                     self.finger = Finger::Up;
                 }
-                (Finger::Gesture, What::Released) if self.fingers.is_empty() => {
+                (Finger::Gesture, ReportKind::Released) if self.fingers.is_empty() => {
                     self.finger = Finger::Up;
                 }
                 (Finger::Paints, _) => out.push(report),
@@ -166,23 +176,23 @@ mod tests {
         Event::PointerButton { pos, button, pressed, modifiers }
     }
 
-    /// What was told, in letters.
+    /// The reports as letters: upper case for touch, lower case for the mouse.
     fn letters(reports: &[Report]) -> String {
-        let letter = |report: &Report| match (report.device, report.what) {
-            (Device::Touch, What::Pressed(_)) => 'P',
-            (Device::Touch, What::Moved(_)) => 'M',
-            (Device::Touch, What::Released) => 'R',
-            (_, What::Pressed(_)) => 'p',
-            (_, What::Moved(_)) => 'm',
-            (_, What::Released) => 'r',
-            (_, What::Gone) => 'g',
-            (_, What::Barrel { .. }) => 'b',
+        let letter = |report: &Report| match (report.device, report.kind) {
+            (Device::Touch, ReportKind::Pressed(_)) => 'P',
+            (Device::Touch, ReportKind::Moved(_)) => 'M',
+            (Device::Touch, ReportKind::Released) => 'R',
+            (_, ReportKind::Pressed(_)) => 'p',
+            (_, ReportKind::Moved(_)) => 'm',
+            (_, ReportKind::Released) => 'r',
+            (_, ReportKind::Gone) => 'g',
+            (_, ReportKind::Barrel { .. }) => 'b',
         };
         reports.iter().map(letter).collect()
     }
 
     #[test]
-    fn every_event_is_told_and_times_are_spread_evenly() {
+    fn every_event_is_reported_and_times_are_spread_evenly() {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
@@ -190,38 +200,38 @@ mod tests {
         let mut events: Vec<Event> =
             (0_u8..9).map(|x| Event::PointerMoved(pos2(f32::from(x), 0.0))).collect();
         events.insert(4, button(true));
-        let told = pointer.reports(&events, at(20));
-        assert_eq!(letters(&told), "mmmmpmmmmm");
-        let times: Vec<Instant> = told.iter().map(|report| report.arrived).collect();
+        let reports = pointer.reports(&events, at(20));
+        assert_eq!(letters(&reports), "mmmmpmmmmm");
+        let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
         assert_eq!(times, (1..=10).map(|step| at(2 * step)).collect::<Vec<_>>());
-        // A long pause is no part of the movement after it.
-        let told = pointer.reports(&[button(false), Event::PointerGone], at(5_000));
-        assert_eq!(letters(&told), "rg");
-        assert_eq!([told[0].arrived, told[1].arrived], [at(4_983), at(5_000)]);
+        // A long pause is not counted as part of the next movement.
+        let reports = pointer.reports(&[button(false), Event::PointerGone], at(5_000));
+        assert_eq!(letters(&reports), "rg");
+        assert_eq!([reports[0].arrived, reports[1].arrived], [at(4_983), at(5_000)]);
     }
 
     #[test]
-    fn a_finger_paints_once_it_is_sure_to_be_alone_and_nothing_is_lost() {
+    fn a_finger_paints_once_no_second_one_can_follow_and_no_report_is_lost() {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut tell = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
-        // With the pointer that egui moves for it.
+        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        // Together with the pointer events that egui adds for a finger.
         let down = [touch(1, TouchPhase::Start, 0.0), button(true)];
-        assert_eq!(tell(0, &down), "");
+        assert_eq!(frame(0, &down), "");
         let moved = [touch(1, TouchPhase::Move, 4.0), Event::PointerMoved(pos2(4.0, 0.0))];
-        assert_eq!(tell(16, &moved), "");
-        assert_eq!(tell(32, &[touch(1, TouchPhase::Move, 9.0)]), "PMM");
-        assert_eq!(tell(48, &[touch(1, TouchPhase::Move, 30.0)]), "M");
-        assert_eq!(tell(64, &[touch(1, TouchPhase::End, 30.0), button(false)]), "Rr");
-        // A finger that waits.
-        assert_eq!(tell(100, &down), "");
-        assert_eq!(tell(160, &[]), "");
-        assert_eq!(tell(180, &[]), "P");
-        assert_eq!(tell(190, &[touch(1, TouchPhase::End, 0.0)]), "R");
+        assert_eq!(frame(16, &moved), "");
+        assert_eq!(frame(32, &[touch(1, TouchPhase::Move, 9.0)]), "PMM");
+        assert_eq!(frame(48, &[touch(1, TouchPhase::Move, 30.0)]), "M");
+        assert_eq!(frame(64, &[touch(1, TouchPhase::End, 30.0), button(false)]), "Rr");
+        // A finger that rests in place.
+        assert_eq!(frame(100, &down), "");
+        assert_eq!(frame(160, &[]), "");
+        assert_eq!(frame(180, &[]), "P");
+        assert_eq!(frame(190, &[touch(1, TouchPhase::End, 0.0)]), "R");
         // A tap.
-        assert_eq!(tell(300, &down), "");
-        assert_eq!(tell(310, &[touch(1, TouchPhase::End, 0.0)]), "PR");
+        assert_eq!(frame(300, &down), "");
+        assert_eq!(frame(310, &[touch(1, TouchPhase::End, 0.0)]), "PR");
     }
 
     #[test]
@@ -229,16 +239,16 @@ mod tests {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut tell = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
         let first = touch(1, TouchPhase::Start, 0.0);
         let pinch = [first.clone(), touch(2, TouchPhase::Start, 50.0)];
-        assert_eq!(tell(0, &pinch), "");
-        assert_eq!(tell(200, &[touch(1, TouchPhase::Move, 90.0)]), "");
-        assert_eq!(tell(210, &[touch(1, TouchPhase::End, 90.0)]), "");
-        assert_eq!(tell(220, &[touch(2, TouchPhase::Move, 90.0)]), "");
-        assert_eq!(tell(230, &[touch(2, TouchPhase::End, 90.0)]), "");
-        assert_eq!(tell(300, &[first, touch(1, TouchPhase::Move, 20.0)]), "PM");
-        assert_eq!(tell(310, &[touch(2, TouchPhase::Start, 50.0)]), "R");
-        assert_eq!(tell(320, &[touch(1, TouchPhase::Move, 60.0)]), "");
+        assert_eq!(frame(0, &pinch), "");
+        assert_eq!(frame(200, &[touch(1, TouchPhase::Move, 90.0)]), "");
+        assert_eq!(frame(210, &[touch(1, TouchPhase::End, 90.0)]), "");
+        assert_eq!(frame(220, &[touch(2, TouchPhase::Move, 90.0)]), "");
+        assert_eq!(frame(230, &[touch(2, TouchPhase::End, 90.0)]), "");
+        assert_eq!(frame(300, &[first, touch(1, TouchPhase::Move, 20.0)]), "PM");
+        assert_eq!(frame(310, &[touch(2, TouchPhase::Start, 50.0)]), "R");
+        assert_eq!(frame(320, &[touch(1, TouchPhase::Move, 60.0)]), "");
     }
 }

@@ -1,52 +1,52 @@
-//! What a source tells, before anything is made of it.
+//! Reports of input devices, before they become strokes.
 
 use std::time::Instant;
 
 use eframe::egui::Pos2;
 
-/// What the painter holds.
+/// The device that the painter uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Device {
-    /// A mouse, or anything that acts as one.
+    /// A mouse, or a device that acts as one.
     Mouse,
-    /// A finger.
+    /// A finger on a touch screen.
     Touch,
-    /// The tip of a pen.
+    /// The tip of a stylus.
     Pen,
-    /// The other end of a pen.
+    /// The eraser end of a stylus.
     Eraser,
 }
 
 impl Device {
-    /// Whether it is an end of a pen.
+    /// Whether this is a stylus, held either way round.
     #[must_use]
     pub const fn is_pen(self) -> bool {
         matches!(self, Self::Pen | Self::Eraser)
     }
 }
 
-/// How it is held. What a device cannot tell is `None`.
+/// Position and attitude of a device. A quantity that the device does not measure is
+/// `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hold {
-    /// Where, in points of the window.
+pub struct PointerState {
+    /// Position in points of the window.
     pub at: Pos2,
-    /// 0..1.
+    /// Pressure, 0 to 1.
     pub pressure: Option<f64>,
-    /// Lean to the right of the window and to its lower edge, in degrees from
-    /// upright.
+    /// Tilt towards the right and the lower edge of the window, in degrees from upright.
     pub tilt_deg: Option<(f64, f64)>,
-    /// Turn about its own axis, clockwise from above, in degrees.
+    /// Rotation about the device's own axis, clockwise from above, in degrees.
     pub twist_deg: Option<f64>,
 }
 
-impl Hold {
-    /// Something that tells no more than its place.
+impl PointerState {
+    /// State of a device that measures only its position.
     #[must_use]
     pub const fn at(at: Pos2) -> Self {
         Self { at, pressure: None, tilt_deg: None, twist_deg: None }
     }
 
-    /// Whether every number is one.
+    /// Whether every value is finite.
     pub(super) fn is_finite(&self) -> bool {
         let (tilt_x, tilt_y) = self.tilt_deg.unwrap_or_default();
         let rest = [self.pressure.unwrap_or_default(), self.twist_deg.unwrap_or_default()];
@@ -57,33 +57,33 @@ impl Hold {
     }
 }
 
-/// What happened.
+/// The event that a report describes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum What {
-    /// It is here now.
-    Moved(Hold),
-    /// It touched down, or its button was pressed.
-    Pressed(Hold),
-    /// It was lifted.
+pub enum ReportKind {
+    /// The device moved to this state.
+    Moved(PointerState),
+    /// The device touched the surface, or its primary button was pressed.
+    Pressed(PointerState),
+    /// The device was lifted, or its primary button was released.
     Released,
-    /// It went out of reach.
+    /// The device left the range in which the system can detect it.
     Gone,
-    /// A button on the barrel of a pen; the one nearer to the tip is 0.
+    /// A button on the barrel of a stylus.
     Barrel {
-        /// Which.
+        /// Button number; 0 is the button nearest to the tip.
         button: usize,
-        /// Whether it is down now.
+        /// Whether the button was pressed (or released).
         pressed: bool,
     },
 }
 
-/// What a source tells.
+/// One event of an input device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
-    /// Of what.
+    /// The device that caused the event.
     pub device: Device,
-    /// When it happened, as well as that can be known.
+    /// Time of the event, as exactly as the system reports it.
     pub arrived: Instant,
-    /// What happened.
-    pub what: What,
+    /// The event and the state of the device.
+    pub kind: ReportKind,
 }

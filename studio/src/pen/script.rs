@@ -1,55 +1,60 @@
-//! A pen without a hand, for trying out: reports at given times.
+//! A synthetic pen for tests and demonstrations: reports at given times.
 
 use std::time::{Duration, Instant};
 
-use super::report::{Device, Hold, Report, What};
+use super::report::{Device, PointerState, Report, ReportKind};
 
-/// Reports and when they come.
+/// Reports of one device, each with its time since the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Script {
     device: Device,
-    steps: Vec<(Duration, What)>,
+    steps: Vec<(Duration, ReportKind)>,
     next: usize,
 }
 
 impl Script {
-    /// Nothing yet.
+    /// An empty script for one device.
     #[must_use]
     pub const fn new(device: Device) -> Self {
         Self { device, steps: Vec::new(), next: 0 }
     }
 
-    /// Adds something, so long after what came before.
+    /// Adds an event `after` the previous one.
     #[must_use]
-    pub fn then(mut self, after: Duration, what: What) -> Self {
-        self.steps.push((self.length() + after, what));
+    pub fn then(mut self, after: Duration, kind: ReportKind) -> Self {
+        self.steps.push((self.length() + after, kind));
         self
     }
 
-    /// Adds a stroke: set down at the first hold, led through all of them, one
-    /// `every` so often, and lifted.
+    /// Adds a stroke: pressed at the first state, moved through the others at intervals of
+    /// `every`, and released.
     #[must_use]
-    pub fn stroke(mut self, holds: impl IntoIterator<Item = Hold>, every: Duration) -> Self {
-        for (order, hold) in holds.into_iter().enumerate() {
-            let what = if order == 0 { What::Pressed(hold) } else { What::Moved(hold) };
-            self = self.then(every, what);
+    pub fn stroke(
+        mut self,
+        holds: impl IntoIterator<Item = PointerState>,
+        every: Duration,
+    ) -> Self {
+        for (order, state) in holds.into_iter().enumerate() {
+            let kind =
+                if order == 0 { ReportKind::Pressed(state) } else { ReportKind::Moved(state) };
+            self = self.then(every, kind);
         }
-        self.then(every, What::Released)
+        self.then(every, ReportKind::Released)
     }
 
-    /// How long it takes.
+    /// Duration from the start to the last event.
     #[must_use]
     pub fn length(&self) -> Duration {
         self.steps.last().map_or(Duration::ZERO, |&(at, _)| at)
     }
 
-    /// What came since the last call, if it began at `start` and it is `now`.
+    /// Reports that became due since the last call, for a script that began at `start`.
     pub fn due(&mut self, start: Instant, now: Instant) -> Vec<Report> {
         let mut due = Vec::new();
-        while let Some(&(at, what)) = self.steps.get(self.next)
+        while let Some(&(at, kind)) = self.steps.get(self.next)
             && start + at <= now
         {
-            due.push(Report { device: self.device, arrived: start + at, what });
+            due.push(Report { device: self.device, arrived: start + at, kind });
             self.next += 1;
         }
         due

@@ -1,34 +1,35 @@
-//! What a painter may want of the pen; kept with the preferences.
+//! Preferences for pen input; stored in the preferences file.
 
 use serde::{Deserialize, Serialize};
 
-/// How a brush is held that a mouse or a finger leads, seen in the window.
+/// Attitude of a brush that is led by a mouse or a finger, as seen in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Grip {
-    /// How far the handle leans, in degrees from upright, 0..80.
+    /// Angle between the handle and upright, in degrees, 0 to 80.
     pub lean_deg: f64,
-    /// Where it leans to: degrees clockwise from the right of the window.
+    /// Direction in which the handle leans, in degrees clockwise from the right of the
+    /// window.
     pub towards_deg: f64,
-    /// Turn of the brush about its handle, clockwise, in degrees; at 0 the broad
-    /// side of a flat runs from left to right.
+    /// Rotation of the brush about its handle, clockwise, in degrees. At 0 the broad side
+    /// of a flat brush runs from left to right.
     pub twist_deg: f64,
 }
 
 impl Default for Grip {
-    /// A right hand below and to the right of what it paints.
+    /// The attitude of a right hand that comes from the lower right.
     fn default() -> Self {
         Self { lean_deg: 35.0, towards_deg: 45.0, twist_deg: 0.0 }
     }
 }
 
 impl Grip {
-    /// Turns the brush in the fingers, clockwise for positive degrees.
+    /// Rotates the brush about its handle; positive degrees are clockwise.
     pub fn turn(&mut self, degrees: f64) {
         self.twist_deg = (self.twist_deg + degrees).rem_euclid(360.0);
     }
 
-    /// Its lean to the right and to the lower edge, in degrees.
+    /// Tilt towards the right and the lower edge of the window, in degrees.
     pub(super) fn tilt_deg(&self) -> (f64, f64) {
         let slope = self.lean_deg.clamp(0.0, 80.0).to_radians().tan();
         let (sin, cos) = self.towards_deg.to_radians().sin_cos();
@@ -36,18 +37,19 @@ impl Grip {
     }
 }
 
-/// What a painter may want of the pen.
+/// Preferences for pen input.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PenSettings {
-    /// The pressure told by a pen is raised to this, 0.2..5: above 1 is a softer
-    /// hand, below 1 a heavier.
+    /// Exponent applied to the pressure of a stylus, 0.2 to 5. Above 1 the brush presses
+    /// less than the hand, below 1 more.
     pub gamma: f64,
-    /// How a brush is held that nothing tells the hold of.
+    /// Attitude of a brush whose device measures none.
     pub grip: Grip,
-    /// Whether such a brush turns its broad side across the way that it is led.
+    /// Whether a brush without a measured attitude turns its broad side across the
+    /// direction of the stroke.
     pub follow: bool,
-    /// Whether the tilt and twist of a pen lead the brush; else the grip does.
+    /// Whether the tilt and twist of a stylus move the brush; otherwise `grip` is used.
     pub pen_tilt: bool,
 }
 
@@ -58,23 +60,23 @@ impl Default for PenSettings {
 }
 
 impl PenSettings {
-    /// Brings numbers into their range.
+    /// Replaces values that are out of range by the defaults.
     pub fn bound(&mut self) {
-        let (usual, grip) = (Self::default(), &mut self.grip);
-        // What is not a number is in no range.
-        let within = |value: &mut f64, least: f64, most: f64, usual: f64| {
+        let (default, grip) = (Self::default(), &mut self.grip);
+        // NaN is in no range, so it is replaced too.
+        let bound = |value: &mut f64, least: f64, most: f64, default: f64| {
             if !(least..=most).contains(value) {
-                *value = usual;
+                *value = default;
             }
         };
-        within(&mut self.gamma, 0.2, 5.0, usual.gamma);
-        within(&mut grip.lean_deg, 0.0, 80.0, usual.grip.lean_deg);
-        within(&mut grip.towards_deg, 0.0, 360.0, usual.grip.towards_deg);
-        within(&mut grip.twist_deg, 0.0, 360.0, usual.grip.twist_deg);
+        bound(&mut self.gamma, 0.2, 5.0, default.gamma);
+        bound(&mut grip.lean_deg, 0.0, 80.0, default.grip.lean_deg);
+        bound(&mut grip.towards_deg, 0.0, 360.0, default.grip.towards_deg);
+        bound(&mut grip.twist_deg, 0.0, 360.0, default.grip.twist_deg);
     }
 
-    /// The pressure that the brush gets, 0..1.
-    pub(super) fn pressed(&self, pressure: f64) -> f64 {
+    /// Pressure of the brush for a measured `pressure`, 0 to 1.
+    pub(super) fn brush_pressure(&self, pressure: f64) -> f64 {
         let gamma = if self.gamma.is_finite() { self.gamma.clamp(0.2, 5.0) } else { 1.0 };
         pressure.clamp(0.0, 1.0).powf(gamma)
     }
@@ -98,13 +100,21 @@ mod tests {
     }
 
     #[test]
-    fn gamma_keeps_the_ends_and_bounds() {
+    fn gamma_keeps_the_endpoints_and_the_range() {
         for gamma in [0.0, 0.5, 1.0, 2.2, 99.0, f64::NAN] {
             let settings = PenSettings { gamma, ..PenSettings::default() };
-            assert_eq!((settings.pressed(0.0), settings.pressed(1.0)), (0.0, 1.0), "{gamma}");
-            assert_eq!((settings.pressed(-3.0), settings.pressed(7.0)), (0.0, 1.0), "{gamma}");
+            assert_eq!(
+                (settings.brush_pressure(0.0), settings.brush_pressure(1.0)),
+                (0.0, 1.0),
+                "{gamma}"
+            );
+            assert_eq!(
+                (settings.brush_pressure(-3.0), settings.brush_pressure(7.0)),
+                (0.0, 1.0),
+                "{gamma}"
+            );
         }
         let soft = PenSettings { gamma: 2.0, ..PenSettings::default() };
-        assert_eq!(soft.pressed(0.5), 0.25);
+        assert_eq!(soft.brush_pressure(0.5), 0.25);
     }
 }

@@ -1,38 +1,38 @@
-//! The pens of the window system, whichever it is.
+//! Styluses of the window system: X11, Wayland or Windows.
 
 use std::time::{Duration, Instant};
 
 use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};
 
-use super::report::{Report, What};
+use super::report::{Report, ReportKind};
 use super::tablet::Tablet;
 #[cfg(target_os = "linux")]
 use super::x11::X11Pens;
 
-/// The newest version of Wayland's tablet protocol that octotablet understands;
-/// asking for a newer one would end the connection, and the program with it.
+/// Newest version of Wayland's tablet protocol that octotablet supports. Binding a newer
+/// one would end the connection and with it the program.
 #[cfg(target_os = "linux")]
 const TABLET_VERSION: u32 = 1;
 
-/// How often a tablet is asked that nobody paints with.
+/// Interval at which an idle tablet is polled.
 const IDLE: Duration = Duration::from_millis(100);
 
-/// The pens of the window system.
+/// Styluses of the window system.
 #[derive(Debug, Default)]
 pub(super) struct Systems {
     #[cfg(target_os = "linux")]
     x11: Option<X11Pens>,
     tablet: Option<Tablet>,
-    /// Where the pointer was last led for a pen.
+    /// Last position of the pointer that is emulated for a stylus.
     pointer: Pos2,
-    /// Why there is none.
+    /// The reason why styluses act as mice, for the painter.
     pub(super) notice: Option<String>,
 }
 
 impl Systems {
-    /// The pens over a window.
-    pub(super) fn over(context: &CreationContext<'_>) -> Self {
+    /// Connects to the styluses over a window.
+    pub(super) fn for_window(context: &CreationContext<'_>) -> Self {
         let mut systems = Self::default();
         let Some(window) = context.winit_window() else { return systems };
         #[cfg(target_os = "linux")]
@@ -49,7 +49,7 @@ impl Systems {
                     Ok(pens) => systems.x11 = Some(pens),
                     Err(error) => {
                         systems.notice = Some(format!(
-                            "pens act as mice: the X server has no XInput 2.2: {error}"
+                            "pens act as mice: the X server does not support XInput 2.2: {error}"
                         ));
                     }
                 }
@@ -58,9 +58,9 @@ impl Systems {
             match super::wayland::tablet_version() {
                 Some(version) if version > TABLET_VERSION => {
                     systems.notice = Some(format!(
-                        "pens act as mice: the compositor tells them in version {version} of the \
-                         tablet protocol, version {TABLET_VERSION} is understood; under X \
-                         (WAYLAND_DISPLAY= impasto-studio) they are pens"
+                        "pens act as mice: the compositor uses version {version} of the tablet \
+                        protocol, but only version {TABLET_VERSION} is supported; they work as \
+                        pens under X (start it with WAYLAND_DISPLAY= impasto-studio)"
                     ));
                     return systems;
                 }
@@ -77,8 +77,9 @@ impl Systems {
         systems
     }
 
-    /// What was told since the last call. Where the system leads no pointer for
-    /// its pens, `input` gets one, so that they press buttons too.
+    /// Reports since the last call. Where the window system moves no pointer with its
+    /// styluses, pointer events are added to `input`, so that a stylus can press buttons of
+    /// the window.
     pub(super) fn reports(&mut self, egui: &Context, input: &mut RawInput) -> Vec<Report> {
         let mut told = Vec::new();
         #[cfg(target_os = "linux")]
@@ -86,46 +87,51 @@ impl Systems {
             told.extend(x11.reports(egui.pixels_per_point()));
         }
         if let Some(tablet) = &mut self.tablet {
-            let heard = tablet.reports(egui.zoom_factor(), Instant::now());
-            if tablet.without_pointer() {
+            let reports = tablet.reports(egui.zoom_factor(), Instant::now());
+            if tablet.needs_pointer_emulation() {
                 let modifiers = egui.input(|input| input.modifiers);
-                lead_pointer(&heard, modifiers, &mut self.pointer, input);
+                emulate_pointer(&reports, modifiers, &mut self.pointer, input);
             }
-            told.extend(heard);
+            told.extend(reports);
         }
         told
     }
 
-    /// When the window should ask again, though nothing wakes it; `near` while a
-    /// pen is over the tablet.
-    pub(super) fn asks_in(&self, near: bool) -> Option<Duration> {
-        let plugged = self.tablet.as_ref().is_some_and(Tablet::plugged);
-        plugged.then_some(if near { Duration::ZERO } else { IDLE })
+    /// Time after which the window must poll again although no event wakes it; `near` while
+    /// a stylus is close to the tablet.
+    pub(super) fn poll_after(&self, near: bool) -> Option<Duration> {
+        let connected = self.tablet.as_ref().is_some_and(Tablet::connected);
+        connected.then_some(if near { Duration::ZERO } else { IDLE })
     }
 }
 
-/// Tells egui what a pointer would do.
-fn lead_pointer(heard: &[Report], modifiers: Modifiers, pointer: &mut Pos2, input: &mut RawInput) {
+/// Adds the pointer events that a mouse at the place of the stylus would send.
+fn emulate_pointer(
+    reports: &[Report],
+    modifiers: Modifiers,
+    pointer: &mut Pos2,
+    input: &mut RawInput,
+) {
     let button = |pos, pressed| Event::PointerButton {
         pos,
         button: PointerButton::Primary,
         pressed,
         modifiers,
     };
-    for report in heard {
-        match report.what {
-            What::Moved(hold) => {
-                *pointer = hold.at;
-                input.events.push(Event::PointerMoved(hold.at));
+    for report in reports {
+        match report.kind {
+            ReportKind::Moved(state) => {
+                *pointer = state.at;
+                input.events.push(Event::PointerMoved(state.at));
             }
-            What::Pressed(hold) => {
-                *pointer = hold.at;
-                input.events.push(Event::PointerMoved(hold.at));
-                input.events.push(button(hold.at, true));
+            ReportKind::Pressed(state) => {
+                *pointer = state.at;
+                input.events.push(Event::PointerMoved(state.at));
+                input.events.push(button(state.at, true));
             }
-            What::Released => input.events.push(button(*pointer, false)),
-            What::Gone => input.events.push(Event::PointerGone),
-            What::Barrel { .. } => {}
+            ReportKind::Released => input.events.push(button(*pointer, false)),
+            ReportKind::Gone => input.events.push(Event::PointerGone),
+            ReportKind::Barrel { .. } => {}
         }
     }
 }
@@ -134,21 +140,26 @@ fn lead_pointer(heard: &[Report], modifiers: Modifiers, pointer: &mut Pos2, inpu
 mod tests {
     use eframe::egui::pos2;
 
-    use super::super::report::{Device, Hold};
+    use super::super::report::{Device, PointerState};
     use super::*;
 
     #[test]
-    fn a_pen_leads_the_pointer_where_the_system_does_not() {
-        let hold = Hold::at(pos2(3.0, 4.0));
-        let whats = [What::Moved(hold), What::Pressed(hold), What::Released, What::Gone];
+    fn a_stylus_moves_the_pointer_where_the_system_does_not() {
+        let state = PointerState::at(pos2(3.0, 4.0));
+        let kinds = [
+            ReportKind::Moved(state),
+            ReportKind::Pressed(state),
+            ReportKind::Released,
+            ReportKind::Gone,
+        ];
         let arrived = Instant::now();
-        let heard = whats.map(|what| Report { device: Device::Pen, arrived, what });
+        let reports = kinds.map(|kind| Report { device: Device::Pen, arrived, kind });
         let mut input = RawInput::default();
-        lead_pointer(&heard, Modifiers::NONE, &mut Pos2::default(), &mut input);
-        let moved = Event::PointerMoved(hold.at);
+        emulate_pointer(&reports, Modifiers::NONE, &mut Pos2::default(), &mut input);
+        let moved = Event::PointerMoved(state.at);
         assert_eq!(input.events[..2], [moved.clone(), moved]);
         let pressed = |event: &Event| match event {
-            Event::PointerButton { pos, pressed, .. } if *pos == hold.at => Some(*pressed),
+            Event::PointerButton { pos, pressed, .. } if *pos == state.at => Some(*pressed),
             _ => None,
         };
         let pressed: Vec<Option<bool>> = input.events[2..].iter().map(pressed).collect();

@@ -1,4 +1,4 @@
-//! What a Wayland compositor speaks of tablets.
+//! Tablet support of a Wayland compositor.
 
 use wayland_client::globals::{GlobalListContents, registry_queue_init};
 use wayland_client::protocol::wl_registry::{Event, WlRegistry};
@@ -18,8 +18,8 @@ impl Dispatch<WlRegistry, GlobalListContents> for Globals {
     }
 }
 
-/// The version of `zwp_tablet_manager_v2` that the compositor offers, asked on a
-/// connection of its own; `None` if it offers none.
+/// Version of `zwp_tablet_manager_v2` that the compositor offers, queried on a separate
+/// connection; `None` if it offers none.
 pub(super) fn tablet_version() -> Option<u32> {
     let connection = Connection::connect_to_env().ok()?;
     let (globals, _) = registry_queue_init::<Globals>(&connection).ok()?;

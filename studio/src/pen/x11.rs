@@ -1,7 +1,7 @@
-//! Pens under X: XInput 2 on a connection of our own.
+//! Styluses under X11, through XInput 2 on a separate connection.
 //!
-//! Every device with an axis labelled `Abs Pressure` is a pen. Its events are
-//! asked for on the program's window, beside those of the pointer that it moves.
+//! Every device with an axis labelled `Abs Pressure` is a stylus. Its events are selected
+//! on the program's window, in addition to those of the pointer that it moves.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
@@ -15,24 +15,21 @@ use x11rb::protocol::xproto::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
 use super::clock::StampClock;
-use super::report::{Device, Report, What};
+use super::report::{Device, Report, ReportKind};
 use super::valuator::{Axis, Valuator, Valuators};
 
 /// `XIAllDevices` of the protocol.
 const ALL_DEVICES: u16 = 0;
 
-/// The pens of an X server.
+/// Styluses of an X server.
 #[derive(Debug)]
 pub(super) struct X11Pens {
-    told: Receiver<Report>,
+    reports: Receiver<Report>,
 }
 
 impl X11Pens {
-    /// Listens to the pens over `window`, on a thread of its own that calls
-    /// `wake` after each report. Their places are pixels of the window.
-    ///
-    /// # Errors
-    /// If there is no X server, or none with XInput 2.
+    /// Reads events of the styluses over `window` on a new thread, which calls `wake` after
+    /// each report. Positions are in pixels of the window.
     pub(super) fn start(
         window: u32,
         wake: impl Fn() + Send + 'static,
@@ -40,7 +37,7 @@ impl X11Pens {
         Self::listen(None, window, wake)
     }
 
-    /// As [`Self::start`], on a server by name.
+    /// Like [`Self::start`], on the server with this display name.
     fn listen(
         server: Option<&str>,
         window: u32,
@@ -49,96 +46,97 @@ impl X11Pens {
         let (connection, screen) = x11rb::connect(server)?;
         let root = connection.setup().roots[screen].root;
         connection.xinput_xi_query_version(2, 2)?.reply()?;
-        select(&connection, root, ALL_DEVICES, XIEventMask::HIERARCHY)?;
+        select_events(&connection, root, ALL_DEVICES, XIEventMask::HIERARCHY)?;
         let pens = pens(&connection, window)?;
-        let (tell, told) = channel();
-        let ends = Ends { pens, clock: StampClock::default() };
-        let mut listener = Listener { connection, window, ends, tell };
+        let (sender, reports) = channel();
+        let ends = PenEnds { pens, clock: StampClock::default() };
+        let mut listener = Listener { connection, window, ends, sender };
         std::thread::spawn(move || {
-            // It ends when the server goes, or nobody listens any more.
+            // The thread ends when the server closes the connection or the receiver is
+            // gone.
             while let Ok(event) = listener.connection.wait_for_event() {
-                match listener.hear(&event) {
+                match listener.handle(&event) {
                     Ok(true) => wake(),
                     Ok(false) => {}
-                    Err(Lost) => break,
+                    Err(Disconnected) => break,
                 }
             }
         });
-        Ok(Self { told })
+        Ok(Self { reports })
     }
 
-    /// What was told since the last call; `pixels` are those of a point.
+    /// Reports since the last call. `pixels` is the number of pixels per point.
     pub(super) fn reports(&mut self, pixels: f32) -> impl Iterator<Item = Report> + '_ {
-        self.told.try_iter().map(move |mut report| {
-            if let What::Moved(hold) | What::Pressed(hold) = &mut report.what {
-                hold.at = (hold.at.to_vec2() / pixels).to_pos2();
+        self.reports.try_iter().map(move |mut report| {
+            if let ReportKind::Moved(state) | ReportKind::Pressed(state) = &mut report.kind {
+                state.at = (state.at.to_vec2() / pixels).to_pos2();
             }
             report
         })
     }
 }
 
-/// One end of a pen.
-struct End {
+/// One end of a stylus, which X lists as a device of its own.
+struct PenEnd {
     id: u16,
     device: Device,
     valuators: Valuators,
 }
 
-/// Nobody listens, or nobody tells.
-struct Lost;
+/// The server closed the connection, or the receiver is gone.
+struct Disconnected;
 
-impl From<ReplyError> for Lost {
+impl From<ReplyError> for Disconnected {
     fn from(_: ReplyError) -> Self {
         Self
     }
 }
 
-/// All ends of all pens.
-struct Ends {
-    pens: Vec<End>,
+/// All ends of all styluses.
+struct PenEnds {
+    pens: Vec<PenEnd>,
     clock: StampClock,
 }
 
-impl Ends {
-    /// What an event tells of a pen that arrived at `arrived`.
+impl PenEnds {
+    /// The report of an event that was received at `arrived`, if it is of a stylus.
     fn report(&mut self, event: &Event, arrived: Instant) -> Option<Report> {
-        let (Event::XinputMotion(told)
-        | Event::XinputButtonPress(told)
-        | Event::XinputButtonRelease(told)) = event
+        let (Event::XinputMotion(input)
+        | Event::XinputButtonPress(input)
+        | Event::XinputButtonRelease(input)) = event
         else {
             return None;
         };
-        let end = self.pens.iter_mut().find(|end| end.id == told.deviceid)?;
-        end.valuators.take(&told.valuator_mask, told.axisvalues.iter().map(number));
-        let hold = end.valuators.hold(place(told.event_x, told.event_y));
-        let what = match (event, told.detail) {
-            (Event::XinputMotion(_), _) => What::Moved(hold),
-            (Event::XinputButtonPress(_), 1) => What::Pressed(hold),
-            (_, 1) => What::Released,
+        let end = self.pens.iter_mut().find(|end| end.id == input.deviceid)?;
+        end.valuators.update(&input.valuator_mask, input.axisvalues.iter().map(number));
+        let state = end.valuators.state(position(input.event_x, input.event_y));
+        let kind = match (event, input.detail) {
+            (Event::XinputMotion(_), _) => ReportKind::Moved(state),
+            (Event::XinputButtonPress(_), 1) => ReportKind::Pressed(state),
+            (_, 1) => ReportKind::Released,
             (Event::XinputButtonPress(_), button) => barrel(button, true)?,
             (_, button) => barrel(button, false)?,
         };
-        let arrived = self.clock.instant(told.time, arrived);
-        Some(Report { device: end.device, arrived, what })
+        let arrived = self.clock.instant(input.time, arrived);
+        Some(Report { device: end.device, arrived, kind })
     }
 }
 
 struct Listener {
     connection: RustConnection,
     window: u32,
-    ends: Ends,
-    tell: Sender<Report>,
+    ends: PenEnds,
+    sender: Sender<Report>,
 }
 
 impl Listener {
-    /// Whether it was of a pen.
-    fn hear(&mut self, event: &Event) -> Result<bool, Lost> {
+    /// Handles an event and returns whether it caused a report.
+    fn handle(&mut self, event: &Event) -> Result<bool, Disconnected> {
         let plugged = match event {
             Event::XinputHierarchy(_) => true,
-            // Another range, or another tool on a device of many.
-            Event::XinputDeviceChanged(told) => {
-                self.ends.pens.iter().any(|end| end.id == told.deviceid)
+            // The range changed, or another tool is used on a device with several.
+            Event::XinputDeviceChanged(change) => {
+                self.ends.pens.iter().any(|end| end.id == change.deviceid)
             }
             _ => false,
         };
@@ -146,19 +144,19 @@ impl Listener {
             self.ends.pens = pens(&self.connection, self.window)?;
         }
         let Some(report) = self.ends.report(event, Instant::now()) else { return Ok(false) };
-        self.tell.send(report).map_err(|_| Lost)?;
+        self.sender.send(report).map_err(|_| Disconnected)?;
         Ok(true)
     }
 }
 
-/// Buttons of the barrel are 2 and 3; those after them are wheels.
-fn barrel(button: u32, pressed: bool) -> Option<What> {
+/// Buttons 2 and 3 are on the barrel; those after them are scroll wheels.
+fn barrel(button: u32, pressed: bool) -> Option<ReportKind> {
     let button = usize::try_from(button).ok()?.checked_sub(2)?;
-    (button < 2).then_some(What::Barrel { button, pressed })
+    (button < 2).then_some(ReportKind::Barrel { button, pressed })
 }
 
-/// The pens there are, each asked to tell what it does over `window`.
-fn pens(connection: &RustConnection, window: u32) -> Result<Vec<End>, ReplyError> {
+/// Lists the styluses and selects their events over `window`.
+fn pens(connection: &RustConnection, window: u32) -> Result<Vec<PenEnd>, ReplyError> {
     let devices = connection.xinput_xi_query_device(ALL_DEVICES)?.reply()?;
     let mut pens = Vec::new();
     for device in devices.infos {
@@ -167,18 +165,18 @@ fn pens(connection: &RustConnection, window: u32) -> Result<Vec<End>, ReplyError
         }
         let mut valuators = Valuators::default();
         for class in &device.classes {
-            let DeviceClassData::Valuator(told) = &class.data else { continue };
-            if told.label == x11rb::NONE {
+            let DeviceClassData::Valuator(class) = &class.data else { continue };
+            if class.label == x11rb::NONE {
                 continue;
             }
-            let label = connection.get_atom_name(told.label)?.reply()?.name;
+            let label = connection.get_atom_name(class.label)?.reply()?.name;
             let Some(axis) = Axis::labelled(&String::from_utf8_lossy(&label)) else { continue };
-            let range = (number(&told.min), number(&told.max));
+            let range = (number(&class.min), number(&class.max));
             valuators.0.push(Valuator {
-                number: told.number,
+                number: class.number,
                 axis,
                 range,
-                value: number(&told.value),
+                value: number(&class.value),
             });
         }
         if !valuators.is_pen() {
@@ -191,15 +189,15 @@ fn pens(connection: &RustConnection, window: u32) -> Result<Vec<End>, ReplyError
             | XIEventMask::BUTTON_PRESS
             | XIEventMask::BUTTON_RELEASE
             | XIEventMask::DEVICE_CHANGED;
-        // A device may have gone since.
-        if select(connection, window, device.deviceid, mask).is_ok() {
-            pens.push(End { id: device.deviceid, device: kind, valuators });
+        // The device may have been unplugged in the meantime.
+        if select_events(connection, window, device.deviceid, mask).is_ok() {
+            pens.push(PenEnd { id: device.deviceid, device: kind, valuators });
         }
     }
     Ok(pens)
 }
 
-fn select(
+fn select_events(
     connection: &RustConnection,
     window: u32,
     deviceid: u16,
@@ -209,13 +207,13 @@ fn select(
     connection.xinput_xi_select_events(window, &[mask])?.check()
 }
 
-/// A number of 32 bits before the point and 32 after it.
+/// Converts a 32.32 fixed-point number.
 fn number(fixed: &xinput::Fp3232) -> f64 {
     f64::from(fixed.integral) + f64::from(fixed.frac) / 4_294_967_296.0
 }
 
-/// A place of 16 bits before the point and 16 after it, in pixels.
-fn place(x: i32, y: i32) -> Pos2 {
+/// Converts a position in 16.16 fixed-point pixels.
+fn position(x: i32, y: i32) -> Pos2 {
     pos2(x as f32 / 65536.0, y as f32 / 65536.0)
 }
 
@@ -234,7 +232,7 @@ mod tests {
 
     use super::*;
 
-    fn told(time: u32, detail: u32, pressure: Option<i32>) -> ButtonPressEvent {
+    fn button_event(time: u32, detail: u32, pressure: Option<i32>) -> ButtonPressEvent {
         ButtonPressEvent {
             deviceid: 9,
             time,
@@ -251,40 +249,43 @@ mod tests {
     }
 
     #[test]
-    fn events_of_a_pen_are_told_with_its_axes_and_the_servers_times() {
+    fn stylus_events_are_reported_with_their_axes_and_server_times() {
         let axis = |number, axis, range| Valuator { number, axis, range, value: 0.0 };
         let pressure = axis(2, Axis::Pressure, (0.0, 2047.0));
         let valuators = Valuators(vec![pressure]);
-        let pens = vec![End { id: 9, device: Device::Eraser, valuators }];
-        let mut ends = Ends { pens, clock: StampClock::default() };
+        let pens = vec![PenEnd { id: 9, device: Device::Eraser, valuators }];
+        let mut ends = PenEnds { pens, clock: StampClock::default() };
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let events = [
-            (Event::XinputMotion(told(500, 0, None)), 0),
-            (Event::XinputButtonPress(told(508, 1, Some(1023))), 20),
-            (Event::XinputButtonPress(told(516, 2, None)), 20),
-            (Event::XinputButtonRelease(told(517, 3, None)), 20),
-            (Event::XinputButtonRelease(told(518, 1, Some(0))), 20),
-            // A wheel, and somebody else.
-            (Event::XinputButtonPress(told(519, 4, None)), 20),
-            (Event::XinputMotion(ButtonPressEvent { deviceid: 4, ..told(520, 0, None) }), 20),
+            (Event::XinputMotion(button_event(500, 0, None)), 0),
+            (Event::XinputButtonPress(button_event(508, 1, Some(1023))), 20),
+            (Event::XinputButtonPress(button_event(516, 2, None)), 20),
+            (Event::XinputButtonRelease(button_event(517, 3, None)), 20),
+            (Event::XinputButtonRelease(button_event(518, 1, Some(0))), 20),
+            // A scroll wheel, and a device that is no stylus.
+            (Event::XinputButtonPress(button_event(519, 4, None)), 20),
+            (
+                Event::XinputMotion(ButtonPressEvent { deviceid: 4, ..button_event(520, 0, None) }),
+                20,
+            ),
         ];
         let reports: Vec<Report> =
             events.iter().filter_map(|(event, ms)| ends.report(event, at(*ms))).collect();
         assert!(reports.iter().all(|report| report.device == Device::Eraser));
         let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
         assert_eq!(times, [at(0), at(8), at(16), at(17), at(18)]);
-        let whats: Vec<What> = reports.iter().map(|report| report.what).collect();
-        let [What::Moved(near), What::Pressed(down), rest @ ..] = &whats[..] else {
-            panic!("{whats:?}")
+        let kinds: Vec<ReportKind> = reports.iter().map(|report| report.kind).collect();
+        let [ReportKind::Moved(near), ReportKind::Pressed(down), rest @ ..] = &kinds[..] else {
+            panic!("{kinds:?}")
         };
         assert_eq!((near.at, near.pressure), (pos2(100.5, 1.75), Some(0.0)));
         assert_eq!((down.pressure, down.tilt_deg), (Some(0.5), None));
-        let barrel = |button, pressed| What::Barrel { button, pressed };
-        assert_eq!(rest, [barrel(0, true), barrel(1, false), What::Released]);
+        let barrel = |button, pressed| ReportKind::Barrel { button, pressed };
+        assert_eq!(rest, [barrel(0, true), barrel(1, false), ReportKind::Released]);
     }
 
-    /// An X server without a screen, ended with the test.
+    /// An X server without a screen, ended after the test.
     struct Server(Child);
 
     impl Drop for Server {
@@ -294,7 +295,7 @@ mod tests {
         }
     }
 
-    /// The server, and what it is called.
+    /// The server and its display name.
     fn server() -> Option<(Server, String)> {
         let mut command = Command::new("Xvfb");
         command.args(["-displayfd", "1", "-screen", "0", "320x200x24", "-nolisten", "tcp"]);
@@ -306,9 +307,9 @@ mod tests {
     }
 
     #[test]
-    fn devices_of_a_server_that_come_and_go_are_no_pens() {
+    fn adding_a_device_without_pressure_adds_no_stylus() {
         let Some((_server, name)) = server() else {
-            eprintln!("no Xvfb on this machine: nothing tried");
+            eprintln!("skipped: Xvfb is not installed");
             return;
         };
         let (connection, screen) = x11rb::connect(Some(&name)).unwrap();
@@ -320,15 +321,18 @@ mod tests {
             .unwrap()
             .check()
             .unwrap();
-        let told = X11Pens::listen(Some(&name), window, || {}).unwrap();
+        let pens_of_server = X11Pens::listen(Some(&name), window, || {}).unwrap();
         let name = b"another".to_vec();
         let master = HierarchyChangeDataAddMaster { send_core: true, enable: true, name };
         let change = HierarchyChange { len: 4, data: HierarchyChangeData::AddMaster(master) };
         connection.xinput_xi_change_hierarchy(&[change]).unwrap().check().unwrap();
         connection.sync().unwrap();
-        // The listener asked for the devices anew, and neither failed nor told.
+        // The thread listed the devices again, without an error and without a report.
         std::thread::sleep(Duration::from_millis(100));
-        assert!(matches!(told.told.try_recv(), Err(std::sync::mpsc::TryRecvError::Empty)));
+        assert!(matches!(
+            pens_of_server.reports.try_recv(),
+            Err(std::sync::mpsc::TryRecvError::Empty)
+        ));
         assert!(pens(&connection, window).unwrap().is_empty());
     }
 }

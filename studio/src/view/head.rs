@@ -1,8 +1,8 @@
-//! The head of a brush as a shaded cursor, seen from above.
+//! The brush head, drawn as a shaded cursor seen from above.
 //!
-//! Facets that face the viewer, the lowest first; each as bright as Lambert has
-//! it under the painting's light; half transparent, so that the paint below stays
-//! in sight. Ferrule and handle go on where the head begins.
+//! Draws the facets that face the viewer, lowest first, with Lambert shading under the
+//! painting's light. They are half transparent, so that the paint below stays visible.
+//! Ferrule and handle continue where the head begins.
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2};
 
@@ -11,27 +11,27 @@ use render::paint::document::Lighting;
 use super::transform::Placement;
 use session::HeadOnCanvas;
 
-/// Share of the light that comes from all sides.
+/// Fraction of the light that is ambient (chosen by eye).
 const AMBIENT: f32 = 0.35;
 
-/// Lengths of ferrule and handle, in half widths of the head.
+/// Length of the ferrule, in half widths of the head (chosen by eye).
 const FERRULE: f32 = 2.6;
+/// Length of the handle, in half widths of the head (chosen by eye).
 const HANDLE: f32 = 9.0;
 
-/// How a head is shown.
+/// Light and paint with which a head is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadLook {
-    /// Unit vector towards the light: x right, y down the surface, z to the
-    /// viewer.
+    /// Unit vector towards the light: x to the right, y down the surface, z to the viewer.
     pub light: [f32; 3],
-    /// sRGB of the paint on it, if it has any.
+    /// sRGB of the paint on the head, if it has any.
     pub paint: Option<[u8; 3]>,
 }
 
 impl HeadLook {
-    /// As it looks in the light of the painting.
+    /// The appearance under the light of the painting.
     #[must_use]
-    pub fn under(lighting: &Lighting, paint: Option<[u8; 3]>) -> Self {
+    pub fn lit_by(lighting: &Lighting, paint: Option<[u8; 3]>) -> Self {
         let (azimuth, elevation) =
             (lighting.azimuth_deg.to_radians(), lighting.elevation_deg.to_radians());
         let level = elevation.cos();
@@ -40,26 +40,26 @@ impl HeadLook {
     }
 }
 
-/// A ring of places: x, y and height, in cells.
+/// A ring of vertices around the head: x, y and height, in cells.
 type Ring = Vec<[f32; 3]>;
 
-/// Draws a head over its surface. One whose numbers do not fit together is left
-/// out.
+/// Draws a head over its surface. A head with inconsistent vertex counts or values that are
+/// not finite is not drawn.
 pub(super) fn draw(painter: &Painter, placement: &Placement, head: &HeadOnCanvas, look: HeadLook) {
     let Some(rings) = rings(head) else { return };
     let screen = |place: [f32; 3]| placement.point([f64::from(place[0]), f64::from(place[1])]);
     shadow(painter, &rings, look.light, screen);
     let mut facets = Vec::new();
-    let hair = tone(look.paint, 0.0);
+    let hair = bristle_color(look.paint, 0.0);
     for (at, pair) in rings.windows(2).enumerate() {
         let along = (at + 1) as f32 / (rings.len() - 1) as f32;
-        let color = mixed(hair, tone(look.paint, 1.0), along);
-        band(&mut facets, &pair[0], &pair[1], look.light, color, 0.62);
+        let color = lerp(hair, bristle_color(look.paint, 1.0), along);
+        add_band(&mut facets, &pair[0], &pair[1], look.light, color, 0.62);
     }
     let [collar, wood, end] = handle(&rings);
-    band(&mut facets, &collar, &rings[0], look.light, [196.0; 3], 0.5);
-    band(&mut facets, &wood, &collar, look.light, [92.0; 3], 0.42);
-    band(&mut facets, &end, &wood, look.light, [64.0; 3], 0.36);
+    add_band(&mut facets, &collar, &rings[0], look.light, [196.0; 3], 0.5);
+    add_band(&mut facets, &wood, &collar, look.light, [92.0; 3], 0.42);
+    add_band(&mut facets, &end, &wood, look.light, [64.0; 3], 0.36);
     facets.sort_by(|a, b| a.height.total_cmp(&b.height));
     let mut mesh = Mesh::default();
     for facet in &facets {
@@ -73,7 +73,7 @@ pub(super) fn draw(painter: &Painter, placement: &Placement, head: &HeadOnCanvas
     painter.add(Shape::mesh(mesh));
 }
 
-/// The rings from the ferrule to the tip.
+/// Splits the vertices into rings from ferrule to tip; `None` if the head is inconsistent.
 fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
     let whole = head.around >= 3 && head.along >= 2;
     let finite = head.vertices.iter().flatten().all(|number| number.is_finite());
@@ -82,15 +82,15 @@ fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
         .then(|| head.vertices.chunks(head.around).map(<[_]>::to_vec).collect())
 }
 
-/// Four places, the outer side to the viewer.
+/// A quadrilateral of the head, in cells, with its mean height.
 struct Facet {
     corners: [[f32; 3]; 4],
     height: f32,
     color: Color32,
 }
 
-/// The facets between two rings that face the viewer.
-fn band(
+/// Adds the facets between two rings that face the viewer.
+fn add_band(
     facets: &mut Vec<Facet>,
     upper: &Ring,
     lower: &Ring,
@@ -103,9 +103,9 @@ fn band(
         let next = (at + 1) % upper.len();
         let corners = [upper[at], upper[next], lower[next], lower[at]];
         let centre = mean(&corners);
-        let mut normal = cross(minus(corners[2], corners[0]), minus(corners[3], corners[1]));
-        // Outwards, whichever way the rings run.
-        if dot(normal, minus(centre, mean(&[middle, mean(upper)]))) < 0.0 {
+        let mut normal = cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1]));
+        // Points the normal outwards, whatever the direction of the rings.
+        if dot(normal, subtract(centre, mean(&[middle, mean(upper)]))) < 0.0 {
             normal = normal.map(|part| -part);
         }
         let length = dot(normal, normal).sqrt();
@@ -121,20 +121,20 @@ fn band(
     }
 }
 
-/// Rings where the ferrule ends, where the handle is thickest, and its end.
+/// Rings at the end of the ferrule, at the thickest part of the handle, and at its end.
 fn handle(rings: &[Ring]) -> [Ring; 3] {
     let (root, next) = (mean(&rings[0]), mean(&rings[1]));
-    let along = minus(root, next);
+    let along = subtract(root, next);
     let length = dot(along, along).sqrt().max(1e-6);
     let axis = along.map(|part| part / length);
-    let reach = |place: &[f32; 3]| {
-        let away = minus(*place, root);
+    let radius = |place: &[f32; 3]| {
+        let away = subtract(*place, root);
         dot(away, away).sqrt()
     };
-    let half = rings[0].iter().map(reach).sum::<f32>() / rings[0].len() as f32;
+    let half = rings[0].iter().map(radius).sum::<f32>() / rings[0].len() as f32;
     let ring = |from: f32, wide: f32| -> Ring {
         let place = |place: &[f32; 3]| {
-            let away = minus(*place, root);
+            let away = subtract(*place, root);
             [0, 1, 2].map(|part: usize| root[part] + wide * away[part] + from * half * axis[part])
         };
         rings[0].iter().map(place).collect()
@@ -142,7 +142,7 @@ fn handle(rings: &[Ring]) -> [Ring; 3] {
     [ring(FERRULE, 0.8), ring(0.45 * HANDLE, 1.0), ring(HANDLE, 0.55)]
 }
 
-/// A soft shadow on the surface, away from the light.
+/// Draws a soft shadow on the surface, on the side away from the light.
 fn shadow(painter: &Painter, rings: &[Ring], light: [f32; 3], screen: impl Fn([f32; 3]) -> Pos2) {
     let slope = [0, 1].map(|part: usize| light[part] / light[2].max(0.3));
     let cast = |place: &[f32; 3]| {
@@ -164,7 +164,7 @@ fn shadow(painter: &Painter, rings: &[Ring], light: [f32; 3], screen: impl Fn([f
     }
 }
 
-/// The convex hull, by Andrew's monotone chain (1979).
+/// Convex hull by Andrew's monotone chain (1979).
 fn hull(mut points: Vec<Pos2>) -> Vec<Pos2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let turn = |a: Pos2, b: Pos2, c: Pos2| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -186,13 +186,13 @@ fn hull(mut points: Vec<Pos2>) -> Vec<Pos2> {
     lower
 }
 
-/// Bristles at the ferrule (0), and what they carry at the tip (1).
-fn tone(paint: Option<[u8; 3]>, along: f32) -> [f32; 3] {
+/// Colour of the bristles: bare at the ferrule (`along` = 0), painted at the tip (1).
+fn bristle_color(paint: Option<[u8; 3]>, along: f32) -> [f32; 3] {
     let bristle = [172.0; 3];
-    paint.map_or(bristle, |paint| mixed(bristle, paint.map(f32::from), along))
+    paint.map_or(bristle, |paint| lerp(bristle, paint.map(f32::from), along))
 }
 
-fn mixed(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
+fn lerp(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
     [0, 1, 2].map(|part: usize| from[part] + (to[part] - from[part]) * share)
 }
 
@@ -201,7 +201,7 @@ fn mean(places: &[[f32; 3]]) -> [f32; 3] {
     [0, 1, 2].map(|part: usize| places.iter().map(|place| place[part]).sum::<f32>() * share)
 }
 
-fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

@@ -1,14 +1,14 @@
-//! The surfaces on the screen.
+//! Canvas and palette on the screen: zoom and rotation, uploading of pictures, cursors.
 
 mod transform;
 
-mod levels;
+mod mipmap;
 
 mod pipeline;
 
-mod sheet;
+mod quad;
 
-mod texture;
+mod picture;
 
 mod outline;
 
@@ -18,8 +18,8 @@ mod surface;
 
 pub use head::HeadLook;
 pub use outline::Outline;
-pub use sheet::fill;
-pub(crate) use sheet::set_format;
-pub use surface::{Hand, Split, SurfaceView};
-pub use texture::{Half, Picture};
-pub use transform::{Placement, View};
+pub use picture::{DrawnPart, Picture};
+pub use quad::fill_rect;
+pub(crate) use quad::set_format;
+pub use surface::{DragMode, Split, SurfaceView};
+pub use transform::{Placement, ViewState};

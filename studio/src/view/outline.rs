@@ -1,47 +1,47 @@
-//! What a surface is cut to: a sheet, or a palette with a hole for the thumb.
+//! The outline of a surface: a rectangle, or a palette with a thumb hole.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, Vec2};
 
-use super::sheet::{Quad, draw};
+use super::quad::{Quad, draw_quads};
 use super::transform::Placement;
 use crate::theme;
 
-/// Points along a quarter of a circle.
+/// Segments per quarter circle.
 const QUARTER: usize = 20;
 
-/// The radius of a palette's corners, as a share of its shorter side.
+/// Radius of a palette's corners, as a fraction of its shorter side.
 const CORNER: f64 = 0.2;
 
-/// The radius of the hole, as a share of the shorter side, and how far its middle
-/// is from the right and lower edges.
+/// Radius of the thumb hole, and the distance of its centre from the right and lower edges,
+/// as fractions of the shorter side.
 const HOLE: (f64, f64) = (0.085, 0.24);
 
-/// How far a surface's shadow reaches, in points.
+/// Width of a surface's shadow, in points.
 const SHADOW: f32 = 6.0;
 
-/// Its colour at the surface's edge.
+/// Colour of the shadow at the surface's edge.
 const SHADE: Color32 = Color32::from_gray(88);
 
-/// What a surface is cut to.
+/// The outline of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
-    /// All of it.
-    Sheet,
-    /// Round corners, and a hole for the thumb at the lower right.
+    /// A rectangle that contains all cells.
+    Rectangle,
+    /// A palette with round corners and a thumb hole at the lower right.
     Palette,
 }
 
 impl Outline {
-    /// Whether a place, in cells, is on the surface.
+    /// Whether a position, in cells, is on the surface.
     #[must_use]
     pub fn contains(self, [x, y]: [f64; 2], cells: (usize, usize)) -> bool {
         let (width, height) = (cells.0 as f64, cells.1 as f64);
         if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
             return false;
         }
-        if self == Self::Sheet {
+        if self == Self::Rectangle {
             return true;
         }
         let radius = corner(cells);
@@ -51,11 +51,16 @@ impl Outline {
         !in_corner && (x - middle[0]).hypot(y - middle[1]) > hole
     }
 
-    /// The shadow below the surface, fading into the surround.
-    pub(super) fn under(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
+    /// Draws the shadow below the surface, fading into the surround.
+    pub(super) fn draw_shadow(
+        self,
+        painter: &Painter,
+        placement: &Placement,
+        cells: (usize, usize),
+    ) {
         let edge: Vec<Pos2> =
             self.edge(cells).into_iter().map(|place| placement.point(place)).collect();
-        let outer = grown(&edge, SHADOW);
+        let outer = offset_outwards(&edge, SHADOW);
         let strip = (0..edge.len()).map(|at| {
             let next = (at + 1) % edge.len();
             Quad::colored([
@@ -65,15 +70,16 @@ impl Outline {
                 (outer[at], theme::SURROUND),
             ])
         });
-        draw(painter, strip.collect());
+        draw_quads(painter, strip.collect());
     }
 
-    /// What is cut away, in the colour of the surround, and the edge.
-    pub(super) fn over(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
+    /// Covers the parts outside the outline with the colour of the surround and draws the
+    /// edge.
+    pub(super) fn draw_edge(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
         let edge = self.edge(cells);
         let point = |place: [f64; 2]| placement.point(place);
-        if self == Self::Sheet {
-            // Smooth, where the picture's own edge would be steps.
+        if self == Self::Rectangle {
+            // An antialiased line hides the stepped edge of the picture.
             let line = edge.into_iter().map(point).collect();
             painter.add(Shape::closed_line(line, Stroke::new(1.0, Color32::from_gray(76))));
             return;
@@ -104,11 +110,11 @@ impl Outline {
         }
     }
 
-    /// The edge in cells, clockwise from the upper left: of a palette, four
-    /// quarters of as many points.
+    /// The edge in cells, clockwise from the upper left. For a palette, four arcs of
+    /// `QUARTER + 1` points each.
     fn edge(self, cells: (usize, usize)) -> Vec<[f64; 2]> {
         let (width, height) = (cells.0 as f64, cells.1 as f64);
-        if self == Self::Sheet {
+        if self == Self::Rectangle {
             return vec![[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
         }
         let radius = corner(cells);
@@ -126,8 +132,8 @@ impl Outline {
     }
 }
 
-/// A closed convex line moved outwards by so many points, point by point.
-fn grown(edge: &[Pos2], by: f32) -> Vec<Pos2> {
+/// Offsets a closed convex polygon outwards by `by` points, vertex by vertex.
+fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
     let count = edge.len();
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / count as f32;
     let outwards = |from: Pos2, to: Pos2| {
@@ -138,7 +144,7 @@ fn grown(edge: &[Pos2], by: f32) -> Vec<Pos2> {
         let (before, here, next) =
             (edge[(at + count - 1) % count], edge[at], edge[(at + 1) % count]);
         let (one, other) = (outwards(before, here), outwards(here, next));
-        // Both lines keep their distance: at a corner the point moves further.
+        // Both adjacent sides move by `by`, so a corner moves further than that.
         here + (one + other) * (by / (1.0 + one.dot(other)))
     };
     (0..count).map(moved).collect()
@@ -148,7 +154,7 @@ fn corner(cells: (usize, usize)) -> f64 {
     CORNER * cells.0.min(cells.1) as f64
 }
 
-/// Middle and radius in cells.
+/// Centre and radius of the thumb hole, in cells.
 fn hole(cells: (usize, usize)) -> ([f64; 2], f64) {
     let side = cells.0.min(cells.1) as f64;
     ([cells.0 as f64 - HOLE.1 * side, cells.1 as f64 - HOLE.1 * side], HOLE.0 * side)
@@ -161,19 +167,19 @@ mod tests {
     const CELLS: (usize, usize) = (600, 400);
 
     #[test]
-    fn a_sheet_ends_at_its_edges() {
+    fn a_rectangle_ends_at_its_edges() {
         for (place, inside) in [
             ([0.0, 0.0], true),
             ([599.9, 399.9], true),
             ([600.0, 10.0], false),
             ([-0.1, 5.0], false),
         ] {
-            assert_eq!(Outline::Sheet.contains(place, CELLS), inside, "{place:?}");
+            assert_eq!(Outline::Rectangle.contains(place, CELLS), inside, "{place:?}");
         }
     }
 
     #[test]
-    fn no_brush_touches_the_corners_and_the_hole_of_a_palette() {
+    fn corners_and_hole_are_not_on_the_palette() {
         let on = |place| Outline::Palette.contains(place, CELLS);
         assert!(on([300.0, 200.0]) && on([0.5, 200.0]) && on([300.0, 399.5]), "the middle");
         assert!(!on([2.0, 2.0]) && !on([598.0, 2.0]) && !on([598.0, 398.0]), "the corners");
@@ -183,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_drawn_as_the_edge_is_the_edge() {
+    fn the_drawn_edge_bounds_the_surface() {
         let middle = [300.0, 200.0];
         for place in Outline::Palette.edge(CELLS) {
             let towards = |by: f64| {

@@ -1,4 +1,4 @@
-//! What the graphics device needs to draw sheets.
+//! Render pipelines for textured and coloured quads.
 
 use eframe::egui_wgpu::wgpu;
 use wgpu::util::DeviceExt;
@@ -7,26 +7,27 @@ use wgpu::{
     ShaderStages, Texture, TextureFormat, TextureSampleType,
 };
 
-/// Bytes of a vertex: position and place as four numbers, and the colour.
+/// Size of a vertex in bytes: position and texture coordinates as four `f32`, and the
+/// colour.
 pub(super) const VERTEX_BYTES: usize = 20;
 
-/// The pipelines, for one kind of pixels.
+/// Render pipelines for one format of the target.
 pub(super) struct Pipelines {
-    /// Of which pixels.
+    /// Format of the target.
     pub(super) format: TextureFormat,
-    /// Draws a sheet.
-    pub(super) picture: RenderPipeline,
-    /// Draws the vertices' colours.
-    pub(super) even: RenderPipeline,
+    /// Draws a texture.
+    pub(super) textured: RenderPipeline,
+    /// Draws the interpolated colours of the vertices.
+    pub(super) flat_color: RenderPipeline,
     layout: BindGroupLayout,
-    /// For squares, and for cells that blend.
+    /// Nearest-neighbour and linear filtering.
     samplers: [Sampler; 2],
 }
 
 impl Pipelines {
-    /// Pipelines that draw on such pixels.
+    /// Builds the pipelines for targets of this format.
     pub(super) fn new(device: &Device, format: TextureFormat) -> Self {
-        let module = device.create_shader_module(wgpu::include_wgsl!("sheet.wgsl"));
+        let module = device.create_shader_module(wgpu::include_wgsl!("quad.wgsl"));
         let visibility = ShaderStages::FRAGMENT;
         let entry =
             |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
@@ -37,12 +38,13 @@ impl Pipelines {
         };
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("sheet"),
+            label: Some("textured quads"),
             entries: &[entry(0, texture), entry(1, sampler)],
         });
         let attributes = wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
-        // egui's pixels are encoded; those of some windows are encoded when written.
-        let constants = [("decodes", f64::from(u8::from(format.is_srgb())))];
+        // egui works in encoded values. A target with an sRGB format encodes what is
+        // written, so the shader must decode it first.
+        let constants = [("output_is_linear", f64::from(u8::from(format.is_srgb())))];
         let pipeline = |fragment: &str, groups: &[Option<&BindGroupLayout>]| {
             let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(fragment),
@@ -58,7 +60,7 @@ impl Pipelines {
                 layout: Some(&layout),
                 vertex: wgpu::VertexState {
                     module: &module,
-                    entry_point: Some("corner"),
+                    entry_point: Some("vertex_main"),
                     compilation_options: options.clone(),
                     buffers: &[Some(wgpu::VertexBufferLayout {
                         array_stride: VERTEX_BYTES as u64,
@@ -81,7 +83,7 @@ impl Pipelines {
         };
         let samplers = [FilterMode::Nearest, FilterMode::Linear].map(|filter| {
             device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("sheet"),
+                label: Some("textured quads"),
                 address_mode_u: AddressMode::ClampToEdge,
                 address_mode_v: AddressMode::ClampToEdge,
                 mag_filter: filter,
@@ -89,16 +91,16 @@ impl Pipelines {
                 ..wgpu::SamplerDescriptor::default()
             })
         });
-        let picture = pipeline("picture", &[Some(&layout)]);
-        let even = pipeline("even", &[]);
-        Self { format, picture, even, layout, samplers }
+        let textured = pipeline("textured", &[Some(&layout)]);
+        let flat_color = pipeline("flat_color", &[]);
+        Self { format, textured, flat_color, layout, samplers }
     }
 
-    /// A texture of so many cells, and it bound with each of the samplers.
+    /// Creates a texture of `size` cells, with a bind group for each sampler.
     pub(super) fn texture(&self, device: &Device, size: [usize; 2]) -> (Texture, [BindGroup; 2]) {
         let [width, height] = size.map(|cells| cells as u32);
         let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("sheet"),
+            label: Some("textured quads"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
@@ -110,7 +112,7 @@ impl Pipelines {
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let bound = self.samplers.each_ref().map(|sampler| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("sheet"),
+                label: Some("textured quads"),
                 layout: &self.layout,
                 entries: &[
                     wgpu::BindGroupEntry {
@@ -128,10 +130,10 @@ impl Pipelines {
     }
 }
 
-/// A buffer of vertices.
+/// Creates a vertex buffer.
 pub(super) fn vertex_buffer(device: &Device, bytes: &[u8]) -> Buffer {
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some("sheets' corners"),
+        label: Some("vertices of textured quads"),
         contents: bytes,
         usage: wgpu::BufferUsages::VERTEX,
     })

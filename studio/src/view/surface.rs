@@ -1,4 +1,4 @@
-//! One surface in the window: its view, its pictures, and the hand that moves it.
+//! A surface in the window: zoom and pan, its pictures, and the line between two lights.
 
 use eframe::egui::{
     Align2, Color32, CursorIcon, FontId, Id, MouseWheelSource, PointerButton, Pos2, Rect, Response,
@@ -7,79 +7,81 @@ use eframe::egui::{
 
 use super::head::{self, HeadLook};
 use super::outline::Outline;
-use super::texture::{Half, Picture};
-use super::transform::{Placement, View};
+use super::picture::{DrawnPart, Picture};
+use super::transform::{Placement, ViewState};
 use crate::theme;
 use session::{HeadOnCanvas, TilePixels};
 
-/// Zoom of one notch of a wheel is `exp(50 points / this)`.
+/// Points of scrolling that zoom by a factor of e; one notch of a wheel is 50 points
+/// (chosen by eye).
 const WHEEL_POINTS: f32 = 220.0;
 
-/// What the pointer does with the view.
+/// Effect of a drag with the primary button on the view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Hand {
-    /// Nothing: it paints.
+pub enum DragMode {
+    /// No effect: the pointer paints.
     #[default]
-    Free,
-    /// It moves it.
+    None,
+    /// Pans.
     Pan,
-    /// It turns it about its middle.
+    /// Rotates about the middle of the view.
     Rotate,
-    /// It zooms, upwards in.
+    /// Zooms, inwards when dragged upwards.
     Zoom,
 }
 
-/// The line between the pictures of two lights.
+/// The line between the pictures under two lights.
 #[derive(Debug)]
 pub struct Split<'a> {
-    /// Where it is, as a share of the width.
+    /// Position of the line, as a fraction of the surface's width.
     pub at: &'a mut f32,
-    /// What the lights left and right of it are called.
+    /// Names of the lights left and right of the line.
     pub lights: [&'a str; 2],
 }
 
 /// A surface in the window.
 #[derive(Debug)]
 pub struct SurfaceView {
-    /// What of it is seen.
-    pub view: View,
+    /// Zoom, pan and rotation.
+    pub view: ViewState,
     name: &'static str,
     outline: Outline,
     margin: f32,
     first: Picture,
     second: Option<Picture>,
-    room: Rect,
+    rect: Rect,
     density: f32,
-    grip: Hand,
-    knob: Option<Rect>,
+    drag: DragMode,
+    split_handle: Option<Rect>,
 }
 
 impl SurfaceView {
-    /// A surface without paint, shown whole with `margin` points around it.
+    /// A surface without a picture, fitted into its rectangle with `margin` points around
+    /// it.
     #[must_use]
     pub fn new(name: &'static str, outline: Outline, margin: f32) -> Self {
         Self {
-            view: View::default(),
+            view: ViewState::default(),
             name,
             outline,
             margin,
             first: Picture::new(name, (1, 1)),
             second: None,
-            room: Rect::NOTHING,
+            rect: Rect::NOTHING,
             density: 1.0,
-            grip: Hand::Free,
-            knob: None,
+            drag: DragMode::None,
+            split_handle: None,
         }
     }
 
-    /// Takes up another surface of so many cells, shown whole.
-    pub fn take_up(&mut self, cells: (usize, usize)) {
+    /// Starts another surface of `cells` columns and rows, shown whole.
+    pub fn open(&mut self, cells: (usize, usize)) {
         self.first = Picture::new(self.name, cells);
         self.second = None;
-        self.view = View { mirror: self.view.mirror, ..View::default() };
+        self.view = ViewState { mirror: self.view.mirror, ..ViewState::default() };
     }
 
-    /// Shows the picture under a second light too, or no longer.
+    /// Adds or removes the picture under a second light.
     pub fn set_second(&mut self, there: bool) {
         if there && self.second.is_none() {
             self.second = Some(Picture::new(self.name, self.cells()));
@@ -88,11 +90,11 @@ impl SurfaceView {
         }
     }
 
-    /// Takes what the worker told of one of the pictures.
+    /// Writes part of the first or the second picture.
     pub fn write(&mut self, second: bool, tile: &TilePixels) {
         let (name, cells) = (self.name, self.cells());
         let picture = if second {
-            // Its tiles may be told before the light is.
+            // The first tiles may arrive before the state that names the light.
             self.second.get_or_insert_with(|| Picture::new(name, cells))
         } else {
             &mut self.first
@@ -100,118 +102,124 @@ impl SurfaceView {
         picture.write(tile);
     }
 
-    /// Its cells, across and down.
+    /// Columns and rows of cells.
     #[must_use]
     pub fn cells(&self) -> (usize, usize) {
         self.first.cells()
     }
 
-    /// The picture, or the one under the second light.
+    /// The picture under the first or the second light.
     #[must_use]
     pub fn picture(&self, second: bool) -> Option<&Picture> {
         if second { self.second.as_ref() } else { Some(&self.first) }
     }
 
-    /// Where the surface was in the window when it was last shown.
+    /// Rectangle in which the surface was last shown, in points.
     #[must_use]
-    pub fn room(&self) -> Rect {
-        self.room
+    pub fn rect(&self) -> Rect {
+        self.rect
     }
 
-    /// What moves the line between two lights, if there are two.
+    /// Rectangle of the handle that moves the line between two lights, if there are two.
     #[must_use]
-    pub fn knob(&self) -> Option<Rect> {
-        self.knob
+    pub fn split_handle(&self) -> Option<Rect> {
+        self.split_handle
     }
 
-    /// Where its cells are on the screen.
+    /// Mapping from cells to points of the window.
     #[must_use]
     pub fn placement(&self) -> Placement {
-        self.view.placed(self.room, self.density)
+        self.view.placement(self.rect, self.density)
     }
 
-    /// The place, in cells, at a point of the window, if the surface is there.
+    /// Position in cells at a point of the window, if it is on the surface.
     #[must_use]
-    pub fn place(&self, point: Pos2) -> Option<[f64; 2]> {
-        let place = self.placement().cell(point);
-        let on = self.room.contains(point) && self.outline.contains(place, self.cells());
-        on.then_some(place)
+    pub fn position(&self, point: Pos2) -> Option<[f64; 2]> {
+        let position = self.placement().cell(point);
+        let on = self.rect.contains(point) && self.outline.contains(position, self.cells());
+        on.then_some(position)
     }
 
-    /// Shows all of it.
+    /// Fits the whole surface into its rectangle.
     pub fn fit(&mut self) {
-        self.view.fit(self.cells(), self.room, self.margin, self.density);
+        self.view.fit(self.cells(), self.rect, self.margin, self.density);
     }
 
-    /// Shows it in a rectangle of the window. `hand` is what a drag with the first
-    /// button that begins now would do; the middle one always moves the view.
-    pub fn show(&mut self, ui: &mut Ui, room: Rect, hand: Hand, split: Option<Split>) -> Response {
-        self.room = room;
+    /// Shows the surface in a rectangle of the window. `mode` is the effect of a drag with
+    /// the primary button that begins now; the middle button always pans.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        mode: DragMode,
+        split: Option<Split>,
+    ) -> Response {
+        self.rect = rect;
         self.density = ui.ctx().pixels_per_point();
         let id = Id::unique(("surface", self.name));
-        let response = ui.interact(room, id, Sense::click_and_drag());
+        let response = ui.interact(rect, id, Sense::click_and_drag());
         let name = self.name;
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
-        self.moved(ui, &response, hand);
+        self.navigate(ui, &response, mode);
         if self.view.fitted {
             self.fit();
         }
         let placement = self.placement();
-        let painter = ui.painter_at(room);
-        self.knob = None;
+        let painter = ui.painter_at(rect);
+        self.split_handle = None;
         self.outline.under(&painter, &placement, self.cells());
         match (&mut self.second, split) {
             (Some(second), Some(split)) => {
                 let column = f64::from(*split.at) * self.first.cells().0 as f64;
-                self.first.draw(&painter, &placement, Half::Left(column));
-                second.draw(&painter, &placement, Half::Right(column));
+                self.first.draw(&painter, &placement, DrawnPart::LeftOf(column));
+                second.draw(&painter, &placement, DrawnPart::RightOf(column));
                 self.outline.over(&painter, &placement, self.first.cells());
                 self.split_line(ui, &placement, split);
             }
             _ => {
-                self.first.draw(&painter, &placement, Half::Whole);
+                self.first.draw(&painter, &placement, DrawnPart::Whole);
                 self.outline.over(&painter, &placement, self.first.cells());
             }
         }
         response
     }
 
-    /// Draws a head over it.
+    /// Draws a brush head over the surface.
     pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, look: HeadLook) {
-        head::draw(&ui.painter_at(self.room), &self.placement(), over, look);
+        head::draw(&ui.painter_at(self.rect), &self.placement(), over, look);
     }
 
-    /// Moves the view as pointer, wheel and fingers ask.
-    fn moved(&mut self, ui: &Ui, response: &Response, hand: Hand) {
-        let (room, density) = (self.room, self.density);
+    /// Applies drags, wheel and touch gestures to the view.
+    fn navigate(&mut self, ui: &Ui, response: &Response, mode: DragMode) {
+        let (rect, density) = (self.rect, self.density);
         if response.drag_started_by(PointerButton::Middle) {
-            self.grip = Hand::Pan;
+            self.drag = DragMode::Pan;
         } else if response.drag_started_by(PointerButton::Primary) {
-            self.grip = hand;
+            self.drag = mode;
         }
         let delta = response.drag_delta();
-        match (self.grip, response.interact_pointer_pos()) {
-            (Hand::Pan, Some(_)) => self.view.pan(delta, density),
-            (Hand::Rotate, Some(now)) => {
-                let arm = |point: Pos2| (point - room.center()).angle();
+        match (self.drag, response.interact_pointer_pos()) {
+            (DragMode::Pan, Some(_)) => self.view.pan(delta, density),
+            (DragMode::Rotate, Some(now)) => {
+                let arm = |point: Pos2| (point - rect.center()).angle();
                 let turned = f64::from(arm(now) - arm(now - delta));
                 self.view.rotate(turned);
                 self.view.fitted = false;
             }
-            (Hand::Zoom, Some(now)) => {
+            (DragMode::Zoom, Some(now)) => {
                 let start = ui.input(|input| input.pointer.press_origin()).unwrap_or(now);
-                self.view.zoom_by(f64::from(-delta.y / 120.0).exp(), start, room, density);
+                self.view.zoom_by(f64::from(-delta.y / 120.0).exp(), start, rect, density);
             }
             _ => {}
         }
         if !response.dragged() {
-            self.grip = Hand::Free;
+            self.drag = DragMode::None;
         }
-        let cursor = match (self.grip, hand) {
-            (Hand::Pan, _) => Some(CursorIcon::Grabbing),
-            (Hand::Free, Hand::Pan) => Some(CursorIcon::Grab),
-            (Hand::Rotate, _) | (_, Hand::Rotate) => Some(CursorIcon::Alias),
-            (Hand::Zoom, _) | (_, Hand::Zoom) => Some(CursorIcon::ZoomIn),
+        let cursor = match (self.drag, mode) {
+            (DragMode::Pan, _) => Some(CursorIcon::Grabbing),
+            (DragMode::None, DragMode::Pan) => Some(CursorIcon::Grab),
+            (DragMode::Rotate, _) | (_, DragMode::Rotate) => Some(CursorIcon::Alias),
+            (DragMode::Zoom, _) | (_, DragMode::Zoom) => Some(CursorIcon::ZoomIn),
             _ => None,
         };
         if let Some(cursor) = cursor.filter(|_| response.contains_pointer() || response.dragged()) {
@@ -224,8 +232,8 @@ impl SurfaceView {
         if let Some(touch) = touch {
             let centre = touch.center_pos;
             self.view.pan(touch.translation_delta, density);
-            self.view.zoom_by(f64::from(touch.zoom_delta), centre, room, density);
-            self.view.rotate_about(f64::from(touch.rotation_delta), centre, room, density);
+            self.view.zoom_by(f64::from(touch.zoom_delta), centre, rect, density);
+            self.view.rotate_about(f64::from(touch.rotation_delta), centre, rect, density);
             return;
         }
         let (scroll, zoom, source, pointer) = ui.input(|input| {
@@ -241,32 +249,32 @@ impl SurfaceView {
         let wheel = if fingers { 0.0 } else { scroll.y };
         let factor = zoom * (wheel / WHEEL_POINTS).exp();
         if factor != 1.0 {
-            self.view.zoom_by(f64::from(factor), pointer, room, density);
+            self.view.zoom_by(f64::from(factor), pointer, rect, density);
         }
     }
 
-    /// Draws the line between two lights, and moves it.
+    /// Draws the line between two lights and lets it be dragged.
     fn split_line(&mut self, ui: &mut Ui, placement: &Placement, split: Split) {
         let (width, height) = (self.cells().0 as f64, self.cells().1 as f64);
         let ends = |at: f32| {
             let column = f64::from(at) * width;
             [placement.point([column, 0.0]), placement.point([column, height])]
         };
-        let middle = |at: f32| self.room.shrink(16.0).clamp(ends(at)[0].lerp(ends(at)[1], 0.5));
-        let knob = Rect::from_center_size(middle(*split.at), vec2(22.0, 22.0));
-        self.knob = Some(knob);
-        let response = ui.interact(knob, Id::unique(("split", self.name)), Sense::drag());
+        let middle = |at: f32| self.rect.shrink(16.0).clamp(ends(at)[0].lerp(ends(at)[1], 0.5));
+        let split_handle = Rect::from_center_size(middle(*split.at), vec2(22.0, 22.0));
+        self.split_handle = Some(split_handle);
+        let response = ui.interact(split_handle, Id::unique(("split", self.name)), Sense::drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Split of two lights"));
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             *split.at = (placement.cell(pointer)[0] / width).clamp(0.0, 1.0) as f32;
         }
-        let painter = ui.painter_at(self.room);
+        let painter = ui.painter_at(self.rect);
         painter.line_segment(ends(*split.at), Stroke::new(3.0, Color32::from_black_alpha(90)));
         painter.line_segment(ends(*split.at), Stroke::new(1.0, theme::STRONG));
         let centre = middle(*split.at);
         let fill = if response.hovered() { theme::CHOSEN } else { theme::PANEL };
         painter.circle(centre, 10.0, fill, Stroke::new(1.0, theme::STRONG));
-        // Arrows along the surface's rows, whichever way it is turned.
+        // Arrows along the rows of the surface, however it is rotated.
         let along = placement.direction([1.0, 0.0]).normalized();
         for side in [-1.0, 1.0] {
             let tip = centre + along * (6.0 * side);
@@ -279,16 +287,16 @@ impl SurfaceView {
             let at = centre + along * (16.0 * side) + vec2(0.0, 24.0);
             let align =
                 if along.x * side < 0.0 { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
-            tag(&painter, at, align, light);
+            draw_label(&painter, at, align, light);
         }
         response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(
-            "Left of the line is the light, right of it the second one. Drag to compare.",
+            "The first light is left of the line, the second one right of it. Drag to compare.",
         );
     }
 }
 
-/// A few words over the picture.
-fn tag(painter: &eframe::egui::Painter, at: Pos2, align: Align2, text: &str) {
+/// Draws a label over the picture.
+fn draw_label(painter: &eframe::egui::Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(11.0);
     let galley = painter.layout_no_wrap(text.to_owned(), font, theme::STRONG);
     let rect = align.anchor_size(at, galley.size());

@@ -10,7 +10,7 @@ use render::tile;
 use session::TilePixels;
 use std::f64::consts::FRAC_PI_2;
 use studio::theme;
-use studio::view::{Hand, Outline, Split, SurfaceView, View};
+use studio::view::{DragMode, Outline, Split, SurfaceView, ViewState};
 
 /// Cells of the surfaces shown here: more than one chunk, and no round number.
 const CELLS: (usize, usize) = (700, 530);
@@ -36,7 +36,7 @@ fn tiles(color: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
 
 fn surface(outline: Outline) -> SurfaceView {
     let mut surface = SurfaceView::new("Canvas", outline, 10.0);
-    surface.take_up(CELLS);
+    surface.open(CELLS);
     tiles(cell).iter().for_each(|tile| surface.write(false, tile));
     surface
 }
@@ -53,7 +53,7 @@ fn shown(
         ui.set_clip_rect(room);
         ui.painter().rect_filled(room, 0.0, theme::SURROUND);
         let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
-        surface.show(ui, room, Hand::Free, split);
+        surface.show(ui, room, DragMode::None, split);
     };
     let mut harness = Harness::builder()
         .with_size(size)
@@ -86,8 +86,8 @@ fn at_actual_size_every_pixel_is_its_cell() {
     for (density, turn, mirror) in
         [(1.0, 0.0, false), (2.0, 0.0, true), (1.0, FRAC_PI_2, false), (1.5, 2.0 * FRAC_PI_2, true)]
     {
-        let mut surface = surface(Outline::Sheet);
-        surface.view = View { centre: [402.0, 311.0], zoom: 1.0, turn, mirror, fitted: false };
+        let mut surface = surface(Outline::Rectangle);
+        surface.view = ViewState { centre: [402.0, 311.0], zoom: 1.0, turn, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(400.0, 300.0), density, None);
         let Some(picture) = picture else { return };
         let placement = surface.placement();
@@ -95,7 +95,7 @@ fn at_actual_size_every_pixel_is_its_cell() {
             for x in (0..picture.width()).step_by(3) {
                 let middle = pos2(x as f32 + 0.5, y as f32 + 0.5) / density;
                 let place = placement.cell(middle).map(|cells| cells.floor() as usize);
-                if surface.place(middle).is_some() && !near_edge(place) {
+                if surface.position(middle).is_some() && !near_edge(place) {
                     let wanted = cell(place[0], place[1]);
                     assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {density}");
                 }
@@ -107,9 +107,9 @@ fn at_actual_size_every_pixel_is_its_cell() {
 #[test]
 fn turned_and_mirrored_cells_are_where_the_view_says() {
     for (turn, mirror) in [(0.0, false), (0.7, false), (2.5, true)] {
-        let mut surface = surface(Outline::Sheet);
+        let mut surface = surface(Outline::Rectangle);
         // Around the corner of four chunks.
-        surface.view = View { centre: [511.0, 509.0], zoom: 7.0, turn, mirror, fitted: false };
+        surface.view = ViewState { centre: [511.0, 509.0], zoom: 7.0, turn, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(300.0, 200.0), 1.0, None);
         let Some(picture) = picture else { return };
         let placement = surface.placement();
@@ -120,7 +120,7 @@ fn turned_and_mirrored_cells_are_where_the_view_says() {
                 let place = placement.cell(middle);
                 let inside = place.iter().all(|cells| (0.2..0.8).contains(&cells.fract()));
                 let place = place.map(|cells| cells.floor() as usize);
-                if inside && surface.place(middle).is_some() && !near_edge(place) {
+                if inside && surface.position(middle).is_some() && !near_edge(place) {
                     seen += 1;
                     let wanted = cell(place[0], place[1]);
                     assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {turn}");
@@ -135,10 +135,10 @@ fn turned_and_mirrored_cells_are_where_the_view_says() {
 fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
     let chequered = |x: usize, y: usize| [[0, 0, 0, 255], [255; 4]][(x + y) % 2];
     for zoom in [0.5, 0.37, 0.21] {
-        let mut other = SurfaceView::new("Canvas", Outline::Sheet, 10.0);
-        other.take_up(CELLS);
+        let mut other = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
+        other.open(CELLS);
         tiles(chequered).iter().for_each(|tile| other.write(false, tile));
-        other.view = View { centre: [350.0, 265.0], zoom, turn: 0.3, ..other.view };
+        other.view = ViewState { centre: [350.0, 265.0], zoom, turn: 0.3, ..other.view };
         other.view.fitted = false;
         let (_, picture) = drawn(other, vec2(100.0, 80.0), 1.0, None);
         let Some(picture) = picture else { return };
@@ -153,12 +153,12 @@ fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
 fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
     let (white, black) = ([255; 4], [0, 0, 0, 255]);
     for (turn, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
-        let mut surface = SurfaceView::new("Canvas", Outline::Sheet, 10.0);
-        surface.take_up(CELLS);
+        let mut surface = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
+        surface.open(CELLS);
         surface.set_second(true);
         tiles(|_, _| white).iter().for_each(|tile| surface.write(false, tile));
         tiles(|_, _| black).iter().for_each(|tile| surface.write(true, tile));
-        surface.view = View { centre: [350.0, 265.0], zoom: 0.3, turn, mirror, fitted: false };
+        surface.view = ViewState { centre: [350.0, 265.0], zoom: 0.3, turn, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(400.0, 400.0), 1.0, Some(0.25));
         let Some(picture) = picture else { return };
         for (column, wanted) in [(20.0, white), (150.0, white), (200.0, black), (680.0, black)] {
@@ -170,8 +170,9 @@ fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
 
 #[test]
 fn only_what_changed_and_is_seen_is_uploaded() {
-    let mut surface = surface(Outline::Sheet);
-    surface.view = View { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..View::default() };
+    let mut surface = surface(Outline::Rectangle);
+    surface.view =
+        ViewState { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..View::default() };
     let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
     let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
     let first = bytes(&harness);
@@ -203,7 +204,7 @@ fn only_what_changed_and_is_seen_is_uploaded() {
 fn the_palette_lets_the_surround_through_its_hole() {
     let (surface, picture) = drawn(surface(Outline::Palette), vec2(500.0, 400.0), 1.0, None);
     let hole = surface.placement().point([700.0 - 0.24 * 530.0, 530.0 - 0.24 * 530.0]);
-    assert_eq!(surface.place(hole), None);
+    assert_eq!(surface.position(hole), None);
     let Some(picture) = picture else { return };
     picture.save(concat!(env!("CARGO_TARGET_TMPDIR"), "/palette.png")).unwrap();
     let grey = theme::SURROUND.r();

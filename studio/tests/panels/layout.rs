@@ -84,22 +84,22 @@ fn keys_change_the_view_and_not_while_text_is_typed() {
 #[test]
 fn tab_hides_all_panels_and_the_canvas_takes_their_room() {
     let mut window = told_window("hidden", vec2(1280.0, 800.0), 1.0);
-    let before = window.studio().canvas.room();
+    let before = window.studio().canvas.rect();
     window.key(Modifiers::NONE, Key::Tab);
     window.save("hidden");
-    assert_eq!(window.studio().canvas.room(), window.whole());
+    assert_eq!(window.studio().canvas.rect(), window.whole());
     assert!(window.harness().query_by_label("File").is_none(), "the menus are hidden");
     assert!(window.harness().query_by_label("Palette").is_none(), "the palette is hidden");
     window.key(Modifiers::NONE, Key::Tab);
-    assert_eq!(window.studio().canvas.room(), before);
+    assert_eq!(window.studio().canvas.rect(), before);
     window.key(Modifiers::NONE, Key::P);
-    assert!(window.studio().canvas.room().height() > before.height(), "the palette makes room");
+    assert!(window.studio().canvas.rect().height() > before.height(), "the palette makes room");
 }
 
 #[test]
 fn the_view_follows_hand_wheel_and_held_keys() {
     let mut window = told_window("hand", vec2(1280.0, 800.0), 1.0);
-    let middle = window.studio().canvas.room().center();
+    let middle = window.studio().canvas.rect().center();
     let cell = |window: &Window, at| window.studio().canvas.placement().cell(at);
     let drag = |window: &mut Window, button: PointerButton, by: Vec2| {
         let press = |pos: Pos2, pressed: bool| {
@@ -276,7 +276,7 @@ fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
     window.studio_mut().ask(Command::SetSecondLight(Some(second)));
     window.settle();
     assert_ne!(seen(&window, false, 20.0, 10.0), seen(&window, true, 20.0, 10.0));
-    let knob = window.studio().canvas.knob().unwrap().center();
+    let knob = window.studio().canvas.split_handle().unwrap().center();
     let done = window.studio().easel().unwrap().history_done;
     let to = knob + vec2(120.0, 0.0);
     window.pen_stroke(&[knob, knob + vec2(60.0, 0.0), to, to]);

@@ -5,14 +5,14 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Event, Key, Modifiers, Pos2};
 use image::RgbaImage;
 use render::paint::strokes::SurfaceId;
-use studio::pen::{Device, Hold, Report, Script, What};
+use studio::pen::{Device, PointerState, Report, ReportKind, Script};
 
 use super::harness::{Window, button};
 
 /// A hold at a place of the canvas, in mm.
-fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> Hold {
+fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
     let at = window.point(SurfaceId::Canvas, x_mm, y_mm);
-    Hold { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
+    PointerState { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
 }
 
 /// Plays a stroke from 6 to 26 mm, 200 reports a second, in frames of 20 ms, with a
@@ -20,7 +20,7 @@ fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> Hold {
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     window.click("Load from tube");
     let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
-    let holds: Vec<Hold> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();
+    let holds: Vec<PointerState> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();
     let end = holds[holds.len() - 1].at;
     let mut script = Script::new(Device::Pen).stroke(holds, Duration::from_millis(5));
     let start = Instant::now();
@@ -53,8 +53,8 @@ fn a_pen_that_presses_harder_paints_broader() {
         stroke(&mut window, y_mm, pressure);
     }
     // No brush is shown over the paint.
-    let (device, arrived, what) = (Device::Pen, Instant::now(), What::Gone);
-    window.studio_mut().pen.feed(Report { device, arrived, what });
+    let (device, arrived, kind) = (Device::Pen, Instant::now(), ReportKind::Gone);
+    window.studio_mut().pen.feed(Report { device, arrived, kind });
     window.settle();
     let after = window.picture().expect("it was there before");
     let pixels = |y_mm| painted(&window, &before, &after, y_mm);
@@ -73,7 +73,7 @@ fn what_the_system_also_tells_as_a_mouse_makes_no_second_stroke() {
     window.frame(vec![button(end, false)]);
     window.settle();
     let strokes = window.studio().easel().map(|easel| easel.history.clone()).unwrap_or_default();
-    assert_eq!(strokes.iter().filter(|what| what.contains("stroke")).count(), 1, "{strokes:?}");
+    assert_eq!(strokes.iter().filter(|kind| kind.contains("stroke")).count(), 1, "{strokes:?}");
 }
 
 #[test]

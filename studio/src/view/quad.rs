@@ -1,7 +1,7 @@
-//! What is large in the window: pictures and even areas, drawn without egui's shader.
+//! Large quads in the window, pictures and flat areas, drawn without egui's shader.
 //!
-//! That one can filter by hand, and a driver in software does so for every pixel,
-//! wanted or not. This one does nothing but draw.
+//! egui's shader contains code that filters textures itself, and a software driver executes
+//! it for every pixel even when it is not needed. This shader only samples or fills.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -13,57 +13,58 @@ use wgpu::{BindGroup, Buffer, Device, Extent3d, Origin3d, Queue, TextureFormat};
 
 use super::pipeline::{Pipelines, VERTEX_BYTES};
 
-/// What the pixels of a window are where nobody tells: those of tests.
+/// Target format when none was set, as in tests.
 const FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
 fn format_id() -> Id {
     Id::unique("format of the window's pixels")
 }
 
-/// Tells what the window's pixels are, before the first frame.
+/// Sets the format of the window's pixels. To be called before the first frame.
 pub(crate) fn set_format(context: &Context, format: TextureFormat) {
     context.data_mut(|data| data.insert_temp(format_id(), format));
 }
 
-/// Cells on the graphics device. They are taken there when they are next drawn.
+/// A texture whose cells are uploaded when it is next drawn.
 #[derive(Clone)]
-pub(super) struct Sheet(Arc<Mutex<Cells>>);
+pub(super) struct LazyTexture(Arc<Mutex<TextureState>>);
 
-struct Cells {
+struct TextureState {
     size: [usize; 2],
-    waiting: Vec<([usize; 2], ColorImage)>,
-    /// Bound to be shown as squares, and blended.
+    /// Cells to upload, each with its column and row.
+    pending: Vec<([usize; 2], ColorImage)>,
+    /// The texture, with bind groups for nearest and linear filtering.
     texture: Option<(wgpu::Texture, [BindGroup; 2])>,
 }
 
-impl Sheet {
-    /// A sheet of these cells.
+impl LazyTexture {
+    /// A texture with these cells.
     pub(super) fn new(image: ColorImage) -> Self {
         let size = image.size;
-        let waiting = vec![([0, 0], image)];
-        Self(Arc::new(Mutex::new(Cells { size, waiting, texture: None })))
+        let pending = vec![([0, 0], image)];
+        Self(Arc::new(Mutex::new(TextureState { size, pending, texture: None })))
     }
 
-    /// Replaces cells, from `at` across and down.
+    /// Replaces a rectangle of cells whose upper left corner is `at` (column, row).
     pub(super) fn write(&self, at: [usize; 2], image: ColorImage) {
         let mut cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if image.size == cells.size {
-            cells.waiting.clear();
+            cells.pending.clear();
         }
-        cells.waiting.push((at, image));
+        cells.pending.push((at, image));
     }
 
-    /// Cells that wait: they were written, but not drawn since.
-    pub(super) fn waiting(&self) -> usize {
+    /// Number of cells that were written but not drawn since.
+    pub(super) fn pending_cells(&self) -> usize {
         let cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        cells.waiting.iter().map(|(_, image)| image.pixels.len()).sum()
+        cells.pending.iter().map(|(_, image)| image.pixels.len()).sum()
     }
 
-    fn bring(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
+    fn upload(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
         let mut cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let Cells { size, waiting, texture } = &mut *cells;
+        let TextureState { size, pending, texture } = &mut *cells;
         let (texture, _) = texture.get_or_insert_with(|| pipelines.texture(device, *size));
-        for (at, image) in waiting.drain(..) {
+        for (at, image) in pending.drain(..) {
             let [width, height] = image.size.map(|cells| cells as u32);
             let mut to = texture.as_image_copy();
             to.origin = Origin3d { x: at[0] as u32, y: at[1] as u32, z: 0 };
@@ -77,78 +78,79 @@ impl Sheet {
         }
     }
 
-    fn bound(&self, blended: bool) -> Option<BindGroup> {
+    fn bind_group(&self, smooth: bool) -> Option<BindGroup> {
         let cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        cells.texture.as_ref().map(|(_, bound)| bound[usize::from(blended)].clone())
+        cells.texture.as_ref().map(|(_, bind_group)| bind_group[usize::from(smooth)].clone())
     }
 }
 
-/// A corner of what is drawn: where in the window, in points, and of what.
+/// A vertex of a quad.
 #[derive(Clone, Copy)]
-pub(super) struct Corner {
-    /// Where in the window.
+pub(super) struct Vertex {
+    /// Position in the window, in points.
     pub(super) point: Pos2,
-    /// Where in the sheet, 0..1.
-    pub(super) place: Pos2,
-    /// Which colour, where there is no sheet.
+    /// Texture coordinates, 0 to 1.
+    pub(super) uv: Pos2,
+    /// Colour, used where there is no texture.
     pub(super) color: Color32,
 }
 
-/// Four corners, one after the other around it.
+/// A quad to draw.
 pub(super) struct Quad {
-    /// The corners.
-    pub(super) corners: [Corner; 4],
-    /// The sheet, and whether its cells blend; without one the colours are drawn.
-    pub(super) sheet: Option<(Sheet, bool)>,
+    /// The four corners, in order around the quad.
+    pub(super) corners: [Vertex; 4],
+    /// The texture, and whether its cells are interpolated; without a texture the vertex
+    /// colours are drawn.
+    pub(super) texture: Option<(LazyTexture, bool)>,
 }
 
 impl Quad {
-    /// Four points, each in its colour; between them they blend.
+    /// A quad without texture whose corner colours are interpolated.
     pub(super) fn colored(corners: [(Pos2, Color32); 4]) -> Self {
-        let corners = corners.map(|(point, color)| Corner { point, place: Pos2::ZERO, color });
-        Self { corners, sheet: None }
+        let corners = corners.map(|(point, color)| Vertex { point, uv: Pos2::ZERO, color });
+        Self { corners, texture: None }
     }
 }
 
-/// Fills a rectangle, whatever its size, at little cost.
-pub fn fill(painter: &Painter, rect: Rect, color: Color32) {
+/// Fills a rectangle with one colour.
+pub fn fill_rect(painter: &Painter, rect: Rect, color: Color32) {
     let rect = rect.intersect(painter.clip_rect());
-    // On whole pixels, as egui draws rectangles.
+    // Rounded to physical pixels, as egui does for rectangles.
     let density = painter.pixels_per_point();
-    let even = |at: Pos2| pos2((at.x * density).round(), (at.y * density).round()) / density;
-    let (min, max) = (even(rect.min), even(rect.max));
+    let flat_color = |at: Pos2| pos2((at.x * density).round(), (at.y * density).round()) / density;
+    let (min, max) = (flat_color(rect.min), flat_color(rect.max));
     let points = [min, pos2(max.x, min.y), max, pos2(min.x, max.y)];
-    draw(painter, vec![Quad::colored(points.map(|point| (point, color)))]);
+    draw_quads(painter, vec![Quad::colored(points.map(|point| (point, color)))]);
 }
 
-/// Draws opaque quads, in order, within the painter's clip.
-pub(super) fn draw(painter: &Painter, quads: Vec<Quad>) {
+/// Draws opaque quads in order, within the painter's clip rectangle.
+pub(super) fn draw_quads(painter: &Painter, quads: Vec<Quad>) {
     let context = painter.ctx();
     let visible = painter.clip_rect().intersect(context.content_rect());
     if quads.is_empty() || !visible.is_positive() {
         return;
     }
     let format = context.data(|data| data.get_temp(format_id())).unwrap_or(FORMAT);
-    let job = Job { quads, format, vertices: OnceLock::new() };
+    let job = DrawQuads { quads, format, vertices: OnceLock::new() };
     painter.add(Callback::new_paint_callback(visible, job));
 }
 
-struct Job {
+struct DrawQuads {
     quads: Vec<Quad>,
     format: TextureFormat,
     vertices: OnceLock<Buffer>,
 }
 
-impl Job {
-    /// Two triangles a quad, on a screen of so many points.
+impl DrawQuads {
+    /// The vertex data, two triangles per quad, for a screen size in points.
     fn vertices(&self, [width, height]: [f32; 2]) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.quads.len() * 6 * VERTEX_BYTES);
         for corner in
             self.quads.iter().flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|at| quad.corners[at]))
         {
-            let Corner { point, place, color } = corner;
+            let Vertex { point, uv, color } = corner;
             let position = [2.0 * point.x / width - 1.0, 1.0 - 2.0 * point.y / height];
-            for value in [position[0], position[1], place.x, place.y] {
+            for value in [position[0], position[1], uv.x, uv.y] {
                 bytes.extend(value.to_ne_bytes());
             }
             bytes.extend(color.to_array());
@@ -157,7 +159,7 @@ impl Job {
     }
 }
 
-impl CallbackTrait for Job {
+impl CallbackTrait for DrawQuads {
     fn prepare(
         &self,
         device: &Device,
@@ -170,8 +172,8 @@ impl CallbackTrait for Job {
             resources.insert(Pipelines::new(device, self.format));
         }
         let Some(pipelines) = resources.get::<Pipelines>() else { return Vec::new() };
-        for (sheet, _) in self.quads.iter().filter_map(|quad| quad.sheet.as_ref()) {
-            sheet.bring(device, queue, pipelines);
+        for (texture, _) in self.quads.iter().filter_map(|quad| quad.texture.as_ref()) {
+            texture.upload(device, queue, pipelines);
         }
         self.vertices.get_or_init(|| {
             let points = screen.size_in_pixels.map(|size| size as f32 / screen.pixels_per_point);
@@ -194,15 +196,15 @@ impl CallbackTrait for Job {
         pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         pass.set_vertex_buffer(0, vertices.slice(..));
         for (index, quad) in (0_u32..).zip(&self.quads) {
-            match &quad.sheet {
-                Some((sheet, blended)) => {
-                    let Some(bound) = sheet.bound(*blended) else { continue };
-                    pass.set_pipeline(&pipelines.picture);
-                    pass.set_bind_group(0, &bound, &[]);
+            match &quad.texture {
+                Some((texture, smooth)) => {
+                    let Some(bind_group) = texture.bind_group(*smooth) else { continue };
+                    pass.set_pipeline(&pipelines.textured);
+                    pass.set_bind_group(0, &bind_group, &[]);
                 }
-                None => pass.set_pipeline(&pipelines.even),
+                None => pass.set_pipeline(&pipelines.flat_color),
             }
-            pass.draw(6 * index..6 * index + 6, 0..1);
+            pass.draw_quads(6 * index..6 * index + 6, 0..1);
         }
     }
 }

@@ -1,8 +1,8 @@
-//! A picture and its halves, for the screen.
+//! A picture with its mipmap levels.
 //!
-//! Each level has half the cells of the one below, rounded up; a cell is the mean
-//! of the two by two below it, in linear light, so that a picture seen from afar
-//! is as bright as its paint is. Only what changed is averaged again.
+//! Each level has half the width and height of the one below, rounded up. A cell is the
+//! mean, in linear light, of the two by two cells below it, so that a picture keeps its
+//! brightness when it is zoomed out. Only the changed part is averaged again.
 
 use std::sync::LazyLock;
 
@@ -10,34 +10,34 @@ use eframe::egui::{Color32, ColorImage};
 use palette::{LinSrgb, Srgb};
 use render::tile::Rect;
 
-/// Steps of linear light that the encoding tells apart: 2.5 for the smallest
-/// step of 8-bit sRGB.
+/// Entries of the table that encodes linear light; 2.5 entries fall on the smallest step of
+/// 8-bit sRGB.
 const STEPS: usize = 8192;
 
-/// A level this small in both directions has none above it.
+/// A level with no side longer than this is the last one, in cells.
 const SMALLEST: usize = 128;
 
-/// One level.
+/// One mipmap level.
 #[derive(Debug, Clone)]
-struct Level {
+struct MipLevel {
     width: usize,
     height: usize,
     pixels: Vec<Color32>,
 }
 
-/// A picture and its halves; level 0 is the picture.
+/// All mipmap levels of a picture; level 0 is the picture itself.
 #[derive(Debug, Clone)]
-pub(super) struct Levels {
-    levels: Vec<Level>,
+pub(super) struct MipLevels {
+    levels: Vec<MipLevel>,
 }
 
-impl Levels {
-    /// A picture of so many cells, all of one colour.
+impl MipLevels {
+    /// A picture of `width` by `height` cells in one colour.
     pub(super) fn new(width: usize, height: usize, color: Color32) -> Self {
         let mut levels = Vec::new();
         let (mut width, mut height) = (width.max(1), height.max(1));
         loop {
-            levels.push(Level { width, height, pixels: vec![color; width * height] });
+            levels.push(MipLevel { width, height, pixels: vec![color; width * height] });
             if width.max(height) <= SMALLEST {
                 return Self { levels };
             }
@@ -45,19 +45,19 @@ impl Levels {
         }
     }
 
-    /// How many levels there are; at least 1.
+    /// Number of levels, at least 1.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// All cells of a level.
+    /// The rectangle of all cells of a level.
     pub(super) fn bounds(&self, level: usize) -> Rect {
-        let Level { width, height, .. } = self.levels[level];
+        let MipLevel { width, height, .. } = self.levels[level];
         Rect { x: 0, y: 0, width, height }
     }
 
-    /// Writes part of the picture, row by row, and its halves. What lies outside
-    /// the picture is left out.
+    /// Writes a rectangle of the picture, row by row, and updates the other levels. Pixels
+    /// outside the picture are ignored.
     pub(super) fn write(&mut self, rect: Rect, pixels: &[[u8; 4]]) {
         let inside = rect.intersection(self.bounds(0));
         let base = &mut self.levels[0];
@@ -71,30 +71,30 @@ impl Levels {
         }
         let mut changed = inside;
         for level in 1..self.levels.len() {
-            changed = halved(changed);
+            changed = next_level_rect(changed);
             let (below, above) = self.levels.split_at_mut(level);
             above[0].average(&below[level - 1], changed);
         }
     }
 
-    /// Part of a level.
-    pub(super) fn cut(&self, level: usize, rect: Rect) -> ColorImage {
-        let Level { width, pixels, .. } = &self.levels[level];
+    /// Copies a rectangle of a level.
+    pub(super) fn region(&self, level: usize, rect: Rect) -> ColorImage {
+        let MipLevel { width, pixels, .. } = &self.levels[level];
         let rows = (rect.y..rect.y + rect.height).map(|y| y * width + rect.x);
         let pixels = rows.flat_map(|from| &pixels[from..from + rect.width]).copied().collect();
         ColorImage::new([rect.width, rect.height], pixels)
     }
 }
 
-/// The cells of the level above that a change of `rect` reaches.
-pub(super) fn halved(rect: Rect) -> Rect {
+/// The cells of the next level that depend on the cells of `rect`.
+pub(super) fn next_level_rect(rect: Rect) -> Rect {
     let (x, y) = (rect.x / 2, rect.y / 2);
     let right = (rect.x + rect.width).div_ceil(2);
     let bottom = (rect.y + rect.height).div_ceil(2);
     Rect { x, y, width: right - x, height: bottom - y }
 }
 
-impl Level {
+impl MipLevel {
     fn average(&mut self, below: &Self, changed: Rect) {
         for y in changed.y..changed.y + changed.height {
             for x in changed.x..changed.x + changed.width {
@@ -116,7 +116,7 @@ impl Level {
     }
 }
 
-/// Linear light of the 8-bit values of sRGB (IEC 61966-2-1).
+/// Linear light of each 8-bit value of sRGB (IEC 61966-2-1).
 static DECODED: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|value| {
         let value = value as u8;
@@ -124,7 +124,7 @@ static DECODED: LazyLock<[f32; 256]> = LazyLock::new(|| {
     })
 });
 
-/// The 8-bit value nearest to each step of linear light.
+/// The nearest 8-bit sRGB value of each step of linear light.
 static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let step = |step| step as f32 / (STEPS - 1) as f32;
     let nearest = |linear| Srgb::<u8>::from_linear(LinSrgb::new(linear, linear, linear)).red;
@@ -144,39 +144,43 @@ mod tests {
         [value, value, value, 255]
     }
 
-    /// A level of greys: all three channels are one value.
-    fn whole(levels: &Levels, level: usize) -> Vec<u8> {
+    /// The values of a level of greys; asserts that the channels are equal.
+    fn greys_of(levels: &MipLevels, level: usize) -> Vec<u8> {
         let value = |pixel: &Color32| {
             let [red, green, blue, _] = pixel.to_array();
             assert!(red == green && green == blue, "{pixel:?} of greys");
             green
         };
-        levels.cut(level, levels.bounds(level)).pixels.iter().map(value).collect()
+        levels.region(level, levels.bounds(level)).pixels.iter().map(value).collect()
     }
 
     #[test]
-    fn an_even_color_is_the_same_at_every_level() {
+    fn a_flat_color_is_equal_at_every_level() {
         for value in 0..=255 {
-            let mut levels = Levels::new(300, 2, Color32::BLACK);
+            let mut levels = MipLevels::new(300, 2, Color32::BLACK);
             levels.write(levels.bounds(0), &[grey(value); 600]);
             for level in 0..levels.count() {
-                assert!(whole(&levels, level).iter().all(|&is| is == value), "{value} {level}");
+                assert!(greys_of(&levels, level).iter().all(|&is| is == value), "{value} {level}");
             }
         }
     }
 
     #[test]
-    fn black_beside_white_is_half_the_light_from_afar() {
-        let mut levels = Levels::new(200, 200, Color32::BLACK);
+    fn levels_average_in_linear_light() {
+        let mut levels = MipLevels::new(200, 200, Color32::BLACK);
         let cells: Vec<[u8; 4]> = (0..40_000).map(|at| grey(255 * (at % 2) as u8)).collect();
         levels.write(levels.bounds(0), &cells);
         // Half of the light is 188 in sRGB, not 128.
-        assert!(whole(&levels, 1).iter().all(|&is| is == 188), "{:?}", &whole(&levels, 1)[..4]);
+        assert!(
+            greys_of(&levels, 1).iter().all(|&is| is == 188),
+            "{:?}",
+            &greys_of(&levels, 1)[..4]
+        );
     }
 
     #[test]
-    fn writing_in_pieces_is_writing_at_once() {
-        // Odd sizes, and pieces that cut the squares of two by two.
+    fn writing_in_pieces_equals_writing_at_once() {
+        // Odd sizes, and pieces whose edges do not fall on blocks of two by two.
         let (width, height) = (333, 257);
         let value = |x: usize, y: usize| ((x * 31 + y * 17 + x * y) % 256) as u8;
         let cells = |rect: Rect| -> Vec<[u8; 4]> {
@@ -184,25 +188,25 @@ mod tests {
                 .flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| grey(value(x, y))))
                 .collect()
         };
-        let mut at_once = Levels::new(width, height, Color32::BLACK);
+        let mut at_once = MipLevels::new(width, height, Color32::BLACK);
         at_once.write(at_once.bounds(0), &cells(at_once.bounds(0)));
-        let mut pieces = Levels::new(width, height, Color32::WHITE);
+        let mut pieces = MipLevels::new(width, height, Color32::WHITE);
         for y in (0..height).step_by(41) {
             for x in (0..width).step_by(37) {
-                // Over the edge: what lies outside is left out.
+                // The last pieces reach beyond the picture.
                 let rect = Rect { x, y, width: 37, height: 41 };
                 pieces.write(rect, &cells(rect));
             }
         }
         for level in 0..at_once.count() {
-            assert_eq!(whole(&at_once, level), whole(&pieces, level), "level {level}");
+            assert_eq!(greys_of(&at_once, level), greys_of(&pieces, level), "level {level}");
         }
     }
 
     #[test]
-    fn levels_end_where_they_are_small() {
+    fn the_last_level_has_at_most_the_smallest_size() {
         let sizes = |width, height| {
-            let levels = Levels::new(width, height, Color32::BLACK);
+            let levels = MipLevels::new(width, height, Color32::BLACK);
             (0..levels.count()).map(|level| levels.bounds(level).width).collect::<Vec<_>>()
         };
         assert_eq!(sizes(1920, 1080), [1920, 960, 480, 240, 120]);

@@ -1,51 +1,51 @@
-//! A picture on the screen, in pieces: only what is seen is uploaded, and of that
-//! only what changed.
+//! A picture on the screen, in chunks: only visible chunks are uploaded, and of those only
+//! what changed.
 
 use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use render::tile::Rect;
 
-use super::levels::{Levels, halved};
-use super::sheet::{Corner, Quad, Sheet, draw};
+use super::mipmap::{MipLevels, next_level_rect};
+use super::picture::{LazyTexture, Quad, Vertex, draw_quads};
 use super::transform::Placement;
 use crate::theme;
 use session::TilePixels;
 
-/// Cells of a level in one texture, each way; one more on every inner side lets
-/// neighbours blend.
+/// Cells per side of a chunk. Its texture has one more on every inner side, so that
+/// neighbouring chunks interpolate without a seam.
 const CHUNK: usize = 512;
 
-/// From so many physical pixels a cell on, cells are shown as squares.
+/// Zoom in physical pixels per cell from which cells are shown as squares.
 const SQUARES: f64 = 3.0;
 
-/// Changes that a chunk keeps apart before it is uploaded whole.
+/// Number of changed rectangles from which a chunk is uploaded whole.
 const MOST_CHANGES: usize = 24;
 
-/// The part of a picture that is drawn, by columns of cells.
+/// The part of a picture that is drawn, limited by a column of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Half {
-    /// All.
+pub enum DrawnPart {
+    /// All columns.
     Whole,
-    /// What is left of a column.
-    Left(f64),
-    /// What is right of a column.
-    Right(f64),
+    /// The columns left of this one.
+    LeftOf(f64),
+    /// The columns right of this one.
+    RightOf(f64),
 }
 
-/// A piece of a level.
+/// A rectangular piece of a level with its own texture.
 struct Chunk {
-    /// The cells it draws.
+    /// The cells that it draws.
     inner: Rect,
-    /// Those and their neighbours: the texture.
+    /// Those cells and their neighbours: the content of the texture.
     padded: Rect,
-    sheet: Option<Sheet>,
-    /// What changed since the last upload.
+    texture: Option<LazyTexture>,
+    /// Rectangles that changed since the last upload.
     changed: Vec<Rect>,
 }
 
 /// A picture on the screen.
 pub struct Picture {
     name: &'static str,
-    levels: Levels,
+    levels: MipLevels,
     chunks: Vec<Vec<Chunk>>,
     uploaded: u64,
 }
@@ -58,61 +58,61 @@ impl std::fmt::Debug for Picture {
 }
 
 impl Picture {
-    /// A picture of so many cells that nobody has told yet.
+    /// A picture of `cells` columns and rows, grey until it is written.
     #[must_use]
     pub fn new(name: &'static str, cells: (usize, usize)) -> Self {
-        let levels = Levels::new(cells.0, cells.1, theme::SURROUND);
+        let levels = MipLevels::new(cells.0, cells.1, theme::SURROUND);
         let chunks = (0..levels.count()).map(|level| chunks(levels.bounds(level))).collect();
         Self { name, levels, chunks, uploaded: 0 }
     }
 
-    /// Its cells, across and down.
+    /// Columns and rows of cells.
     #[must_use]
     pub fn cells(&self) -> (usize, usize) {
         let Rect { width, height, .. } = self.levels.bounds(0);
         (width, height)
     }
 
-    /// Takes what the worker told.
+    /// Writes a rectangle of the picture.
     pub fn write(&mut self, tile: &TilePixels) {
         self.levels.write(tile.rect, &tile.pixels);
         let mut changed = tile.rect.intersection(self.levels.bounds(0));
         for (level, chunks) in self.chunks.iter_mut().enumerate() {
             if level > 0 {
-                changed = halved(changed);
+                changed = next_level_rect(changed);
             }
-            chunks.iter_mut().for_each(|chunk| chunk.mark(changed));
+            chunks.iter_mut().for_each(|chunk| chunk.record_change(changed));
         }
     }
 
-    /// Cells as they were told: 8-bit sRGB, row by row.
+    /// Pixels of a rectangle as they were written: 8-bit sRGB, row by row.
     #[must_use]
     pub fn pixels(&self, rect: Rect) -> ColorImage {
-        self.levels.cut(0, rect.intersection(self.levels.bounds(0)))
+        self.levels.region(0, rect.intersection(self.levels.bounds(0)))
     }
 
-    /// Bytes handed to the graphics device so far.
+    /// Total number of bytes uploaded to the graphics device.
     #[must_use]
     pub fn uploaded(&self) -> u64 {
         self.uploaded
     }
 
-    /// Draws what of `half` is seen within the painter's clip.
-    pub fn draw(&mut self, painter: &Painter, placement: &Placement, half: Half) {
+    /// Draws the visible part of the picture, limited to `part`.
+    pub fn draw_quads(&mut self, painter: &Painter, placement: &Placement, part: DrawnPart) {
         let density = f64::from(painter.pixels_per_point());
         let zoom = placement.scale() * density;
-        // The level whose cells are one to two in a pixel, or level 0.
+        // Chooses the level with one to two cells per pixel, or level 0.
         let finest = (1.0 / zoom).log2().floor().max(0.0) as usize;
         let level = finest.min(self.levels.count() - 1);
         let smooth = zoom < SQUARES && !placement.aligned;
-        // A level seen smaller than it is always blends.
-        let blended = smooth || zoom < 1.0;
+        // A level that is shown reduced is always interpolated.
+        let interpolate = smooth || zoom < 1.0;
         let size = 1_usize << level;
         let (width, height) = self.cells();
-        let (from, to) = match half {
-            Half::Whole => (0.0, width as f64),
-            Half::Left(column) => (0.0, column.clamp(0.0, width as f64)),
-            Half::Right(column) => (column.clamp(0.0, width as f64), width as f64),
+        let (from, to) = match part {
+            DrawnPart::Whole => (0.0, width as f64),
+            DrawnPart::LeftOf(column) => (0.0, column.clamp(0.0, width as f64)),
+            DrawnPart::RightOf(column) => (column.clamp(0.0, width as f64), width as f64),
         };
         let mut quads = Vec::new();
         for chunk in &mut self.chunks[level] {
@@ -129,19 +129,22 @@ impl Picture {
             if !Points::from_points(&points).intersects(painter.clip_rect()) {
                 continue;
             }
-            let (sheet, bytes) = chunk.upload(&self.levels, level);
+            let (texture, bytes) = chunk.upload(&self.levels, level);
             self.uploaded += bytes;
             let corner = |at: usize| {
-                let place = chunk.place(corners[at].map(|cells| cells / size as f64));
-                Corner { point: points[at], place, color: Color32::WHITE }
+                let uv = chunk.uv(corners[at].map(|cells| cells / size as f64));
+                Vertex { point: points[at], uv, color: Color32::WHITE }
             };
-            quads.push(Quad { corners: [0, 1, 2, 3].map(corner), sheet: Some((sheet, blended)) });
+            quads.push(Quad {
+                corners: [0, 1, 2, 3].map(corner),
+                texture: Some((texture, interpolate)),
+            });
         }
-        draw(painter, quads);
+        draw_quads(painter, quads);
     }
 }
 
-/// A level's chunks, in rows.
+/// Divides a level into chunks, row by row.
 fn chunks(bounds: Rect) -> Vec<Chunk> {
     let mut all = Vec::new();
     for y in (0..bounds.height).step_by(CHUNK) {
@@ -150,7 +153,7 @@ fn chunks(bounds: Rect) -> Vec<Chunk> {
             all.push(Chunk {
                 inner,
                 padded: inner.grown(1, bounds),
-                sheet: None,
+                texture: None,
                 changed: Vec::new(),
             });
         }
@@ -159,14 +162,14 @@ fn chunks(bounds: Rect) -> Vec<Chunk> {
 }
 
 impl Chunk {
-    /// Notes a change of its level.
-    fn mark(&mut self, rect: Rect) {
+    /// Records a change of its level.
+    fn record_change(&mut self, rect: Rect) {
         let part = rect.intersection(self.padded);
-        if part.is_empty() || self.sheet.is_none() {
+        if part.is_empty() || self.texture.is_none() {
             return;
         }
-        // Neighbouring tiles become one upload.
-        if let Some(joined) = self.changed.iter_mut().find(|other| tight(**other, part)) {
+        // Adjacent tiles are joined into one upload.
+        if let Some(joined) = self.changed.iter_mut().find(|other| is_tight_union(**other, part)) {
             *joined = union(*joined, part);
         } else if self.changed.len() < MOST_CHANGES {
             self.changed.push(part);
@@ -175,29 +178,31 @@ impl Chunk {
         }
     }
 
-    /// Its sheet, brought up to date, and how many bytes that took.
-    fn upload(&mut self, levels: &Levels, level: usize) -> (Sheet, u64) {
+    /// Returns the up-to-date texture and the number of bytes uploaded for it.
+    fn upload(&mut self, levels: &MipLevels, level: usize) -> (LazyTexture, u64) {
         let bytes = |rect: Rect| (4 * rect.width * rect.height) as u64;
-        let Some(sheet) = &self.sheet else {
-            let sheet = Sheet::new(levels.cut(level, self.padded));
-            self.sheet = Some(sheet.clone());
-            return (sheet, bytes(self.padded));
+        let Some(texture) = &self.texture else {
+            let texture = LazyTexture::new(levels.region(level, self.padded));
+            self.texture = Some(texture.clone());
+            return (texture, bytes(self.padded));
         };
-        if !self.changed.is_empty() && sheet.waiting() > self.padded.width * self.padded.height {
-            // Nothing was drawn for long: all at once is less.
+        if !self.changed.is_empty()
+            && texture.pending_cells() > self.padded.width * self.padded.height
+        {
+            // More cells wait than the chunk has: uploading it whole is cheaper.
             self.changed = vec![self.padded];
         }
         let mut sum = 0;
         for rect in self.changed.drain(..) {
             let at = [rect.x - self.padded.x, rect.y - self.padded.y];
-            sheet.write(at, levels.cut(level, rect));
+            texture.write(at, levels.region(level, rect));
             sum += bytes(rect);
         }
-        (sheet.clone(), sum)
+        (texture.clone(), sum)
     }
 
-    /// A place of its level in the texture, 0..1.
-    fn place(&self, [x, y]: [f64; 2]) -> eframe::egui::Pos2 {
+    /// Texture coordinates, 0 to 1, of a position in the level.
+    fn uv(&self, [x, y]: [f64; 2]) -> eframe::egui::Pos2 {
         let Rect { x: left, y: top, width, height } = self.padded;
         let across = (x - left as f64) / width as f64;
         let down = (y - top as f64) / height as f64;
@@ -205,8 +210,8 @@ impl Chunk {
     }
 }
 
-/// Whether the smallest rectangle around both is hardly more than both.
-fn tight(a: Rect, b: Rect) -> bool {
+/// Whether the bounding rectangle is at most a quarter larger than the union of both.
+fn is_tight_union(a: Rect, b: Rect) -> bool {
     let area = |rect: Rect| rect.width * rect.height;
     let overlap = area(a.intersection(b));
     4 * area(union(a, b)) <= 5 * (area(a) + area(b) - overlap)

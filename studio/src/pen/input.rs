@@ -1,0 +1,291 @@
+//! Combines all input devices: turns their reports into strokes and hover events on the
+//! surfaces.
+
+use std::time::{Duration, Instant};
+
+use eframe::CreationContext;
+use eframe::egui::{self, Event, Modifiers, RawInput};
+use render::paint::pose::Sample;
+use render::paint::strokes::SurfaceId;
+
+use super::pen_stroke::{PenStroke, brush_sample};
+use super::pointer::Pointer;
+use super::report::{Device, PointerState, Report, ReportKind};
+use super::settings::PenSettings;
+use super::systems::Systems;
+use super::transform::PenTargets;
+use session::PenSample;
+
+/// After its last report a stylus counts as near for this long. The window system also
+/// sends the stylus as mouse events, which must not paint a second time.
+const NEAR: Duration = Duration::from_millis(300);
+
+/// An event of a stylus, mouse or finger on canvas or palette.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PenEvent {
+    /// The device touched a surface and a stroke begins; samples follow.
+    Down {
+        /// The surface that was touched.
+        surface: SurfaceId,
+        /// The device that paints.
+        device: Device,
+    },
+    /// The stroke goes on. Holds at least one sample; seconds count from the first sample
+    /// of the stroke.
+    Move(Vec<PenSample>),
+    /// The stroke ends.
+    Up,
+    /// The device is over a surface without painting.
+    Hover {
+        /// The surface below the device.
+        surface: SurfaceId,
+        /// Position and attitude of the brush; pressure and seconds are 0.
+        sample: Sample,
+        /// The device that hovering.
+        device: Device,
+    },
+    /// The device is no longer over any surface.
+    Leave,
+    /// A button on the barrel of a stylus changed.
+    Barrel {
+        /// Button number; 0 is the button nearest to the tip.
+        button: usize,
+        /// Whether the button was pressed (or released).
+        pressed: bool,
+    },
+}
+
+/// All devices that can paint: styluses, mice and fingers.
+///
+/// Call [`Pen::read_systems`] once a frame before egui processes its input, then
+/// [`Pen::process_frame`].
+#[derive(Debug, Default)]
+pub struct Pen {
+    /// Preferences for pressure and grip.
+    pub settings: PenSettings,
+    systems: Systems,
+    pointer: Pointer,
+    /// Reports received since the last frame.
+    pending: Vec<Report>,
+    stylus_near_until: Option<Instant>,
+    stroke: Option<PenStroke>,
+    /// Whether a press that began outside the surfaces is still held.
+    pressed_outside: bool,
+    /// The device over the window, with its state.
+    hovering: Option<(Device, PointerState)>,
+    /// The hover event that was reported last.
+    reported_hover: Option<PenEvent>,
+    /// SurfaceId and position in mm where the last stroke ended.
+    last_end: Option<(SurfaceId, (f64, f64))>,
+}
+
+impl Pen {
+    /// Input without a window: mice and fingers from egui, and reports passed to
+    /// [`Pen::feed`].
+    #[must_use]
+    pub fn new(settings: PenSettings) -> Self {
+        Self { settings, ..Self::default() }
+    }
+
+    /// Input for a window, with the styluses of its window system.
+    #[must_use]
+    pub fn for_window(context: &CreationContext<'_>, settings: PenSettings) -> Self {
+        Self { settings, systems: Systems::for_window(context), ..Self::default() }
+    }
+
+    /// The reason why styluses act as mice, if they do. Returned once.
+    pub fn take_notice(&mut self) -> Option<String> {
+        self.systems.notice.take()
+    }
+
+    /// Collects the reports of the window system's styluses. To be called from
+    /// `App::raw_input_hook`.
+    pub fn read_systems(&mut self, context: &egui::Context, input: &mut RawInput) {
+        self.pending.extend(self.systems.reports(context, input));
+    }
+
+    /// Adds a report as if a window system had sent it.
+    pub fn feed(&mut self, report: Report) {
+        self.pending.push(report);
+    }
+
+    /// Whether a stroke is open.
+    #[must_use]
+    pub fn is_down(&self) -> bool {
+        self.stroke.is_some()
+    }
+
+    /// Time until [`Pen::process_frame`] must be called again even without new input.
+    #[must_use]
+    pub fn repaint_after(&self, now: Instant) -> Option<Duration> {
+        let rests = self.stroke.as_ref().and_then(|stroke| stroke.next_rest_sample(now));
+        let finger = self.pointer.undecided().then_some(Duration::from_millis(10));
+        let near = self.stroke.is_some() || self.is_near(now);
+        [rests, finger, self.systems.poll_after(near)].into_iter().flatten().min()
+    }
+
+    /// Returns all events since the last frame in order of time. `events` are egui's events
+    /// of this frame, `modifiers` the keys that are held (with shift, a stroke begins with
+    /// a straight line from the end of the last one), and `targets` the surfaces that are
+    /// visible now.
+    pub fn process_frame(
+        &mut self,
+        events: &[Event],
+        modifiers: Modifiers,
+        now: Instant,
+        targets: &PenTargets<'_>,
+    ) -> Vec<PenEvent> {
+        let mut reports = self.pointer.reports(events, now);
+        let mut latest = None;
+        for mut report in self.pending.drain(..) {
+            report.arrived = latest.map_or(report.arrived, |at| report.arrived.max(at));
+            latest = Some(report.arrived);
+            reports.push(report);
+        }
+        // A stable sort keeps the order within each device.
+        reports.sort_by_key(|report| report.arrived);
+        if let Some(last) = reports.iter().rfind(|report| report.device.is_pen()) {
+            self.stylus_near_until = Some(last.arrived.max(now) + NEAR);
+        }
+        if let Some(stroke) = &mut self.stroke
+            && let Some(transform) = targets.transform_of(stroke.surface())
+        {
+            stroke.set_transform(*transform);
+        }
+        let mut events = Vec::new();
+        for report in reports {
+            self.handle(&report, modifiers, now, targets, &mut events);
+        }
+        if let Some(stroke) = &mut self.stroke {
+            stroke.add_rest_sample(now, &self.settings);
+            flush(stroke, &mut events);
+        }
+        self.hover(targets, &mut events);
+        events
+    }
+
+    /// Ends the open stroke, for example when the window loses focus.
+    pub fn end_stroke(&mut self, now: Instant) -> Vec<PenEvent> {
+        let mut events = Vec::new();
+        self.finish_stroke(now, &mut events);
+        events
+    }
+
+    fn is_near(&self, now: Instant) -> bool {
+        self.stylus_near_until.is_some_and(|until| now < until)
+    }
+
+    fn handle(
+        &mut self,
+        report: &Report,
+        modifiers: Modifiers,
+        now: Instant,
+        targets: &PenTargets<'_>,
+        events: &mut Vec<PenEvent>,
+    ) {
+        let &Report { device, arrived, kind } = report;
+        let same = |other: Device| other == device || (other.is_pen() && device.is_pen());
+        let paints = self.stroke.as_ref().is_some_and(|stroke| same(stroke.device));
+        if !device.is_pen() && !paints && self.is_near(now) {
+            return;
+        }
+        match kind {
+            ReportKind::Moved(state) | ReportKind::Pressed(state) if !state.is_finite() => {}
+            ReportKind::Moved(state) => match &mut self.stroke {
+                Some(stroke) if paints => stroke.extend(state, arrived, &self.settings),
+                Some(_) => {}
+                None => self.hovering = Some((device, state)),
+            },
+            ReportKind::Pressed(state) => match &mut self.stroke {
+                // The system sent the same press as a mouse event first.
+                Some(stroke) if !paints && device.is_pen() => {
+                    stroke.device = device;
+                    stroke.extend(state, arrived, &self.settings);
+                }
+                Some(_) if !paints => {}
+                _ => {
+                    self.finish_stroke(arrived, events);
+                    self.begin_stroke(device, state, arrived, modifiers, targets, events);
+                }
+            },
+            ReportKind::Released => {
+                self.pressed_outside = false;
+                if paints {
+                    self.finish_stroke(arrived, events);
+                    if device == Device::Touch {
+                        self.hovering = None;
+                    }
+                }
+            }
+            ReportKind::Gone => {
+                if paints && device.is_pen() {
+                    self.finish_stroke(arrived, events);
+                }
+                if device.is_pen() {
+                    self.stylus_near_until = None;
+                }
+                if self.hovering.is_some_and(|(other, _)| same(other)) {
+                    self.hovering = None;
+                }
+            }
+            ReportKind::Barrel { button, pressed } => {
+                events.push(PenEvent::Barrel { button, pressed })
+            }
+        }
+    }
+
+    fn begin_stroke(
+        &mut self,
+        device: Device,
+        state: PointerState,
+        at: Instant,
+        modifiers: Modifiers,
+        targets: &PenTargets<'_>,
+        events: &mut Vec<PenEvent>,
+    ) {
+        let Some(transform) = targets.surface_at(state.at) else {
+            self.pressed_outside = true;
+            return;
+        };
+        let from =
+            self.last_end.filter(|(surface, _)| modifiers.shift && *surface == transform.surface);
+        let from = from.map(|(_, place)| place);
+        events.push(PenEvent::Down { surface: transform.surface, device });
+        self.stroke = Some(PenStroke::new(device, state, at, *transform, from, &self.settings));
+        // No hover event equals this one, so the next hover is always reported.
+        self.reported_hover = Some(PenEvent::Up);
+    }
+
+    fn finish_stroke(&mut self, at: Instant, events: &mut Vec<PenEvent>) {
+        let Some(mut stroke) = self.stroke.take() else { return };
+        stroke.finish(at, &self.settings);
+        flush(&mut stroke, events);
+        events.push(PenEvent::Up);
+        self.last_end = Some((stroke.surface(), stroke.position_mm()));
+        self.hovering = Some((stroke.device, stroke.state()));
+    }
+
+    fn hover(&mut self, targets: &PenTargets<'_>, events: &mut Vec<PenEvent>) {
+        if self.stroke.is_some() {
+            return;
+        }
+        let found = self.hovering.filter(|_| !self.pressed_outside).and_then(|(device, state)| {
+            let transform = targets.surface_at(state.at)?;
+            let sample =
+                brush_sample(transform, &state, self.settings.grip.twist_deg, &self.settings);
+            Some(PenEvent::Hover { surface: transform.surface, sample, device })
+        });
+        if found != self.reported_hover {
+            events.push(found.clone().unwrap_or(PenEvent::Leave));
+            self.reported_hover = found;
+        }
+    }
+}
+
+/// Reports the samples that the stroke has gathered.
+fn flush(stroke: &mut PenStroke, events: &mut Vec<PenEvent>) {
+    let samples = stroke.take_samples();
+    if !samples.is_empty() {
+        events.push(PenEvent::Move(samples));
+    }
+}

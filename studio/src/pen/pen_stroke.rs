@@ -1,0 +1,264 @@
+//! The open stroke of a pen: turns device states into samples.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::Pos2;
+use render::paint::pose::Sample;
+use render::paint::strokes::SurfaceId;
+
+use super::report::{Device, PointerState};
+use super::settings::PenSettings;
+use super::speed::SpeedPressure;
+use super::transform::SurfaceTransform;
+use session::PenSample;
+
+/// A pen without reports for this time counts as still. The smoothed path of the brush lags
+/// one sample behind, and a sample at rest lets it catch up.
+pub(super) const STILL: Duration = Duration::from_millis(30);
+
+/// Change of pressure, 0 to 1, that makes a brush at rest send another sample.
+const CHANGED: f64 = 0.005;
+
+/// Seconds between the samples at the end of a stroke.
+const END_INTERVAL_SECONDS: f64 = 0.008;
+
+/// Speed of a straight line drawn with shift, in mm per second.
+const LINE_SPEED_MM_S: f64 = 100.0;
+/// Length over which the pressure of a straight line rises, in mm.
+const LINE_START_MM: f64 = 2.0;
+
+/// Path length over which a brush that follows the stroke turns across it, in points.
+const TURNING_POINTS: f64 = 30.0;
+
+/// A stroke that has begun and not ended.
+#[derive(Debug)]
+pub(super) struct PenStroke {
+    pub(super) device: Device,
+    transform: SurfaceTransform,
+    began: Instant,
+    /// Duration of the straight line at the start, in seconds.
+    line_seconds: f64,
+    pressure_model: SpeedPressure,
+    state: PointerState,
+    moved: Instant,
+    /// Whether the last sample was added because the pen rested.
+    still: bool,
+    twist: f64,
+    last: Option<Sample>,
+    samples: Vec<PenSample>,
+}
+
+impl PenStroke {
+    /// Begins a stroke. With `from`, a position in mm, a straight line leads from there to
+    /// the pen.
+    pub(super) fn new(
+        device: Device,
+        state: PointerState,
+        at: Instant,
+        transform: SurfaceTransform,
+        from: Option<(f64, f64)>,
+        settings: &PenSettings,
+    ) -> Self {
+        let mut stroke = Self {
+            device,
+            transform,
+            began: at,
+            line_seconds: 0.0,
+            pressure_model: SpeedPressure::new(state.at, 0.0),
+            state,
+            moved: at,
+            still: false,
+            twist: settings.grip.twist_deg,
+            last: None,
+            samples: Vec::new(),
+        };
+        if let Some(from) = from {
+            stroke.add_straight_line(from, at, settings);
+        }
+        stroke.extend(state, at, settings);
+        stroke
+    }
+
+    /// The surface that is painted on.
+    pub(super) fn surface(&self) -> SurfaceId {
+        self.transform.surface
+    }
+
+    /// The last state of the device.
+    pub(super) fn state(&self) -> PointerState {
+        self.state
+    }
+
+    /// Current position on the surface, in mm.
+    pub(super) fn position_mm(&self) -> (f64, f64) {
+        self.transform.position_mm(self.state.at)
+    }
+
+    /// Follows a change of zoom, pan or rotation.
+    pub(super) fn set_transform(&mut self, transform: SurfaceTransform) {
+        self.transform = transform;
+    }
+
+    /// Adds a sample at a new state of the device.
+    pub(super) fn extend(&mut self, state: PointerState, at: Instant, settings: &PenSettings) {
+        if settings.follow {
+            self.follow(state.at);
+        }
+        let seconds = self.seconds(at);
+        let by_speed = self.pressure_model.move_to(state.at, seconds);
+        let pressure =
+            state.pressure.map_or(by_speed, |pressure| settings.brush_pressure(pressure));
+        self.state = state;
+        self.moved = at;
+        self.still = false;
+        self.add_sample(pressure, seconds, at, settings);
+    }
+
+    /// Adds a sample if the pen rests: one, and further ones only while the pressure
+    /// changes.
+    pub(super) fn add_rest_sample(&mut self, now: Instant, settings: &PenSettings) {
+        if now.saturating_duration_since(self.moved) < STILL {
+            return;
+        }
+        let seconds = self.seconds(now);
+        let pressure = self.pressure(seconds, settings);
+        let last = self.last.map_or(0.0, |last| last.pressure);
+        if !self.still || (pressure - last).abs() > CHANGED {
+            self.still = true;
+            self.add_sample(pressure, seconds, now, settings);
+        }
+    }
+
+    /// Time until [`Self::add_rest_sample`] has a sample to add.
+    pub(super) fn next_rest_sample(&self, now: Instant) -> Option<Duration> {
+        let landing = self.state.pressure.is_none()
+            && self.pressure_model.pressure(f64::INFINITY)
+                - self.pressure_model.pressure(self.seconds(now))
+                > CHANGED;
+        match (self.still, landing) {
+            (false, _) => Some(STILL.saturating_sub(now.saturating_duration_since(self.moved))),
+            (true, true) => Some(Duration::from_millis(10)),
+            (true, false) => None,
+        }
+    }
+
+    /// Adds the samples that end a stroke of a device without pressure.
+    pub(super) fn finish(&mut self, at: Instant, settings: &PenSettings) {
+        if self.state.pressure.is_some() {
+            return;
+        }
+        let mut seconds = self.seconds(at);
+        for pressure in self.pressure_model.end_pressures(seconds) {
+            seconds += END_INTERVAL_SECONDS;
+            self.add_sample(pressure, seconds, at, settings);
+        }
+    }
+
+    /// Removes and returns the samples since the last call.
+    pub(super) fn take_samples(&mut self) -> Vec<PenSample> {
+        std::mem::take(&mut self.samples)
+    }
+
+    /// Adds a straight line from `from`, in mm, to the current position.
+    fn add_straight_line(&mut self, from: (f64, f64), at: Instant, settings: &PenSettings) {
+        let to = self.position_mm();
+        let length = (to.0 - from.0).hypot(to.1 - from.1);
+        if length < LINE_START_MM {
+            return;
+        }
+        self.pressure_model =
+            SpeedPressure::new(self.state.at, length / LINE_SPEED_MM_S).at_full_pressure();
+        let moderate = self.pressure_model.pressure(0.0);
+        let full = self
+            .state
+            .pressure
+            .map_or(moderate, |measured| settings.brush_pressure(measured).max(moderate));
+        for (mm, pressure) in [(0.0, 0.2 * full), (LINE_START_MM, full)] {
+            let share = mm / length;
+            let position_mm = (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share);
+            let sample = brush_sample(&self.transform, &self.state, self.twist, settings);
+            let sample = Sample { pressure, seconds: mm / LINE_SPEED_MM_S, ..sample };
+            self.push(Sample { x_mm: position_mm.0, y_mm: position_mm.1, ..sample }, at);
+        }
+        self.line_seconds = length / LINE_SPEED_MM_S;
+        if let Some(measured) = &mut self.state.pressure {
+            *measured = full;
+        }
+    }
+
+    fn seconds(&self, at: Instant) -> f64 {
+        at.saturating_duration_since(self.began).as_secs_f64() + self.line_seconds
+    }
+
+    fn pressure(&self, seconds: f64, settings: &PenSettings) -> f64 {
+        let by_speed = || self.pressure_model.pressure(seconds);
+        self.state.pressure.map_or_else(by_speed, |measured| settings.brush_pressure(measured))
+    }
+
+    fn add_sample(&mut self, pressure: f64, seconds: f64, at: Instant, settings: &PenSettings) {
+        let sample = brush_sample(&self.transform, &self.state, self.twist, settings);
+        self.push(Sample { pressure, seconds, ..sample }, at);
+    }
+
+    /// Adds a sample, rounded to the digits of a recording and with its time not before the
+    /// last one.
+    fn push(&mut self, sample: Sample, arrived: Instant) {
+        let earliest = self.last.map_or(0.0, |last| last.seconds);
+        let sample = Sample {
+            seconds: digits(sample.seconds, 1e4).max(earliest),
+            pressure: digits(sample.pressure, 1e4),
+            ..rounded(&sample)
+        };
+        self.last = Some(sample);
+        self.samples.push(PenSample { sample, arrived });
+    }
+
+    /// Turns the broad side gradually across the direction of movement.
+    fn follow(&mut self, to: Pos2) {
+        let step = to - self.state.at;
+        let length = f64::from(step.length());
+        if length == 0.0 {
+            return;
+        }
+        let across = f64::from(step.y).atan2(f64::from(step.x)).to_degrees() + 90.0;
+        // The broad side has no direction, so the difference is taken modulo 180 degrees.
+        let off = (across - self.twist + 90.0).rem_euclid(180.0) - 90.0;
+        self.twist += off * (1.0 - (-length / TURNING_POINTS).exp());
+    }
+}
+
+/// Sample of a brush over a surface at pressure 0. `twist` is the rotation used if the
+/// device measures none.
+pub(super) fn brush_sample(
+    transform: &SurfaceTransform,
+    state: &PointerState,
+    twist: f64,
+    settings: &PenSettings,
+) -> Sample {
+    let (x_mm, y_mm) = transform.position_mm(state.at);
+    let tilt = state.tilt_deg.filter(|_| settings.pen_tilt);
+    let tilt = transform.surface_tilt(tilt.unwrap_or_else(|| settings.grip.tilt_deg()));
+    let twist = state.twist_deg.filter(|_| settings.pen_tilt).unwrap_or(twist);
+    let twist_deg = transform.surface_twist(twist);
+    let (tilt_x_deg, tilt_y_deg) = tilt;
+    let sample =
+        Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg };
+    rounded(&sample)
+}
+
+/// Rounds positions to 0.001 mm and angles to 0.01 degrees.
+fn rounded(sample: &Sample) -> Sample {
+    Sample {
+        x_mm: digits(sample.x_mm, 1e3),
+        y_mm: digits(sample.y_mm, 1e3),
+        tilt_x_deg: digits(sample.tilt_x_deg.clamp(-90.0, 90.0), 1e2),
+        tilt_y_deg: digits(sample.tilt_y_deg.clamp(-90.0, 90.0), 1e2),
+        twist_deg: digits(sample.twist_deg, 1e2),
+        ..*sample
+    }
+}
+
+fn digits(number: f64, scale: f64) -> f64 {
+    // Adding 0 turns -0 into 0, so that no recording contains -0.
+    (number * scale).round() / scale + 0.0
+}
