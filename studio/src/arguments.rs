@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 use render::gpu::BackendChoice;
 
-use crate::files::{Backend, FiguresLog, FileFailure, Home, Preferences};
+use crate::files::{Backend, FiguresLog, Home, Preferences, Problem};
 use session::{Pace, WorkerOptions};
 
 /// Paint by hand with calibrated pigments
@@ -77,7 +77,7 @@ pub struct Start {
     /// What the painter prefers.
     pub preferences: Preferences,
     /// What is to be said of the preferences.
-    pub failures: Vec<FileFailure>,
+    pub problems: Vec<Problem>,
     /// What the worker is told.
     pub worker: WorkerOptions,
     /// How recordings are played, if the command line says.
@@ -112,27 +112,27 @@ impl Start {
         })?;
         let home = match &parsed.home {
             Some(folder) => std::path::absolute(folder).ok().map(|path| Home::in_folder(&path)),
-            None => Home::of_platform(),
+            None => Home::for_platform(),
         };
         let home = home.ok_or_else(|| {
             let what = "the system does not tell where your files are kept";
-            FileFailure::new(what, "try impasto-studio --home FOLDER")
+            Problem::new(what, "try impasto-studio --home FOLDER")
         })?;
-        let (preferences, failures) = Preferences::read(&home.preferences());
+        let (preferences, problems) = Preferences::read(&home.preferences());
         let backend = match (parsed.backend, preferences.backend) {
             (Some(BackendName::Auto), _) | (None, Backend::Auto) => BackendChoice::Auto,
             (Some(BackendName::Cpu), _) | (None, Backend::Cpu) => BackendChoice::Cpu,
             (Some(BackendName::Gpu), _) | (None, Backend::Gpu) => BackendChoice::Gpu,
         };
         let undo_bytes = parsed.undo_memory.unwrap_or(preferences.undo_mib) << 20;
-        let figures = parsed.figures.as_deref().map(FiguresLog::append);
+        let figures = parsed.figures.as_deref().map(FiguresLog::open);
         let figures = figures.transpose().map_err(Stop::from)?;
         Ok(Self {
             file: parsed.file,
             home,
             window: parsed.window.or(preferences.window).unwrap_or([1280.0, 800.0]),
             preferences,
-            failures,
+            problems,
             worker: WorkerOptions { backend, undo_bytes },
             pace: parsed.play.map(|pace| match pace {
                 PaceName::Fast => Pace::Fast,
@@ -143,10 +143,10 @@ impl Start {
     }
 }
 
-impl From<FileFailure> for Stop {
-    fn from(failure: FileFailure) -> Self {
-        let hint = failure.hint.as_ref().map(|hint| format!("hint: {hint}\n"));
-        Self { text: format!("error: {failure}\n{}", hint.unwrap_or_default()), status: 2 }
+impl From<Problem> for Stop {
+    fn from(problem: Problem) -> Self {
+        let hint = problem.hint.as_ref().map(|hint| format!("hint: {hint}\n"));
+        Self { text: format!("error: {}\n{}", problem.text, hint.unwrap_or_default()), status: 2 }
     }
 }
 

@@ -10,7 +10,7 @@ use wgpu::{Adapter, Backends, DeviceType, PresentMode, Surface};
 
 use crate::app::{Begun, Parts, Studio};
 use crate::arguments::Start;
-use crate::files::{FileFailure, Files};
+use crate::files::{Files, Problem};
 use crate::pen::{Pen, PenSettings};
 use crate::view;
 use session::initial_commands;
@@ -21,9 +21,9 @@ const SMALLEST: [f32; 2] = [900.0, 600.0];
 /// Opens the window, and comes back when it is closed.
 ///
 /// # Errors
-/// [`FileFailure`] with the way out where there is no display or nothing to draw
+/// [`Problem`] with the way out where there is no display or nothing to draw
 /// with.
-pub fn run(start: Start) -> Result<(), FileFailure> {
+pub fn run(start: Start) -> Result<(), Problem> {
     // Both at once: the canvas is made while the window opens.
     let begun = Begun::new(start.worker, initial_commands());
     let options = options(start.window);
@@ -37,7 +37,7 @@ pub fn run(start: Start) -> Result<(), FileFailure> {
             }
             let mut files = Files::new(context, start.home, start.preferences);
             files.pace = start.pace;
-            start.failures.into_iter().for_each(|failure| files.say(failure));
+            start.problems.into_iter().for_each(|problem| files.report(problem));
             let pen = Pen::for_window(creation, PenSettings::default());
             let parts = Parts { begun, pen, files, open: start.file, log: start.figures };
             Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
@@ -121,7 +121,7 @@ fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter
 }
 
 /// What went wrong, and the way out.
-fn failure(error: &eframe::Error) -> FileFailure {
+fn failure(error: &eframe::Error) -> Problem {
     let (what, hint) = match error {
         eframe::Error::Wgpu(error) => (
             error.to_string(),
@@ -134,7 +134,7 @@ fn failure(error: &eframe::Error) -> FileFailure {
         }
         other => (other.to_string(), "is the display still there?"),
     };
-    FileFailure::new(format!("the window cannot be opened: {what}"), hint)
+    Problem::new(format!("the window cannot be opened: {what}"), hint)
 }
 
 /// A stroke of light paint on grey.

@@ -64,7 +64,7 @@ impl Studio {
             Intent::Fit => self.canvas.fit(),
             Intent::ActualSize => self.canvas.view.actual_size(),
             Intent::Upright => {
-                self.canvas.view.turn = 0.0;
+                self.canvas.view.rotation = 0.0;
                 self.canvas.view.mirror = false;
                 self.canvas.fit();
             }

@@ -22,7 +22,7 @@ impl Studio {
     /// Takes in one thing, as if the worker had told it.
     pub fn hear(&mut self, event: Event) {
         self.heard += 1;
-        self.files.event(&event);
+        self.files.handle_event(&event);
         match event {
             Event::Opened(state) => self.take_up(state),
             Event::State(state) => self.know(state),

@@ -51,7 +51,7 @@ impl Studio {
     }
 
     pub(super) fn name_window(&mut self, context: &Context) {
-        let mark = if self.files.unsaved() { "*" } else { "" };
+        let mark = if self.files.has_unsaved_changes() { "*" } else { "" };
         let title = format!("{}{mark}", self.files.title());
         if self.title != title {
             context.send_viewport_cmd(ViewportCommand::Title(format!("{title} - impasto")));
@@ -74,7 +74,7 @@ impl Studio {
             worst_latency_ms: rate.worst_ms,
             canvas_px: [sheet.left(), sheet.top(), sheet.right(), sheet.bottom()],
         };
-        log.tell(now, &frames, &self.figures);
+        log.append_when_due(now, &frames, &self.figures);
         context.request_repaint_after(Duration::from_secs(1));
     }
 }

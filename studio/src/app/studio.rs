@@ -14,7 +14,7 @@ use super::parts::{Begun, Parts};
 use super::side::Panels;
 use super::status::Message;
 use super::surfaces::Hover;
-use crate::files::{FiguresLog, Files, Reference};
+use crate::files::{FiguresLog, Files, ReferenceChange};
 use crate::panels::figures::FrameRate;
 use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
@@ -166,8 +166,8 @@ impl Studio {
             self.worker.ask(command);
         }
         match self.files.take_reference() {
-            Some(Reference::Open(path)) => self.panels.reference.open(context, &path),
-            Some(Reference::Close) => self.panels.reference.close(),
+            Some(ReferenceChange::Open(path)) => self.panels.reference.open(context, &path),
+            Some(ReferenceChange::Close) => self.panels.reference.close(),
             None => {}
         }
         self.pen.settings = self.files.preferences.pen;
@@ -184,7 +184,7 @@ impl Studio {
         let now = Instant::now();
         self.frames.begin(now, busy);
         self.listen();
-        if !self.files.asks() {
+        if !self.files.has_dialog() {
             for intent in self.keys.read(&context, self.tools.mode) {
                 self.act(intent, &context);
             }

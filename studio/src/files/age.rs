@@ -1,8 +1,8 @@
-//! How long ago something was, and how large, in words.
+//! Ages and file sizes in words.
 
 use std::time::{Duration, SystemTime};
 
-/// `3 minutes ago`.
+/// The age of `then` at the time `now`, such as `3 minutes ago`.
 #[must_use]
 pub fn ago(then: SystemTime, now: SystemTime) -> String {
     let seconds = now.duration_since(then).unwrap_or(Duration::ZERO).as_secs();
@@ -18,7 +18,7 @@ pub fn ago(then: SystemTime, now: SystemTime) -> String {
     format!("{count} {unit}{plural} ago")
 }
 
-/// `12.3 MB`, by thousands.
+/// A file size in decimal units, such as `12.3 MB`.
 #[must_use]
 pub fn size(bytes: u64) -> String {
     match bytes {

@@ -1,4 +1,4 @@
-//! The dialogs that are open, and what their answers begin.
+//! Opens the dialogs, shows them, and starts what they are answered with.
 
 use std::path::PathBuf;
 
@@ -7,13 +7,15 @@ use pigment::library::PigmentLibrary;
 use render::export::PictureFormat;
 use render::paint::strokes::PaletteSpec;
 
-use super::browser::{Answer, Browser, Filter, Wanted};
+use super::browser::{Answer, Browser, BrowserOptions, Filter};
 use super::dialogs::{self, Choice, NewPainting};
 use super::exporting::Export;
-use super::notices::Notice;
+use super::notice::Notice;
+use super::open_dialog::{FilePurpose, OpenDialog};
+use super::pending::PendingAction;
 use super::revisions;
-use super::state::{Files, Reference, Then};
-use super::work::name;
+use super::state::{Files, ReferenceChange};
+use super::work::{Purpose, file_name};
 use session::{Origin, PaintingState, blank_canvas};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
@@ -21,73 +23,49 @@ const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "j
 const SCRIPTS: Filter = Filter { label: "Recordings and libraries", endings: &["json"] };
 const LAMPS: Filter =
     Filter { label: "Spectra", endings: &["csv", "txt", "tsv", "cgats", "it8", "cxf", "json"] };
-const OPENED: Filter =
+const OPENABLE: Filter =
     Filter { label: "All that can be opened", endings: &["exr", "json", "png", "jpg", "jpeg"] };
 
-/// A dialog; the last one is the uppermost.
-#[derive(Debug)]
-pub(super) enum Dialog {
-    Browser(Box<Browser>, ForWhat),
-    /// Something waits for the painting to be safe.
-    Unsaved(Then),
-    Delete(PathBuf),
-    Export(Export),
-    New(NewPainting, Box<PaletteSpec>, Box<PigmentLibrary>),
-    Preferences,
-}
-
-/// What a file is asked for.
-#[derive(Debug)]
-pub(super) enum ForWhat {
-    Open,
-    Save { then: Option<Then>, revision: bool },
-    Export(Export),
-    Recording,
-    Reference,
-    Lamp,
-}
-
 impl Files {
-    /// Shows what is open and what is said.
-    pub fn show(&mut self, ui: &mut Ui) {
+    /// Shows the topmost dialog, which takes all input, and carries out its answer.
+    pub(super) fn show_dialog(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
-        self.show_notices(&ctx);
-        // Only the uppermost takes input.
         let Some(mut dialog) = self.dialogs.pop() else { return };
         let below = self.dialogs.len();
         let stays = match &mut dialog {
-            Dialog::Browser(browser, _) => match browser.show(&ctx) {
+            OpenDialog::Browser(browser, _) => match browser.show(&ctx) {
                 None => true,
                 Some(answer) => {
                     let folder = Some(browser.folder().to_owned());
-                    if let (Dialog::Browser(_, purpose), Answer::File(path)) = (dialog, answer) {
+                    if let (OpenDialog::Browser(_, purpose), Answer::File(path)) = (dialog, answer)
+                    {
                         self.preferences.last_folder = folder;
-                        self.chosen(purpose, path);
+                        self.use_file(purpose, path);
                     }
                     return;
                 }
             },
-            Dialog::Unsaved(_) => {
+            OpenDialog::Unsaved(_) => {
                 let choice = dialogs::unsaved(&ctx, &self.title());
                 match (choice, dialog) {
-                    (Some(Choice::Yes), Dialog::Unsaved(then)) => match self.path.clone() {
-                        Some(path) => self.save(path, Some(then)),
-                        None => self.ask_where_to_save(Some(then), false),
+                    (Some(Choice::Yes), OpenDialog::Unsaved(next)) => match self.path.clone() {
+                        Some(path) => self.save(path, Some(next)),
+                        None => self.ask_where_to_save(Some(next), false),
                     },
-                    (Some(Choice::No), Dialog::Unsaved(then)) => self.carry_out(then),
+                    (Some(Choice::No), OpenDialog::Unsaved(next)) => self.carry_out(next),
                     (None, unanswered) => self.dialogs.insert(below, unanswered),
                     _ => {}
                 }
                 return;
             }
-            Dialog::Delete(path) => {
+            OpenDialog::DeleteRevision(path) => {
                 let choice = dialogs::delete(&ctx, path);
                 if choice == Some(Choice::Yes) {
-                    self.delete(path.clone());
+                    self.delete_revision(path.clone());
                 }
                 choice.is_none()
             }
-            Dialog::Export(export) => {
+            OpenDialog::Export(export) => {
                 let choice = dialogs::export(&ctx, export);
                 if choice == Some(Choice::Yes) {
                     let export = *export;
@@ -96,106 +74,112 @@ impl Files {
                 }
                 choice.is_none()
             }
-            Dialog::New(painting, palette, library) => {
-                let choice = painting.show(&ctx);
+            OpenDialog::New(new, palette, library) => {
+                let choice = new.show(&ctx);
                 if choice == Some(Choice::Yes) {
-                    let canvas = painting.canvas();
-                    let (width, height) = (canvas.width_mm, canvas.height_mm);
-                    let same = painting.same_pigments;
-                    let library =
-                        if same { (**library).clone() } else { PigmentLibrary::van_gogh_oils() };
-                    if let Origin::Blank { mut script, library } =
-                        blank_canvas(library, width, height, canvas.cell_mm)
-                    {
-                        script.canvas = canvas;
-                        if same && !palette.pigments.is_empty() {
-                            script.palette = (**palette).clone();
-                        }
-                        self.begin(*script, *library);
-                    }
+                    self.begin_new(new, palette, library);
                     return;
                 }
                 choice.is_none()
             }
-            Dialog::Preferences => dialogs::preferences(&ctx, &mut self.preferences),
+            OpenDialog::Preferences => dialogs::preferences(&ctx, &mut self.preferences),
         };
         if stays {
-            // What was opened meanwhile lies above it.
+            // Below the dialogs that were opened in the meantime.
             self.dialogs.insert(below, dialog);
         }
     }
 
-    fn chosen(&mut self, purpose: ForWhat, path: PathBuf) {
-        match purpose {
-            ForWhat::Open | ForWhat::Lamp => self.read(path),
-            ForWhat::Save { then: None, revision: true } => self.save_and_keep(path),
-            ForWhat::Save { then, .. } => self.save(path, then),
-            ForWhat::Export(export) => self.export(export, path),
-            ForWhat::Recording => self.record(path),
-            ForWhat::Reference => self.reference = Some(Reference::Open(path)),
+    /// Opens the painting that the dialog describes, with the current palette and library
+    /// if the painter chose so.
+    fn begin_new(&mut self, new: &NewPainting, palette: &PaletteSpec, library: &PigmentLibrary) {
+        let canvas = new.canvas();
+        let (width, height) = (canvas.width_mm, canvas.height_mm);
+        let same = new.same_pigments;
+        let library = if same { library.clone() } else { PigmentLibrary::van_gogh_oils() };
+        if let Origin::Blank { mut script, library } =
+            blank_canvas(library, width, height, canvas.cell_mm)
+        {
+            script.canvas = canvas;
+            if same && !palette.pigments.is_empty() {
+                script.palette = palette.clone();
+            }
+            self.begin_painting(*script, *library);
         }
     }
 
-    fn delete(&mut self, path: PathBuf) {
+    fn use_file(&mut self, purpose: FilePurpose, path: PathBuf) {
+        match purpose {
+            FilePurpose::Open | FilePurpose::Lamp => self.read(path),
+            FilePurpose::Save { next, keep_revision } => {
+                self.request_snapshot(Purpose::Save { path, next, keep_revision });
+            }
+            FilePurpose::Export(export) => {
+                self.request_snapshot(Purpose::Export { export, path });
+            }
+            FilePurpose::Recording => self.request_recording(path),
+            FilePurpose::Reference => self.reference = Some(ReferenceChange::Open(path)),
+        }
+    }
+
+    fn delete_revision(&mut self, path: PathBuf) {
         match revisions::delete(&path) {
-            Ok(()) => self.notices.push(Notice::said(format!("deleted {}", name(&path)))),
-            Err(failure) => self.say(failure),
+            Ok(()) => {
+                let text = format!("deleted {}", file_name(&path));
+                self.notices.push(Notice::done(&text));
+            }
+            Err(problem) => self.report(problem),
         }
         self.list_revisions();
     }
 
-    fn browse(&mut self, wanted: Wanted, purpose: ForWhat) {
+    fn browse(&mut self, options: BrowserOptions, purpose: FilePurpose) {
         let beside = self.path.as_ref().and_then(|path| path.parent());
         let folder = beside.or(self.preferences.last_folder.as_deref());
-        let browser = Browser::new(wanted, folder, &self.preferences.recent, &self.ctx);
-        self.dialogs.push(Dialog::Browser(Box::new(browser), purpose));
-    }
-
-    fn wanted(&self, title: &'static str, filters: &'static [Filter]) -> Wanted {
-        Wanted { title, saves: false, filters, ending: None, name: String::new() }
+        let browser = Browser::new(options, folder, &self.preferences.recent, &self.ctx);
+        self.dialogs.push(OpenDialog::Browser(Box::new(browser), purpose));
     }
 
     pub(super) fn ask_for_file(&mut self) {
-        const KINDS: [Filter; 5] = [OPENED, PAINTINGS, SCRIPTS, PICTURES, Filter::ALL];
-        self.browse(self.wanted("Open", &KINDS), ForWhat::Open);
+        const KINDS: [Filter; 5] = [OPENABLE, PAINTINGS, SCRIPTS, PICTURES, Filter::ALL];
+        self.browse(BrowserOptions::open("Open", &KINDS), FilePurpose::Open);
     }
 
     pub(super) fn ask_for_reference(&mut self) {
         const KINDS: [Filter; 2] = [PICTURES, Filter::ALL];
-        self.browse(self.wanted("Picture beside the canvas", &KINDS), ForWhat::Reference);
+        let options = BrowserOptions::open("Picture beside the canvas", &KINDS);
+        self.browse(options, FilePurpose::Reference);
     }
 
     pub(super) fn ask_for_lamp(&mut self) {
         const KINDS: [Filter; 2] = [LAMPS, Filter::ALL];
-        self.browse(self.wanted("Lamp, measured", &KINDS), ForWhat::Lamp);
+        self.browse(BrowserOptions::open("Measured lamp", &KINDS), FilePurpose::Lamp);
     }
 
-    pub(super) fn ask_where_to_save(&mut self, then: Option<Then>, revision: bool) {
-        let name = format!("{}.exr", self.title());
-        let wanted = Wanted {
+    pub(super) fn ask_where_to_save(&mut self, next: Option<PendingAction>, keep_revision: bool) {
+        let options = BrowserOptions {
             title: "Save the painting",
-            saves: true,
+            saving: true,
             filters: &[PAINTINGS, Filter::ALL],
             ending: Some("exr"),
-            name,
+            name: format!("{}.exr", self.title()),
         };
-        self.browse(wanted, ForWhat::Save { then, revision });
+        self.browse(options, FilePurpose::Save { next, keep_revision });
     }
 
     pub(super) fn ask_where_to_record(&mut self) {
-        let name = format!("{}.json", self.title());
-        let wanted = Wanted {
+        let options = BrowserOptions {
             title: "Save the recording",
-            saves: true,
+            saving: true,
             filters: &[SCRIPTS, Filter::ALL],
             ending: Some("json"),
-            name,
+            name: format!("{}.json", self.title()),
         };
-        self.browse(wanted, ForWhat::Recording);
+        self.browse(options, FilePurpose::Recording);
     }
 
     pub(super) fn ask_what_to_export(&mut self) {
-        self.dialogs.push(Dialog::Export(Export::Picture(PictureFormat::Png8)));
+        self.dialogs.push(OpenDialog::Export(Export::Picture(PictureFormat::Png8)));
     }
 
     fn ask_where_to_export(&mut self, export: Export) {
@@ -205,19 +189,19 @@ impl Files {
             Export::PigmentMaps => &[Filter::ALL],
             _ => &[PAINTINGS, Filter::ALL],
         };
-        // Not the painting's own name.
+        // A linear EXR must not get the name of the painting's own file.
         let kind = if export == Export::Picture(PictureFormat::LinearExr) { ".linear" } else { "" };
         let name = format!("{}{kind}.{ending}", self.title());
         let title = "Export";
-        let wanted = Wanted { title, saves: true, filters, ending: Some(ending), name };
-        self.browse(wanted, ForWhat::Export(export));
+        let options = BrowserOptions { title, saving: true, filters, ending: Some(ending), name };
+        self.browse(options, FilePurpose::Export(export));
     }
 
-    pub(super) fn ask_for_new(&mut self, easel: &PaintingState) {
-        let names = easel.slots.iter().flatten();
-        let names = names.filter_map(|&index| easel.library.pigments.get(index));
-        let palette = PaletteSpec::from_names(names.map(|pigment| pigment.name.as_str()));
-        let library = Box::new((*easel.library).clone());
-        self.dialogs.push(Dialog::New(NewPainting::default(), Box::new(palette), library));
+    pub(super) fn ask_for_new(&mut self, state: &PaintingState) {
+        let pigments = state.slots.iter().flatten();
+        let pigments = pigments.filter_map(|&index| state.library.pigments.get(index));
+        let palette = PaletteSpec::from_names(pigments.map(|pigment| pigment.name.as_str()));
+        let library = Box::new((*state.library).clone());
+        self.dialogs.push(OpenDialog::New(NewPainting::default(), Box::new(palette), library));
     }
 }

@@ -1,4 +1,4 @@
-//! The small dialogs: questions, exports, a new painting, preferences.
+//! Small dialogs: questions, export, new painting, preferences.
 
 use std::path::Path;
 
@@ -11,26 +11,26 @@ use super::exporting::Export;
 use super::preferences::{Backend, Preferences};
 use crate::pen::PenSettings;
 
-/// What came of a dialog in this frame.
+/// The button of a dialog that was chosen in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Choice {
-    /// Its main button, or Enter.
+    /// The main button, or Enter.
     Yes,
-    /// Its second button.
+    /// The second button.
     No,
-    /// Esc, Cancel, or a click beside it.
+    /// Esc, Cancel, or a click outside the dialog.
     Cancelled,
 }
 
-/// A button of a question: its words and its tooltip.
-type Words = (&'static str, &'static str);
+/// Label and tooltip of a button.
+type ButtonText = (&'static str, &'static str);
 
-/// A dialog of `content` with a row of buttons.
+/// Shows a dialog with `content` above a row of buttons.
 fn dialog(
     ctx: &Context,
     title: &str,
-    yes: Words,
-    no: Option<Words>,
+    yes: ButtonText,
+    no: Option<ButtonText>,
     content: impl FnOnce(&mut Ui),
 ) -> Option<Choice> {
     let mut choice = None;
@@ -49,7 +49,7 @@ fn dialog(
             {
                 choice = Some(Choice::No);
             }
-            if ui.button("Cancel").on_hover_text("Nothing is done (Esc)").clicked() {
+            if ui.button("Cancel").on_hover_text("Changes nothing (Esc)").clicked() {
                 choice = Some(Choice::Cancelled);
             }
         });
@@ -61,37 +61,37 @@ fn dialog(
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
 }
 
-/// Whether changes are to be saved before they are lost.
+/// Asks if changes should be saved before they are lost.
 pub(super) fn unsaved(ctx: &Context, title: &str) -> Option<Choice> {
-    let save = ("Save", "Saves it, then goes on (Enter)");
-    let discard = ("Discard", "Goes on; what was not saved is lost");
+    let save = ("Save", "Saves it, then continues (Enter)");
+    let discard = ("Discard", "Continues; unsaved changes are lost");
     dialog(ctx, "Save the painting?", save, Some(discard), |ui| {
-        ui.label(format!("{title} has changes that are in no file."));
+        ui.label(format!("{title} has unsaved changes."));
     })
 }
 
-/// Whether a revision is to be deleted.
+/// Asks if a revision should be deleted.
 pub(super) fn delete(ctx: &Context, path: &Path) -> Option<Choice> {
     let number = path.file_stem().unwrap_or_default().to_string_lossy();
-    let delete = ("Delete", "Deletes the file for good (Enter)");
+    let delete = ("Delete", "Deletes the file permanently (Enter)");
     dialog(ctx, "Delete the revision?", delete, None, |ui| {
-        ui.label(format!("Revision {number} will be gone."));
+        ui.label(format!("Revision {number} will be deleted."));
         ui.label(RichText::new("The painting itself stays.").weak());
     })
 }
 
-/// What to export.
+/// Asks what to export.
 pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
     const KINDS: [(Export, &str, &str); 6] = [
         (
             Export::Picture(PictureFormat::Png8),
             "Picture, PNG of 8 bits",
-            "sRGB, for the web and for looking at",
+            "sRGB, for viewing and for the web",
         ),
         (
             Export::Picture(PictureFormat::Png16),
             "Picture, PNG of 16 bits",
-            "sRGB with finer steps, for work on the picture",
+            "sRGB with finer steps, for editing",
         ),
         (
             Export::Picture(PictureFormat::LinearExr),
@@ -101,7 +101,7 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
         (
             Export::Spectral(Bands::Nodes),
             "Spectra, OpenEXR of 8 wavelengths",
-            "Reflectance of every cell at the wavelengths of the light",
+            "Reflectance of every cell at the eight wavelengths of the light",
         ),
         (
             Export::Spectral(Bands::Full),
@@ -122,7 +122,7 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
     })
 }
 
-/// What a new painting is painted on.
+/// Canvas of a new painting, as described in the dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NewPainting {
     width_mm: f64,
@@ -130,7 +130,7 @@ pub(super) struct NewPainting {
     cell_mm: f64,
     ground: Ground,
     seed: u64,
-    /// Whether the pigments of the painting that is there are taken.
+    /// Whether the new painting uses the library and palette of the current one.
     pub(super) same_pigments: bool,
 }
 
@@ -154,8 +154,7 @@ impl Default for NewPainting {
     }
 }
 
-/// The most cells of a canvas that the dialog lets pass: 64 million, of which a
-/// layer takes 2.3 GB.
+/// Maximum number of cells of a canvas: 64 million, of which each layer takes 2.3 GB.
 const MAX_CELLS: usize = 64 << 20;
 
 impl NewPainting {
@@ -171,30 +170,32 @@ impl NewPainting {
         Canvas { width_mm, height_mm, cell_mm, ground: GroundSpec::from(relief) }
     }
 
-    /// Whether the canvas is not too large.
+    /// Whether the canvas has at most `MAX_CELLS` cells.
     pub(super) fn fits(&self) -> bool {
         let (width, height) = self.canvas().cells();
         width.saturating_mul(height) <= MAX_CELLS
     }
 
-    /// Asks for it.
+    /// Shows the dialog.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Choice> {
-        let begin = ("Begin", "Takes the new canvas up (Enter)");
+        let begin = ("Begin", "Begins to paint on the new canvas (Enter)");
         let choice = dialog(ctx, "New painting", begin, None, |ui| {
             Grid::new("new painting").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| {
                 let length = |value, tip, ui: &mut Ui| {
                     let drag = DragValue::new(value).range(5.0..=2000.0).speed(1.0).suffix(" mm");
                     ui.add(drag).on_hover_text(tip);
                 };
-                named(ui, "Width", |ui| length(&mut self.width_mm, "Width of the canvas", ui));
-                named(ui, "Height", |ui| length(&mut self.height_mm, "Height of the canvas", ui));
-                named(ui, "Cell", |ui| {
+                grid_row(ui, "Width", |ui| length(&mut self.width_mm, "Width of the canvas", ui));
+                grid_row(ui, "Height", |ui| {
+                    length(&mut self.height_mm, "Height of the canvas", ui)
+                });
+                grid_row(ui, "Cell", |ui| {
                     let drag = DragValue::new(&mut self.cell_mm).range(0.02..=2.0).speed(0.01);
-                    let tip = "Width of a cell; 0.1 mm is 254 to the inch. Smaller is finer and \
+                    let tip = "Width of a cell; 0.1 mm is 254 per inch. Smaller is finer and \
                                slower";
                     ui.add(drag.suffix(" mm")).on_hover_text(tip);
                 });
-                named(ui, "Ground", |ui| {
+                grid_row(ui, "Ground", |ui| {
                     for (ground, name, tip) in [
                         (Ground::Linen, "Linen", "Primed linen in plain weave"),
                         (Ground::Paper, "Paper", "Cold-pressed paper"),
@@ -203,26 +204,28 @@ impl NewPainting {
                         ui.radio_value(&mut self.ground, ground, name).on_hover_text(tip);
                     }
                 });
-                named(ui, "Seed", |ui| {
-                    let tip = "Another number is another piece of the same ground";
+                grid_row(ui, "Seed", |ui| {
+                    let tip = "Each number gives another piece of the same ground";
                     ui.add(DragValue::new(&mut self.seed)).on_hover_text(tip);
                 });
-                named(ui, "Pigments", |ui| {
+                grid_row(ui, "Pigments", |ui| {
                     let same = &mut self.same_pigments;
-                    ui.radio_value(same, true, "As now").on_hover_text("Library and tubes stay");
+                    ui.radio_value(same, true, "As now")
+                        .on_hover_text("Keeps the library and the tubes");
                     let oils = ui.radio_value(same, false, "Van Gogh's oils");
                     oils.on_hover_text("The library that comes with the program");
                 });
             });
             let (width, height) = self.canvas().cells();
-            let fits = if self.fits() { "" } else { ": too many, take larger ones" };
+            let fits = if self.fits() { "" } else { ": too many, choose larger cells" };
             ui.label(RichText::new(format!("{width} x {height} cells{fits}")).weak());
         });
         choice.filter(|choice| *choice != Choice::Yes || self.fits())
     }
 }
 
-/// The preferences; they hold as they are changed.
+/// Shows the preferences, which take effect while they are changed. Returns whether the
+/// dialog stays open.
 pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool {
     let mut open = true;
     let modal = Modal::new(Id::unique("preferences")).show(ctx, |ui| {
@@ -230,33 +233,33 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
         ui.heading("Preferences");
         ui.add_space(4.0);
         Grid::new("preferences").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| {
-            named(ui, "Autosave", |ui| {
+            grid_row(ui, "Autosave", |ui| {
                 let drag = DragValue::new(&mut preferences.autosave_seconds).range(2..=3600);
-                let tip = "Seconds between copies for the case that the program is killed";
+                let tip = "Seconds between the copies that are kept in case the program ends unexpectedly";
                 ui.add(drag.suffix(" s")).on_hover_text(tip);
             });
-            named(ui, "Undo memory", |ui| {
+            grid_row(ui, "Undo memory", |ui| {
                 let drag = DragValue::new(&mut preferences.undo_mib).range(0..=1 << 20);
-                let tip = "What undo may keep; what does not fit is forgotten, oldest first";
+                let tip = "Memory for undo; when it is full, the oldest actions can no longer be undone";
                 ui.add(drag.suffix(" MiB")).on_hover_text(tip);
             });
-            named(ui, "Computes", |ui| {
+            grid_row(ui, "Computes", |ui| {
                 for (backend, name, tip) in [
-                    (Backend::Auto, "Auto", "The graphics adapter, where there is a real one"),
+                    (Backend::Auto, "Auto", "The graphics adapter if it is hardware, else the processor"),
                     (Backend::Cpu, "Processor", "All cores"),
-                    (Backend::Gpu, "Graphics", "A graphics adapter, even one in software"),
+                    (Backend::Gpu, "Graphics", "A graphics adapter, even a software one"),
                 ] {
-                    let tip = format!("{tip}; from the next start on");
+                    let tip = format!("{tip}; takes effect at the next start");
                     ui.radio_value(&mut preferences.backend, backend, name).on_hover_text(tip);
                 }
             });
-            named(ui, "Size", |ui| {
+            grid_row(ui, "Size", |ui| {
                 let drag = DragValue::new(&mut preferences.interface_scale).range(0.5..=3.0);
-                let tip = "Size of letters and buttons beside the system's own";
+                let tip = "Size of text and buttons relative to the system's scale";
                 ui.add(drag.speed(0.01).max_decimals(2)).on_hover_text(tip);
             });
-            named(ui, "Recordings", |ui| {
-                let tip = "At the speed they were painted with, else as fast as can be";
+            grid_row(ui, "Recordings", |ui| {
+                let tip = "Plays at the speed of painting, otherwise as fast as possible";
                 ui.checkbox(&mut preferences.replay_as_painted, "Play as painted")
                     .on_hover_text(tip);
             });
@@ -264,35 +267,36 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
         });
         ui.add_space(8.0);
         ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-            open = !ui.button("Close").on_hover_text("They hold already (Esc)").clicked();
+            open = !ui.button("Close").on_hover_text("Changes have taken effect (Esc)").clicked();
         });
     });
     open && !modal.should_close()
 }
 
-/// Rows of how a brush is led.
+/// Adds the rows for pens and mice.
 fn pen(ui: &mut Ui, pen: &mut PenSettings) {
-    named(ui, "Pen", |ui| {
+    grid_row(ui, "Pen", |ui| {
         let drag = DragValue::new(&mut pen.gamma).range(0.2..=5.0).speed(0.01).max_decimals(2);
-        let tip = "Pressure is raised to this: above 1 for a softer hand, below for a heavier";
+        let tip = "Exponent of the pressure: above 1 the brush presses less, below 1 more";
         ui.add(drag.prefix("pressure ")).on_hover_text(tip);
-        let tip = "Tilt and twist of the pen lead the brush; else it is held as by a mouse";
+        let tip =
+            "The brush follows tilt and twist of the pen; otherwise it is held as with a mouse";
         ui.checkbox(&mut pen.pen_tilt, "Tilt and twist").on_hover_text(tip);
     });
-    named(ui, "Mouse", |ui| {
+    grid_row(ui, "Mouse", |ui| {
         let drag = DragValue::new(&mut pen.grip.lean_deg).range(0.0..=80.0).max_decimals(0);
-        let tip = "How far the handle leans, from upright";
+        let tip = "Angle between the handle and upright";
         ui.add(drag.prefix("leans ").suffix("\u{b0}")).on_hover_text(tip);
         let drag = DragValue::new(&mut pen.grip.towards_deg).range(0.0..=360.0).max_decimals(0);
         let tip =
-            "Where it leans to, clockwise from the right: 45 for a right hand, 135 for a left";
+            "Direction it leans to, clockwise from the right: 45 for a right hand, 135 for a left";
         ui.add(drag.prefix("towards ").suffix("\u{b0}")).on_hover_text(tip);
-        let tip = "The broad side turns across the way that the brush is led";
-        ui.checkbox(&mut pen.follow, "Follow the way").on_hover_text(tip);
+        let tip = "The broad side turns across the direction of the stroke";
+        ui.checkbox(&mut pen.follow, "Follow the stroke").on_hover_text(tip);
     });
 }
 
-fn named(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.label(name);
     ui.horizontal(content);
     ui.end_row();

@@ -1,4 +1,4 @@
-//! Exports of a painting: what can be made, and the making.
+//! Exports of a painting: pictures, spectra and pigment maps.
 
 use std::path::Path;
 
@@ -9,25 +9,25 @@ use render::light::Light;
 use render::paint::document::Document;
 use render::paint::scene::{picture, scene};
 
-use super::job::{Progress, Stopped};
-use session::FileFailure;
-use session::whole;
+use super::job::{JobError, Progress};
+use super::problem::Problem;
+use spectra::file::write_whole;
 
-/// What is to be made.
+/// The kind of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Export {
-    /// The picture.
+pub(crate) enum Export {
+    /// The picture under its light.
     Picture(PictureFormat),
-    /// The reflectance of every cell.
+    /// A spectral OpenEXR with the reflectance of every cell.
     Spectral(Bands),
-    /// A folder with a map of each pigment.
+    /// A folder with one map for each pigment.
     PigmentMaps,
 }
 
 impl Export {
-    /// How the file's name ends; of a folder too.
+    /// Extension of the file's or folder's name.
     #[must_use]
-    pub fn ending(self) -> &'static str {
+    pub(crate) fn ending(self) -> &'static str {
         match self {
             Self::Picture(PictureFormat::Png8 | PictureFormat::Png16) => "png",
             Self::Picture(PictureFormat::LinearExr) => "exr",
@@ -37,57 +37,57 @@ impl Export {
     }
 }
 
-/// Makes `export` of `document` under `light` and writes it to `path`; says what
-/// the painter should know of it.
+/// Writes `export` of `document` under `light` to `path`. Returns a remark if colours were
+/// clipped.
 ///
 /// # Errors
-/// [`Stopped`]; then no file is written, and of maps those that are complete.
-pub fn export(
+/// [`JobError`]. No incomplete file is left; of pigment maps, the complete ones stay.
+pub(crate) fn export(
     export: Export,
     document: &Document,
     light: &Light,
     path: &Path,
     progress: &Progress,
-) -> Result<Option<FileFailure>, Stopped> {
-    let told = |error: render::export::ExportError| FileFailure::told(&error, None::<String>);
-    let shown = || picture(document, &scene(document, light));
-    progress.tell(0.0)?;
+) -> Result<Option<Problem>, JobError> {
+    let problem = |error: render::export::ExportError| Problem::without_hint(&error);
+    let render_picture = || picture(document, &scene(document, light));
+    progress.report(0.0)?;
     match export {
         Export::Picture(format) => {
-            let picture = shown();
-            progress.tell(0.5)?;
-            let file = picture_file(&picture, document.cell_mm, format).map_err(told)?;
-            progress.tell(0.9)?;
-            whole::write(path, &file.bytes)?;
+            let picture = render_picture();
+            progress.report(0.5)?;
+            let file = picture_file(&picture, document.cell_mm, format).map_err(problem)?;
+            progress.report(0.9)?;
+            write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok((file.clipped >= 0.0005).then(|| clipped(path, file.clipped)))
         }
         Export::Spectral(bands) => {
-            let picture = shown();
+            let picture = render_picture();
             let rows = document.wet.height().max(1) as f64;
-            let go_on = |row| progress.tell(0.1 + 0.7 * row as f64 / rows).is_ok();
-            let file = spectral_file(document, light, &picture, bands, go_on).map_err(told)?;
-            let Some(bytes) = file else { return Err(Stopped::Cancelled) };
-            progress.tell(0.9)?;
-            whole::write(path, &bytes)?;
+            let go_on = |row| progress.report(0.1 + 0.7 * row as f64 / rows).is_ok();
+            let file = spectral_file(document, light, &picture, bands, go_on).map_err(problem)?;
+            let Some(bytes) = file else { return Err(JobError::Cancelled) };
+            progress.report(0.9)?;
+            write_whole(path, &bytes).map_err(Problem::from)?;
             Ok(None)
         }
         Export::PigmentMaps => {
             let maps = painting_maps(document);
-            progress.tell(0.3)?;
-            let files = pigment_maps("painting", &maps, document.cell_mm).map_err(told)?;
-            std::fs::create_dir_all(path).map_err(|error| FileFailure::io(path, "made", &error))?;
+            progress.report(0.3)?;
+            let files = pigment_maps("painting", &maps, document.cell_mm).map_err(problem)?;
+            std::fs::create_dir_all(path).map_err(|error| Problem::io(path, "created", &error))?;
             let count = files.len() as f64;
             for (index, file) in files.into_iter().enumerate() {
-                progress.tell(0.6 + 0.4 * index as f64 / count)?;
-                whole::write(&path.join(file.name), &file.bytes)?;
+                progress.report(0.6 + 0.4 * index as f64 / count)?;
+                write_whole(&path.join(file.name), &file.bytes).map_err(Problem::from)?;
             }
             Ok(None)
         }
     }
 }
 
-fn clipped(path: &Path, share: f64) -> FileFailure {
+fn clipped(path: &Path, share: f64) -> Problem {
     let (path, share) = (path.display(), 100.0 * share);
-    let what = format!("{path}: {share:.1} % of the cells are outside sRGB and were clipped");
-    FileFailure::new(what, "linear OpenEXR keeps them")
+    let text = format!("{path}: {share:.1} % of the cells are outside sRGB and were clipped");
+    Problem::new(text, "export linear OpenEXR to keep them")
 }

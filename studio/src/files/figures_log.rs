@@ -1,4 +1,4 @@
-//! The figures of a session as a file for measuring: one JSON line a second.
+//! A log of performance figures for measuring: one line of JSON per second.
 
 use std::fs::File;
 use std::io::Write;
@@ -7,69 +7,70 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use session::FileFailure;
+use super::problem::Problem;
 use session::Performance;
 
-/// One line.
+/// One line of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FigureLine {
-    /// Seconds since the log began.
-    pub seconds: f64,
-    /// Frames that the window drew in the last second.
-    pub frames_a_second: f64,
-    /// From the arrival of a sample to the frame that shows it, in ms: the mean
-    /// of the last second.
-    pub latency_ms: f64,
-    /// The longest of the last second.
-    pub worst_latency_ms: f64,
-    /// Sub-steps of the last second.
-    pub substeps_a_second: f64,
-    /// Sub-steps that wait.
-    pub behind: usize,
-    /// Where the view of the canvas is, in physical pixels of the window: left,
-    /// top, right, bottom.
-    pub canvas_px: [f32; 4],
+struct FigureLine {
+    /// Time since the log began, in seconds.
+    seconds: f64,
+    /// Frames drawn in the last second.
+    frames_a_second: f64,
+    /// Mean time in the last second from the arrival of a pen sample to the frame that
+    /// shows it, in ms.
+    latency_ms: f64,
+    /// Longest such time in the last second, in ms.
+    worst_latency_ms: f64,
+    /// Sub-steps of paint simulation in the last second.
+    substeps_a_second: f64,
+    /// Number of sub-steps waiting to be simulated.
+    behind: usize,
+    /// Bounding box of the canvas in physical pixels of the window: left, top, right,
+    /// bottom.
+    canvas_px: [f32; 4],
 }
 
-/// What the window knows besides the worker's figures.
+/// Figures of the window; the worker's figures complete a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameFigures {
-    /// Frames in the last second.
+    /// Frames drawn in the last second.
     pub frames_a_second: f64,
-    /// From input to screen, the mean of the last second, in ms.
+    /// Mean time from input to screen in the last second, in ms.
     pub latency_ms: f64,
-    /// The longest, in ms.
+    /// Longest such time in the last second, in ms.
     pub worst_latency_ms: f64,
-    /// The view of the canvas in physical pixels: left, top, right, bottom.
+    /// Bounding box of the canvas in physical pixels of the window: left, top, right,
+    /// bottom.
     pub canvas_px: [f32; 4],
 }
 
-/// The file.
+/// The log file.
 #[derive(Debug)]
 pub struct FiguresLog {
     file: File,
     began: Instant,
-    told: Option<Instant>,
+    last: Option<Instant>,
 }
 
 impl FiguresLog {
-    /// Appends to `path`, which is made if it is not there.
+    /// Opens `path` for appending; creates it if it does not exist.
     ///
     /// # Errors
-    /// [`FileFailure`] if it cannot be written.
-    pub fn append(path: &Path) -> Result<Self, FileFailure> {
+    /// [`Problem`] if the file cannot be written.
+    pub fn open(path: &Path) -> Result<Self, Problem> {
         let file = File::options().create(true).append(true).open(path);
-        let file = file.map_err(|error| FileFailure::io(path, "written", &error))?;
-        Ok(Self { file, began: Instant::now(), told: None })
+        let file = file.map_err(|error| Problem::io(path, "written", &error))?;
+        Ok(Self { file, began: Instant::now(), last: None })
     }
 
-    /// Writes a line if a second has passed since the last. A line that cannot be
-    /// written is left out.
-    pub fn tell(&mut self, now: Instant, frames: &FrameFigures, figures: &Performance) {
-        if self.told.is_some_and(|told| now.duration_since(told) < Duration::from_secs(1)) {
+    /// Appends a line if a second has passed since the last one. A line that cannot be
+    /// written is dropped.
+    pub fn append_when_due(&mut self, now: Instant, frames: &FrameFigures, figures: &Performance) {
+        if self.last.is_some_and(|last| now.duration_since(last) < Duration::from_secs(1)) {
             return;
         }
-        self.told = Some(now);
+        self.last = Some(now);
         let line = FigureLine {
             seconds: now.duration_since(self.began).as_secs_f64(),
             frames_a_second: frames.frames_a_second,
@@ -95,12 +96,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figures.jsonl");
         std::fs::write(&path, "{\"before\": 1}\n").unwrap();
-        let mut log = FiguresLog::append(&path).unwrap();
+        let mut log = FiguresLog::open(&path).unwrap();
         let figures = Performance { waiting_substeps: 3, ..Performance::default() };
         let start = Instant::now();
         for ms in [0, 400, 900, 1100, 1500, 2200] {
             let now = start + Duration::from_millis(ms);
-            log.tell(now, &FrameFigures::default(), &figures);
+            log.append_when_due(now, &FrameFigures::default(), &figures);
         }
         let text = std::fs::read_to_string(&path).unwrap();
         let lines: Vec<serde_json::Value> =

@@ -1,166 +1,163 @@
-//! What the end of a job means.
+//! Applies the results of jobs that ended.
 
 use std::path::{Path, PathBuf};
 
-use pigment::library::PigmentLibrary;
-use render::paint::strokes::{Action, StrokeScript};
+use render::paint::strokes::Action;
 
-use super::job::Stopped;
-use super::notices::Notice;
+use super::job::JobError;
+use super::notice::Notice;
 use super::opened::Opened;
-use super::state::{Files, Opening, Reference, Replacement, Then};
-use super::work::{Done, WorkKind, name};
-use session::FileFailure;
+use super::pending::{FileOrigin, PendingAction, Replacement};
+use super::problem::Problem;
+use super::state::{Files, ReferenceChange};
+use super::work::{Finished, JobKind, Purpose, file_name};
 use session::{Command, Origin, Pace, blank_canvas};
 
 impl Files {
-    /// Takes up the results of all jobs that ended.
-    pub(super) fn finish_works(&mut self) {
+    /// Applies the results of all jobs that ended.
+    pub(super) fn collect_results(&mut self) {
         let mut index = 0;
-        while index < self.works.len() {
-            match self.works[index].job.poll() {
+        while index < self.jobs.len() {
+            match self.jobs[index].job.poll() {
                 None => index += 1,
                 Some(result) => {
-                    let work = self.works.remove(index);
+                    let ended = self.jobs.remove(index);
                     match result {
-                        Ok(done) => self.finished(done),
-                        Err(Stopped::Cancelled) => {
-                            let label = work.job.label();
-                            self.notices.push(Notice::said(format!("{label}: given up")));
+                        Ok(finished) => self.apply(finished),
+                        Err(JobError::Cancelled) => {
+                            let text = format!("{}: cancelled", ended.job.label());
+                            self.notices.push(Notice::done(&text));
                         }
-                        Err(Stopped::Failed(failure)) => self.failed(work.kind, failure),
+                        Err(JobError::Failed(problem)) => self.report_failure(ended.kind, problem),
                     }
                 }
             }
         }
     }
 
-    fn failed(&mut self, kind: WorkKind, failure: FileFailure) {
-        // The same every few seconds helps nobody.
-        if kind == WorkKind::Autosave && std::mem::replace(&mut self.autosave_fails, true) {
+    fn report_failure(&mut self, kind: JobKind, problem: Problem) {
+        // Autosaves fail again every few seconds; the first report is enough.
+        if kind == JobKind::Autosave && std::mem::replace(&mut self.autosave_failed, true) {
             return;
         }
-        self.notices.push(Notice::failed(failure));
+        self.report(problem);
     }
 
-    fn finished(&mut self, done: Done) {
-        match done {
-            Done::Read { path, opened } => self.read_as(path, opened),
-            Done::Revision(document, start) => {
+    fn apply(&mut self, finished: Finished) {
+        match finished {
+            Finished::Read { path, opened } => self.use_opened(path, opened),
+            Finished::RevisionRead(document, start) => {
                 let commands = vec![Command::Open(Origin::Painting(document))];
-                let opening = Opening { start: Some(start), ..Opening::default() };
-                self.go_on(Then::Replace(Replacement { commands, opening }));
+                let origin = FileOrigin { start: Some(start), ..FileOrigin::default() };
+                self.replace(Replacement { commands, origin });
             }
-            Done::Recovered { canvas, palette, lost } => {
+            Finished::Recovered { canvas, palette, lost } => {
                 let commands = vec![Command::Open(Origin::Recovered { canvas, palette })];
                 let path = lost.meta.path.clone();
-                let opening = Opening { path, lost: Some(lost), start: None };
-                self.go_on(Then::Replace(Replacement { commands, opening }));
+                let origin = FileOrigin { path, lost: Some(lost), start: None };
+                self.replace(Replacement { commands, origin });
             }
-            Done::Saved { path, revision, epoch, then, keep } => {
+            Finished::Saved { path, revision, epoch, next, keep_revision } => {
                 self.preferences.remember(&path);
-                self.notices.push(Notice::said(format!("saved {}", path.display())));
+                self.notices.push(Notice::done(&format!("saved {}", path.display())));
                 if epoch == self.epoch {
-                    self.saved = Some(revision);
-                    self.path = Some(path.clone());
-                    if let Some(lost) = self.recovered.take() {
-                        lost.discard();
-                    }
-                    if !self.unsaved() {
-                        self.clear_session();
-                    }
-                    self.list_revisions();
-                    if keep {
-                        self.keep_revision(path);
-                    }
+                    self.saved(path, revision, keep_revision);
                 }
-                if let Some(then) = then {
-                    self.go_on(then);
+                if let Some(next) = next {
+                    self.carry_out_safely(next);
                 }
             }
-            Done::Kept(path) => {
+            Finished::RevisionKept(path) => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-                self.notices.push(Notice::said(format!("kept as revision {stem}")));
+                self.notices.push(Notice::done(&format!("kept as revision {stem}")));
                 self.list_revisions();
             }
-            Done::Exported { path, remark } => {
-                self.notices.push(Notice::said(format!("exported {}", path.display())));
-                self.notices.extend(remark.map(Notice::failed));
+            Finished::Exported { path, remark } => {
+                self.notices.push(Notice::done(&format!("exported {}", path.display())));
+                self.notices.extend(remark.map(Notice::problem));
                 self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
             }
-            Done::Recorded(path) => {
-                self.notices.push(Notice::said(format!("saved {}", path.display())));
+            Finished::Recorded(path) => {
+                self.notices.push(Notice::done(&format!("saved {}", path.display())));
                 self.preferences.remember(&path);
             }
-            Done::Listed { epoch, revisions } => {
+            Finished::Listed { epoch, revisions } => {
                 if epoch == self.epoch {
                     self.revisions.set(&self.ctx, self.path.clone(), revisions);
                 }
             }
-            Done::Autosaved { revision, epoch } => {
-                self.autosave_fails = false;
+            Finished::Autosaved { revision, epoch } => {
+                self.autosave_failed = false;
                 if epoch == self.epoch {
-                    self.autosaved.1 = Some(revision);
+                    self.autosaved_revision = Some(revision);
                 }
                 if let Some(lost) = self.recovered.take() {
-                    // Kept in this session now; the painting is still in no file.
-                    self.saved = None;
+                    // This session keeps the recovered painting now; it is still unsaved.
+                    self.saved_revision = None;
                     lost.discard();
                 }
             }
-            Done::Cleared | Done::Preferences => {}
+            Finished::Quietly => {}
         }
     }
 
-    /// Takes up what a file was read as.
-    fn read_as(&mut self, path: PathBuf, opened: Opened) {
-        let replacement = match opened {
-            Opened::Painting(document, start) => Replacement {
+    /// The current painting was saved in `path`.
+    fn saved(&mut self, path: PathBuf, revision: u64, keep_revision: bool) {
+        self.saved_revision = Some(revision);
+        self.path = Some(path.clone());
+        if let Some(lost) = self.recovered.take() {
+            lost.discard();
+        }
+        if !self.has_unsaved_changes() {
+            self.clear_autosaves();
+        }
+        self.list_revisions();
+        if keep_revision {
+            self.request_snapshot(Purpose::Revision { path });
+        }
+    }
+
+    /// Uses the content of a file, according to its kind.
+    fn use_opened(&mut self, path: PathBuf, opened: Opened) {
+        match opened {
+            Opened::Painting(document, start) => self.replace(Replacement {
                 commands: vec![Command::Open(Origin::Painting(document))],
-                opening: Opening { path: Some(path), lost: None, start: Some(start) },
-            },
+                origin: FileOrigin { path: Some(path), lost: None, start: Some(start) },
+            }),
             Opened::Library(library) => {
                 self.preferences.remember(&path);
-                let opening = Opening::default();
-                let origin = blank_canvas(*library, 192.0, 108.0, 0.1);
-                Replacement { commands: vec![Command::Open(origin)], opening }
+                let commands = vec![Command::Open(blank_canvas(*library, 192.0, 108.0, 0.1))];
+                self.replace(Replacement { commands, origin: FileOrigin::default() });
             }
             Opened::Recording { script, library, remarks } => {
                 self.preferences.remember(&path);
-                self.notices.extend(remarks.into_iter().map(Notice::failed));
-                let commands = vec![Command::Replay { script, library, pace: self.pace() }];
-                Replacement { commands, opening: Opening::default() }
+                self.notices.extend(remarks.into_iter().map(Notice::problem));
+                let commands = vec![Command::Replay { script, library, pace: self.replay_pace() }];
+                self.replace(Replacement { commands, origin: FileOrigin::default() });
             }
-            Opened::Picture => {
-                self.reference = Some(Reference::Open(path));
-                return;
-            }
-            Opened::Lamp => return self.shine(&path),
-        };
-        self.go_on(Then::Replace(replacement));
+            Opened::Picture => self.reference = Some(ReferenceChange::Open(path)),
+            Opened::Lamp => self.light_with_lamp(&path),
+        }
     }
 
-    /// How a recording is played.
-    fn pace(&self) -> Pace {
-        let wanted = if self.preferences.replay_as_painted { Pace::AsPainted } else { Pace::Fast };
-        self.pace.unwrap_or(wanted)
+    fn replace(&mut self, replacement: Replacement) {
+        self.carry_out_safely(PendingAction::Replace(replacement));
     }
 
-    /// Shows the painting under the lamp measured in `path`.
-    fn shine(&mut self, path: &Path) {
-        let (Some(easel), Some(text)) = (&self.easel, path.to_str()) else {
-            let what = format!("{}: the name of a lamp's file must be text", name(path));
-            return self.say(FileFailure::new(what, "rename the file"));
+    fn replay_pace(&self) -> Pace {
+        let preferred =
+            if self.preferences.replay_as_painted { Pace::AsPainted } else { Pace::Fast };
+        self.pace.unwrap_or(preferred)
+    }
+
+    /// Lights the painting with the lamp measured in `path`.
+    fn light_with_lamp(&mut self, path: &Path) {
+        let (Some(state), Some(text)) = (&self.painting, path.to_str()) else {
+            let text = format!("{}: the name of a lamp's file must be text", file_name(path));
+            return self.report(Problem::new(text, "rename the file"));
         };
-        let mut lighting = easel.lighting.clone();
+        let mut lighting = state.lighting.clone();
         lighting.illuminant = text.to_owned();
         self.commands.push(Command::Apply(Action::Light(lighting)));
-    }
-
-    /// A new painting on the canvas of `script`.
-    pub(super) fn begin(&mut self, script: StrokeScript, library: PigmentLibrary) {
-        let origin = Origin::Blank { script: Box::new(script), library: Box::new(library) };
-        let commands = vec![Command::Open(origin)];
-        self.go_on(Then::Replace(Replacement { commands, opening: Opening::default() }));
     }
 }

@@ -1,42 +1,41 @@
-//! Where the program keeps its own: preferences, and what autosave writes.
+//! Folders in which the program keeps preferences and autosaves.
 
 use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
-/// The program's own folders; they need not exist yet.
+/// The program's own folders. They need not exist yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Home {
-    /// Preferences.
+    /// Folder of the preferences.
     pub settings: PathBuf,
-    /// What autosave writes.
+    /// Folder of the autosaves.
     pub data: PathBuf,
 }
 
 impl Home {
-    /// The platform's own, such as `~/.config/impasto` and
-    /// `~/.local/share/impasto`; none if it does not say where the user is at
-    /// home.
+    /// The usual folders of the platform, such as `~/.config/impasto` and
+    /// `~/.local/share/impasto`; `None` if the system does not name the user's home folder.
     #[must_use]
-    pub fn of_platform() -> Option<Self> {
+    pub fn for_platform() -> Option<Self> {
         let folders = ProjectDirs::from("", "", "impasto")?;
         let (settings, data) = (folders.config_dir(), folders.data_local_dir());
         Some(Self { settings: settings.to_owned(), data: data.to_owned() })
     }
 
-    /// All in one folder, to be carried about.
+    /// Keeps everything in one folder.
     #[must_use]
     pub fn in_folder(folder: &Path) -> Self {
         Self { settings: folder.to_owned(), data: folder.to_owned() }
     }
 
-    /// The file of preferences.
+    /// Path of the preferences file.
     #[must_use]
     pub fn preferences(&self) -> PathBuf {
         self.settings.join("preferences.json")
     }
 
-    /// The folder of sessions, one a folder.
+    /// Folder that holds one folder for each session.
     #[must_use]
     pub fn sessions(&self) -> PathBuf {
         self.data.join("sessions")

@@ -1,121 +1,122 @@
-//! Long work off the window's thread: a share of it done, a way to give it up,
-//! a result.
+//! Long work on a thread of its own, with progress, cancellation and a result.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use session::FileFailure;
+use super::problem::Problem;
 
-/// Why work has no result.
+/// The reason why a job has no result.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Stopped {
-    /// It was given up.
+pub(crate) enum JobError {
+    /// It was cancelled.
     Cancelled,
-    /// It could not be done.
-    Failed(FileFailure),
+    /// It failed.
+    Failed(Problem),
 }
 
-impl From<FileFailure> for Stopped {
-    fn from(failure: FileFailure) -> Self {
-        Self::Failed(failure)
+impl From<Problem> for JobError {
+    fn from(problem: Problem) -> Self {
+        Self::Failed(problem)
     }
 }
 
-/// What the work sees of its window.
+/// The side of a job that its work sees: reports progress and learns of cancellation.
 #[derive(Debug, Clone, Default)]
-pub struct Progress(Arc<Shared>);
+pub(crate) struct Progress(Arc<Shared>);
 
 #[derive(Debug, Default)]
 struct Shared {
-    /// Thousandths done, and one; 0 is not known.
+    /// Thousandths of the work done, plus one; 0 while it is not known.
     thousandths: AtomicU32,
     cancelled: AtomicBool,
 }
 
 impl Progress {
-    /// Tells the share that is done, 0..1. An error if the work was given up, to
-    /// be handed on with `?`.
+    /// Reports the fraction of the work that is done, 0 to 1. Fails if the job was
+    /// cancelled, so that `?` ends the work.
     ///
     /// # Errors
-    /// [`Stopped::Cancelled`].
-    pub fn tell(&self, share: f64) -> Result<(), Stopped> {
-        let thousandths = 1 + (share.clamp(0.0, 1.0) * 1000.0) as u32;
+    /// [`JobError::Cancelled`].
+    pub(crate) fn report(&self, fraction: f64) -> Result<(), JobError> {
+        let thousandths = 1 + (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
         self.0.thousandths.store(thousandths, Ordering::Relaxed);
-        if self.0.cancelled.load(Ordering::Relaxed) { Err(Stopped::Cancelled) } else { Ok(()) }
+        if self.0.cancelled.load(Ordering::Relaxed) { Err(JobError::Cancelled) } else { Ok(()) }
     }
 }
 
-/// Work under way, seen from the window.
+/// A running job, as the window sees it.
 #[derive(Debug)]
-pub struct Job<T> {
+pub(crate) struct Job<T> {
     label: String,
     progress: Progress,
-    result: Receiver<Result<T, Stopped>>,
+    result: Receiver<Result<T, JobError>>,
 }
 
 impl<T: Send + 'static> Job<T> {
-    /// Starts `work` on a thread of its own; `wake` is called when it ended.
-    pub fn start(
+    /// Starts `work` on a new thread; `wake` is called when it ends.
+    pub(crate) fn start(
         label: impl Into<String>,
         wake: impl FnOnce() + Send + 'static,
-        work: impl FnOnce(&Progress) -> Result<T, Stopped> + Send + 'static,
+        work: impl FnOnce(&Progress) -> Result<T, JobError> + Send + 'static,
     ) -> Self {
-        let (told, result) = channel();
+        let (sender, result) = channel();
         let progress = Progress::default();
-        let seen = progress.clone();
+        let reporter = progress.clone();
         std::thread::spawn(move || {
             let _waking = OnDrop(Some(wake));
-            // Work that panics leaves the channel closed, which `poll` tells.
-            let result = work(&seen);
-            let _ = told.send(result);
+            // If the work panics, the channel is closed, and `poll` reports it.
+            let result = work(&reporter);
+            let _ = sender.send(result);
         });
         Self { label: label.into(), progress, result }
     }
 
-    /// What it does, for the painter.
+    /// Description of the work for the painter.
     #[must_use]
-    pub fn label(&self) -> &str {
+    pub(crate) fn label(&self) -> &str {
         &self.label
     }
 
-    /// The share done, 0..1, where it is known.
+    /// Fraction of the work that is done, 0 to 1, if it is known.
     #[must_use]
-    pub fn share(&self) -> Option<f32> {
+    pub(crate) fn fraction(&self) -> Option<f32> {
         let thousandths = self.progress.0.thousandths.load(Ordering::Relaxed);
         thousandths.checked_sub(1).map(|thousandths| thousandths as f32 / 1000.0)
     }
 
-    /// Asks the work to end. Its result may still come, if it was done already.
-    pub fn cancel(&self) {
+    /// Cancels the work at its next progress report. A result may still arrive if it was
+    /// already done.
+    pub(crate) fn cancel(&self) {
         self.progress.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// The result, once.
-    pub fn poll(&mut self) -> Option<Result<T, Stopped>> {
+    /// Takes the result when it is available.
+    pub(crate) fn poll(&mut self) -> Option<Result<T, JobError>> {
         match self.result.try_recv() {
             Ok(result) => Some(result),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => {
-                let what = format!("{}: ended by an error of this program", self.label);
-                Some(Err(FileFailure::new(what, "save under another name, and start anew").into()))
+                let text = format!("{}: ended by an error in this program", self.label);
+                let hint = "save under another name and restart the program";
+                Some(Err(Problem::new(text, hint).into()))
             }
         }
     }
 
-    /// Waits for the result.
+    /// Waits for the job to end and returns its result.
     ///
     /// # Errors
-    /// As the work has it.
-    pub fn wait(mut self) -> Result<T, Stopped> {
+    /// The error of the work.
+    pub(crate) fn wait(mut self) -> Result<T, JobError> {
         match self.result.recv() {
             Ok(result) => result,
-            Err(_) => self.poll().unwrap_or(Err(Stopped::Cancelled)),
+            Err(_) => self.poll().unwrap_or(Err(JobError::Cancelled)),
         }
     }
 }
 
-/// Calls what it holds when dropped, also while a panic unwinds.
+/// Calls a function when dropped, also while a panic unwinds.
 struct OnDrop<F: FnOnce()>(Option<F>);
 
 impl<F: FnOnce()> Drop for OnDrop<F> {
@@ -133,16 +134,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_job_tells_its_share_and_its_result_once() {
+    fn a_job_reports_its_progress_and_its_result_once() {
         let (go, wait) = channel();
         let (woken, wakes) = channel();
         let wake = move || woken.send(()).unwrap_or_default();
         let mut job = Job::start("counting", wake, move |progress| {
-            progress.tell(0.5)?;
+            progress.report(0.5)?;
             let _ = wait.recv();
             Ok(7)
         });
-        while job.share() != Some(0.5) {
+        while job.fraction() != Some(0.5) {
             std::thread::yield_now();
         }
         assert!(job.poll().is_none(), "it waits");
@@ -152,22 +153,22 @@ mod tests {
     }
 
     #[test]
-    fn a_job_given_up_ends() {
+    fn a_cancelled_job_ends() {
         let job = Job::<()>::start(
             "turning",
             || {},
             |progress| {
                 loop {
-                    progress.tell(0.1)?;
+                    progress.report(0.1)?;
                 }
             },
         );
         job.cancel();
-        assert_eq!(job.wait(), Err(Stopped::Cancelled));
+        assert_eq!(job.wait(), Err(JobError::Cancelled));
     }
 
     #[test]
-    fn a_job_that_panics_is_told_and_wakes_the_window() {
+    fn a_panicking_job_is_reported_and_wakes_the_window() {
         let (woken, wakes) = channel();
         let wake = move || woken.send(()).unwrap_or_default();
         let mut job = Job::<()>::start("falling", wake, |_| panic!("on purpose"));
@@ -177,6 +178,6 @@ mod tests {
                 break ended;
             }
         };
-        assert!(matches!(ended, Err(Stopped::Failed(_))), "{ended:?}");
+        assert!(matches!(ended, Err(JobError::Failed(_))), "{ended:?}");
     }
 }

@@ -1,5 +1,7 @@
-//! Files: opening, saving, exports, autosave, preferences; all but the shortest
-//! work on threads of its own.
+//! Files: opening, saving, exports, autosaves and preferences. All but the shortest work
+//! runs on threads of its own.
+
+mod problem;
 
 mod age;
 
@@ -25,26 +27,32 @@ mod browser;
 
 mod dialogs;
 
-mod notices;
+mod pending;
+
+mod notice;
+
+mod open_dialog;
 
 mod work;
 
-mod finished;
+mod state;
+
+mod tasks;
 
 mod asking;
 
-mod state;
+mod finished;
+
+mod notices;
+
+mod frame;
 
 pub use age::{ago, size};
-pub use browser::{Answer, Browser, Entry, Filter, Wanted};
-pub use exporting::{Export, export};
-pub use figures_log::{FigureLine, FiguresLog, FrameFigures};
+pub use figures_log::{FiguresLog, FrameFigures};
 pub use home::Home;
-pub use job::{Job, Progress, Stopped};
-pub use opened::{Opened, read};
 pub use preferences::{Backend, Preferences, ToolPreferences};
+pub use problem::Problem;
 pub use request::FileRequest;
 pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
-pub use session::{Autosave, FileFailure, LostSession, SessionMeta};
-pub use state::{Files, Reference};
+pub use state::{Files, ReferenceChange};

@@ -1,4 +1,4 @@
-//! What is said without being asked: messages, lost sessions, work under way.
+//! Shows messages, lost sessions and running jobs over the window.
 
 use std::time::{Duration, Instant, SystemTime};
 
@@ -9,74 +9,49 @@ use eframe::egui::{
 
 use super::age::ago;
 use super::state::Files;
-use super::work::WorkKind;
+use super::work::JobKind;
 use session::Command;
-use session::FileFailure;
 
-/// How long a message that needs no answer stays.
-const STAYS: Duration = Duration::from_secs(5);
+/// A job is shown after it has run for this time; a shorter one would only flicker.
+const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
 
-/// How long work goes on before it is shown.
-const SOON: Duration = Duration::from_millis(300);
-
-/// Width of a message, and of its buttons, in points.
+/// Width of a message, in points.
 const WIDTH: f32 = 480.0;
-const BUTTONS: f32 = 140.0;
+/// Width of the buttons of a message, in points.
+const BUTTONS_WIDTH: f32 = 140.0;
 
-/// The most messages shown at a time.
-const MOST: usize = 4;
+/// Maximum number of messages shown at a time.
+const MAX_NOTICES: usize = 4;
 
-/// Something said.
-#[derive(Debug, Clone)]
-pub(super) struct Notice {
-    what: String,
-    hint: Option<String>,
-    /// When it goes by itself.
-    until: Option<Instant>,
-}
-
-impl Notice {
-    /// Goes by itself.
-    pub(super) fn said(what: String) -> Self {
-        let what = capital(&what);
-        Self { what, hint: None, until: Some(Instant::now() + STAYS) }
-    }
-
-    /// Stays until it is closed.
-    pub(super) fn failed(failure: FileFailure) -> Self {
-        Self { what: capital(&failure.what), hint: failure.hint, until: None }
-    }
-}
-
-/// An answer to a notice.
-enum Reply {
+/// A button that was clicked, with the index of the session, notice or job.
+enum Clicked {
     Recover(usize),
     Discard(usize),
-    Close(usize),
-    Cancel(usize),
+    CloseNotice(usize),
+    CancelJob(usize),
     CancelReplay,
 }
 
 impl Files {
-    /// Shows what is said, in a corner over everything.
+    /// Shows all messages at the top of the window, above everything else.
     pub(super) fn show_notices(&mut self, ctx: &Context) {
         let now = Instant::now();
         self.notices.retain(|notice| notice.until.is_none_or(|until| until > now));
         if let Some(next) = self.notices.iter().filter_map(|notice| notice.until).min() {
             ctx.request_repaint_after(next - now);
         }
-        let excess = self.notices.len().saturating_sub(MOST);
+        let excess = self.notices.len().saturating_sub(MAX_NOTICES);
         self.notices.drain(..excess);
-        let mut reply = None;
+        let mut clicked = None;
         Area::new(Id::unique("file notices"))
             .order(Order::Foreground)
             .anchor(Align2::CENTER_TOP, vec2(0.0, 44.0))
             .show(ctx, |ui| {
-                self.show_lost(ui, &mut reply);
-                self.show_work(ui, &mut reply);
+                self.show_lost(ui, &mut clicked);
+                self.show_jobs(ui, &mut clicked);
                 for (index, notice) in self.notices.iter().enumerate() {
                     let words = |ui: &mut Ui| {
-                        ui.label(&notice.what);
+                        ui.label(&notice.text);
                         if let Some(hint) = &notice.hint {
                             ui.label(RichText::new(hint).weak());
                         }
@@ -86,103 +61,96 @@ impl Files {
                             return;
                         }
                         if ui.button("OK").on_hover_text("Close this message").clicked() {
-                            reply = Some(Reply::Close(index));
+                            clicked = Some(Clicked::CloseNotice(index));
                         }
                     });
                 }
             });
-        match reply {
-            Some(Reply::Recover(index)) => {
-                let folder = self.lost[index].folder().to_owned();
+        match clicked {
+            Some(Clicked::Recover(index)) => {
+                let folder = self.lost_sessions[index].folder().to_owned();
                 self.recover(&folder);
             }
-            Some(Reply::Discard(index)) => self.lost.remove(index).discard(),
-            Some(Reply::Close(index)) => {
+            Some(Clicked::Discard(index)) => self.lost_sessions.remove(index).discard(),
+            Some(Clicked::CloseNotice(index)) => {
                 self.notices.remove(index);
             }
-            Some(Reply::Cancel(index)) => self.works[index].job.cancel(),
-            Some(Reply::CancelReplay) => self.commands.push(Command::Cancel),
+            Some(Clicked::CancelJob(index)) => self.jobs[index].job.cancel(),
+            Some(Clicked::CancelReplay) => self.commands.push(Command::Cancel),
             None => {}
         }
     }
 
-    /// Paintings that were not saved when a program ended.
-    fn show_lost(&self, ui: &mut Ui, reply: &mut Option<Reply>) {
-        for (index, lost) in self.lost.iter().enumerate() {
+    /// Shows the sessions of programs that ended without saving.
+    fn show_lost(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
+        for (index, lost) in self.lost_sessions.iter().enumerate() {
             let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
             let when = ago(then, SystemTime::now());
             let words = |ui: &mut Ui| {
                 ui.label("A painting was not saved");
-                let told = format!("{}, kept {when}", lost.meta.title);
-                ui.label(RichText::new(told).weak());
+                let details = format!("{}, autosaved {when}", lost.meta.title);
+                ui.label(RichText::new(details).weak());
             };
             card(ui, words, |ui| {
                 let discard = ui.button("Discard");
-                if discard.on_hover_text("Throws the copy away for good").clicked() {
-                    *reply = Some(Reply::Discard(index));
+                if discard.on_hover_text("Deletes the autosaved copy").clicked() {
+                    *clicked = Some(Clicked::Discard(index));
                 }
                 let recover = ui.button("Recover");
-                if recover.on_hover_text("Takes the painting up as it was kept").clicked() {
-                    *reply = Some(Reply::Recover(index));
+                if recover.on_hover_text("Opens the painting as it was autosaved").clicked() {
+                    *clicked = Some(Clicked::Recover(index));
                 }
             });
         }
     }
 
-    /// Work that the painter waits for.
-    fn show_work(&self, ui: &mut Ui, reply: &mut Option<Reply>) {
-        for (index, work) in self.works.iter().enumerate() {
-            if !matches!(work.kind, WorkKind::Shown | WorkKind::Saving) {
+    /// Shows the jobs that the painter waits for.
+    fn show_jobs(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
+        for (index, job) in self.jobs.iter().enumerate() {
+            if !matches!(job.kind, JobKind::Shown | JobKind::Saving) {
                 continue;
             }
             ui.ctx().request_repaint_after(Duration::from_millis(100));
-            // What is done at once would only flicker.
-            if work.began.elapsed() < SOON {
+            if job.began.elapsed() < JOB_SHOWN_AFTER {
                 continue;
             }
-            let words = |ui: &mut Ui| bar(ui, work.job.label(), work.job.share());
+            let words = |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction());
             card(ui, words, |ui| {
                 let cancel = ui.button("Cancel");
-                if cancel.on_hover_text("Gives it up; no file is left half written").clicked() {
-                    *reply = Some(Reply::Cancel(index));
+                if cancel.on_hover_text("Cancels it; no file is left half written").clicked() {
+                    *clicked = Some(Clicked::CancelJob(index));
                 }
             });
         }
         if let Some((done, of)) = self.replay {
-            let share = done as f32 / of.max(1) as f32;
+            let fraction = done as f32 / of.max(1) as f32;
             let words =
-                |ui: &mut Ui| bar(ui, &format!("playing, action {done} of {of}"), Some(share));
+                |ui: &mut Ui| bar(ui, &format!("playing, action {done} of {of}"), Some(fraction));
             card(ui, words, |ui| {
-                if ui.button("Stop").on_hover_text("Ends the recording where it is").clicked() {
-                    *reply = Some(Reply::CancelReplay);
+                if ui.button("Stop").on_hover_text("Ends the recording here").clicked() {
+                    *clicked = Some(Clicked::CancelReplay);
                 }
             });
         }
     }
 }
 
-/// `text` with a capital.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_ascii_uppercase());
-    first.into_iter().chain(letters).collect()
-}
-
-fn bar(ui: &mut Ui, label: &str, share: Option<f32>) {
+/// A label over a progress bar, or over a spinner if the progress is not known.
+fn bar(ui: &mut Ui, label: &str, fraction: Option<f32>) {
     ui.label(label);
-    match share {
-        Some(share) => ui.add(ProgressBar::new(share).desired_height(6.0)),
+    match fraction {
+        Some(fraction) => ui.add(ProgressBar::new(fraction).desired_height(6.0)),
         None => ui.add(Spinner::new()),
     };
 }
 
-/// A small sheet of paper: words, and buttons at its right.
+/// A framed message with buttons at its right.
 fn card(ui: &mut Ui, words: impl FnOnce(&mut Ui), buttons: impl FnOnce(&mut Ui)) {
     Frame::popup(ui.style()).show(ui, |ui| {
         ui.set_width(WIDTH);
         ui.horizontal(|ui| {
             ui.vertical(|ui| {
-                ui.set_width(WIDTH - BUTTONS);
+                ui.set_width(WIDTH - BUTTONS_WIDTH);
                 words(ui);
             });
             ui.with_layout(Layout::right_to_left(Align::Center), buttons);

@@ -1,4 +1,4 @@
-//! What a file holds, found by its content and not by its name.
+//! Reads files of any kind; the kind is detected from the content, not the name.
 
 use std::fs::File;
 use std::io::Read;
@@ -12,32 +12,33 @@ use render::paint::strokes::StrokeScript;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
-use super::job::{Progress, Stopped};
-use session::FileFailure;
+use super::job::{JobError, Progress};
+use super::problem::Problem;
 
-/// What a file was opened as.
+/// The content of a file.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Opened {
-    /// A painting, and its file, which a recording of what is done to it needs.
+pub(crate) enum Opened {
+    /// A painting, and the bytes of its file, which a recording of further work on it
+    /// needs.
     Painting(Box<Document>, Arc<Vec<u8>>),
-    /// Pigments to begin a painting with.
+    /// A pigment library to begin a painting with.
     Library(Box<PigmentLibrary>),
-    /// Strokes to be played.
+    /// A recording to be played.
     Recording {
-        /// The script; files that it names are told from the root.
+        /// The script, with absolute paths of the files that it names.
         script: Box<StrokeScript>,
-        /// Its pigments.
+        /// The pigments that it names.
         library: Box<PigmentLibrary>,
-        /// What the painter should know.
-        remarks: Vec<FileFailure>,
+        /// Remarks for the painter.
+        remarks: Vec<Problem>,
     },
-    /// A picture, to stand beside the canvas.
+    /// A picture to be shown beside the canvas. It is decoded where it is shown.
     Picture,
-    /// A measured lamp, which the light may be named after.
+    /// The spectrum of a lamp. A light can be named after this file.
     Lamp,
 }
 
-/// The kinds of files, told apart by their first bytes.
+/// Kinds of files, distinguished by their first bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     OpenExr,
@@ -46,58 +47,56 @@ enum Kind {
     Text,
 }
 
-/// The longest file other than a painting, in bytes: 256 MiB.
-const LONGEST: u64 = 256 << 20;
+/// Maximum size of a file that is not a painting, in bytes: 256 MiB.
+const MAX_BYTES: u64 = 256 << 20;
 
-/// The longest painting, in bytes: 16 GiB.
-const LONGEST_PAINTING: u64 = 16 << 30;
+/// Maximum size of a painting's file, in bytes: 16 GiB.
+const MAX_PAINTING_BYTES: u64 = 16 << 30;
 
-/// Reads `path` as whatever it is.
+/// Reads `path` according to its kind.
 ///
 /// # Errors
-/// [`Stopped`] if it cannot be read, is none of these, or is a faulty one.
-pub fn read(path: &Path, progress: &Progress) -> Result<Opened, Stopped> {
+/// [`JobError`] if the file cannot be read, is of an unknown kind, or is invalid.
+pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError> {
     let (kind, mut file, length) = kind(path)?;
     let name = path.display().to_string();
-    // A picture is decoded by whom it is for.
+    // A picture is decoded where it is shown.
     if kind == Kind::Picture {
         return Ok(Opened::Picture);
     }
-    let limit = if kind == Kind::OpenExr { LONGEST_PAINTING } else { LONGEST };
+    let limit = if kind == Kind::OpenExr { MAX_PAINTING_BYTES } else { MAX_BYTES };
     if length > limit {
-        let what = format!("{name}: a file of up to {limit} bytes is wanted, found `{length}`");
-        return Err(FileFailure::new(what, WANTED).into());
+        let text = format!("{name}: the file must have at most {limit} bytes, found `{length}`");
+        return Err(Problem::new(text, OPENABLE).into());
     }
-    let bytes = whole(path, &mut file, length, progress)?;
+    let bytes = read_all(path, &mut file, length, progress)?;
     let opened = match kind {
         Kind::OpenExr => {
             let document = render::paint::file::read(&name, &bytes)
-                .map_err(|error| FileFailure::told(&error, error.hint()))?;
+                .map_err(|error| Problem::with_hint(&error, error.hint()))?;
             Opened::Painting(Box::new(document), Arc::new(bytes))
         }
         Kind::Json => json(path, &name, &bytes)?,
         Kind::Picture | Kind::Text => {
-            lamp_from_bytes(&name, &bytes, None).map_err(|error| {
-                let told = FileFailure::told(&error, None::<String>);
-                FileFailure::new(told.what, WANTED)
-            })?;
+            lamp_from_bytes(&name, &bytes, None)
+                .map_err(|error| Problem::new(Problem::without_hint(&error).text, OPENABLE))?;
             Opened::Lamp
         }
     };
-    progress.tell(1.0)?;
+    progress.report(1.0)?;
     Ok(opened)
 }
 
-const WANTED: &str = "a painting (.exr), a pigment library or a recording (.json), a picture \
-                      (.png, .jpg) or a lamp's spectrum can be opened";
+const OPENABLE: &str = "open a painting (.exr), a pigment library or a recording (.json), a \
+                        picture (.png, .jpg) or the spectrum of a lamp";
 
-fn kind(path: &Path) -> Result<(Kind, File, u64), FileFailure> {
-    let unreadable = |error: std::io::Error| FileFailure::io(path, "read", &error);
-    // Before it is opened: to open a pipe would wait for its other end.
+fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
+    let unreadable = |error: std::io::Error| Problem::io(path, "read", &error);
+    // Checked before opening it, because opening a pipe would wait for its other end.
     let found = std::fs::metadata(path).map_err(unreadable)?;
     if !found.is_file() {
-        let what = format!("{}: an ordinary file is wanted", path.display());
-        return Err(FileFailure::new(what, WANTED));
+        let text = format!("{}: is not an ordinary file", path.display());
+        return Err(Problem::new(text, OPENABLE));
     }
     let mut start = [0; 64];
     let mut file = File::open(path).map_err(unreadable)?;
@@ -122,25 +121,25 @@ fn kind(path: &Path) -> Result<(Kind, File, u64), FileFailure> {
     Ok((kind, File::open(path).map_err(unreadable)?, found.len()))
 }
 
-/// All of the file, told as half of the work.
-fn whole(
+/// Reads the whole file and reports progress up to one half.
+fn read_all(
     path: &Path,
     file: &mut File,
     length: u64,
     progress: &Progress,
-) -> Result<Vec<u8>, Stopped> {
+) -> Result<Vec<u8>, JobError> {
     const PIECE: u64 = 8 << 20;
     let mut bytes = Vec::with_capacity(length as usize);
     loop {
-        progress.tell(0.5 * bytes.len() as f64 / length.max(1) as f64)?;
+        progress.report(0.5 * bytes.len() as f64 / length.max(1) as f64)?;
         let read = file.take(PIECE).read_to_end(&mut bytes);
-        if read.map_err(|error| FileFailure::io(path, "read", &error))? == 0 {
+        if read.map_err(|error| Problem::io(path, "read", &error))? == 0 {
             return Ok(bytes);
         }
     }
 }
 
-fn json(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailure> {
+fn json(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     #[derive(Deserialize)]
     struct Format {
         #[serde(default)]
@@ -149,34 +148,34 @@ fn json(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailure> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let Format { format } = serde_json::from_str(text)
-        .map_err(|error| FileFailure::new(format!("{name}: no sound JSON: {error}"), WANTED))?;
+        .map_err(|error| Problem::new(format!("{name}: is not valid JSON: {error}"), OPENABLE))?;
     match format.as_str() {
         Some("impasto-pigment-library") => library(name, text),
         Some("strokes") => recording(path, name, bytes),
         _ => {
             let wanted = "`format` must be \"strokes\" or \"impasto-pigment-library\"";
-            Err(FileFailure::new(format!("{name}: {wanted}, found `{format}`"), WANTED))
+            Err(Problem::new(format!("{name}: {wanted}, found `{format}`"), OPENABLE))
         }
     }
 }
 
-fn library(name: &str, text: &str) -> Result<Opened, FileFailure> {
+fn library(name: &str, text: &str) -> Result<Opened, Problem> {
     let library = PigmentLibrary::from_json(name, text)
-        .map_err(|error| FileFailure::told(&error, error.hint()))?;
+        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
     Ok(Opened::Library(Box::new(library)))
 }
 
-fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailure> {
+fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     let mut script =
-        StrokeScript::from_json(name, bytes).map_err(|error| FileFailure::explained(&error))?;
+        StrokeScript::from_json(name, bytes).map_err(|error| Problem::from_error(&error))?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let mut remarks = Vec::new();
     let library = named_library(&script, &folder, &mut remarks)?;
     if let Some(start) = &mut script.start {
-        // Its pigments are those of that painting.
+        // Its pigments are those of the painting that it starts from.
         *start = folder.join(&start).display().to_string();
     } else {
-        script.resolve(&library).map_err(|error| FileFailure::explained(&error))?;
+        script.resolve(&library).map_err(|error| Problem::from_error(&error))?;
     }
     for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
         if let GroundRelief::Image(picture) = &mut surface.ground.relief {
@@ -186,27 +185,27 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, FileFailur
     Ok(Opened::Recording { script: Box::new(script), library: Box::new(library), remarks })
 }
 
-/// The library that a script names: the built-in one by its title, else a file
-/// beside the script, else the built-in one, which is said.
+/// The library that a script names: the built-in one by its title, else a file beside the
+/// script. If the file does not exist the built-in one is used, with a remark.
 fn named_library(
     script: &StrokeScript,
     folder: &Path,
-    remarks: &mut Vec<FileFailure>,
-) -> Result<PigmentLibrary, FileFailure> {
+    remarks: &mut Vec<Problem>,
+) -> Result<PigmentLibrary, Problem> {
     let built_in = PigmentLibrary::van_gogh_oils();
     let Some(named) = script.library.as_ref().filter(|named| **named != built_in.title) else {
         return Ok(built_in);
     };
     let path: PathBuf = folder.join(named);
     if !path.is_file() {
-        let what = format!("the recording was made for the library `{named}`, which is not there");
-        remarks.push(FileFailure::new(what, "the built-in oils are used"));
+        let text = format!("the recording needs the library `{named}`, which does not exist");
+        remarks.push(Problem::new(text, "the built-in oils are used instead"));
         return Ok(built_in);
     }
-    let bytes = std::fs::read(&path).map_err(|error| FileFailure::io(&path, "read", &error))?;
+    let bytes = spectra::file::read(&path)?;
     let text = String::from_utf8_lossy(&bytes);
     PigmentLibrary::from_json(&path.display().to_string(), &text)
-        .map_err(|error| FileFailure::told(&error, error.hint()))
+        .map_err(|error| Problem::with_hint(&error, error.hint()))
 }
 
 #[cfg(test)]
@@ -215,16 +214,16 @@ mod tests {
 
     use super::*;
 
-    fn opened(name: &str, bytes: &[u8]) -> Result<Opened, Stopped> {
+    fn opened(name: &str, bytes: &[u8]) -> Result<Opened, JobError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         read(&path, &Progress::default())
     }
 
-    fn failure(name: &str, bytes: &[u8]) -> FileFailure {
+    fn failure(name: &str, bytes: &[u8]) -> Problem {
         match opened(name, bytes) {
-            Err(Stopped::Failed(failure)) => failure,
+            Err(JobError::Failed(failure)) => failure,
             other => panic!("{name}: {other:?}"),
         }
     }
@@ -241,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn kinds_are_found_by_content_whatever_the_name() {
+    fn the_kind_is_detected_from_the_content_not_the_name() {
         let library = PigmentLibrary::van_gogh_oils();
         let script = script();
         let resolved = script.resolve(&library).unwrap();
@@ -251,16 +250,19 @@ mod tests {
         let painting = render::paint::file::write(&document).unwrap();
         let wanted = Opened::Painting(Box::new(document), Arc::new(painting.clone()));
         assert_eq!(opened("a.txt", &painting), Ok(wanted));
-        let told = opened("b.png", script.to_json().unwrap().as_bytes()).unwrap();
-        assert!(matches!(&told, Opened::Recording { script: s, .. } if **s == script), "{told:?}");
-        let told = opened("c", library.to_json().as_bytes());
-        assert_eq!(told, Ok(Opened::Library(Box::new(library))));
+        let opened_as = opened("b.png", script.to_json().unwrap().as_bytes()).unwrap();
+        assert!(
+            matches!(&opened_as, Opened::Recording { script: s, .. } if **s == script),
+            "{opened_as:?}"
+        );
+        let opened_as = opened("c", library.to_json().as_bytes());
+        assert_eq!(opened_as, Ok(Opened::Library(Box::new(library))));
         assert_eq!(opened("d.exr", b"\x89PNG\r\n\x1a\nrest"), Ok(Opened::Picture));
         assert_eq!(opened("e.json", b"nm,power\n400,1\n700,3\n"), Ok(Opened::Lamp));
     }
 
     #[test]
-    fn what_cannot_be_opened_names_the_file_and_the_way_out() {
+    fn a_file_that_cannot_be_opened_is_named_with_a_hint() {
         for (name, bytes) in [
             ("a.exr", &b"\x76\x2f\x31\x01cut off"[..]),
             ("b.json", b"{\"format\": "),
@@ -270,18 +272,18 @@ mod tests {
             ("f", b""),
         ] {
             let failure = failure(name, bytes);
-            assert!(failure.what.contains(name), "{name}: {failure}");
-            assert!(failure.hint.is_some(), "{name}: {failure}");
+            assert!(failure.text.contains(name), "{name}: {failure:?}");
+            assert!(failure.hint.is_some(), "{name}: {failure:?}");
         }
         let missing = read(Path::new("/no/such/file.exr"), &Progress::default());
-        assert!(matches!(missing, Err(Stopped::Failed(_))), "{missing:?}");
+        assert!(matches!(missing, Err(JobError::Failed(_))), "{missing:?}");
         let folder = tempfile::tempdir().unwrap();
-        let told = read(folder.path(), &Progress::default());
-        assert!(matches!(told, Err(Stopped::Failed(_))), "a folder: {told:?}");
+        let opened_as = read(folder.path(), &Progress::default());
+        assert!(matches!(opened_as, Err(JobError::Failed(_))), "a folder: {opened_as:?}");
     }
 
     #[test]
-    fn a_recording_takes_the_files_beside_it() {
+    fn a_recording_uses_the_files_beside_it() {
         let folder = tempfile::tempdir().unwrap();
         let mut library = PigmentLibrary::van_gogh_oils();
         library.title = "mine".to_owned();
@@ -289,20 +291,20 @@ mod tests {
         let mut script = script();
         script.library = Some("mine.json".to_owned());
         let path = folder.path().join("strokes.json");
-        let told = |script: &StrokeScript| {
+        let opened_as = |script: &StrokeScript| {
             std::fs::write(&path, script.to_json().unwrap()).unwrap();
             match read(&path, &Progress::default()) {
                 Ok(Opened::Recording { script, library, remarks }) => (script, library, remarks),
                 other => panic!("no recording: {other:?}"),
             }
         };
-        assert_eq!(told(&script), (Box::new(script.clone()), Box::new(library), Vec::new()));
+        assert_eq!(opened_as(&script), (Box::new(script.clone()), Box::new(library), Vec::new()));
         script.library = Some("lost.json".to_owned());
-        let (_, library, remarks) = told(&script);
+        let (_, library, remarks) = opened_as(&script);
         assert_eq!((*library, remarks.len()), (PigmentLibrary::van_gogh_oils(), 1));
         script.library = None;
         script.start = Some("before.exr".to_owned());
-        let (script, ..) = told(&script);
+        let (script, ..) = opened_as(&script);
         let wanted = folder.path().join("before.exr");
         assert_eq!(script.start.as_deref(), wanted.to_str());
     }

@@ -1,47 +1,47 @@
-//! What the painter prefers: JSON in the program's own folder.
+//! The painter's preferences, a JSON file in the program's own folder.
 //!
-//! A key that this version does not know is kept as it is, so that a newer and
-//! an older program can share the file; a value that it does not understand is
-//! said and gives way to the default. A file that is no JSON is moved aside.
+//! Keys that this version does not know are kept, so that older and newer versions can
+//! share the file. A value that it does not understand is reported and replaced by the
+//! default. A file that is not JSON is renamed.
 
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::problem::Problem;
 use crate::pen::PenSettings;
-use session::FileFailure;
-use session::whole;
+use spectra::file::write_whole;
 
-/// Files of the list of recent ones.
-const MOST_RECENT: usize = 12;
+/// Maximum number of recent files.
+const MAX_RECENT: usize = 12;
 
-/// What computes a painting.
+/// The processor or graphics device that simulates the paint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
-    /// Hardware where there is some, else the processor.
+    /// A graphics adapter if it is hardware, else the processor.
     #[default]
     Auto,
     /// The processor.
     Cpu,
-    /// A graphics adapter, even one in software.
+    /// A graphics adapter, even a software one.
     Gpu,
 }
 
-/// What the painter has in hand at the start.
+/// The brush and amounts that the painter starts with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ToolPreferences {
-    /// The brush.
+    /// Name of the brush.
     pub brush: String,
-    /// Share of clear medium in what it takes up, 0..1.
+    /// Fraction of clear medium in a load of paint, 0 to 1.
     pub vehicle: f64,
-    /// How high paint lies on the head after loading, in mm.
+    /// Height of the paint on the head after loading, in mm.
     pub load_mm: f64,
-    /// Cubic millimetres that one squeeze gives.
+    /// Volume of one squeeze, in cubic millimetres.
     pub squeeze_mm3: f64,
-    /// The share that `dry` dries, 0..1.
+    /// Fraction of the wet paint that drying dries, 0 to 1.
     pub dry_share: f64,
 }
 
@@ -52,33 +52,34 @@ impl Default for ToolPreferences {
     }
 }
 
-/// The preferences.
+/// The painter's preferences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
-    /// Seconds between autosaves while something changes, 2 to 3600.
+    /// Seconds between autosaves while the painting changes, 2 to 3600.
     pub autosave_seconds: u64,
-    /// MiB that undo may keep, up to 1048576; from the next start on.
+    /// Memory for undo in MiB, up to 1048576. Takes effect at the next start.
     pub undo_mib: u64,
-    /// What computes; from the next start on.
+    /// The processor or graphics device that simulates the paint. Takes effect at the next
+    /// start.
     pub backend: Backend,
-    /// Size of the interface beside the system's own, 0.5 to 3.
+    /// Scale of the interface relative to the system's, 0.5 to 3.
     pub interface_scale: f32,
-    /// Whether recordings play at the speed they were painted with.
+    /// Whether recordings play at the speed of painting, rather than as fast as possible.
     pub replay_as_painted: bool,
-    /// What is in hand at the start.
+    /// The brush and amounts that the painter starts with.
     pub tools: ToolPreferences,
-    /// How pens, mice and fingers lead a brush.
+    /// Pen, mouse and touch settings.
     pub pen: PenSettings,
-    /// Where files were last looked for.
+    /// Folder in which a file was last chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_folder: Option<PathBuf>,
-    /// Files opened and saved, the latest first.
+    /// Files that were opened or saved, the latest first.
     pub recent: Vec<PathBuf>,
-    /// Width and height of the window in points.
+    /// Width and height of the window, in points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[f32; 2]>,
-    /// What another version wrote.
+    /// Keys of other versions, kept unchanged.
     #[serde(flatten)]
     pub other: Map<String, Value>,
 }
@@ -102,17 +103,17 @@ impl Default for Preferences {
 }
 
 impl Preferences {
-    /// Those in `path`, and what is to be said of them. Without a file they are
-    /// the defaults.
+    /// Reads the preferences in `path`; returns problems with the file too. Without a file
+    /// they are the defaults.
     #[must_use]
-    pub fn read(path: &Path) -> (Self, Vec<FileFailure>) {
+    pub fn read(path: &Path) -> (Self, Vec<Problem>) {
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return (Self::default(), Vec::new());
             }
             Err(error) => {
-                return (Self::default(), vec![FileFailure::io(path, "read", &error)]);
+                return (Self::default(), vec![Problem::io(path, "read", &error)]);
             }
         };
         match serde_json::from_slice(&bytes) {
@@ -121,8 +122,8 @@ impl Preferences {
         }
     }
 
-    /// Key by key, so that one strange value costs no other.
-    fn from_map(path: &Path, found: Map<String, Value>) -> (Self, Vec<FileFailure>) {
+    /// Reads key by key, so that one invalid value does not affect the others.
+    fn from_map(path: &Path, found: Map<String, Value>) -> (Self, Vec<Problem>) {
         let mut preferences = Self::default();
         let mut failures = Vec::new();
         for (key, value) in found {
@@ -133,9 +134,9 @@ impl Preferences {
             all.insert(key.clone(), value);
             match serde_json::from_value(Value::Object(all)) {
                 Ok(read) => preferences = read,
-                Err(error) => failures.push(FileFailure::new(
+                Err(error) => failures.push(Problem::new(
                     format!("{}: key `{key}`: {error}", path.display()),
-                    "it counts as not given",
+                    "the default is used instead",
                 )),
             }
         }
@@ -143,69 +144,69 @@ impl Preferences {
         (preferences, failures)
     }
 
-    /// Brings numbers into their range.
+    /// Replaces numbers that are out of range by the nearest limit or the default.
     pub fn bound(&mut self) {
         self.autosave_seconds = self.autosave_seconds.clamp(2, 3600);
         self.undo_mib = self.undo_mib.min(1 << 20);
         self.interface_scale = within(self.interface_scale, 0.5, 3.0, 1.0);
-        let usual = ToolPreferences::default();
+        let default = ToolPreferences::default();
         let tools = &mut self.tools;
-        tools.vehicle = within(tools.vehicle, 0.0, 1.0, usual.vehicle);
-        tools.load_mm = within(tools.load_mm, 0.0, 10.0, usual.load_mm);
-        tools.squeeze_mm3 = within(tools.squeeze_mm3, 0.1, 1e5, usual.squeeze_mm3);
-        tools.dry_share = within(tools.dry_share, 0.01, 1.0, usual.dry_share);
+        tools.vehicle = within(tools.vehicle, 0.0, 1.0, default.vehicle);
+        tools.load_mm = within(tools.load_mm, 0.0, 10.0, default.load_mm);
+        tools.squeeze_mm3 = within(tools.squeeze_mm3, 0.1, 1e5, default.squeeze_mm3);
+        tools.dry_share = within(tools.dry_share, 0.01, 1.0, default.dry_share);
         self.pen.bound();
-        self.recent.truncate(MOST_RECENT);
+        self.recent.truncate(MAX_RECENT);
         self.window = self.window.filter(|size| size.iter().all(|s| (200.0..20_000.0).contains(s)));
     }
 
-    /// Writes them, whole.
+    /// Writes the preferences to `path`.
     ///
     /// # Errors
-    /// [`FileFailure`] if the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), FileFailure> {
+    /// [`Problem`] if the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), Problem> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)
-                .map_err(|error| FileFailure::io(folder, "made", &error))?;
+                .map_err(|error| Problem::io(folder, "created", &error))?;
         }
-        // A path that is no text cannot stand in JSON; it is forgotten, not fatal.
-        let mut told = self.clone();
-        told.recent.retain(|path| path.to_str().is_some());
-        told.last_folder = told.last_folder.filter(|path| path.to_str().is_some());
-        let value = serde_json::to_value(&told)
-            .map_err(|error| FileFailure::told(&error, None::<String>))?;
-        whole::write(path, pigment::library::to_text(&value).as_bytes())
+        // JSON cannot hold a path that is not valid Unicode; such paths are left out.
+        let mut written = self.clone();
+        written.recent.retain(|path| path.to_str().is_some());
+        written.last_folder = written.last_folder.filter(|path| path.to_str().is_some());
+        let value =
+            serde_json::to_value(&written).map_err(|error| Problem::without_hint(&error))?;
+        Ok(write_whole(path, pigment::library::to_text(&value).as_bytes())?)
     }
 
-    /// Puts `path` on top of the recent files.
+    /// Adds `path` as the first of the recent files.
     pub fn remember(&mut self, path: &Path) {
         self.recent.retain(|other| other != path);
         self.recent.insert(0, path.to_owned());
-        self.recent.truncate(MOST_RECENT);
+        self.recent.truncate(MAX_RECENT);
         self.last_folder = path.parent().map(Path::to_owned);
     }
 }
 
-fn within<T: PartialOrd>(value: T, least: T, most: T, usual: T) -> T {
-    // What is not a number is in no range.
-    if value >= least && value <= most { value } else { usual }
+fn within<T: PartialOrd>(value: T, least: T, most: T, default: T) -> T {
+    // NaN is in no range.
+    if value >= least && value <= most { value } else { default }
 }
 
-/// Moves a file that is no JSON out of the way, and says so.
-fn set_aside(path: &Path, error: &serde_json::Error) -> FileFailure {
+/// Renames a file that is not JSON, and describes this as a problem.
+fn set_aside(path: &Path, error: &serde_json::Error) -> Problem {
     let aside = path.with_extension("broken.json");
     let hint = match std::fs::rename(path, &aside) {
-        Ok(()) => format!("the defaults hold; the file is kept as {}", aside.display()),
-        Err(error) => format!("the defaults hold; it cannot be moved aside: {error}"),
+        Ok(()) => format!("the defaults are used; the file was renamed to {}", aside.display()),
+        Err(error) => format!("the defaults are used; the file cannot be renamed: {error}"),
     };
-    FileFailure::new(format!("{}: {error}", path.display()), hint)
+    Problem::new(format!("{}: {error}", path.display()), hint)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> (Preferences, Vec<FileFailure>, tempfile::TempDir) {
+    fn read(text: &str) -> (Preferences, Vec<Problem>, tempfile::TempDir) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("preferences.json");
         std::fs::write(&path, text).unwrap();
@@ -214,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn preferences_come_back_as_they_were() {
+    fn preferences_survive_writing_and_reading() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("new").join("preferences.json");
         let (mut preferences, failures) = Preferences::read(&path);
@@ -229,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_newer_version_wrote_is_kept() {
+    fn keys_of_a_newer_version_are_kept() {
         let (preferences, failures, folder) = read(
             r#"{"haptics": {"strength": 3}, "undo_mib": 64, "tools": {"brush": "fan", "x": 1}}"#,
         );
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn one_strange_value_costs_no_other() {
+    fn one_invalid_value_does_not_affect_the_others() {
         let (preferences, failures, _folder) = read(
             r#"{"backend": "quantum", "undo_mib": 64, "interface_scale": 900, "pen": {"gamma": 99}}"#,
         );
@@ -249,11 +250,11 @@ mod tests {
         assert!((preferences.interface_scale - 1.0).abs() < 1e-6, "the scale is out of range");
         assert_eq!(preferences.pen, PenSettings::default(), "gamma is out of range");
         let [failure] = &failures[..] else { panic!("{failures:?}") };
-        assert!(failure.what.contains("`backend`"), "{failure}");
+        assert!(failure.text.contains("`backend`"), "{failure:?}");
     }
 
     #[test]
-    fn a_broken_file_is_moved_aside_and_said() {
+    fn a_file_that_is_not_json_is_renamed_and_reported() {
         for text in ["{\"undo_mib\": ", "[]", "", "\u{0}"] {
             let (preferences, failures, folder) = read(text);
             assert_eq!(preferences, Preferences::default());
@@ -265,12 +266,12 @@ mod tests {
     }
 
     #[test]
-    fn recent_files_are_few_and_each_once() {
+    fn recent_files_are_limited_and_unique() {
         let mut preferences = Preferences::default();
         for index in 0..30 {
             preferences.remember(Path::new(&format!("/a/{}.exr", index % 20)));
         }
-        assert_eq!(preferences.recent.len(), MOST_RECENT);
+        assert_eq!(preferences.recent.len(), MAX_RECENT);
         assert_eq!(preferences.recent[0], Path::new("/a/9.exr"));
         assert_eq!(preferences.last_folder.as_deref(), Some(Path::new("/a")));
     }

@@ -1,34 +1,34 @@
-//! What can be asked for about files.
+//! File actions that menus and panels can request.
 
 use std::path::PathBuf;
 
-/// Something about files, done off the window's thread.
+/// A file action. Long work runs in the background.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FileRequest {
-    /// Opens a painting, a library or a recording; asks for the file if none is
-    /// named. A picture is pinned beside the canvas, a lamp shines on it.
+    /// Opens a painting, a library or a recording; asks for the file if none is given. A
+    /// picture is pinned beside the canvas, a lamp lights the painting.
     Open(Option<PathBuf>),
-    /// Saves where the painting came from, or asks.
+    /// Saves to the painting's file, or asks for one.
     Save,
-    /// Asks where to save.
+    /// Saves to a file that the painter is asked for.
     SaveAs,
-    /// Keeps a numbered revision beside the painting.
+    /// Keeps a numbered revision beside the painting's file.
     KeepRevision,
     /// Opens a revision as a new painting.
     OpenRevision(PathBuf),
-    /// Deletes a revision, after a question.
+    /// Deletes a revision after asking.
     DeleteRevision(PathBuf),
-    /// Asks what to export, and where.
+    /// Exports; asks in which form and to which file.
     Export,
-    /// Saves the recording of all strokes; asks where.
+    /// Saves the recording of all strokes to a file that the painter is asked for.
     SaveRecording,
-    /// Pins a picture beside the canvas; asks for the file if none is named.
+    /// Pins a picture beside the canvas; asks for the file if none is given.
     OpenReference(Option<PathBuf>),
-    /// Takes the picture beside the canvas away.
+    /// Removes the picture beside the canvas.
     CloseReference,
-    /// Paints under a lamp measured in a file; asks for the file.
+    /// Lights the painting with a lamp measured in a file that the painter is asked for.
     OpenLamp,
-    /// Begins a new painting.
+    /// Begins a new painting; asks for its canvas.
     New,
     /// Shows the preferences.
     Preferences,

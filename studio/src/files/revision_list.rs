@@ -1,4 +1,4 @@
-//! The revisions of the painting, as the panel shows them.
+//! Revisions of the painting with their thumbnails, as a panel shows them.
 
 use std::path::PathBuf;
 
@@ -6,12 +6,12 @@ use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
 use super::revisions::Revision;
 
-/// A revision with its thumbnail on the screen.
+/// A revision with its thumbnail as a texture.
 #[derive(Clone)]
 pub struct ListedRevision {
-    /// What it is.
+    /// The revision.
     pub revision: Revision,
-    /// What it looks like, if its picture is there.
+    /// The thumbnail, if its file exists.
     pub texture: Option<TextureHandle>,
 }
 
@@ -21,17 +21,17 @@ impl std::fmt::Debug for ListedRevision {
     }
 }
 
-/// The revisions there are, the newest first.
+/// Revisions of the painting, the newest first.
 #[derive(Debug, Clone, Default)]
 pub struct RevisionList {
-    /// The painting's file; a painting without one has no revisions.
+    /// The painting's file. A painting without one has no revisions.
     pub path: Option<PathBuf>,
-    /// The revisions.
+    /// The revisions, the newest first.
     pub revisions: Vec<ListedRevision>,
 }
 
 impl RevisionList {
-    /// Takes up what was read, and brings the thumbnails to the screen.
+    /// Replaces the list and uploads the thumbnails.
     pub fn set(&mut self, ctx: &Context, path: Option<PathBuf>, revisions: Vec<Revision>) {
         self.path = path;
         let listed = revisions.into_iter().map(|revision| {

@@ -1,8 +1,8 @@
-//! Numbered copies of a painting: beside `study.exr` a folder `study.revisions`
-//! with `0001.exr`, and `0001.png` to look at.
+//! Numbered copies of a painting: beside `study.exr` a folder `study.revisions` with
+//! `0001.exr` and the thumbnail `0001.png`.
 //!
-//! They are kept when the painter asks for it, not at every save: what is
-//! between two saves, undo and autosave hold.
+//! A revision is kept only on request, not at every save: undo and autosave cover the time
+//! between two saves.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -13,74 +13,74 @@ use render::light::Light;
 use render::paint::document::Document;
 use render::paint::scene::{picture, scene};
 
-use super::job::{Progress, Stopped};
-use session::FileFailure;
-use session::whole;
+use super::job::{JobError, Progress};
+use super::problem::Problem;
+use spectra::file::write_whole;
 
-/// The longer side of a thumbnail, in pixels.
-const LONGEST: u32 = 192;
+/// Length of the longer side of a thumbnail, in pixels.
+const MAX_SIDE: u32 = 192;
 
-/// A copy.
+/// A numbered copy of a painting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Revision {
-    /// Its number, from 1.
+    /// Number, from 1.
     pub number: u32,
-    /// Its file.
+    /// Path of its file.
     pub path: PathBuf,
-    /// The file's length.
+    /// Size of its file in bytes.
     pub bytes: u64,
-    /// When it was kept, if the system tells.
+    /// Time at which it was kept, if the system knows it.
     pub kept: Option<SystemTime>,
-    /// What it looks like, if its picture is there.
+    /// The thumbnail, if its file exists.
     pub thumbnail: Option<RgbaImage>,
 }
 
-/// The folder of the revisions of the painting in `path`.
+/// Folder of the revisions of the painting in `path`.
 #[must_use]
 pub(super) fn folder(path: &Path) -> PathBuf {
     path.with_extension("revisions")
 }
 
-/// Keeps `document` as the next revision of the painting in `path`, shown under
-/// `light`.
+/// Writes `document` as the next revision of the painting in `path`, with a thumbnail under
+/// `light`. Returns the path of the revision.
 ///
 /// # Errors
-/// [`Stopped`] if it cannot be written.
+/// [`JobError`] if it cannot be written.
 pub(super) fn keep(
     path: &Path,
     document: &Document,
     light: &Light,
     progress: &Progress,
-) -> Result<PathBuf, Stopped> {
+) -> Result<PathBuf, JobError> {
     let folder = folder(path);
-    std::fs::create_dir_all(&folder).map_err(|error| FileFailure::io(&folder, "made", &error))?;
+    std::fs::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
     let number = 1 + numbers(&folder)?.into_iter().map(|(number, _)| number).max().unwrap_or(0);
     let bytes = render::paint::file::write(document)
-        .map_err(|error| FileFailure::told(&error, error.hint()))?;
-    progress.tell(0.5)?;
+        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+    progress.report(0.5)?;
     let thumbnail = thumbnail(document, light);
-    progress.tell(0.9)?;
+    progress.report(0.9)?;
     let mut png = std::io::Cursor::new(Vec::new());
     thumbnail
         .write_to(&mut png, image::ImageFormat::Png)
-        .map_err(|error| FileFailure::told(&error, None::<String>))?;
+        .map_err(|error| Problem::without_hint(&error))?;
     let kept = folder.join(format!("{number:04}.exr"));
-    // The picture first: a revision is there when its painting is.
-    whole::write(&kept.with_extension("png"), png.get_ref())?;
-    whole::write(&kept, &bytes)?;
+    // The thumbnail is written first: a revision exists as soon as its painting does.
+    write_whole(&kept.with_extension("png"), png.get_ref()).map_err(Problem::from)?;
+    write_whole(&kept, &bytes).map_err(Problem::from)?;
     Ok(kept)
 }
 
-/// The revisions of the painting in `path`, the newest first.
+/// Lists the revisions of the painting in `path`, the newest first.
 ///
 /// # Errors
-/// [`Stopped`] if the folder cannot be read.
-pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, Stopped> {
+/// [`JobError`] if the folder cannot be read.
+pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, JobError> {
     let mut found = numbers(&folder(path))?;
     found.sort_unstable_by_key(|(number, _)| std::cmp::Reverse(*number));
     let mut revisions = Vec::with_capacity(found.len());
     for (number, path) in found {
-        progress.tell(0.0)?;
+        progress.report(0.0)?;
         let Ok(file) = std::fs::metadata(&path) else { continue };
         let thumbnail = read_thumbnail(&path.with_extension("png"));
         let (bytes, kept) = (file.len(), file.modified().ok());
@@ -89,19 +89,19 @@ pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, St
     Ok(revisions)
 }
 
-/// Deletes the revision in `path`.
+/// Deletes the revision in `path`, and the folder with the last one.
 ///
 /// # Errors
-/// [`FileFailure`] if it is none, or cannot be removed.
-pub(super) fn delete(path: &Path) -> Result<(), FileFailure> {
+/// [`Problem`] if `path` is not a revision or cannot be removed.
+pub(super) fn delete(path: &Path) -> Result<(), Problem> {
     let beside = path.parent().and_then(Path::extension).is_some_and(|end| end == "revisions");
     if !beside || number(path).is_none() {
-        let what = format!("{}: is no revision", path.display());
-        return Err(FileFailure::new(what, "delete it where you keep your files"));
+        let text = format!("{}: is not a revision", path.display());
+        return Err(Problem::new(text, "delete it in a file manager"));
     }
-    std::fs::remove_file(path).map_err(|error| FileFailure::io(path, "deleted", &error))?;
+    std::fs::remove_file(path).map_err(|error| Problem::io(path, "deleted", &error))?;
     let _ = std::fs::remove_file(path.with_extension("png"));
-    // The last one takes the folder with it, unless something else is there.
+    // Removes the folder if it is empty now.
     let _ = path.parent().map(std::fs::remove_dir);
     Ok(())
 }
@@ -112,18 +112,18 @@ fn number(path: &Path) -> Option<u32> {
     name.parse().ok()
 }
 
-fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, FileFailure> {
+fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, Problem> {
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => return Err(FileFailure::io(folder, "read", &error)),
+        Err(error) => return Err(Problem::io(folder, "read", &error)),
     };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     Ok(paths.filter_map(|path| Some((number(&path)?, path))).collect())
 }
 
-/// The picture of `document` at most [`LONGEST`] pixels long, in sRGB; averaged
-/// in linear light.
+/// Renders a thumbnail of at most [`MAX_SIDE`] pixels per side, in sRGB; it is averaged in
+/// linear light.
 fn thumbnail(document: &Document, light: &Light) -> RgbImage {
     let picture = picture(document, &scene(document, light));
     let (width, height) = (picture.width() as u32, picture.height() as u32);
@@ -132,7 +132,7 @@ fn thumbnail(document: &Document, light: &Light) -> RgbImage {
         return RgbImage::new(1, 1);
     };
     let longest = width.max(height).max(1);
-    let side = |length: u32| (length * LONGEST.min(longest) / longest).max(1);
+    let side = |length: u32| (length * MAX_SIDE.min(longest) / longest).max(1);
     let small = image::imageops::resize(&linear, side(width), side(height), FilterType::Triangle);
     let encoded = small.pixels().flat_map(|pixel| {
         let linear = spectra::color::Rgb(pixel.0.map(|v| f64::from(v.clamp(0.0, 1.0))));
@@ -144,8 +144,8 @@ fn thumbnail(document: &Document, light: &Light) -> RgbImage {
 fn read_thumbnail(path: &Path) -> Option<RgbaImage> {
     let mut reader = ImageReader::open(path).ok()?;
     let mut limits = Limits::default();
-    limits.max_image_width = Some(4 * LONGEST);
-    limits.max_image_height = Some(4 * LONGEST);
+    limits.max_image_width = Some(4 * MAX_SIDE);
+    limits.max_image_height = Some(4 * MAX_SIDE);
     reader.limits(limits);
     Some(reader.decode().ok()?.into_rgba8())
 }

@@ -75,7 +75,7 @@ pub struct Pen {
     hovering: Option<(Device, PointerState)>,
     /// The hover event that was reported last.
     reported_hover: Option<PenEvent>,
-    /// SurfaceId and position in mm where the last stroke ended.
+    /// Surface and position in mm where the last stroke ended.
     last_end: Option<(SurfaceId, (f64, f64))>,
 }
 

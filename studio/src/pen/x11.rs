@@ -30,6 +30,9 @@ pub(super) struct X11Pens {
 impl X11Pens {
     /// Reads events of the styluses over `window` on a new thread, which calls `wake` after
     /// each report. Positions are in pixels of the window.
+    ///
+    /// # Errors
+    /// If there is no X server, or it does not support XInput 2.
     pub(super) fn start(
         window: u32,
         wake: impl Fn() + Send + 'static,

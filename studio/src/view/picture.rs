@@ -5,7 +5,7 @@ use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use render::tile::Rect;
 
 use super::mipmap::{MipLevels, next_level_rect};
-use super::picture::{LazyTexture, Quad, Vertex, draw_quads};
+use super::quad::{LazyTexture, Quad, Vertex, draw_quads};
 use super::transform::Placement;
 use crate::theme;
 use session::TilePixels;
@@ -98,7 +98,7 @@ impl Picture {
     }
 
     /// Draws the visible part of the picture, limited to `part`.
-    pub fn draw_quads(&mut self, painter: &Painter, placement: &Placement, part: DrawnPart) {
+    pub fn draw(&mut self, painter: &Painter, placement: &Placement, part: DrawnPart) {
         let density = f64::from(painter.pixels_per_point());
         let zoom = placement.scale() * density;
         // Chooses the level with one to two cells per pixel, or level 0.

@@ -204,7 +204,7 @@ impl CallbackTrait for DrawQuads {
                 }
                 None => pass.set_pipeline(&pipelines.flat_color),
             }
-            pass.draw_quads(6 * index..6 * index + 6, 0..1);
+            pass.draw(6 * index..6 * index + 6, 0..1);
         }
     }
 }

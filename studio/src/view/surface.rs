@@ -167,18 +167,18 @@ impl SurfaceView {
         let placement = self.placement();
         let painter = ui.painter_at(rect);
         self.split_handle = None;
-        self.outline.under(&painter, &placement, self.cells());
+        self.outline.draw_shadow(&painter, &placement, self.cells());
         match (&mut self.second, split) {
             (Some(second), Some(split)) => {
                 let column = f64::from(*split.at) * self.first.cells().0 as f64;
                 self.first.draw(&painter, &placement, DrawnPart::LeftOf(column));
                 second.draw(&painter, &placement, DrawnPart::RightOf(column));
-                self.outline.over(&painter, &placement, self.first.cells());
+                self.outline.draw_edge(&painter, &placement, self.first.cells());
                 self.split_line(ui, &placement, split);
             }
             _ => {
                 self.first.draw(&painter, &placement, DrawnPart::Whole);
-                self.outline.over(&painter, &placement, self.first.cells());
+                self.outline.draw_edge(&painter, &placement, self.first.cells());
             }
         }
         response

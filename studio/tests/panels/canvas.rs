@@ -83,11 +83,12 @@ fn pixel(picture: &RgbaImage, x: u32, y: u32) -> [u8; 4] {
 
 #[test]
 fn at_actual_size_every_pixel_is_its_cell() {
-    for (density, turn, mirror) in
+    for (density, rotation, mirror) in
         [(1.0, 0.0, false), (2.0, 0.0, true), (1.0, FRAC_PI_2, false), (1.5, 2.0 * FRAC_PI_2, true)]
     {
         let mut surface = surface(Outline::Rectangle);
-        surface.view = ViewState { centre: [402.0, 311.0], zoom: 1.0, turn, mirror, fitted: false };
+        surface.view =
+            ViewState { centre: [402.0, 311.0], zoom: 1.0, rotation, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(400.0, 300.0), density, None);
         let Some(picture) = picture else { return };
         let placement = surface.placement();
@@ -106,10 +107,11 @@ fn at_actual_size_every_pixel_is_its_cell() {
 
 #[test]
 fn turned_and_mirrored_cells_are_where_the_view_says() {
-    for (turn, mirror) in [(0.0, false), (0.7, false), (2.5, true)] {
+    for (rotation, mirror) in [(0.0, false), (0.7, false), (2.5, true)] {
         let mut surface = surface(Outline::Rectangle);
         // Around the corner of four chunks.
-        surface.view = ViewState { centre: [511.0, 509.0], zoom: 7.0, turn, mirror, fitted: false };
+        surface.view =
+            ViewState { centre: [511.0, 509.0], zoom: 7.0, rotation, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(300.0, 200.0), 1.0, None);
         let Some(picture) = picture else { return };
         let placement = surface.placement();
@@ -123,7 +125,7 @@ fn turned_and_mirrored_cells_are_where_the_view_says() {
                 if inside && surface.position(middle).is_some() && !near_edge(place) {
                     seen += 1;
                     let wanted = cell(place[0], place[1]);
-                    assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {turn}");
+                    assert_eq!(pixel(&picture, x, y), wanted, "{x} {y} {place:?} {rotation}");
                 }
             }
         }
@@ -138,7 +140,7 @@ fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
         let mut other = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
         other.open(CELLS);
         tiles(chequered).iter().for_each(|tile| other.write(false, tile));
-        other.view = ViewState { centre: [350.0, 265.0], zoom, turn: 0.3, ..other.view };
+        other.view = ViewState { centre: [350.0, 265.0], zoom, rotation: 0.3, ..other.view };
         other.view.fitted = false;
         let (_, picture) = drawn(other, vec2(100.0, 80.0), 1.0, None);
         let Some(picture) = picture else { return };
@@ -152,18 +154,19 @@ fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
 #[test]
 fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
     let (white, black) = ([255; 4], [0, 0, 0, 255]);
-    for (turn, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
+    for (rotation, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
         let mut surface = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
         surface.open(CELLS);
         surface.set_second(true);
         tiles(|_, _| white).iter().for_each(|tile| surface.write(false, tile));
         tiles(|_, _| black).iter().for_each(|tile| surface.write(true, tile));
-        surface.view = ViewState { centre: [350.0, 265.0], zoom: 0.3, turn, mirror, fitted: false };
+        surface.view =
+            ViewState { centre: [350.0, 265.0], zoom: 0.3, rotation, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(400.0, 400.0), 1.0, Some(0.25));
         let Some(picture) = picture else { return };
         for (column, wanted) in [(20.0, white), (150.0, white), (200.0, black), (680.0, black)] {
             let at = surface.placement().point([column, 40.0]);
-            assert_eq!(pixel(&picture, at.x as u32, at.y as u32), wanted, "{column} {turn}");
+            assert_eq!(pixel(&picture, at.x as u32, at.y as u32), wanted, "{column} {rotation}");
         }
     }
 }
@@ -172,7 +175,7 @@ fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
 fn only_what_changed_and_is_seen_is_uploaded() {
     let mut surface = surface(Outline::Rectangle);
     surface.view =
-        ViewState { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..View::default() };
+        ViewState { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..ViewState::default() };
     let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
     let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
     let first = bytes(&harness);

@@ -11,7 +11,7 @@ use render::export::{self, Bands, PictureFormat, painting_maps, picture_file, pi
 use render::paint::document::Document;
 use render::paint::strokes::{Action, StrokeScript};
 use session::{Command, Origin};
-use studio::files::{FileRequest, Preferences, Reference};
+use studio::files::{FileRequest, Preferences, ReferenceChange};
 
 use bench::{
     Window, ask, change, click, opened, painted, picture, shows, type_name, until, window,
@@ -40,14 +40,14 @@ fn a_painting_comes_back_exactly_as_it_was_saved() {
     let (folder, path) = folder();
     let mut window = window(folder.path(), painted("A study"));
     change(&mut window);
-    assert!(window.state_mut().files().unsaved(), "it was changed");
+    assert!(window.state_mut().files().has_unsaved_changes(), "it was changed");
     ask(&mut window, FileRequest::Save);
     picture(&mut window, "save");
     assert!(shows(&window, "Save the painting"), "a painting without a file asks");
     type_name(&mut window, "study");
     window.key_press(Key::Enter);
     until(&mut window, "the file", |_| path.is_file());
-    until(&mut window, "the end", |window| !window.state_mut().files().unsaved());
+    until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
     let saved = window.state().canvas.clone();
     assert_eq!(document(&path), *saved);
     assert_eq!(window.state_mut().files().title(), "study");
@@ -56,7 +56,9 @@ fn a_painting_comes_back_exactly_as_it_was_saved() {
     let changed = window.state().canvas.clone();
     assert!(changed != saved, "the test changes nothing");
     ask(&mut window, FileRequest::Save);
-    until(&mut window, "the second save", |window| !window.state_mut().files().unsaved());
+    until(&mut window, "the second save", |window| {
+        !window.state_mut().files().has_unsaved_changes()
+    });
     assert_eq!(document(&path), *changed, "saved where it was, without a question");
 
     ask(&mut window, FileRequest::Open(Some(path.clone())));
@@ -95,7 +97,7 @@ fn the_browser_is_led_by_keys_alone() {
     window.key_press(Key::Escape);
     window.step();
     window.step();
-    assert!(!window.state_mut().files().asks(), "escape leaves it");
+    assert!(!window.state_mut().files().has_dialog(), "escape leaves it");
 }
 
 #[test]
@@ -107,7 +109,7 @@ fn a_file_is_written_over_after_a_question_only() {
         ask(&mut window, FileRequest::SaveAs);
         type_name(&mut window, "study");
         click(&mut window, "Save");
-        assert!(shows(&window, "study.exr is there already"), "it asks");
+        assert!(shows(&window, "study.exr already exists"), "it asks");
         picture(&mut window, "replace");
         click(&mut window, answer);
         if kept {
@@ -143,7 +145,7 @@ fn what_a_killed_program_left_is_offered_and_recovered() {
     click(&mut second, "Recover");
     until(&mut second, "the painting", |window| !window.state().commands.is_empty());
     assert_eq!(*second.state().canvas, *kept);
-    assert!(second.state_mut().files().unsaved(), "it is in no file yet");
+    assert!(second.state_mut().files().has_unsaved_changes(), "it is in no file yet");
     let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
     until(&mut second, "its own autosave", sessions);
     drop(second);
@@ -183,7 +185,7 @@ fn a_window_with_changes_asks_before_it_closes() {
     type_name(&mut window, "study");
     click(&mut window, "Save");
     until(&mut window, "the file", |_| path.is_file());
-    until(&mut window, "the end", |window| !window.state_mut().files().unsaved());
+    until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
     assert!(closes(&mut window), "it is saved");
 }
 
@@ -212,7 +214,7 @@ fn another_painting_asks_before_it_takes_the_place_of_changes() {
     click(&mut window, "Discard");
     until(&mut window, "the other", |window| window.state().canvas.title == "B");
     assert_eq!(window.state_mut().files().path(), Some(&*path));
-    assert!(!window.state_mut().files().unsaved(), "it is as in its file");
+    assert!(!window.state_mut().files().has_unsaved_changes(), "it is as in its file");
 }
 
 #[test]
@@ -245,7 +247,7 @@ fn revisions_are_kept_listed_opened_and_deleted() {
     assert!(!revisions.join("0001.exr").exists() && revisions.join("0002.exr").exists(), "one");
     ask(&mut window, FileRequest::DeleteRevision(path.clone()));
     click(&mut window, "Delete");
-    assert!(path.exists() && shows(&window, "is no revision"), "nothing but revisions");
+    assert!(path.exists() && shows(&window, "is not a revision"), "nothing but revisions");
 }
 
 #[test]
@@ -318,7 +320,7 @@ fn a_recording_keeps_the_painting_that_it_began_with() {
     window.state_mut().recorded = Some(script);
     change(&mut window);
     ask(&mut window, FileRequest::Save);
-    until(&mut window, "the end", |window| !window.state_mut().files().unsaved());
+    until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
     assert!(std::fs::read(&path).unwrap() != first, "the file is another now");
     ask(&mut window, FileRequest::SaveRecording);
     type_name(&mut window, "strokes");
@@ -343,7 +345,7 @@ fn pictures_and_lamps_find_their_place() {
         found = found.take().or_else(|| window.state_mut().files().take_reference());
         found.is_some()
     });
-    assert_eq!(found, Some(Reference::Open(photo)));
+    assert_eq!(found, Some(ReferenceChange::Open(photo)));
     let lamp = folder.path().join("desk.csv");
     std::fs::write(&lamp, "nm,power\n400,1\n500,2\n700,3\n").unwrap();
     ask(&mut window, FileRequest::Open(Some(lamp.clone())));
@@ -386,10 +388,10 @@ fn preferences_hold_and_are_written() {
     ask(&mut window, FileRequest::Preferences);
     click(&mut window, "Processor");
     click(&mut window, "Play as painted");
-    click(&mut window, "Follow the way");
+    click(&mut window, "Follow the stroke");
     picture(&mut window, "preferences");
     click(&mut window, "Close");
-    assert!(!window.state_mut().files().asks(), "closed");
+    assert!(!window.state_mut().files().has_dialog(), "closed");
     window.event(Input::PointerGone);
     let path = folder.path().join("own").join("preferences.json");
     until(&mut window, "the file", |_| path.is_file());

@@ -64,11 +64,11 @@ fn keys_change_the_view_and_not_while_text_is_typed() {
     window.key(Modifiers::COMMAND, Key::Num1);
     assert_eq!(window.studio().canvas.view.zoom, 1.0);
     window.key(Modifiers::COMMAND, Key::CloseBracket);
-    let turned = window.studio().canvas.view.turn;
+    let turned = window.studio().canvas.view.rotation;
     assert!((turned - (-15_f64).to_radians().rem_euclid(TAU)).abs() < 1e-9, "{turned}");
     window.key(Modifiers::NONE, Key::Home);
     let view = window.studio().canvas.view;
-    assert!(view.fitted && view.turn == 0.0 && !view.mirror, "{view:?}");
+    assert!(view.fitted && view.rotation == 0.0 && !view.mirror, "{view:?}");
     window.key(Modifiers::NONE, Key::F12);
     assert!(window.studio().tools.figures, "F12 shows the figures");
     window.click("Rename");
@@ -159,7 +159,7 @@ fn the_view_follows_hand_wheel_and_held_keys() {
 fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
     let mut window = told_window("head", vec2(1280.0, 800.0), 1.0);
     for (turn, mirror) in [(0.0, false), (1.0, true)] {
-        window.studio_mut().canvas.view.turn = turn;
+        window.studio_mut().canvas.view.rotation = turn;
         window.studio_mut().canvas.view.mirror = mirror;
         window.harness().run_ok();
         let at = window.point(SurfaceId::Canvas, 96.0, 54.0);
@@ -221,7 +221,7 @@ fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
 fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
     for (turn, mirror) in [(0.0, false), (1.1, false), (2.4, true)] {
         let mut window = loaded("stroke");
-        window.studio_mut().canvas.view.turn = turn;
+        window.studio_mut().canvas.view.rotation = turn;
         window.studio_mut().canvas.view.mirror = mirror;
         window.harness().run_ok();
         let places = [(16.0, 10.0), (16.0, 5.0), (16.0, 15.0), (4.0, 10.0), (28.0, 10.0)];

@@ -1,82 +1,82 @@
-//! What a folder holds, for the browser.
+//! Lists the files and folders of a folder.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::files::job::{Progress, Stopped};
-use session::FileFailure;
+use crate::files::job::{JobError, Progress};
+use crate::files::problem::Problem;
 
-/// The most entries that are listed.
-const MOST: usize = 20_000;
+/// Maximum number of entries that are listed.
+const MAX_ENTRIES: usize = 20_000;
 
-/// A file or a folder.
+/// A file or folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Entry {
-    /// Its name, without its folder.
-    pub name: String,
-    /// Whether it is a folder.
-    pub folder: bool,
-    /// A file's length.
-    pub bytes: u64,
-    /// When it was last changed, if the system tells.
-    pub changed: Option<SystemTime>,
+pub(crate) struct Entry {
+    /// Name without the folder.
+    pub(crate) name: String,
+    /// Whether this is a folder.
+    pub(crate) folder: bool,
+    /// Size of a file in bytes.
+    pub(crate) bytes: u64,
+    /// Time of the last change, if the system knows it.
+    pub(crate) changed: Option<SystemTime>,
 }
 
-/// Which files are shown.
+/// A rule that selects which files are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Filter {
-    /// What they are called.
-    pub label: &'static str,
-    /// How their names end, in small letters; none lets all pass.
-    pub endings: &'static [&'static str],
+pub(crate) struct Filter {
+    /// Label of the rule in the dialog.
+    pub(crate) label: &'static str,
+    /// Extensions of the names, in lower case. An empty list accepts all files.
+    pub(crate) endings: &'static [&'static str],
 }
 
 impl Filter {
-    /// All files.
-    pub const ALL: Self = Self { label: "All files", endings: &[] };
+    /// Accepts all files.
+    pub(crate) const ALL: Self = Self { label: "All files", endings: &[] };
 
     /// Whether a file of this name is shown.
     #[must_use]
-    pub fn passes(&self, name: &str) -> bool {
+    pub(crate) fn passes(&self, name: &str) -> bool {
         let name = name.to_lowercase();
         let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|n| n.ends_with('.'));
         self.endings.is_empty() || self.endings.iter().any(ends)
     }
 }
 
-/// The entries of `folder`, without hidden ones: folders first, each in the order
-/// of names, in which numbers count as numbers.
+/// Lists `folder` without hidden entries: folders first, each group sorted by name with
+/// numbers in numerical order.
 ///
 /// # Errors
-/// [`Stopped`] if it cannot be read.
-pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, Stopped> {
-    let unreadable = |error: std::io::Error| FileFailure::io(folder, "read", &error);
+/// [`JobError`] if the folder cannot be read.
+pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, JobError> {
+    let unreadable = |error: std::io::Error| Problem::io(folder, "read", &error);
     let mut entries = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable)?.take(MOST) {
-        progress.tell(0.0)?;
+    for entry in std::fs::read_dir(folder).map_err(unreadable)?.take(MAX_ENTRIES) {
+        progress.report(0.0)?;
         let Ok(entry) = entry else { continue };
-        // A name that is no text cannot be typed either.
+        // A name that is not valid Unicode could not be typed or shown.
         let Ok(name) = entry.file_name().into_string() else { continue };
         if name.starts_with('.') {
             continue;
         }
-        // Links are what they point to; one that points nowhere is left out.
+        // Links are followed; a broken link is left out.
         let Ok(found) = std::fs::metadata(entry.path()) else { continue };
         let (bytes, changed) = (found.len(), found.modified().ok());
         entries.push(Entry { name, folder: found.is_dir(), bytes, changed });
     }
-    entries.sort_by_cached_key(|entry| (!entry.folder, order(&entry.name), entry.name.clone()));
+    entries.sort_by_cached_key(|entry| (!entry.folder, sort_key(&entry.name), entry.name.clone()));
     Ok(entries)
 }
 
-/// A piece of a name: letters, or a number.
+/// Part of a name: letters or a number, for sorting.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Piece {
+enum NamePart {
     Number(u64),
     Letters(String),
 }
 
-fn order(name: &str) -> Vec<Piece> {
+fn sort_key(name: &str) -> Vec<NamePart> {
     let name = name.to_lowercase();
     let mut pieces = Vec::new();
     let mut rest = name.as_str();
@@ -85,15 +85,15 @@ fn order(name: &str) -> Vec<Piece> {
         let end = rest.find(|letter: char| letter.is_ascii_digit() != digits);
         let (piece, after) = rest.split_at(end.unwrap_or(rest.len()));
         pieces.push(match piece.parse() {
-            Ok(number) if digits => Piece::Number(number),
-            _ => Piece::Letters(piece.to_owned()),
+            Ok(number) if digits => NamePart::Number(number),
+            _ => NamePart::Letters(piece.to_owned()),
         });
         rest = after;
     }
     pieces
 }
 
-/// The user's own folder, else the root.
+/// The user's home folder, or the root folder if it is not known.
 #[must_use]
 pub(super) fn home_folder() -> PathBuf {
     directories::UserDirs::new()
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folders_come_first_and_numbers_count() {
+    fn folders_come_first_and_numbers_sort_by_value() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["b10.exr", "b9.exr", "A.exr", ".hidden"] {
             std::fs::write(folder.path().join(name), "x").unwrap();
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn a_filter_looks_at_the_ending_alone() {
+    fn a_filter_tests_only_the_extension() {
         let filter = Filter { label: "Paintings", endings: &["exr"] };
         for (name, passes) in [("a.exr", true), ("A.EXR", true), ("exr", false), ("a.png", false)] {
             assert_eq!(filter.passes(name), passes, "{name}");
@@ -127,8 +127,8 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_gone_is_told() {
-        let told = entries(Path::new("/no/such/folder"), &Progress::default());
-        assert!(matches!(told, Err(Stopped::Failed(_))), "{told:?}");
+    fn a_missing_folder_is_reported() {
+        let listed = entries(Path::new("/no/such/folder"), &Progress::default());
+        assert!(matches!(listed, Err(JobError::Failed(_))), "{listed:?}");
     }
 }

@@ -1,5 +1,5 @@
-//! A small browser of files inside the window: no system dialog, which would
-//! need a desktop's services.
+//! A file browser inside the window. A system dialog would need the services of a desktop,
+//! and could not be tested.
 
 mod listing;
 
@@ -7,5 +7,5 @@ mod state;
 
 mod show;
 
-pub use listing::{Entry, Filter};
-pub use state::{Answer, Browser, Wanted};
+pub(crate) use listing::Filter;
+pub(crate) use state::{Answer, Browser, BrowserOptions};

@@ -1,108 +1,115 @@
-//! What the browser shows, and what keys and clicks do to it.
+//! State of the file browser, and how keys and clicks change it.
 
 use std::path::{Path, PathBuf};
 
 use super::listing::{Entry, Filter, entries, home_folder};
-use crate::files::job::{Job, Stopped};
-use session::FileFailure;
+use crate::files::job::{Job, JobError};
+use crate::files::problem::Problem;
 
-/// What the browser is for.
+/// Title, filters and purpose of a file browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Wanted {
-    /// The head of the dialog, and its last button.
-    pub title: &'static str,
-    /// Whether a file is made, not read.
-    pub saves: bool,
-    /// The kinds of files to choose among; the first holds at first.
-    pub filters: &'static [Filter],
-    /// How the name of a file that is made ends; none for no ending.
-    pub ending: Option<&'static str>,
-    /// The name at first.
-    pub name: String,
+pub(crate) struct BrowserOptions {
+    /// Title of the dialog.
+    pub(crate) title: &'static str,
+    /// Whether the file is to be written rather than read.
+    pub(crate) saving: bool,
+    /// Selectable filters; the first is active at first.
+    pub(crate) filters: &'static [Filter],
+    /// Extension that is added to the name of a new file; `None` for no extension.
+    pub(crate) ending: Option<&'static str>,
+    /// Name that is suggested for a new file.
+    pub(crate) name: String,
+}
+
+impl BrowserOptions {
+    /// Options of a dialog that opens an existing file.
+    pub(crate) fn open(title: &'static str, filters: &'static [Filter]) -> Self {
+        Self { title, saving: false, filters, ending: None, name: String::new() }
+    }
 }
 
 /// A dialog that asks for a file.
 #[derive(Debug)]
-pub struct Browser {
-    /// What it is for.
-    pub wanted: Wanted,
-    /// Where it looks.
+pub(crate) struct Browser {
+    /// Title, filters and purpose.
+    pub(crate) options: BrowserOptions,
+    /// The folder that is listed.
     pub(super) folder: PathBuf,
-    /// The folder as it is being typed.
+    /// The text of the folder field.
     pub(super) typed_folder: String,
     pub(super) recent: Vec<PathBuf>,
     entries: Vec<Entry>,
     reading: Option<Job<Vec<Entry>>>,
-    /// What went wrong last, said in the dialog.
-    pub(super) failure: Option<FileFailure>,
-    /// The filter in force, by number.
+    /// The last problem, shown in the dialog.
+    pub(super) problem: Option<Problem>,
+    /// Index of the active filter.
     pub(super) filter: usize,
-    /// The name of the entry that the keys are at.
+    /// Name of the selected entry.
     pub(super) selected: Option<String>,
-    /// The name of a file to be made.
+    /// Name of the file to be written.
     pub(super) name: String,
-    /// Whether the field of the name has had the keyboard: it begins with it.
-    pub(super) named: bool,
-    /// The file that would be written over, while the painter is asked.
-    pub(super) replaces: Option<PathBuf>,
-    /// Whether the selection moved, and must be scrolled to.
-    pub(super) moved: bool,
+    /// Whether the name field has received the keyboard focus, which happens once.
+    pub(super) name_focused: bool,
+    /// The existing file that would be replaced, while the painter is asked.
+    pub(super) replacing: Option<PathBuf>,
+    /// Whether the list must scroll to the selection.
+    pub(super) scroll_to_selected: bool,
     wake: eframe::egui::Context,
 }
 
-/// What the painter said.
+/// The painter's answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Answer {
-    /// This file.
+pub(crate) enum Answer {
+    /// The file that was chosen.
     File(PathBuf),
-    /// None.
+    /// No file was chosen.
     Cancelled,
 }
 
 impl Browser {
-    /// A browser that looks into `folder`, or the user's own where there is none.
+    /// A browser that lists `folder`, or the home folder if that does not exist.
     #[must_use]
-    pub fn new(
-        wanted: Wanted,
+    pub(crate) fn new(
+        options: BrowserOptions,
         folder: Option<&Path>,
         recent: &[PathBuf],
         wake: &eframe::egui::Context,
     ) -> Self {
         let folder = folder.filter(|folder| folder.is_dir()).map(Path::to_owned);
-        let filter = wanted.filters.first().copied().unwrap_or(Filter::ALL);
+        let filter = options.filters.first().copied().unwrap_or(Filter::ALL);
         let passes = |path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path));
         let mut browser = Self {
-            name: wanted.name.clone(),
-            wanted,
+            name: options.name.clone(),
+            options,
             folder: PathBuf::new(),
             typed_folder: String::new(),
             recent: recent.iter().filter(passes).cloned().collect(),
             entries: Vec::new(),
             reading: None,
-            failure: None,
+            problem: None,
             filter: 0,
             selected: None,
-            named: false,
-            replaces: None,
-            moved: false,
+            name_focused: false,
+            replacing: None,
+            scroll_to_selected: false,
             wake: wake.clone(),
         };
         browser.go(folder.unwrap_or_else(home_folder));
         browser
     }
 
-    /// Where it looks.
+    /// The folder that is listed.
     #[must_use]
-    pub fn folder(&self) -> &Path {
+    pub(crate) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Looks into another folder.
-    pub fn go(&mut self, folder: PathBuf) {
+    /// Lists another folder.
+    pub(crate) fn go(&mut self, folder: PathBuf) {
         self.typed_folder = folder.display().to_string();
         self.selected = None;
-        self.replaces = None;
-        self.failure = None;
+        self.replacing = None;
+        self.problem = None;
         self.entries.clear();
         let (wake, read) = (self.wake.clone(), folder.clone());
         let wake = move || wake.request_repaint();
@@ -111,37 +118,37 @@ impl Browser {
         self.folder = folder;
     }
 
-    /// Takes up what was read since; whether reading goes on.
-    pub fn update(&mut self) -> bool {
+    /// Applies the result of listing; returns whether it is still running.
+    pub(crate) fn update(&mut self) -> bool {
         if let Some(result) = self.reading.as_mut().and_then(Job::poll) {
             self.reading = None;
             match result {
                 Ok(entries) => self.entries = entries,
-                Err(Stopped::Failed(failure)) => self.failure = Some(failure),
-                Err(Stopped::Cancelled) => {}
+                Err(JobError::Failed(problem)) => self.problem = Some(problem),
+                Err(JobError::Cancelled) => {}
             }
         }
         self.reading.is_some()
     }
 
-    /// The entries that the filter lets pass.
+    /// The entries that the filter accepts.
     #[must_use]
-    pub fn shown(&self) -> Vec<&Entry> {
-        let filter = self.wanted.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
+    pub(crate) fn shown(&self) -> Vec<&Entry> {
+        let filter = self.options.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
         self.entries.iter().filter(|entry| entry.folder || filter.passes(&entry.name)).collect()
     }
 
-    /// Goes to the folder above, and stays at the one it came from.
-    pub fn up(&mut self) {
+    /// Lists the folder above, with the previous one selected.
+    pub(crate) fn up(&mut self) {
         let Some(above) = self.folder.parent().map(Path::to_owned) else { return };
         let from = self.folder.file_name().map(|name| name.to_string_lossy().into_owned());
         self.go(above);
         self.selected = from;
-        self.moved = true;
+        self.scroll_to_selected = true;
     }
 
     /// Moves the selection by `steps` entries.
-    pub fn step(&mut self, steps: isize) {
+    pub(crate) fn step(&mut self, steps: isize) {
         let shown = self.shown();
         let Some(last) = shown.len().checked_sub(1) else { return };
         let at = shown.iter().position(|entry| Some(&entry.name) == self.selected.as_ref());
@@ -157,20 +164,20 @@ impl Browser {
         };
         let next = shown[next].clone();
         self.select(&next);
-        self.moved = true;
+        self.scroll_to_selected = true;
     }
 
-    /// Selects an entry; a file gives its name to one that is to be made.
-    pub fn select(&mut self, entry: &Entry) {
+    /// Selects an entry. In a save dialog, a file's name becomes the name of the new file.
+    pub(crate) fn select(&mut self, entry: &Entry) {
         self.selected = Some(entry.name.clone());
-        self.replaces = None;
-        if self.wanted.saves && !entry.folder {
+        self.replacing = None;
+        if self.options.saving && !entry.folder {
             self.name.clone_from(&entry.name);
         }
     }
 
-    /// Goes into the selected folder, or takes the file.
-    pub fn enter(&mut self) -> Option<Answer> {
+    /// Opens the selected folder, or chooses the selected file.
+    pub(crate) fn enter(&mut self) -> Option<Answer> {
         let shown = self.shown();
         let selected = shown.into_iter().find(|entry| Some(&entry.name) == self.selected.as_ref());
         match selected {
@@ -179,51 +186,51 @@ impl Browser {
                 self.go(folder);
                 None
             }
-            _ if self.wanted.saves => self.save(),
+            _ if self.options.saving => self.save(),
             Some(entry) => Some(Answer::File(self.folder.join(&entry.name))),
             None => None,
         }
     }
 
-    /// Goes where was typed: into a folder, or to a file that is there.
-    pub fn enter_typed(&mut self) -> Option<Answer> {
+    /// Opens the folder that was typed, or chooses the file.
+    pub(crate) fn enter_typed(&mut self) -> Option<Answer> {
         let typed = self.folder.join(self.typed_folder.trim());
-        if typed.is_file() && !self.wanted.saves {
+        if typed.is_file() && !self.options.saving {
             return Some(Answer::File(typed));
         }
         self.go(typed);
         None
     }
 
-    /// Takes the file of the name, after a question if it is there.
-    pub fn save(&mut self) -> Option<Answer> {
+    /// Chooses the file of the typed name; asks first if it exists.
+    pub(crate) fn save(&mut self) -> Option<Answer> {
         let name = self.name.trim();
         if name.is_empty() || name.contains(['/', '\\', '\0']) || [".", ".."].contains(&name) {
-            let what = format!("`{name}` is no name of a file");
-            self.failure = Some(FileFailure::new(what, "give a name without / and \\"));
+            let text = format!("`{name}` is not a valid file name");
+            self.problem = Some(Problem::new(text, "choose a name without / and \\"));
             return None;
         }
-        let path = with_ending(self.folder.join(name), self.wanted.ending);
-        if path.exists() && self.replaces.as_ref() != Some(&path) {
-            self.replaces = Some(path);
+        let path = with_ending(self.folder.join(name), self.options.ending);
+        if path.exists() && self.replacing.as_ref() != Some(&path) {
+            self.replacing = Some(path);
             return None;
         }
         Some(Answer::File(path))
     }
 
-    /// Makes a folder of the name that is typed, and goes into it.
-    pub fn make_folder(&mut self) {
+    /// Creates a folder of the typed name and lists it.
+    pub(crate) fn make_folder(&mut self) {
         let name = self.name.trim();
         let name = name.split('.').next().unwrap_or(name);
         let folder = self.folder.join(if name.is_empty() { "New folder" } else { name });
         match std::fs::create_dir(&folder) {
             Ok(()) => self.go(folder),
-            Err(error) => self.failure = Some(FileFailure::io(&folder, "made", &error)),
+            Err(error) => self.problem = Some(Problem::io(&folder, "created", &error)),
         }
     }
 }
 
-/// `path` with `ending`, unless it ends so.
+/// Appends the extension `ending` to `path` if it is missing.
 fn with_ending(path: PathBuf, ending: Option<&str>) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     match ending {
@@ -240,20 +247,20 @@ mod tests {
 
     const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 
-    fn browser(saves: bool) -> (Browser, tempfile::TempDir) {
+    fn browser(saving: bool) -> (Browser, tempfile::TempDir) {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("sub")).unwrap();
         for name in ["a.exr", "b.exr", "notes.txt"] {
             std::fs::write(folder.path().join(name), "x").unwrap();
         }
-        let wanted = Wanted {
+        let options = BrowserOptions {
             title: "Open",
-            saves,
+            saving,
             filters: &[PAINTINGS, Filter::ALL],
             ending: Some("exr"),
             name: "study".to_owned(),
         };
-        let mut browser = Browser::new(wanted, Some(folder.path()), &[], &Default::default());
+        let mut browser = Browser::new(options, Some(folder.path()), &[], &Default::default());
         read(&mut browser);
         (browser, folder)
     }
@@ -265,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_walk_through_what_the_filter_shows() {
+    fn keys_move_through_the_filtered_entries() {
         let (mut browser, folder) = browser(false);
         let names = |browser: &Browser| {
             browser.shown().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>()
@@ -291,31 +298,31 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_there_is_replaced_after_a_question_only() {
+    fn an_existing_file_is_replaced_only_after_asking() {
         let (mut browser, folder) = browser(true);
         assert_eq!(browser.save(), Some(Answer::File(folder.path().join("study.exr"))));
         browser.name = "a".to_owned();
         assert_eq!(browser.save(), None);
-        assert_eq!(browser.replaces, Some(folder.path().join("a.exr")));
+        assert_eq!(browser.replacing, Some(folder.path().join("a.exr")));
         browser.step(-1);
-        assert_eq!((browser.name.as_str(), &browser.replaces), ("b.exr", &None));
+        assert_eq!((browser.name.as_str(), &browser.replacing), ("b.exr", &None));
         assert_eq!(browser.save(), None, "another file, another question");
         assert_eq!(browser.save(), Some(Answer::File(folder.path().join("b.exr"))));
     }
 
     #[test]
-    fn a_name_that_leads_elsewhere_is_refused() {
+    fn a_name_of_another_folder_is_rejected() {
         let (mut browser, _folder) = browser(true);
         for name in ["", "..", "a/b", "  "] {
             browser.name = name.to_owned();
-            browser.failure = None;
+            browser.problem = None;
             assert_eq!(browser.save(), None, "{name:?}");
-            assert!(browser.failure.is_some(), "{name:?}");
+            assert!(browser.problem.is_some(), "{name:?}");
         }
     }
 
     #[test]
-    fn what_is_typed_is_a_folder_or_a_file() {
+    fn a_typed_path_is_a_folder_or_a_file() {
         let (mut browser, folder) = browser(false);
         browser.typed_folder = "sub".to_owned();
         assert_eq!(browser.enter_typed(), None);
@@ -324,11 +331,11 @@ mod tests {
         assert_eq!(browser.enter_typed(), Some(Answer::File(folder.path().join("a.exr"))));
         browser.go(folder.path().join("gone"));
         read(&mut browser);
-        assert!(browser.failure.is_some(), "it is not there");
+        assert!(browser.problem.is_some(), "it is not there");
     }
 
     #[test]
-    fn a_folder_is_made_and_gone_into() {
+    fn a_new_folder_is_created_and_listed() {
         let (mut browser, folder) = browser(true);
         browser.make_folder();
         assert_eq!(browser.folder(), folder.path().join("study"));

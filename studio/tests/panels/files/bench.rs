@@ -119,7 +119,7 @@ impl Bench {
             Files::new(ui.ctx(), self.home.clone(), self.preferences.clone())
         });
         for event in self.events.drain(..) {
-            files.event(&event);
+            files.handle_event(&event);
         }
         for request in self.requests.drain(..) {
             files.request(request, &self.easel);

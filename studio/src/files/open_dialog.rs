@@ -1,0 +1,45 @@
+//! The dialogs that can be open.
+
+use std::path::PathBuf;
+
+use pigment::library::PigmentLibrary;
+use render::paint::strokes::PaletteSpec;
+
+use super::browser::Browser;
+use super::dialogs::NewPainting;
+use super::exporting::Export;
+use super::pending::PendingAction;
+
+/// A dialog.
+#[derive(Debug)]
+pub(super) enum OpenDialog {
+    /// Asks for a file.
+    Browser(Box<Browser>, FilePurpose),
+    /// Asks if unsaved changes should be saved before the action is carried out.
+    Unsaved(PendingAction),
+    /// Asks if the revision in this file should be deleted.
+    DeleteRevision(PathBuf),
+    /// Asks what to export.
+    Export(Export),
+    /// Asks for the canvas of a new painting; holds the current palette and library.
+    New(NewPainting, Box<PaletteSpec>, Box<PigmentLibrary>),
+    /// Shows the preferences.
+    Preferences,
+}
+
+/// The purpose of a file that the painter is asked for.
+#[derive(Debug)]
+pub(super) enum FilePurpose {
+    /// Opens it.
+    Open,
+    /// Saves the painting in it, then goes on with `next`.
+    Save { next: Option<PendingAction>, keep_revision: bool },
+    /// Exports to it.
+    Export(Export),
+    /// Saves the recording in it.
+    Recording,
+    /// Pins the picture in it beside the canvas.
+    Reference,
+    /// Lights the painting with the lamp measured in it.
+    Lamp,
+}

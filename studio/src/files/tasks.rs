@@ -1,0 +1,267 @@
+//! Starts each job on files: saving, exporting, reading, autosaves, preferences.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError};
+use std::time::{Duration, Instant};
+
+use pigment::library::PigmentLibrary;
+use render::light::Light;
+use render::paint::document::Document;
+use render::paint::strokes::StrokeScript;
+use spectra::file::write_whole;
+
+use super::exporting;
+use super::job::{JobError, Progress};
+use super::opened::{self, Opened};
+use super::pending::{FileOrigin, PendingAction, Replacement};
+use super::problem::Problem;
+use super::revisions;
+use super::state::Files;
+use super::work::{Finished, JobKind, Purpose, file_name};
+use session::{Command, Origin, SessionMeta, Snapshot, now};
+
+impl Files {
+    /// Saves the painting in `path`, then carries out `next`.
+    pub(super) fn save(&mut self, path: PathBuf, next: Option<PendingAction>) {
+        self.request_snapshot(Purpose::Save { path, next, keep_revision: false });
+    }
+
+    /// Starts the job that a snapshot was requested for.
+    pub(super) fn start_with_snapshot(&mut self, purpose: Purpose, snapshot: &Snapshot) {
+        let canvas = snapshot.canvas.clone();
+        let (revision, epoch) = (snapshot.revision, self.epoch);
+        match purpose {
+            Purpose::Save { path, next, keep_revision } => {
+                let label = format!("saving {}", file_name(&path));
+                self.start_job(JobKind::Saving, label, move |progress| {
+                    write_painting(&path, &canvas, progress)?;
+                    Ok(Finished::Saved { path, revision, epoch, next, keep_revision })
+                });
+            }
+            Purpose::Revision { path } => {
+                let light = self.light_of(&canvas);
+                let label = "keeping a revision".to_owned();
+                self.start_job(JobKind::Shown, label, move |progress| {
+                    let light = light()?;
+                    let kept = revisions::keep(&path, &canvas, &light, progress)?;
+                    Ok(Finished::RevisionKept(kept))
+                });
+            }
+            Purpose::Export { export, path } => {
+                let light = self.light_of(&canvas);
+                let label = format!("exporting {}", file_name(&path));
+                self.start_job(JobKind::Shown, label, move |progress| {
+                    let light = light()?;
+                    let remark = exporting::export(export, &canvas, &light, &path, progress)?;
+                    Ok(Finished::Exported { path, remark })
+                });
+            }
+            Purpose::Autosave => self.start_autosave(snapshot),
+            Purpose::Recording { .. } => {}
+        }
+    }
+
+    /// Starts writing a recording.
+    pub(super) fn start_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
+        let label = format!("saving {}", file_name(&path));
+        let start = self.start.clone();
+        self.start_job(JobKind::Shown, label, move |_| {
+            let script = with_start_file(&path, &script, start)?;
+            let text = script.to_json().map_err(|error| Problem::from_error(&error))?;
+            write_whole(&path, text.as_bytes()).map_err(Problem::from)?;
+            Ok(Finished::Recorded(path))
+        });
+    }
+
+    /// The light of a document. It is the worker's light if that has the same name, because
+    /// the file that it was read from may be gone.
+    fn light_of(
+        &self,
+        document: &Arc<Document>,
+    ) -> impl FnOnce() -> Result<Arc<Light>, Problem> + Send + 'static {
+        let document = document.clone();
+        let known = self.painting.as_ref().filter(|state| {
+            let (own, current) = (&document.lighting, &state.lighting);
+            (&own.illuminant, &own.observer) == (&current.illuminant, &current.observer)
+                && *state.library == document.library
+        });
+        let known = known.map(|state| state.light.clone());
+        move || match known {
+            Some(light) => Ok(light),
+            None => {
+                let lighting = &document.lighting;
+                Light::named(&document.library, &lighting.illuminant, &lighting.observer)
+                    .map(Arc::new)
+                    .map_err(|error| Problem::with_hint(&error, error.hint()))
+            }
+        }
+    }
+
+    /// Starts reading a file of any kind.
+    pub(super) fn read(&mut self, path: PathBuf) {
+        // Absolute, so that a later change of the working folder has no effect.
+        let path = std::path::absolute(&path).unwrap_or(path);
+        let label = format!("reading {}", file_name(&path));
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let opened = opened::read(&path, progress)?;
+            Ok(Finished::Read { path, opened })
+        });
+    }
+
+    /// Starts reading a revision.
+    pub(super) fn read_revision(&mut self, path: PathBuf) {
+        let label = format!("reading revision {}", file_name(&path));
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let (document, bytes) = read_painting(&path, progress)?;
+            Ok(Finished::RevisionRead(document, bytes))
+        });
+    }
+
+    /// Starts reading the lost session in `folder`.
+    pub(super) fn recover(&mut self, folder: &Path) {
+        let mut sessions = self.lost_sessions.iter();
+        let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
+        let lost = self.lost_sessions.remove(at);
+        let label = format!("recovering {}", lost.meta.title);
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let [canvas, palette] = lost.files();
+            let (canvas, _) = read_painting(&canvas, progress)?;
+            let (palette, _) = read_painting(&palette, progress)?;
+            Ok(Finished::Recovered { canvas, palette, lost })
+        });
+    }
+
+    /// Starts listing the revisions of the painting.
+    pub(super) fn list_revisions(&mut self) {
+        let epoch = self.epoch;
+        let Some(path) = self.path.clone() else {
+            self.revisions.set(&self.ctx, None, Vec::new());
+            return;
+        };
+        let label = "looking for revisions".to_owned();
+        self.start_job(JobKind::Background, label, move |progress| {
+            let revisions = revisions::list(&path, progress)?;
+            Ok(Finished::Listed { epoch, revisions })
+        });
+    }
+
+    /// Requests an autosave when it is due, and otherwise makes the window wake up for it.
+    pub(super) fn autosave_when_due(&mut self) {
+        let Some(state) = self.painting.clone() else { return };
+        let busy = self.jobs.iter().any(|job| job.kind == JobKind::Autosave)
+            || self.awaited.iter().any(|(_, purpose)| matches!(purpose, Purpose::Autosave));
+        let changed = state.stroke_open || self.autosaved_revision != Some(state.revision);
+        if busy || !changed || !self.has_unsaved_changes() || self.opening.is_some() {
+            return;
+        }
+        let interval = Duration::from_secs(self.preferences.autosave_seconds);
+        match interval.checked_sub(self.last_autosave.elapsed()) {
+            Some(left) if !left.is_zero() => self.ctx.request_repaint_after(left),
+            _ => {
+                self.last_autosave = Instant::now();
+                self.request_snapshot(Purpose::Autosave);
+            }
+        }
+    }
+
+    fn start_autosave(&mut self, snapshot: &Snapshot) {
+        let (canvas, palette) = (snapshot.canvas.clone(), snapshot.palette.clone());
+        let (revision, epoch) = (snapshot.revision, self.epoch);
+        let meta = SessionMeta { title: self.title(), path: self.path.clone(), seconds: now() };
+        let autosave = self.autosave.clone();
+        self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(autosave) = autosave.as_mut() {
+                let kept = on_one_core(|| autosave.keep(&canvas, &palette, &meta));
+                kept.map_err(Problem::from)?;
+            }
+            Ok(Finished::Autosaved { revision, epoch })
+        });
+    }
+
+    /// Starts deleting the autosaves: the painting is saved in a file, or not wanted.
+    pub(super) fn clear_autosaves(&mut self) {
+        (self.last_autosave, self.autosaved_revision) = (Instant::now(), None);
+        let autosave = self.autosave.clone();
+        self.start_job(JobKind::Background, "clearing autosaves".to_owned(), move |_| {
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(autosave) = autosave.as_mut() {
+                autosave.clear().map_err(Problem::from)?;
+            }
+            Ok(Finished::Quietly)
+        });
+    }
+
+    /// Starts writing the preferences if they changed and no background job runs.
+    pub(super) fn write_changed_preferences(&mut self) {
+        let idle = self.jobs.iter().all(|job| job.kind != JobKind::Background);
+        if self.preferences == self.written_preferences || !idle {
+            return;
+        }
+        self.preferences.bound();
+        self.written_preferences = self.preferences.clone();
+        let (preferences, path) = (self.preferences.clone(), self.home.preferences());
+        self.start_job(JobKind::Background, "writing preferences".to_owned(), move |_| {
+            preferences.write(&path)?;
+            Ok(Finished::Quietly)
+        });
+    }
+
+    /// Opens a new painting on the canvas of `script`.
+    pub(super) fn begin_painting(&mut self, script: StrokeScript, library: PigmentLibrary) {
+        let origin = Origin::Blank { script: Box::new(script), library: Box::new(library) };
+        let commands = vec![Command::Open(origin)];
+        let replacement = Replacement { commands, origin: FileOrigin::default() };
+        self.carry_out_safely(PendingAction::Replace(replacement));
+    }
+}
+
+/// The script as it will be saved in `path`. If it continues a painting, the painting as
+/// it was at the start is written beside it as `NAME.start.exr`.
+fn with_start_file(
+    path: &Path,
+    script: &StrokeScript,
+    start: Option<Arc<Vec<u8>>>,
+) -> Result<StrokeScript, Problem> {
+    let mut script = script.clone();
+    let Some(named) = &script.start else { return Ok(script) };
+    let bytes = match start {
+        Some(bytes) => bytes,
+        // A recording that was played and is saved again names its own start.
+        None => Arc::new(spectra::file::read(Path::new(named))?),
+    };
+    let beside = path.with_extension("start.exr");
+    write_whole(&beside, &bytes)?;
+    script.start = Some(file_name(&beside));
+    Ok(script)
+}
+
+/// Runs `work` on one core, so that the others stay free for painting.
+fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
+fn write_painting(path: &Path, canvas: &Document, progress: &Progress) -> Result<(), JobError> {
+    let bytes = render::paint::file::write(canvas)
+        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+    progress.report(0.8)?;
+    write_whole(path, &bytes).map_err(Problem::from)?;
+    Ok(())
+}
+
+/// Reads a painting, and returns the content of its file too.
+fn read_painting(
+    path: &Path,
+    progress: &Progress,
+) -> Result<(Box<Document>, Arc<Vec<u8>>), JobError> {
+    match opened::read(path, progress)? {
+        Opened::Painting(document, bytes) => Ok((document, bytes)),
+        _ => {
+            let text = format!("{}: is not a painting", path.display());
+            Err(Problem::new(text, "another program has changed it").into())
+        }
+    }
+}
