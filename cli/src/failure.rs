@@ -24,9 +24,9 @@ use render::photograph::{PhotographError, SeparationError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
 };
-use spectra::hint::{Explain, Hint};
-use spectra::instrument::{ChoiceError, InstrumentError};
-use spectra::referencing::ReferencingError;
+use spectra::hint::{Explain, Fault, Hint};
+use spectra::instrument::{ChoiceError, InstrumentError, OpenError};
+use spectra::referencing::{ReferenceFilesError, ReferencingError};
 use spectra::swatch_file::SwatchFileError;
 use spectra::{LampError, LightError};
 
@@ -90,7 +90,9 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
     }
     let known = [
         as_explained::<InstrumentError>,
+        as_explained::<OpenError>,
         as_explained::<ReferencingError>,
+        as_explained::<ReferenceFilesError>,
         as_explained::<ChoiceError>,
         as_explained::<LampError>,
         as_explained::<LightError>,
@@ -209,11 +211,15 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     if let Some(PaintingError::Engine(_)) = painting {
         return Some(2);
     }
-    let faulty_lamp = matches!(cause.downcast_ref(), Some(LightError::Lamp(_)));
+    if let Some(error) = explained(cause) {
+        let wrong_option =
+            matches!(
+                cause.downcast_ref(),
+                Some(LightError::Unknown { .. } | LightError::Illuminant(_))
+            ) || matches!(cause.downcast_ref(), Some(ReferenceFilesError::Setting { .. }));
+        return Some(if wrong_option || error.fault() == Fault::Environment { 2 } else { 1 });
+    }
     let data = cause.is::<MeasurementError>()
-        || cause.is::<InstrumentError>()
-        || cause.is::<ReferencingError>()
-        || cause.is::<ChoiceError>()
         || cause.is::<RecipesError>()
         || cause.is::<CalibrationError>()
         || cause.is::<ComparisonError>()
@@ -222,8 +228,6 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<RecipeError>()
         || cause.is::<CurationError>()
         || cause.is::<TableError>()
-        || cause.is::<SwatchFileError>()
-        || cause.is::<LampError>()
         || cause.is::<PaintingError>()
         || cause.is::<SessionError>()
         || cause.is::<ScriptStartError>()
@@ -240,7 +244,6 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
             Some(ModelPainterError::Paper(_) | ModelPainterError::ToneRamp(_))
         )
         || cause.is::<MeshError>()
-        || cause.is::<CameraPathError>()
-        || faulty_lamp;
+        || cause.is::<CameraPathError>();
     data.then_some(1)
 }

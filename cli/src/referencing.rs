@@ -1,18 +1,13 @@
 //! Counts of a spectrometer, set against a white, the dark, and the white's own reflectance.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
-use spectra::instrument::{MeasuredSpectrum, Role, choose_spectrum, read, split_file_and_name};
-use spectra::referencing::{Dark, Referencing, Tile};
+use spectra::instrument::MeasuredSpectrum;
+use spectra::referencing::{DarkFiles, OpenedReferences, ReferenceFiles, Referencing, TileSource};
 
 use crate::console::Console;
-use crate::failure::Refusal;
-use crate::input::unreadable;
-
-/// The share of its peak that the white must have everywhere.
-const LEAST_LIGHT: f64 = 0.01;
 
 /// What counts are set against.
 #[derive(Debug, Clone, Default, Args)]
@@ -43,112 +38,59 @@ pub(crate) struct ReferencingOptions {
     least_light: Option<f64>,
 }
 
-/// The readings that [`ReferencingOptions`] name.
-pub(crate) struct References {
-    name: String,
-    white: MeasuredSpectrum,
-    /// `None` if subtracted already.
-    darks: Option<Vec<MeasuredSpectrum>>,
-    tile: Tile,
-    full_scale: Option<f64>,
-    least_light: f64,
-    /// The files, with their content.
-    pub(crate) files: Vec<(String, Vec<u8>)>,
-}
-
 impl ReferencingOptions {
     /// The files that are read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
-        let texts = self.white.iter().chain(&self.dark).chain(&self.tile);
-        let files = texts.map(|text| PathBuf::from(split_file_and_name(text).0));
-        files.filter(|file| file.is_file()).collect()
+        self.reference_files().map_or_else(Vec::new, |files| files.paths())
     }
 
-    /// The readings; `None` without a white.
-    pub(crate) fn read(&self, console: &mut Console<'_>) -> anyhow::Result<Option<References>> {
-        let Some(name) = &self.white else { return Ok(None) };
-        for (option, value) in
-            [("--full-scale", self.full_scale), ("--least-light", self.least_light)]
-        {
-            if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
-                let what = format!("{option} must be a number from 0 up, found `{value}`");
-                return Err(Refusal::usage(what, format!("leave {option} out for the default")));
-            }
+    /// The files as the library opens them; `None` without a white.
+    fn reference_files(&self) -> Option<ReferenceFiles> {
+        let mut files = ReferenceFiles::new(self.white.as_ref()?);
+        files.dark = match self.dark.as_slice() {
+            [zero] if zero == "0" => DarkFiles::Subtracted,
+            darks => DarkFiles::Files(darks.to_vec()),
+        };
+        if let Some(tile) = &self.tile {
+            let fraction = tile.parse().map(TileSource::Fraction);
+            files.tile = fraction.unwrap_or_else(|_| TileSource::File(tile.clone()));
         }
-        let mut files = Vec::new();
-        let white = record(name, &mut files)?;
-        let darks = match self.dark.as_slice() {
-            [zero] if zero == "0" => None,
-            darks => {
-                let darks = darks.iter().map(|dark| record(dark, &mut files));
-                Some(darks.collect::<anyhow::Result<Vec<_>>>()?)
-            }
-        };
-        let tile = match &self.tile {
-            None => {
-                console.remark("no --tile: the white is taken to reflect everything")?;
-                Tile::even(1.0)?
-            }
-            Some(text) => match text.parse() {
-                Ok(value) => Tile::even(value)?,
-                Err(_) => {
-                    let tile = record(text, &mut files)?;
-                    Tile::measured(&tile).with_context(|| format!("{text}: no tile"))?
-                }
-            },
-        };
-        let full_scale = self.full_scale;
-        let least_light = self.least_light.unwrap_or(LEAST_LIGHT);
-        let name = name.clone();
-        Ok(Some(References { name, white, darks, tile, full_scale, least_light, files }))
+        files.full_scale = self.full_scale;
+        files.least_light = self.least_light.unwrap_or(files.least_light);
+        Some(files)
     }
+
+    /// Reads the files; `None` without a white.
+    pub(crate) fn read(&self, console: &mut Console<'_>) -> anyhow::Result<Option<References>> {
+        let (Some(name), Some(files)) = (&self.white, self.reference_files()) else {
+            return Ok(None);
+        };
+        if self.tile.is_none() {
+            console.remark("no --tile: the white is taken to reflect everything")?;
+        }
+        let OpenedReferences { referencing, files } = files.open()?;
+        Ok(Some(References { name: name.clone(), referencing, files }))
+    }
+}
+
+/// The readings that [`ReferencingOptions`] name.
+pub(crate) struct References {
+    /// The white as the user named it.
+    name: String,
+    referencing: Referencing,
+    /// The files that were read, with their content.
+    pub(crate) files: Vec<(String, Vec<u8>)>,
 }
 
 impl References {
-    /// The reflectances of the samples' light among `records`, the spectra in `file`.
+    /// The reflectances of the samples among `spectra`, the spectra in `file`.
     pub(crate) fn reflectances(
         &self,
         file: &str,
-        records: &[MeasuredSpectrum],
+        spectra: &[MeasuredSpectrum],
     ) -> anyhow::Result<Vec<MeasuredSpectrum>> {
-        let referencing = Referencing {
-            white: &self.white,
-            dark: self.darks.as_deref().map_or(Dark::Subtracted, Dark::Readings),
-            tile: self.tile.clone(),
-            full_scale: self.full_scale,
-            least_light: self.least_light,
-        };
-        let reflectance = |record| referencing.reflectance(record);
-        self.samples(records)
-            .into_iter()
-            .map(reflectance)
-            .collect::<Result<_, _>>()
-            .with_context(|| format!("{file}: cannot be set against the white of {}", self.name))
+        let name = &self.name;
+        let reflectances = self.referencing.reflectances(spectra);
+        reflectances.with_context(|| format!("{file}: cannot be set against the white of {name}"))
     }
-
-    /// Those of `records` that are samples: neither a white nor a dark, nor what the file's
-    /// program made of the light beside it.
-    fn samples<'a>(&self, records: &'a [MeasuredSpectrum]) -> Vec<&'a MeasuredSpectrum> {
-        let is_reference = |record: &MeasuredSpectrum| {
-            matches!(record.role, Role::White | Role::Dark)
-                || *record == self.white
-                || self.darks.as_ref().is_some_and(|darks| darks.contains(record))
-        };
-        let has_light = records.iter().any(|record| record.role == Role::Sample);
-        let is_sample = |record: &&MeasuredSpectrum| {
-            if has_light { record.role == Role::Sample } else { !is_reference(record) }
-        };
-        let samples: Vec<&MeasuredSpectrum> = records.iter().filter(is_sample).collect();
-        // A file that holds nothing else was meant, white or dark as it is.
-        if samples.is_empty() { records.iter().collect() } else { samples }
-    }
-}
-
-/// The spectrum that `FILE` or `FILE#NAME` names.
-fn record(text: &str, files: &mut Vec<(String, Vec<u8>)>) -> anyhow::Result<MeasuredSpectrum> {
-    let (file, name) = split_file_and_name(text);
-    let bytes = std::fs::read(file).with_context(|| unreadable(Path::new(file)))?;
-    let records = read(file, &bytes, None)?.spectra;
-    files.push((file.to_owned(), bytes));
-    Ok(choose_spectrum(file, &records, name)?.clone())
 }

@@ -2,7 +2,7 @@
 
 use calibrate::matching::{Sight, Target};
 use calibrate::measurement::Film;
-use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};
+use spectra::color::ColorCode;
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
@@ -25,19 +25,17 @@ pub(crate) fn targets(
     if let Some(chosen) = chosen(text, reading, console)? {
         return measured(chosen, sights, console);
     }
-    if let Some(rgb) = Rgb::from_hex(text) {
-        // Any white: Lab is relative to it.
-        let white = RgbSpace::Srgb.white();
-        let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford);
-        return Ok(vec![Target::from_lab(&rgb.to_hex(), Lab::from_xyz(xyz, white), sights)]);
-    }
-    if let Some(lab) = Lab::from_text(text) {
-        return Ok(vec![Target::from_lab(&format!("Lab {text}"), lab, sights)]);
-    }
-    Err(Refusal::usage(
-        format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
-        "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
-    ))
+    let Ok(code) = text.parse::<ColorCode>() else {
+        return Err(Refusal::usage(
+            format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
+            "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
+        ));
+    };
+    let name = match code {
+        ColorCode::Srgb(rgb) => rgb.to_hex(),
+        ColorCode::Lab(_) => format!("Lab {text}"),
+    };
+    Ok(vec![Target::from_lab(&name, code.lab(), sights)])
 }
 
 /// The paint among `chosen`. Bare cards are read to tell the paint's K/S and not to be matched,

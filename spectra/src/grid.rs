@@ -63,6 +63,26 @@ impl Grid {
         regular.then_some(grid)
     }
 
+    /// A regular grid for wavelengths that need not be regular: [`Grid::through`] them if
+    /// possible. Otherwise a grid inside their band, with the smallest step of 1, 2, 5, 10
+    /// and 20 nm that is not finer (by more than 5 %) than their median step. `None` unless
+    /// the wavelengths rise strictly.
+    #[must_use]
+    pub fn suited_to(nm: &[f64]) -> Option<Self> {
+        if let Some(grid) = Self::through(nm) {
+            return Some(grid);
+        }
+        let mut steps: Vec<f64> = nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        steps.sort_by(f64::total_cmp);
+        let median = *steps.get(steps.len() / 2)?;
+        let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| 1.05 * s >= median).unwrap_or(20.0);
+        let last = nm[nm.len() - 1];
+        let round = (nm[0] / step).ceil() * step;
+        let start = if round <= last { round } else { nm[0] };
+        let count = ((last - start) / step).floor().max(0.0) as usize + 1;
+        Self::from_nm(start, step, count).ok().filter(|_| steps[0] > 0.0)
+    }
+
     /// The first wavelength in nm.
     #[must_use]
     pub fn start_nm(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! From a spectrum to tristimulus values.
 
-use crate::color::Xyz;
+use crate::color::{ColorValues, Xyz};
 use crate::grid::Grid;
 use crate::illuminant::Illuminant;
 use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
@@ -91,6 +91,15 @@ impl TristimulusWeights {
             }
         }
         xyz.into()
+    }
+
+    /// The colour of one reflectance in XYZ, CIELAB and sRGB.
+    ///
+    /// # Panics
+    /// If there is not one value for each wavelength of the grid.
+    #[must_use]
+    pub fn color(&self, reflectance: &[f64]) -> ColorValues {
+        ColorValues::from_xyz(self.xyz(reflectance), self.white)
     }
 
     /// XYZ of many reflectances that stand one after another in

@@ -3,13 +3,9 @@
 use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::Extrapolation;
-use crate::spectrum::{Quantity, Spectrum, SpectrumError};
 use crate::wavelength::{Wavelength, WavelengthError};
 
 /// Values at strictly rising wavelengths with no regular step.
-///
-/// Becomes a [`Spectrum`] through one named function,
-/// [`IrregularSpectrum::resampled_linear`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct IrregularSpectrum {
     nm: Vec<f64>,
@@ -77,19 +73,15 @@ impl IrregularSpectrum {
         Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
     }
 
-    /// The samples on a regular grid, by linear interpolation.
-    ///
-    /// # Errors
-    /// [`IrregularSpectrumError`] beyond the ends (unless held) or where a value is
-    /// impossible for `Q`.
-    pub fn resampled_linear<Q: Quantity>(
-        &self,
-        grid: Grid,
-        ends: Extrapolation,
-    ) -> Result<Spectrum<Q>, IrregularSpectrumError> {
-        let values =
-            grid.wavelengths_nm().map(|nm| self.at_linear(nm, ends)).collect::<Result<_, _>>()?;
-        Ok(Spectrum::new(grid, values)?)
+    /// The spectrum on `grid`, interpolated linearly; outside the band the end values hold.
+    /// Values at the wavelengths of `grid` itself are returned unchanged.
+    #[must_use]
+    pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
+        if Grid::through(&self.nm) == Some(grid) {
+            return self.values.clone();
+        }
+        let at = |nm| self.at_linear(nm, Extrapolation::Hold).expect("end values hold everywhere");
+        grid.wavelengths_nm().map(at).collect()
     }
 }
 
@@ -127,9 +119,6 @@ pub enum IrregularSpectrumError {
         /// Where they end.
         end_nm: f64,
     },
-    /// A value is impossible for the quantity.
-    #[error(transparent)]
-    Value(#[from] SpectrumError),
 }
 
 impl Explain for IrregularSpectrumError {}

@@ -45,6 +45,8 @@ pub mod color;
 
 mod integrate;
 
+mod viewing;
+
 mod color_temperature;
 
 pub mod swatch_file;
@@ -65,4 +67,5 @@ pub use observer::{Observer, ObserverError};
 pub use spectrum::{
     Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
 };
+pub use viewing::{Viewing, ViewingError};
 pub use wavelength::{Wavelength, WavelengthError};

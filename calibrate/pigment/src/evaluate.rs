@@ -1,36 +1,9 @@
 //! Colour errors, and their summary.
 
 use serde::{Deserialize, Serialize};
+use spectra::TristimulusWeights;
+pub use spectra::Viewing;
 use spectra::color::{Lab, delta_e_ciede2000};
-use spectra::{Grid, Illuminant, InterpolateError, Interpolation, Observer, TristimulusWeights};
-
-/// Light and observer under which colours are compared.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Viewing {
-    /// The light.
-    pub illuminant: Illuminant,
-    /// The observer.
-    pub observer: Observer,
-}
-
-impl Default for Viewing {
-    /// D65 and the observer of 1931.
-    fn default() -> Self {
-        Self { illuminant: Illuminant::d65(), observer: Observer::default() }
-    }
-}
-
-impl Viewing {
-    /// The weights for reflectances on `grid`, with Sprague's interpolation
-    /// where the grid has the six points for it.
-    ///
-    /// # Errors
-    /// Never in practice: the method is chosen to fit the grid.
-    pub fn weights(&self, grid: Grid) -> Result<TristimulusWeights, InterpolateError> {
-        let interpolation = Interpolation::best_for(grid);
-        TristimulusWeights::new(grid, &self.illuminant, self.observer, interpolation)
-    }
-}
 
 /// CIELAB of a reflectance.
 #[must_use]

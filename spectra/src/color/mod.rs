@@ -16,11 +16,16 @@ mod adaptation;
 
 mod rgb;
 
+mod values;
+
+mod code;
+
 mod difference;
 
 mod metamerism;
 
 pub use adaptation::{Adaptation, adapt};
+pub use code::{ColorCode, ColorCodeError};
 pub use difference::{
     Cie94, Cmc, ciede2000_metric, ciede2000_residuals, delta_e_cie76, delta_e_cie94,
     delta_e_ciede2000, delta_e_cmc,
@@ -30,4 +35,5 @@ pub use luv::Luv;
 pub use matrix::Matrix3;
 pub use metamerism::{MetamerismError, corrected_to_match, metamerism_index};
 pub use rgb::{Rgb, RgbSpace};
+pub use values::ColorValues;
 pub use xyz::{Xyy, Xyz};

@@ -1,5 +1,10 @@
 //! One spectrum out of an instrument's file.
 
+use crate::grid::Grid;
+use crate::hint::{Explain, Hint};
+use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
+use crate::spectrum::{Reflectance, Spectrum, SpectrumError};
+
 /// What an instrument says that it measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasuredQuantity {
@@ -97,6 +102,84 @@ pub struct MeasuredSpectrum {
     pub details: Vec<(String, String)>,
     /// What had to be decided in reading it, in words for the user.
     pub remarks: Vec<String>,
+}
+
+impl MeasuredSpectrum {
+    /// Whether the values are in percent: as the file states, otherwise if any exceeds 2.
+    #[must_use]
+    pub fn is_percent(&self) -> bool {
+        match self.unit {
+            Unit::Percent => true,
+            Unit::Fraction => false,
+            Unit::Unstated => self.values.iter().any(|&value| value > 2.0),
+        }
+    }
+
+    /// The reflectance on a regular grid ([`Grid::suited_to`] the wavelengths, irregular
+    /// ones interpolated linearly), as a fraction.
+    ///
+    /// # Errors
+    /// [`ReflectanceError`] if the spectrum is another quantity, or has a value outside
+    /// 0 to 2.
+    pub fn reflectance(&self) -> Result<Spectrum<Reflectance>, ReflectanceError> {
+        use MeasuredQuantity::{Reflectance, Unstated};
+        let name = || self.name.clone();
+        if !matches!(self.quantity, Reflectance | Unstated) {
+            return Err(ReflectanceError::Quantity { name: name(), found: self.quantity });
+        }
+        let scale = if self.is_percent() { 0.01 } else { 1.0 };
+        let values = self.values.iter().map(|value| value * scale).collect();
+        let irregular = IrregularSpectrum::new(self.wavelengths_nm.clone(), values)
+            .map_err(|reason| ReflectanceError::Wavelengths { name: name(), reason })?;
+        let grid = Grid::suited_to(&self.wavelengths_nm)
+            .expect("an irregular spectrum has rising wavelengths");
+        Spectrum::new(grid, irregular.on_grid(grid))
+            .map_err(|reason| ReflectanceError::Values { name: name(), reason })
+    }
+}
+
+/// A measured spectrum that is not a reflectance.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ReflectanceError {
+    /// The spectrum is another quantity.
+    #[error("`{name}` must be a reflectance, found `{found}`")]
+    Quantity {
+        /// Name of the spectrum.
+        name: String,
+        /// Its quantity.
+        found: MeasuredQuantity,
+    },
+    /// A value is outside 0 to 2.
+    #[error("`{name}` has a value that is not a reflectance")]
+    Values {
+        /// Name of the spectrum.
+        name: String,
+        /// The wavelength and its value.
+        #[source]
+        reason: SpectrumError,
+    },
+    /// The wavelengths do not rise, or their number is not that of the values.
+    #[error("`{name}` is not a spectrum")]
+    Wavelengths {
+        /// Name of the spectrum.
+        name: String,
+        /// What is wrong with the wavelengths.
+        #[source]
+        reason: IrregularSpectrumError,
+    },
+}
+
+impl Explain for ReflectanceError {
+    fn hint(&self) -> Option<Hint> {
+        let sentence = match self {
+            Self::Quantity {
+                found: MeasuredQuantity::Counts | MeasuredQuantity::Power, ..
+            } => "reference counts to a white and a dark reading first",
+            Self::Quantity { .. } => "export the spectrum as reflectance",
+            Self::Values { .. } | Self::Wavelengths { .. } => return None,
+        };
+        Some(Hint::new(sentence))
+    }
 }
 
 /// The name of a spectrum whose file does not name it: that of the file, without folder and

@@ -51,10 +51,13 @@ mod format;
 
 mod read;
 
+mod open;
+
 pub use choice::{ChoiceError, choose_spectrum, split_file_and_name};
 pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
 pub use format::Format;
-pub use measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
+pub use measured::{MeasuredQuantity, MeasuredSpectrum, ReflectanceError, Role, Unit};
+pub use open::{OpenError, OpenedSpectrum, open, open_spectrum};
 pub use read::{InstrumentFile, read};
 pub use text::decode_text;

@@ -31,8 +31,8 @@ fn unit_ms(word: &str) -> Option<f64> {
     }
 }
 
-/// Whether two times are the same, to a thousandth.
-pub(super) fn same(a_ms: f64, b_ms: f64) -> bool {
+/// Whether two times agree to one part in a thousand.
+pub(super) fn is_equal(a_ms: f64, b_ms: f64) -> bool {
     (a_ms - b_ms).abs() <= 1e-3 * a_ms.max(b_ms)
 }
 

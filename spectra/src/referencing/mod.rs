@@ -1,4 +1,4 @@
-//! Reflectance out of counts: a sample, a white of known reflectance, and the dark.
+//! Reflectance from counts: a sample, a white of known reflectance, and the dark.
 
 mod error;
 
@@ -6,8 +6,16 @@ mod integration_time;
 
 mod saturation;
 
+mod tile;
+
+mod reading;
+
 mod reference;
 
+mod files;
+
 pub use error::ReferencingError;
+pub use files::{DarkFiles, OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
 pub use integration_time::integration_time_ms;
-pub use reference::{Dark, Referencing, Tile};
+pub use reference::Referencing;
+pub use tile::{Dark, Tile};

@@ -53,10 +53,10 @@ fn measured(
     )
 }
 
-fn against<'a>(white: &'a MeasuredSpectrum, darks: &'a [MeasuredSpectrum]) -> Referencing<'a> {
+fn against(white: &MeasuredSpectrum, darks: &[MeasuredSpectrum]) -> Referencing {
     Referencing {
-        white,
-        dark: Dark::Readings(darks),
+        white: white.clone(),
+        dark: Dark::Readings(darks.to_vec()),
         tile: Tile::even(TILE).unwrap(),
         full_scale: Some(65535.0),
         least_light: 0.01,

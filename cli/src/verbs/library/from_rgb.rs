@@ -6,7 +6,8 @@ use calibrate::curation::{Body, guessed_pigment};
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::Args;
-use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::color::{ColorCode, ColorCodeError, Rgb, Xyz};
+use spectra::hint::Explain;
 use spectra::{Grid, TristimulusWeights};
 
 use crate::console::Console;
@@ -134,15 +135,9 @@ impl FromRgb {
 
 /// XYZ under D65 of a colour in words.
 fn wanted(text: &str, weights: &TristimulusWeights) -> anyhow::Result<Xyz> {
-    let white = weights.white();
-    if let Some(rgb) = Rgb::from_hex(text) {
-        return Ok(RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford));
-    }
-    let lab = Lab::from_text(text).ok_or_else(|| {
-        Refusal::usage(
-            format!("a colour is #rrggbb or L,a,b, found `{text}`"),
-            "try \"#2a5caa\" or 40,5,-45",
-        )
+    let code: ColorCode = text.parse().map_err(|error: ColorCodeError| {
+        let hint = error.hint().map(|hint| hint.to_string());
+        Refusal::usage(error.to_string(), hint.unwrap_or_default())
     })?;
-    Ok(lab.to_xyz(white))
+    Ok(code.xyz(weights.white()))
 }

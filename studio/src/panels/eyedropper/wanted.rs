@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pigment::evaluate::{Viewing, lab};
 use pigment::matching::{Sight, Target};
-use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::color::{Adaptation, ColorCode, Lab, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, TristimulusWeights};
 
 /// A colour in one of three forms.
@@ -37,13 +37,13 @@ impl Wanted {
     /// What a painter types: `#rrggbb`, or `L,a,b`.
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
-        let text = text.trim();
-        if let Some(rgb) = Rgb::from_hex(text) {
-            return Some(Self::screen(&rgb.to_hex(), rgb.linear().0));
-        }
-        let lab = Lab::from_text(text)?;
-        let [l, a, b] = lab.to_array();
-        Some(Self { name: format!("Lab {l} {a} {b}"), color: Color::Lab(lab) })
+        Some(match text.trim().parse().ok()? {
+            ColorCode::Srgb(rgb) => Self::screen(&rgb.to_hex(), rgb.linear().0),
+            ColorCode::Lab(lab) => {
+                let [l, a, b] = lab.to_array();
+                Self { name: format!("Lab {l} {a} {b}"), color: Color::Lab(lab) }
+            }
+        })
     }
 
     /// CIELAB under a light.

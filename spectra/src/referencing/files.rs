@@ -1,0 +1,163 @@
+//! The files of a white, its darks and its tile, by path.
+
+use std::path::{Path, PathBuf};
+
+use super::error::ReferencingError;
+use super::reference::{LEAST_LIGHT, Referencing};
+use super::tile::{Dark, Tile};
+use crate::hint::{Explain, Fault, Hint};
+use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
+
+/// The files of a reference measurement. Each spectrum is given as `FILE`, or as
+/// `FILE#NAME` where the file holds several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReferenceFiles {
+    /// Reading of the white.
+    pub white: String,
+    /// Readings without light.
+    pub dark: DarkFiles,
+    /// Reflectance of the white itself.
+    pub tile: TileSource,
+    /// Largest count of the detector, 0 and up; `None` to estimate it from the readings.
+    pub full_scale: Option<f64>,
+    /// Least light of the white as a fraction of its peak, 0 and up (default 0.01).
+    pub least_light: f64,
+}
+
+/// The dark readings of sample and white.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DarkFiles {
+    /// The dark is already subtracted.
+    Subtracted,
+    /// One reading for each integration time; none for power, which needs no dark.
+    Files(Vec<String>),
+}
+
+/// Where the white's own reflectance comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TileSource {
+    /// A constant, above 0 and at most 1.2.
+    Fraction(f64),
+    /// A file with the measured reflectance of the tile.
+    File(String),
+}
+
+/// A reference measurement that was opened, with the content of its files.
+#[derive(Debug, Clone)]
+pub struct OpenedReferences {
+    /// The readings.
+    pub referencing: Referencing,
+    /// Path and bytes of every file that was read, for checksums.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl ReferenceFiles {
+    /// A white without dark readings whose tile reflects everything.
+    #[must_use]
+    pub fn new(white: impl Into<String>) -> Self {
+        Self {
+            white: white.into(),
+            dark: DarkFiles::Files(Vec::new()),
+            tile: TileSource::Fraction(1.0),
+            full_scale: None,
+            least_light: LEAST_LIGHT,
+        }
+    }
+
+    /// Paths of the named files that exist.
+    #[must_use]
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let mut texts = vec![&self.white];
+        if let DarkFiles::Files(files) = &self.dark {
+            texts.extend(files);
+        }
+        if let TileSource::File(file) = &self.tile {
+            texts.push(file);
+        }
+        let paths = texts.into_iter().map(|text| Path::new(split_file_and_name(text).0));
+        paths.filter(|path| path.is_file()).map(Path::to_owned).collect()
+    }
+
+    /// Reads the files.
+    ///
+    /// # Errors
+    /// [`ReferenceFilesError`] if a file cannot be read, a setting is out of its range, or
+    /// the tile is not a reflectance.
+    pub fn open(&self) -> Result<OpenedReferences, ReferenceFilesError> {
+        for (setting, value) in
+            [("full_scale", self.full_scale), ("least_light", Some(self.least_light))]
+        {
+            if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
+                return Err(ReferenceFilesError::Setting { setting, value });
+            }
+        }
+        let mut files = Vec::new();
+        let mut spectrum = |text: &String| -> Result<MeasuredSpectrum, OpenError> {
+            let opened = open_spectrum(text)?;
+            files.push((opened.file, opened.bytes));
+            Ok(opened.spectrum)
+        };
+        let white = spectrum(&self.white)?;
+        let dark = match &self.dark {
+            DarkFiles::Subtracted => Dark::Subtracted,
+            DarkFiles::Files(darks) => {
+                Dark::Readings(darks.iter().map(&mut spectrum).collect::<Result<_, _>>()?)
+            }
+        };
+        let tile = match &self.tile {
+            TileSource::Fraction(value) => Tile::even(*value)?,
+            TileSource::File(file) => Tile::measured(&spectrum(file)?)
+                .map_err(|reason| ReferenceFilesError::Tile { file: file.clone(), reason })?,
+        };
+        let (full_scale, least_light) = (self.full_scale, self.least_light);
+        let referencing = Referencing { white, dark, tile, full_scale, least_light };
+        Ok(OpenedReferences { referencing, files })
+    }
+}
+
+/// Reference files that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ReferenceFilesError {
+    /// A file cannot be opened.
+    #[error(transparent)]
+    Open(#[from] OpenError),
+    /// The file does not hold the reflectance of a tile.
+    #[error("{file}: cannot be used as the reflectance of the white tile")]
+    Tile {
+        /// The tile's `FILE` or `FILE#NAME`.
+        file: String,
+        /// Why the spectrum cannot be used.
+        #[source]
+        reason: ReferencingError,
+    },
+    /// The constant reflectance of the tile is out of its range.
+    #[error(transparent)]
+    Constant(#[from] ReferencingError),
+    /// A setting is negative or not finite.
+    #[error("{} must be a number from 0 up, found `{value}`", setting.replace('_', " "))]
+    Setting {
+        /// Name of the setting, `full_scale` or `least_light`.
+        setting: &'static str,
+        /// The value that was given.
+        value: f64,
+    },
+}
+
+impl Explain for ReferenceFilesError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Open(error) => error.hint(),
+            Self::Tile { reason, .. } | Self::Constant(reason) => reason.hint(),
+            Self::Setting { setting, .. } => {
+                Some(Hint::new(format!("leave [{setting}] out for the default")))
+            }
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Open(error) => error.fault(),
+            Self::Tile { .. } | Self::Constant(_) | Self::Setting { .. } => Fault::Input,
+        }
+    }
+}
