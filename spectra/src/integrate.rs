@@ -101,44 +101,6 @@ impl TristimulusWeights {
     pub fn color(&self, reflectance: &[f64]) -> ColorValues {
         ColorValues::from_xyz(self.xyz(reflectance), self.white)
     }
-
-    /// XYZ of many reflectances that stand one after another in
-    /// `reflectances`, into `xyz`; the same values as [`TristimulusWeights::xyz`]
-    /// to rounding.
-    ///
-    /// # Panics
-    /// If the lengths do not fit.
-    pub fn xyz_of_many(&self, reflectances: &[f64], xyz: &mut [Xyz]) {
-        let count = self.weights.len();
-        assert_eq!(reflectances.len(), count * xyz.len(), "one reflectance for each wavelength");
-        // Planes of weights, and several sums side by side in each, so that the
-        // compiler can fill its vector registers.
-        let planes: [Vec<f64>; 3] =
-            std::array::from_fn(|channel| self.weights.iter().map(|w| w[channel]).collect());
-        for (values, out) in reflectances.chunks_exact(count).zip(xyz) {
-            *out = three_dots(values, [&planes[0], &planes[1], &planes[2]]).into();
-        }
-    }
-}
-
-/// The dot products of `a` with three others at once, in running sums of four.
-#[inline]
-fn three_dots(a: &[f64], others: [&[f64]; 3]) -> [f64; 3] {
-    let mut sums = [[0.0; 4]; 3];
-    let (blocks, rest) = a.as_chunks::<4>();
-    let others_blocks = others.map(|o| o.as_chunks::<4>());
-    for (index, a) in blocks.iter().enumerate() {
-        for (sums, (blocks, _)) in sums.iter_mut().zip(&others_blocks) {
-            let b = &blocks[index];
-            for lane in 0..4 {
-                sums[lane] += a[lane] * b[lane];
-            }
-        }
-    }
-    std::array::from_fn(|channel| {
-        let tail: f64 = rest.iter().zip(others_blocks[channel].1).map(|(a, b)| a * b).sum();
-        sums[channel].iter().sum::<f64>() + tail
-    })
 }
 
 /// The light as the observer weights it, k E x, k E y, k E z, at each whole

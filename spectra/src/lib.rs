@@ -1,11 +1,39 @@
 //! Quantities over wavelength, colour, and Kubelka-Munk optics.
 //!
-//! In scope: wavelengths and grids, typed spectra and their resampling, the
-//! CIE observers and illuminants, colour and colour difference, and the optics
-//! of a paint film. Out of scope: fitting anything (see `calibrate`), painting,
-//! and gloss or fluorescence, which a reflectance factor cannot tell apart.
+//! ```text
+//! instrument file --> MeasuredSpectrum --> Spectrum<Reflectance> --+
+//!                       | counts: Referencing (white, dark)         +--> XYZ, CIELAB, sRGB
+//! light by name ------> Illuminant + Observer = Viewing -----------+
+//! ```
 //!
-//! Files stand in an order of dependence; each uses only what stands above it.
+//! ```
+//! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/paints.csv");
+//! let file = spectra::read_spectra(path)?;
+//! let viewing = spectra::Viewing::named("D65", "1931-2")?;
+//! for measured in &file.spectra {
+//!     let color = viewing.color(&measured.reflectance()?)?;
+//!     println!("{}: {} {:?}", measured.name, color.hex(), color.lab);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | task | call |
+//! |---|---|
+//! | read any instrument's file, or one spectrum of it | [`read_spectra`], [`read_spectrum`] |
+//! | reflectance from counts | [`referencing::Referencing`] |
+//! | a light by name, temperature or file | [`light_from_text`] |
+//! | colour of a reflectance | [`Viewing::color`] |
+//! | colour differences | [`color::delta_e_ciede2000`] and its neighbours |
+//! | reflectance of a paint film | [`optics`] |
+//! | swatches of painting programs | [`swatch_file`] |
+//! | advice on an error | [`hint::Explain`] |
+//!
+//! In scope: wavelengths and grids, typed spectra and their resampling, the CIE observers
+//! and illuminants, colour and colour difference, and the optics of a paint film. Out of
+//! scope: fitting (see the crate `calibrate`), painting, gloss and fluorescence, which a
+//! reflectance factor does not separate.
+//!
+//! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod hint;
 
@@ -58,6 +86,7 @@ pub use color_temperature::ColorTemperature;
 pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};
+pub use instrument::{open as read_spectra, open_spectrum as read_spectrum};
 pub use integrate::TristimulusWeights;
 pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
 pub use irregular::{IrregularSpectrum, IrregularSpectrumError};

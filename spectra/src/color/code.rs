@@ -14,7 +14,7 @@ use crate::hint::{Explain, Hint};
 /// use spectra::color::ColorCode;
 ///
 /// let blue: ColorCode = "#2a5caa".parse()?;
-/// assert_eq!(blue.lab().lightness.round(), 39.0);
+/// assert_eq!(blue.lab().lightness.round(), 40.0);
 /// assert!("blue".parse::<ColorCode>().is_err());
 /// # Ok::<(), spectra::color::ColorCodeError>(())
 /// ```

@@ -5,15 +5,12 @@
 //! and the textbook form fails at K = 0 and on thick films. The form here has
 //! no special cases; see `Layer::new`.
 
-/// Reflectance and transmittance of a film, or of a stack of films, by itself;
-/// all 0..1.
+/// Reflectance and transmittance of a film without a backing, each 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
-    /// Light sent back, seen from above.
+    /// Fraction of the light that is reflected, the same from both sides.
     pub reflectance: f64,
-    /// Light sent back, seen from below; a single film is symmetric.
-    pub underside: f64,
-    /// Light let through, the same both ways.
+    /// Fraction of the light that is transmitted, the same in both directions.
     pub transmittance: f64,
 }
 
@@ -45,7 +42,7 @@ impl Layer {
         let decay = (-x).exp();
         let den = (k + s) * phi + 1.0 + decay * decay;
         let reflectance = s * phi / den;
-        Self { reflectance, underside: reflectance, transmittance: 2.0 * decay / den }
+        Self { reflectance, transmittance: 2.0 * decay / den }
     }
 
     /// The reflectance seen when the layer lies over something of reflectance
@@ -53,7 +50,7 @@ impl Layer {
     #[must_use]
     pub fn over(self, backing: f64) -> f64 {
         let t = self.transmittance;
-        self.reflectance + t * t * backing / (1.0 - self.underside * backing)
+        self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
     }
 
     /// The reflectance of a film of unit thickness over `backing`, with its
@@ -90,23 +87,5 @@ impl Layer {
         let q = 1.0 / (1.0 - r * g);
         let (by_r, by_t) = (1.0 + (t * g * q).powi(2), 2.0 * t * g * q);
         [r + t * t * g * q, by_r * r_over_k + by_t * t_over_k, by_r * r_over_s + by_t * t_over_s]
-    }
-
-    /// This layer laid on `lower`, as one layer. Stacking is associative; two
-    /// different films together are no longer symmetric.
-    #[must_use]
-    pub fn stacked_on(self, lower: Self) -> Self {
-        let between = 1.0 - self.underside * lower.reflectance;
-        Self {
-            reflectance: self.over(lower.reflectance),
-            underside: lower.turned_over().over(self.underside),
-            transmittance: self.transmittance * lower.transmittance / between,
-        }
-    }
-
-    /// This layer with its lower side up.
-    #[must_use]
-    pub fn turned_over(self) -> Self {
-        Self { reflectance: self.underside, underside: self.reflectance, ..self }
     }
 }

@@ -1,8 +1,5 @@
 //! Laws of the sums from spectrum to XYZ.
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use spectra::color::Xyz;
 use spectra::{
     Grid, Illuminant, Interpolation, Observer, TristimulusWeights, black_body, daylight,
     lamp_from_bytes,
@@ -51,29 +48,6 @@ fn weights_sum_to_the_white() {
             }
         }
         assert_near(&told, &sum, &weights.white().to_array(), ROUNDING);
-    }
-}
-
-#[test]
-fn xyz_of_many_reflectances_is_that_of_each() {
-    let seed = 7;
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    for grid in grids() {
-        let weights = TristimulusWeights::new(
-            grid,
-            &Illuminant::d65(),
-            Observer::default(),
-            Interpolation::Sprague,
-        )
-        .unwrap();
-        let reflectances: Vec<f64> =
-            (0..5 * grid.count()).map(|_| rng.random_range(0.0..=1.0)).collect();
-        let mut many = [Xyz::default(); 5];
-        weights.xyz_of_many(&reflectances, &mut many);
-        for (one, together) in reflectances.chunks(grid.count()).zip(many) {
-            let alone = weights.xyz(one).to_array();
-            assert_near(format!("{grid}, seed {seed}"), &together.to_array(), &alone, ROUNDING);
-        }
     }
 }
 
