@@ -81,7 +81,7 @@ impl ReadingOptions {
         if is_measurement_csv(&text) {
             return Ok(None);
         }
-        let format = Format::detected(name, &text);
+        let format = Format::detect(name, &text);
         format.map(|format| read(name, bytes, Some(format))).transpose()
     }
 

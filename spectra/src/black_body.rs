@@ -1,17 +1,17 @@
-//! Planck's radiator of any temperature.
+//! Black-body radiators (Planck's law).
 
 use crate::illuminant::{Illuminant, IlluminantError};
 
-/// The second radiation constant c2 in m K, as in CIE 15:2018, section 4.1.1
+/// The second radiation constant c2 in m K, with the value of CIE 15:2018, section 4.1.1
 /// (ITS-90). The exact SI value, 0.014387769, differs by 2 parts in a million.
 pub const SECOND_RADIATION_CONSTANT: f64 = 1.4388e-2;
 
-/// A black body of `kelvin`, relative power 100 at 560 nm; the "5600 K bulb" of
-/// Baxter, Wendt and Lin 2004 is `black_body(5600.0)`.
+/// A black body of temperature `kelvin`, with relative power 100 at 560 nm. The "5600 K bulb"
+/// of Baxter, Wendt and Lin 2004 is `black_body(5600.0)`.
 ///
 /// # Errors
-/// [`IlluminantError::Temperature`] unless the temperature is finite and at least
-/// 500 K (below, nothing visible is left in double precision).
+/// [`IlluminantError::Temperature`] unless the temperature is finite and at least 500 K (below,
+/// the visible power underflows double precision).
 pub fn black_body(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("black body {kelvin} K");
     if !(kelvin.is_finite() && kelvin >= 500.0) {

@@ -1,4 +1,4 @@
-//! The temperature that a light's colour looks like.
+//! The correlated colour temperature of a light.
 
 use crate::black_body::black_body;
 use crate::color::Xyz;
@@ -11,28 +11,25 @@ use crate::observer::Observer;
 /// The correlated colour temperature of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColorTemperature {
-    /// The temperature of the black body of the nearest colour, in kelvin, 1000 to
-    /// 50000.
+    /// Temperature in K of the black body with the nearest colour, 1000 to 50000.
     pub kelvin: f64,
-    /// How far the light is from it in CIE 1960 u, v: above 0 greener, below 0
-    /// pinker.
+    /// Distance from that black body in CIE 1960 (u, v): positive is greener, negative pinker.
     pub duv: f64,
 }
 
-/// Beyond this distance a light has no colour temperature (CIE 15:2018, 9.5).
+/// Largest distance at which a colour temperature is defined (CIE 15:2018, section 9.5).
 const FARTHEST: f64 = 0.05;
 
-/// Reciprocal temperatures searched, in millionths of 1/K: 50000 to 1000 K.
+/// Range of the search in reciprocal megakelvin (mired): 50000 to 1000 K.
 const MIREDS: (f64, f64) = (20.0, 1000.0);
 
-/// Steps of the first, coarse search.
+/// Intervals of the first, coarse search.
 const STEPS: usize = 49;
 
 impl ColorTemperature {
-    /// The temperature of the black body nearest to `light` in CIE 1960 u, v
-    /// (CIE 15:2018, section 9.5), for the observer of 1931.
-    /// `None` for a light that is farther than 0.05 from all of them, or beyond
-    /// 1000 to 50000 K.
+    /// The correlated colour temperature of `light`: that of the nearest black body in CIE 1960
+    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is
+    /// farther than 0.05, or outside 1000 to 50000 K.
     ///
     /// ```
     /// let light = spectra::Illuminant::named("A").unwrap();
@@ -51,7 +48,7 @@ impl ColorTemperature {
         let at = |step: usize| MIREDS.0 + step as f64 * width;
         let nearest = (0..=STEPS).min_by(|&a, &b| away(at(a)).0.total_cmp(&away(at(b)).0))?;
         let (mut low, mut high) = (at(nearest.max(1) - 1), at((nearest + 1).min(STEPS)));
-        // The golden section: the distance has one least value between neighbours.
+        // Golden-section search: the distance has one minimum between the neighbours.
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         while high - low > 1e-3 {
             let (left, right) = (high - golden * (high - low), low + golden * (high - low));
@@ -65,7 +62,7 @@ impl ColorTemperature {
     }
 }
 
-/// The white of a light for the observer of 1931, in CIE 1960 u, v.
+/// CIE 1960 (u, v) of the white point of a light, for the observer of 1931.
 fn uv(light: &Illuminant) -> [f64; 2] {
     let weights =
         TristimulusWeights::new(Grid::cie(), light, Observer::Cie1931Deg2, Interpolation::Linear);
@@ -78,7 +75,7 @@ fn uv(light: &Illuminant) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// As CIE 15:2018, tables T.6.1, T.8.1, T.9.1, T.10 and T.12 print them.
+    /// Colour temperatures in K from tables T.6.1, T.8.1, T.9.1, T.10 and T.12 of CIE 15:2018.
     const PUBLISHED: &[(&str, f64)] = &[
         ("A", 2856.0),
         ("D65", 6504.0),
@@ -107,12 +104,12 @@ mod tests {
     ];
 
     #[test]
-    fn temperatures_are_those_that_the_cie_prints() {
-        for &(name, wanted) in PUBLISHED {
+    fn temperatures_agree_with_the_tables_of_the_cie() {
+        for &(name, expected) in PUBLISHED {
             let found = ColorTemperature::of(&Illuminant::named(name).unwrap()).unwrap();
-            let off = (found.kelvin / wanted - 1.0).abs();
-            // The CIE prints three digits of FL1 to FL12, and sums at 5 nm.
-            assert!(off < 2e-3, "{name}: {found:?} for {wanted}");
+            let off = (found.kelvin / expected - 1.0).abs();
+            // The CIE gives three digits for FL1 to FL12, and sums at 5 nm.
+            assert!(off < 2e-3, "{name}: {found:?} for {expected}");
         }
     }
 

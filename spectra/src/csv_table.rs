@@ -1,19 +1,19 @@
-//! Tables of spectra as CSV files: the place of a cell, what can be wrong with
-//! any table, and the wavelength in a column's header.
+//! Tables of spectra in CSV files: the place of a cell, errors of any table, and the wavelength
+//! in a column's heading.
 
-/// A cell of a file.
+/// A cell of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CellPlace {
-    /// The file, as the user named it.
+    /// Path of the file, as the user gave it.
     pub file: String,
-    /// The row, counted from 1; the header is row 1.
+    /// Row number from 1; the header is row 1.
     pub row: u64,
-    /// The column's header.
+    /// Heading of the column.
     pub column: String,
 }
 
 impl CellPlace {
-    /// The cell of `file` at `row` (from 1) under the header `column`.
+    /// The cell of `file` in row `row` (from 1), under the heading `column`.
     #[must_use]
     pub fn new(file: &str, row: u64, column: &str) -> Self {
         Self { file: file.to_owned(), row, column: column.to_owned() }
@@ -26,43 +26,43 @@ impl std::fmt::Display for CellPlace {
     }
 }
 
-/// Why a sheet cannot be read. Every variant says where.
+/// A CSV table that cannot be read. Every variant names the file and the row.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CsvTableError {
-    /// A column that must be there is not.
+    /// A required column is missing.
     #[error("{file}, row 1: no column `{column}`")]
     MissingColumn {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The column.
+        /// Heading of the missing column.
         column: &'static str,
     },
-    /// A row has more or fewer cells than the header.
+    /// The number of cells in a row differs from that of the header.
     #[error("{file}, row {row}: {wanted} cells are wanted, found `{found}`")]
     RowLength {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The row.
+        /// Row number from 1.
         row: u64,
-        /// Cells of the header.
+        /// Number of cells in the header.
         wanted: usize,
-        /// Cells of the row.
+        /// Number of cells in the row.
         found: usize,
     },
-    /// A cell is not the number it should be.
+    /// A cell does not contain the required number.
     #[error("{place}: {wanted} is wanted, found `{text}`")]
     Cell {
-        /// Where.
+        /// The cell.
         place: CellPlace,
-        /// What should stand there.
+        /// Description of the required number.
         wanted: &'static str,
-        /// What stands there.
+        /// Content of the cell.
         text: String,
     },
 }
 
-/// The wavelength in nm that a column's header names, in lower case: `400`, `400nm`,
-/// `r400`, `spec_400` or `nm400`. `None` for any other header.
+/// The wavelength in nm in a column's heading, which must be in lower case: `400`, `400nm`,
+/// `r400`, `spec_400` or `nm400`. `None` for any other heading.
 #[must_use]
 pub fn wavelength_of_header(lower: &str) -> Option<f64> {
     let bare =

@@ -7,17 +7,16 @@ use crate::interpolate::Extrapolation;
 use crate::irregular::IrregularSpectrum;
 use crate::table;
 
-/// CIE daylight of correlated colour temperature `kelvin`, 4000 to 25000.
+/// CIE daylight of the correlated colour temperature `kelvin`, 4000 to 25000.
 ///
-/// CIE 15:2018, section 4.1.2: the chromaticity sets the weights M1 and M2 of
-/// the three tabulated components. The weights are not rounded to three places
-/// here (the CIE rounds them for the tabulated D50 .. D75, which are
-/// [`Illuminant::named`]). The temperature is on today's scale, on which D65 is
-/// 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
+/// CIE 15:2018, section 4.1.2: the chromaticity gives the weights M1 and M2 of the three
+/// tabulated components. They are not rounded to three places here, as the CIE does for the
+/// tabulated D50 to D75 (see [`Illuminant::named`]). The temperature is on the present scale,
+/// on which D65 has 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
 ///
 /// # Errors
-/// [`IlluminantError::Temperature`] outside 4000 to 25000 K, where the CIE defines
-/// no daylight.
+/// [`IlluminantError::Temperature`] outside 4000 to 25000 K, where the CIE does not define
+/// daylight.
 pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("daylight {kelvin} K");
     if !(4000.0..=25000.0).contains(&kelvin) {
@@ -35,8 +34,8 @@ pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     })
 }
 
-/// Chromaticity (x, y), CIE 1931, of daylight of `kelvin` (CIE 15:2018,
-/// equations 4.1 to 4.3). Meaningful from 4000 to 25000 K.
+/// CIE 1931 chromaticity (x, y) of daylight of temperature `kelvin` (CIE 15:2018, equations 4.1
+/// to 4.3). Valid from 4000 to 25000 K.
 #[must_use]
 pub fn daylight_chromaticity(kelvin: f64) -> (f64, f64) {
     let t = 1000.0 / kelvin;

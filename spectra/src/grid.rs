@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::hint::Explain;
 use crate::wavelength::{Wavelength, WavelengthError};
 
-/// Wavelengths at a constant step, in nanometres; regular by construction.
+/// Wavelengths in nanometres at a constant step.
 ///
 /// ```
 /// use spectra::Grid;
@@ -21,7 +21,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `count` wavelengths from `start_nm` on, `step_nm` apart.
+    /// A grid of `count` wavelengths from `start_nm` on, `step_nm` apart.
     ///
     /// # Errors
     /// [`GridError`] unless the start is a wavelength, the step finite and
@@ -37,8 +37,8 @@ impl Grid {
         Ok(Self { start, step_nm, count })
     }
 
-    /// 360 to 830 nm at 1 nm: the band of the CIE's standard observers, on
-    /// which every sum of this crate is taken (CIE 15:2018, section 7.1).
+    /// The grid of 360 to 830 nm at 1 nm: the band of the CIE standard observers, over which
+    /// this crate sums tristimulus values (CIE 15:2018, section 7.1).
     #[must_use]
     pub fn cie() -> Self {
         Self {
@@ -48,8 +48,8 @@ impl Grid {
         }
     }
 
-    /// The grid through `nm`, if the wavelengths rise at a constant step
-    /// (to a millionth of it). A single wavelength is a grid of step 1.
+    /// The grid through `nm`, if the wavelengths rise at a constant step (to a millionth of the
+    /// step). A single wavelength gives a grid of step 1. `None` for other wavelengths.
     #[must_use]
     pub fn through(nm: &[f64]) -> Option<Self> {
         let first = *nm.first()?;
@@ -95,7 +95,7 @@ impl Grid {
         self.step_nm
     }
 
-    /// How many wavelengths; at least 1.
+    /// Number of wavelengths, at least 1.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
@@ -107,19 +107,20 @@ impl Grid {
         self.nm(self.count - 1)
     }
 
-    /// The wavelength number `index`, in nm, counted from 0.
+    /// The wavelength at `index` (from 0) in nm.
     #[must_use]
     pub fn nm(&self, index: usize) -> f64 {
         self.start.nm() + self.step_nm * index as f64
     }
 
-    /// Every wavelength in nm, rising.
+    /// All wavelengths in nm, rising.
     pub fn wavelengths_nm(&self) -> impl ExactSizeIterator<Item = f64> + Clone + use<> {
         let grid = *self;
         (0..grid.count).map(move |index| grid.nm(index))
     }
 
-    /// Whether `nm` lies between the first and the last wavelength.
+    /// Whether `nm` lies between the first and the last wavelength, both included (to a
+    /// billionth of the step).
     #[must_use]
     pub fn covers(&self, nm: f64) -> bool {
         let slack = 1e-9 * self.step_nm;
@@ -133,7 +134,7 @@ impl std::fmt::Display for Grid {
     }
 }
 
-/// The form in which a grid is written to a file.
+/// The fields of a grid in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GridParts {
@@ -156,19 +157,19 @@ impl From<Grid> for GridParts {
     }
 }
 
-/// Numbers that make no grid.
+/// Numbers that do not define a grid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum GridError {
-    /// The start is no wavelength.
+    /// The start is not a wavelength.
     #[error(transparent)]
     Start(#[from] WavelengthError),
     /// The step is not a finite number above 0.
     #[error("the step of a grid is a finite number of nanometres above 0, found `{step_nm}`")]
     Step {
-        /// The step that was given.
+        /// The step that was given, in nm.
         step_nm: f64,
     },
-    /// The grid holds no wavelength.
+    /// The grid has no wavelength.
     #[error("a grid holds at least one wavelength, found `0`")]
     Empty,
 }

@@ -1,4 +1,4 @@
-//! Lights: the CIE's tabulated illuminants, and the form all lights share.
+//! Illuminants: the tables of the CIE, and the common form of all lights.
 
 use std::sync::OnceLock;
 
@@ -9,11 +9,10 @@ use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
 use crate::spectrum::{Power, Spectrum, SpectrumError};
 use crate::table;
 
-/// A named relative spectral power distribution at 1 nm on [`Grid::cie`].
+/// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///
-/// Tables at coarser steps are brought to 1 nm by straight lines, as the CIE
-/// defines D65 between its 5 nm values (CIE 15:2018, section 4); beyond a
-/// table's ends the end value is held.
+/// Tables at coarser steps are interpolated linearly, as the CIE defines D65 between its 5 nm
+/// values (CIE 15:2018, section 4). Beyond the ends of a table the end value is held.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Illuminant {
     name: String,
@@ -21,12 +20,12 @@ pub struct Illuminant {
 }
 
 impl Illuminant {
-    /// The CIE illuminant called `name`: A, B, C, D50, D55, D60, D65, D75, E,
-    /// FL1 to FL12, FL3.1 to FL3.15, HP1 to HP5, LED-B1 to LED-B5, LED-BH1,
-    /// LED-RGB1, LED-V1, LED-V2, ID50, ID65. Case does not matter.
+    /// The CIE illuminant called `name`, ignoring case: A, B, C, D50, D55, D60, D65, D75, E,
+    /// FL1 to FL12, FL3.1 to FL3.15, HP1 to HP5, LED-B1 to LED-B5, LED-BH1, LED-RGB1, LED-V1,
+    /// LED-V2, ID50, ID65.
     ///
     /// # Errors
-    /// [`IlluminantError::Unknown`].
+    /// [`IlluminantError::Unknown`] for any other name.
     pub fn named(name: &str) -> Result<Self, IlluminantError> {
         let tables = tables();
         let (known, _) = tables
@@ -38,26 +37,26 @@ impl Illuminant {
         Self::from_samples(known, &IrregularSpectrum::new(nm, values)?)
     }
 
-    /// D65, the light this crate uses where none is named.
+    /// CIE standard illuminant D65, the default light of this crate.
     #[must_use]
     pub fn d65() -> Self {
         Self::named("D65").expect("D65 is shipped")
     }
 
-    /// The names that [`Illuminant::named`] knows, in table order.
+    /// All names that [`Illuminant::named`] knows, in the order of the table.
     pub fn names() -> impl Iterator<Item = &'static str> {
         tables().iter().skip(1).map(|(name, _)| name.as_str())
     }
 
-    /// A light measured at any wavelengths.
+    /// A light from its spectral power, measured at any wavelengths. End values are held.
     ///
     /// # Errors
-    /// [`IlluminantError`] if a power is negative or there is no light at all.
+    /// [`IlluminantError`] if a power is negative, or all are 0.
     pub fn from_samples(name: &str, samples: &IrregularSpectrum) -> Result<Self, IlluminantError> {
         Self::from_function(name, |nm| samples.at_linear(nm, Extrapolation::Hold).unwrap_or(0.0))
     }
 
-    /// A light given by its relative power at a wavelength in nm.
+    /// A light from a function of its relative power over the wavelength in nm.
     pub(crate) fn from_function(
         name: &str,
         power: impl Fn(f64) -> f64,
@@ -70,7 +69,7 @@ impl Illuminant {
         Ok(Self { name: name.to_owned(), power })
     }
 
-    /// What the light is called.
+    /// The name of the light.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -88,33 +87,33 @@ fn tables() -> &'static [(String, Vec<Option<f64>>)] {
     TABLES.get_or_init(|| table::columns(include_str!("../data/illuminants.csv")))
 }
 
-/// Why there is no such light.
+/// A light that cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IlluminantError {
-    /// No CIE illuminant has this name.
+    /// The illuminant name is not in the table.
     #[error("no CIE illuminant is called `{name}`")]
     Unknown {
         /// The name that was given.
         name: String,
     },
-    /// No such daylight or black body.
+    /// The temperature is outside the defined range.
     #[error(
         "daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{kelvin}`"
     )]
     Temperature {
-        /// The temperature in kelvin.
+        /// The temperature in K.
         kelvin: f64,
     },
-    /// The power is 0 at every wavelength.
+    /// The power is 0 at every wavelength from 360 to 830 nm.
     #[error("the light has no power at any wavelength from 360 to 830 nm: `{name}`")]
     Dark {
-        /// Which light.
+        /// Name of the light.
         name: String,
     },
-    /// The wavelengths cannot be used.
+    /// The wavelengths do not form a spectrum.
     #[error(transparent)]
     IrregularSpectrum(#[from] IrregularSpectrumError),
-    /// A power cannot be used.
+    /// A power is negative or not finite.
     #[error(transparent)]
     Power(#[from] SpectrumError),
 }

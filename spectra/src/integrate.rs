@@ -1,4 +1,4 @@
-//! From a spectrum to tristimulus values.
+//! Tristimulus values from spectra.
 
 use crate::color::{ColorValues, Xyz};
 use crate::grid::Grid;
@@ -6,14 +6,13 @@ use crate::illuminant::Illuminant;
 use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 use crate::observer::Observer;
 
-/// The three weights per wavelength of a grid that turn a reflectance on that
-/// grid into XYZ under one light and observer.
+/// Weights that turn a reflectance on one grid into XYZ under one light and observer: three per
+/// wavelength.
 ///
-/// CIE 15:2018, section 7.1, by summation at 1 nm over 360 to 830 nm with
-/// k = 100 / sum(E y). The reflectance is brought to 1 nm by `interpolation`,
-/// its end values held where it stops short (ASTM E308-18, section 7.3.2.3).
-/// Summation and interpolation are both linear, so they are folded into one
-/// table: 3 multiplications a wavelength.
+/// CIE 15:2018, section 7.1: summation at 1 nm from 360 to 830 nm with k = 100 / sum(E y). The
+/// reflectance is interpolated to 1 nm, its end values held outside its band (ASTM E308-18,
+/// section 7.3.2.3). Summation and interpolation are linear, so they are combined into one
+/// table and a colour costs three multiplications per wavelength.
 ///
 /// ```
 /// use spectra::{Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
@@ -27,16 +26,16 @@ use crate::observer::Observer;
 #[derive(Debug, Clone, PartialEq)]
 pub struct TristimulusWeights {
     grid: Grid,
-    /// By wavelength: weights of X, Y and Z.
+    /// Weights of X, Y and Z for each wavelength.
     weights: Vec<[f64; 3]>,
     white: Xyz,
 }
 
 impl TristimulusWeights {
-    /// The weights for reflectances on `grid`.
+    /// Computes the weights for reflectances on `grid`.
     ///
     /// # Errors
-    /// [`InterpolateError::TooFew`] for Sprague on fewer than six wavelengths.
+    /// [`InterpolateError::TooFew`] for Sprague interpolation on fewer than six wavelengths.
     pub fn new(
         grid: Grid,
         illuminant: &Illuminant,
@@ -59,13 +58,13 @@ impl TristimulusWeights {
         Ok(Self { grid, weights, white: white.into() })
     }
 
-    /// The grid the reflectances must stand on.
+    /// The grid of the reflectances.
     #[must_use]
     pub fn grid(&self) -> Grid {
         self.grid
     }
 
-    /// XYZ of the perfect diffuser: the white point, Y = 100.
+    /// XYZ of the perfect diffuser, with Y = 100: the white point.
     #[must_use]
     pub fn white(&self) -> Xyz {
         self.white
@@ -77,10 +76,10 @@ impl TristimulusWeights {
         &self.weights
     }
 
-    /// XYZ of one reflectance.
+    /// XYZ of one reflectance, given by its values on the grid.
     ///
     /// # Panics
-    /// If there is not one value for each wavelength of the grid.
+    /// If the number of values differs from that of the wavelengths.
     #[must_use]
     pub fn xyz(&self, reflectance: &[f64]) -> Xyz {
         assert_eq!(reflectance.len(), self.weights.len(), "one reflectance for each wavelength");
@@ -96,15 +95,15 @@ impl TristimulusWeights {
     /// The colour of one reflectance in XYZ, CIELAB and sRGB.
     ///
     /// # Panics
-    /// If there is not one value for each wavelength of the grid.
+    /// If the number of values differs from that of the wavelengths.
     #[must_use]
     pub fn color(&self, reflectance: &[f64]) -> ColorValues {
         ColorValues::from_xyz(self.xyz(reflectance), self.white)
     }
 }
 
-/// The light as the observer weights it, k E x, k E y, k E z, at each whole
-/// nanometre from 360 to 830.
+/// The power of a light weighted by the observer, k E x, k E y and k E z, at every nanometre
+/// from 360 to 830.
 pub(crate) fn responses(
     illuminant: &Illuminant,
     observer: Observer,

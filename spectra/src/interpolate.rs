@@ -1,43 +1,41 @@
-//! Interpolation of regular data, as rows of weights.
+//! Interpolation of regular data by rows of weights.
 //!
-//! A value between grid points is a weighted sum of at most six neighbours.
-//! Keeping the weights rather than the values lets the same rows resample a
-//! spectrum and, transposed, fold an observer onto a coarse grid.
+//! An interpolated value is a weighted sum of at most six neighbours. Working with the weights
+//! lets the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
 
 use crate::grid::Grid;
 use crate::hint::Explain;
 
-/// How values between grid points are found.
+/// The method of interpolation between the wavelengths of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Interpolation {
-    /// Straight lines between neighbours. Never overshoots.
+    /// Linear between neighbours. Never overshoots.
     Linear,
-    /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005
-    /// recommends for regular spectra. Needs six points; may overshoot beside a
-    /// sharp edge.
+    /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005 recommends for
+    /// regular spectra. Requires six wavelengths; may overshoot near a sharp edge.
     #[default]
     Sprague,
 }
 
-/// What stands beyond the first and the last wavelength.
+/// The value of a spectrum outside its band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Extrapolation {
-    /// Nothing: asking is an error.
+    /// No value: evaluating there is an error.
     Refuse,
-    /// The end value, held, as ASTM E308 does for tristimulus values.
+    /// The value at the nearer end, as ASTM E308 prescribes for tristimulus values.
     Hold,
 }
 
-/// The weights that give the value at one wavelength from grid values
-/// `first .. first + weights.len()`.
+/// Weights of the values `first .. first + weights.len()` of a grid, whose sum is the
+/// interpolated value at one wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct InterpolationRow {
     pub(crate) first: usize,
     weights: [f64; 6],
     len: usize,
 }
 
-impl Row {
+impl InterpolationRow {
     pub(crate) fn weights(&self) -> &[f64] {
         &self.weights[..self.len]
     }
@@ -53,7 +51,7 @@ impl Row {
 }
 
 impl Interpolation {
-    /// The name by which files and options call this method.
+    /// Name of the method in files and settings.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -62,19 +60,19 @@ impl Interpolation {
         }
     }
 
-    /// Sprague where `grid` has the six points it needs, linear otherwise.
+    /// Sprague if `grid` has the six wavelengths it requires, otherwise linear.
     #[must_use]
     pub fn best_for(grid: Grid) -> Self {
         if grid.count() >= 6 { Self::Sprague } else { Self::Linear }
     }
 
-    /// The row of weights that gives the value at `nm` from values on `grid`.
+    /// The weights that interpolate values on `grid` at `nm`.
     pub(crate) fn row(
         self,
         grid: Grid,
         nm: f64,
         ends: Extrapolation,
-    ) -> Result<Row, InterpolateError> {
+    ) -> Result<InterpolationRow, InterpolateError> {
         if self == Self::Sprague && grid.count() < 6 {
             return Err(InterpolateError::TooFew { count: grid.count() });
         }
@@ -82,7 +80,7 @@ impl Interpolation {
         if !grid.covers(nm) {
             return match ends {
                 Extrapolation::Hold if !nm.is_nan() => {
-                    Ok(Row::single(if nm < grid.start_nm() { 0 } else { last }))
+                    Ok(InterpolationRow::single(if nm < grid.start_nm() { 0 } else { last }))
                 }
                 _ => Err(InterpolateError::Outside {
                     nm,
@@ -92,13 +90,13 @@ impl Interpolation {
             };
         }
         if last == 0 {
-            return Ok(Row::single(0));
+            return Ok(InterpolationRow::single(0));
         }
         let position = ((nm - grid.start_nm()) / grid.step_nm()).clamp(0.0, last as f64);
         let index = (position.floor() as usize).min(last - 1);
         let fraction = position - index as f64;
         Ok(match self {
-            Self::Linear => Row {
+            Self::Linear => InterpolationRow {
                 first: index,
                 weights: [1.0 - fraction, fraction, 0.0, 0.0, 0.0, 0.0],
                 len: 2,
@@ -108,10 +106,10 @@ impl Interpolation {
     }
 }
 
-/// Sprague's weights for the six points from two before the interval to three
-/// after its start, at `x` in 0..1 (CIE 167:2005, section 4).
+/// Weights of Sprague's polynomial for the six points from two before an interval to three
+/// after its start, at the position `x` in the interval, 0 to 1 (CIE 167:2005, section 4).
 fn sprague_weights(x: f64) -> [f64; 6] {
-    // Rows: the coefficient of x^n in terms of the six values, times 24.
+    // Row n holds the coefficients of x^n in terms of the six values, times 24.
     const COEFFICIENTS: [[f64; 6]; 6] = [
         [0.0, 0.0, 24.0, 0.0, 0.0, 0.0],
         [2.0, -16.0, 0.0, 16.0, -2.0, 0.0],
@@ -129,18 +127,17 @@ fn sprague_weights(x: f64) -> [f64; 6] {
     weights
 }
 
-/// The two values that stand before the first one, from the first six
-/// (CIE 167:2005, table of boundary coefficients, times 209); mirrored at the
-/// far end.
+/// Extrapolation of two values before the first one from the first six (CIE 167:2005, table of
+/// boundary coefficients, times 209). Mirrored, it extrapolates beyond the last.
 const BEFORE: [[f64; 6]; 2] = [
     [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
     [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
 ];
 
-fn sprague_row(index: usize, fraction: f64, count: usize) -> Row {
+fn sprague_row(index: usize, fraction: f64, count: usize) -> InterpolationRow {
     let raw = sprague_weights(fraction);
-    // The six points are index-2 .. index+3; slide the window inside the data
-    // and express what hangs over the edge by the boundary polynomials.
+    // The six points are index - 2 .. index + 3. Shift the window into the data and express the
+    // points outside it by the boundary polynomials.
     let first = index.saturating_sub(2).min(count - 6);
     let mut weights = [0.0; 6];
     for (offset, weight) in raw.into_iter().enumerate() {
@@ -159,26 +156,26 @@ fn sprague_row(index: usize, fraction: f64, count: usize) -> Row {
             weights[point as usize - first] += weight;
         }
     }
-    Row { first, weights, len: 6 }
+    InterpolationRow { first, weights, len: 6 }
 }
 
-/// Why a value between grid points could not be found.
+/// A spectrum that cannot be interpolated.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum InterpolateError {
-    /// The wavelength lies outside the data.
+    /// The wavelength is outside the band of the data.
     #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
     Outside {
-        /// The wavelength that was asked for.
+        /// The requested wavelength in nm.
         nm: f64,
-        /// Where the data starts.
+        /// First wavelength of the data in nm.
         start_nm: f64,
-        /// Where the data ends.
+        /// Last wavelength of the data in nm.
         end_nm: f64,
     },
-    /// Sprague's polynomial needs six points.
+    /// Sprague's polynomial requires six wavelengths.
     #[error("sprague interpolation needs 6 wavelengths, found `{count}`")]
     TooFew {
-        /// How many there are.
+        /// Number of wavelengths in the data.
         count: usize,
     },
 }
@@ -216,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_the_band_is_refused_or_held() {
+    fn outside_the_band_evaluation_fails_or_holds_the_end_value() {
         let grid = Grid::from_nm(400.0, 10.0, 3).unwrap();
         let refused = Interpolation::Linear.row(grid, 399.0, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "{refused:?}");

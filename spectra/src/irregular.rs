@@ -1,11 +1,12 @@
-//! Spectra at irregular wavelengths, as instruments write them.
+//! Spectra at irregular wavelengths.
 
 use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::Extrapolation;
 use crate::wavelength::{Wavelength, WavelengthError};
 
-/// Values at strictly rising wavelengths with no regular step.
+/// Values at strictly rising wavelengths with no regular step, as spectrometers with an array
+/// detector give them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IrregularSpectrum {
     nm: Vec<f64>,
@@ -13,11 +14,11 @@ pub struct IrregularSpectrum {
 }
 
 impl IrregularSpectrum {
-    /// `values` at the wavelengths `nm`.
+    /// A spectrum of `values` at the wavelengths `nm`.
     ///
     /// # Errors
-    /// [`IrregularSpectrumError`] if the counts differ, there is nothing, or `nm` is not
-    /// made of wavelengths that rise strictly.
+    /// [`IrregularSpectrumError`] if their numbers differ, there are none, or `nm` contains a
+    /// number that is not a wavelength or does not rise strictly.
     pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, IrregularSpectrumError> {
         if nm.len() != values.len() || nm.is_empty() {
             return Err(IrregularSpectrumError::Count {
@@ -40,16 +41,16 @@ impl IrregularSpectrum {
         &self.nm
     }
 
-    /// The values.
+    /// The values, in order of rising wavelength.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The value at `nm` on the straight line between its neighbours.
+    /// The value at `nm`, interpolated linearly.
     ///
     /// # Errors
-    /// [`IrregularSpectrumError::Outside`] beyond the ends, unless they are held.
+    /// [`IrregularSpectrumError::Outside`] outside the band, unless the end values are held.
     pub fn at_linear(&self, nm: f64, ends: Extrapolation) -> Result<f64, IrregularSpectrumError> {
         let last = self.nm.len() - 1;
         if !(self.nm[0]..=self.nm[last]).contains(&nm) {
@@ -85,38 +86,38 @@ impl IrregularSpectrum {
     }
 }
 
-/// Why samples could not be made or resampled.
+/// Values that do not form a spectrum, or a spectrum that cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IrregularSpectrumError {
-    /// Not one value for each wavelength, or nothing at all.
+    /// The numbers of wavelengths and values differ, or there are none.
     #[error(
         "one value for each wavelength is needed, found {wavelengths} wavelengths and `{values}` values"
     )]
     Count {
-        /// How many wavelengths.
+        /// Number of wavelengths.
         wavelengths: usize,
-        /// How many values.
+        /// Number of values.
         values: usize,
     },
-    /// A number that is no wavelength.
+    /// A number that is not a wavelength.
     #[error(transparent)]
     Wavelength(#[from] WavelengthError),
-    /// The wavelengths do not rise.
+    /// The wavelengths do not rise strictly.
     #[error("wavelengths must rise strictly, found {before} nm before `{after}` nm")]
     Order {
-        /// The earlier wavelength.
+        /// The wavelength before, in nm.
         before: f64,
-        /// The later one.
+        /// The wavelength that is not larger, in nm.
         after: f64,
     },
-    /// A wavelength outside the samples.
+    /// The wavelength is outside the band of the spectrum.
     #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
     Outside {
-        /// The wavelength that was asked for.
+        /// The requested wavelength in nm.
         nm: f64,
-        /// Where the samples start.
+        /// First wavelength of the spectrum in nm.
         start_nm: f64,
-        /// Where they end.
+        /// Last wavelength of the spectrum in nm.
         end_nm: f64,
     },
 }

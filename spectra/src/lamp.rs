@@ -1,4 +1,4 @@
-//! A measured lamp from an instrument's file.
+//! Lights measured by an instrument.
 
 use crate::grid::Grid;
 use crate::hint::{Explain, Hint};
@@ -8,18 +8,19 @@ use crate::instrument::{
 };
 use crate::irregular::IrregularSpectrum;
 
-/// A power below zero by no more than this share of the peak is a spectrometer's noise.
+/// Negative power down to minus this fraction of the peak counts as noise of the spectrometer
+/// (chosen by eye).
 const NEGATIVE_NOISE: f64 = 0.01;
 
-/// A light from `bytes`, the content of `file`: any format of [`Format`], found by its content, or
-/// two columns `nm, power`.
+/// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
+/// `nm, power`. The format is detected from the content.
 ///
-/// Power in any unit, at any wavelengths; beyond them the end values are held. Negative power is
-/// taken as 0 down to -1 % of the peak from 360 to 830 nm, as noise; more is an error. Of several
-/// spectra `spectrum` names the one that is meant. The light is called `file`, or `file#spectrum`.
+/// Power may be in any unit and at any wavelengths; outside them the end values are held. From
+/// 360 to 830 nm negative power down to -1 % of the peak is set to 0 as noise. `spectrum`
+/// selects one of several spectra by name. The light is called `file`, or `file#spectrum`.
 ///
 /// # Errors
-/// [`LampError`].
+/// [`LampError`] if the file is faulty or does not hold exactly one such spectrum of power.
 ///
 /// ```
 /// let lamp = spectra::lamp_from_bytes("desk.csv", b"nm,power\n400,1\n700,3\n", None).unwrap();
@@ -30,23 +31,24 @@ pub fn lamp_from_bytes(
     bytes: &[u8],
     spectrum: Option<&str>,
 ) -> Result<Illuminant, LampError> {
-    let records = match read(file, bytes, None) {
-        // Two short columns may not be known as such; read so, they are told what is wrong.
+    let spectra = match read(file, bytes, None) {
+        // Very short files are not recognised as columns; reading them as such gives a better
+        // error.
         Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
         known => known,
     }?
     .spectra;
-    let record = choose_spectrum(file, &records, spectrum)?;
+    let measured = choose_spectrum(file, &spectra, spectrum)?;
     let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
-    Ok(Illuminant::from_samples(&name, &power(file, record)?)?)
+    Ok(Illuminant::from_samples(&name, &power(file, measured)?)?)
 }
 
-fn power(file: &str, record: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
-    let (file, name) = (file.to_owned(), record.name.clone());
-    if !matches!(record.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
-        return Err(LampError::Quantity { file, name, found: record.quantity });
+fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
+    let (file, name) = (file.to_owned(), measured.name.clone());
+    if !matches!(measured.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
+        return Err(LampError::Quantity { file, name, found: measured.quantity });
     }
-    let nm = &record.wavelengths_nm;
+    let nm = &measured.wavelengths_nm;
     if nm.len() < 2 {
         return Err(LampError::TooShort { file, count: nm.len() });
     }
@@ -55,67 +57,67 @@ fn power(file: &str, record: &MeasuredSpectrum) -> Result<IrregularSpectrum, Lam
     if end_nm < band.start_nm() || start_nm > band.end_nm() {
         return Err(LampError::Band { file, start_nm, end_nm });
     }
-    let within = || nm.iter().zip(&record.values).filter(|(nm, _)| band.covers(**nm));
+    let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
     let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
     if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
         return Err(LampError::Power { file, name, nm, power });
     }
-    let values = record.values.iter().map(|power| power.max(0.0)).collect();
+    let values = measured.values.iter().map(|power| power.max(0.0)).collect();
     Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
-/// Why a lamp's file cannot be used.
+/// The file of a lamp that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LampError {
-    /// The file is faulty.
+    /// The file cannot be read as any format.
     #[error(transparent)]
     Instrument(#[from] InstrumentError),
-    /// Which spectrum of the file is meant is not clear.
+    /// The file has several spectra and none is selected, or none of the selected name.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// The spectrum is none of a light.
+    /// The spectrum is not that of a light.
     #[error("{file}: `{name}` must be the power of a lamp, found `{found}`")]
     Quantity {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The spectrum.
+        /// Name of the spectrum.
         name: String,
-        /// What it is.
+        /// Quantity of the spectrum.
         found: MeasuredQuantity,
     },
-    /// A power is negative, beyond noise.
+    /// A power is negative by more than noise.
     #[error("{file}: power of `{name}` at {nm} nm must be 0 and up, found `{power}`")]
     Power {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The spectrum.
+        /// Name of the spectrum.
         name: String,
-        /// The wavelength.
+        /// Wavelength in nm.
         nm: f64,
-        /// The power.
+        /// Power at the wavelength, in the unit of the file.
         power: f64,
     },
-    /// Fewer than two wavelengths.
+    /// The spectrum has fewer than two wavelengths.
     #[error("{file}: a lamp needs at least 2 wavelengths, found `{count}`")]
     TooShort {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// How many were found.
+        /// Number of wavelengths.
         count: usize,
     },
-    /// No wavelength that an eye sees; in another unit, perhaps.
+    /// No wavelength is visible; the file may use another unit.
     #[error(
         "{file}: a lamp needs wavelengths from 360 to 830 nm, found `{start_nm}` to `{end_nm}` nm"
     )]
     Band {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The first wavelength.
+        /// First wavelength in nm.
         start_nm: f64,
-        /// The last one.
+        /// Last wavelength in nm.
         end_nm: f64,
     },
-    /// The light cannot be used.
+    /// The values do not form a light.
     #[error(transparent)]
     Light(#[from] IlluminantError),
 }
@@ -185,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_below_zero_is_none_and_more_is_refused() {
+    fn negative_noise_is_set_to_zero_and_more_is_refused() {
         let noisy = lamp("350,-50\n400,-0.9\n500,100\n600,50\n").unwrap();
         assert_eq!((at(&noisy, 400), at(&noisy, 500)), (0.0, 100.0));
         let refused = lamp("400,-1.1\n500,100\n").unwrap_err().to_string();
@@ -193,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn one_of_several_is_named() {
+    fn one_of_several_spectra_is_selected_by_name() {
         let text = b"nm;desk;shop\n400;1;3\n500;2;6\n";
         let error = lamp_from_bytes("l", text, None).unwrap_err();
         assert_eq!(error.hint().unwrap().to_string(), "name one: \"l#desk\" or \"#shop\"");
@@ -204,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_power_is_refused() {
+    fn other_quantities_than_power_are_refused() {
         for (heading, word) in [("reflectance", "radiance"), ("counts", "export irradiance")] {
             let error = lamp(&format!("nm,{heading}\n400,1\n500,2\n")).unwrap_err();
             assert!(error.to_string().contains(heading), "{error}");

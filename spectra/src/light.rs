@@ -1,4 +1,4 @@
-//! A light as a user writes it.
+//! Lights as text.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::split_file_and_name;
 use crate::lamp::{LampError, lamp_from_bytes};
 
-/// The light that `text` names.
+/// The light that `text` stands for.
 ///
 /// | text | light |
 /// |---|---|
@@ -20,7 +20,7 @@ use crate::lamp::{LampError, lamp_from_bytes};
 /// | `FILE`, `FILE#NAME` | a file of an instrument, [`lamp_from_bytes`] |
 ///
 /// # Errors
-/// [`LightError`].
+/// [`LightError`] if `text` is none of these, or the file is faulty.
 ///
 /// ```
 /// let bulb = spectra::light_from_text("5600K").unwrap();
@@ -49,19 +49,19 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
 /// A text that does not name a light.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LightError {
-    /// Neither a name, a temperature nor a file.
+    /// The text is neither a name, a temperature nor the path of a file.
     #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{text}`")]
     Unknown {
-        /// The text.
+        /// The text that was given.
         text: String,
     },
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The lamp's file is faulty.
+    /// The file of the lamp is faulty.
     #[error(transparent)]
     Lamp(#[from] LampError),
-    /// The temperature gives no light.
+    /// The temperature is outside the defined range.
     #[error(transparent)]
     Illuminant(#[from] IlluminantError),
 }

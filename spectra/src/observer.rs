@@ -1,4 +1,4 @@
-//! The CIE's standard observers.
+//! The standard observers of the CIE.
 
 use std::sync::OnceLock;
 
@@ -9,8 +9,7 @@ use crate::table;
 
 /// A set of colour-matching functions at 1 nm.
 ///
-/// Outside its table an observer sees nothing: the functions are 0 there.
-/// Sources and licences: `data/SOURCES.md`.
+/// Outside the tabulated band the functions are 0. Sources and licences: `data/SOURCES.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Observer {
     /// CIE 1931, 2 degrees (ISO/CIE 11664-1).
@@ -25,11 +24,11 @@ pub enum Observer {
 }
 
 impl Observer {
-    /// Every observer, in the order of the table above.
+    /// All observers, by year and field of view.
     pub const ALL: [Self; 4] =
         [Self::Cie1931Deg2, Self::Cie1964Deg10, Self::Cie2015Deg2, Self::Cie2015Deg10];
 
-    /// The name by which files and options call this observer.
+    /// Name of the observer in files and settings.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -40,10 +39,10 @@ impl Observer {
         }
     }
 
-    /// The observer called `name`; `2` and `10` mean those of 1931 and 1964.
+    /// The observer with the given name. `2` and `10` are the observers of 1931 and 1964.
     ///
     /// # Errors
-    /// [`ObserverError`], which lists the names.
+    /// [`ObserverError`], whose message lists the names.
     pub fn named(name: &str) -> Result<Self, ObserverError> {
         match name {
             "2" => Ok(Self::Cie1931Deg2),
@@ -55,7 +54,7 @@ impl Observer {
         }
     }
 
-    /// The functions x, y and z (barred) on [`Grid::cie`].
+    /// The colour-matching functions x, y and z (with a bar) on [`Grid::cie`].
     #[must_use]
     pub fn functions(self) -> &'static [Spectrum<Response>; 3] {
         static TABLES: [OnceLock<[Spectrum<Response>; 3]>; 4] = [const { OnceLock::new() }; 4];
@@ -70,12 +69,12 @@ impl Observer {
             Self::Cie2015Deg10 => include_str!("../data/observers/cie-2015-10.csv"),
         });
         ["x", "y", "z"].map(|name| {
-            let (nm, given) =
+            let (nm, tabulated) =
                 table::filled(&columns, name).expect("a shipped observer has x, y and z");
             let grid = Grid::cie();
             let mut values = vec![0.0; grid.count()];
-            for (nm, value) in nm.iter().zip(given) {
-                // The tables stand on whole nanometres inside the CIE's band.
+            for (nm, value) in nm.iter().zip(tabulated) {
+                // The tables are given at whole nanometres inside this band.
                 values[(nm - grid.start_nm()) as usize] = value;
             }
             Spectrum::new(grid, values).expect("a shipped observer is finite")
@@ -89,7 +88,7 @@ impl std::fmt::Display for Observer {
     }
 }
 
-/// A name that no observer has.
+/// An unknown name of an observer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("observers are 1931-2 (or 2), 1964-10 (or 10), 2015-2 and 2015-10, found `{name}`")]
 pub struct ObserverError {

@@ -1,4 +1,4 @@
-//! Spectra that know what they are spectra of.
+//! Spectra with a physical quantity as their type.
 
 use std::marker::PhantomData;
 
@@ -6,19 +6,19 @@ use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 
-/// A physical quantity over wavelength.
+/// A physical quantity over wavelength, with its range of valid values.
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {
-    /// What an error calls it.
+    /// Name of the quantity in errors.
     const NAME: &'static str;
-    /// The least possible value.
+    /// Smallest valid value.
     const MIN: f64;
-    /// The greatest possible value.
+    /// Largest valid value.
     const MAX: f64;
-    /// The range from least to greatest, in words.
+    /// Description of the valid range in errors.
     const RANGE: &'static str;
 
-    /// Whether `value` is possible for this quantity.
-    fn possible(value: f64) -> bool {
+    /// Whether `value` is finite and in the valid range.
+    fn is_valid(value: f64) -> bool {
         value.is_finite() && (Self::MIN..=Self::MAX).contains(&value)
     }
 }
@@ -39,31 +39,31 @@ macro_rules! quantity {
 }
 
 quantity!(
-    /// Reflectance factor, as a fraction. Above 1 is possible (fluorescence, or
-    /// a reading relative to a duller white); above 2 is a mistaken unit.
+    /// Reflectance factor as a fraction. Values above 1 are valid (fluorescence, or a reading
+    /// relative to a darker white); values above 2 are taken for percent and refused.
     Reflectance, "reflectance", 0.0, 2.0, "0 to 2"
 );
 quantity!(
-    /// Relative spectral power of a light; any unit, not negative.
+    /// Relative spectral power of a light, in any unit; not negative.
     Power, "power", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
-    /// Kubelka-Munk absorption K, per unit of thickness (or of amount).
+    /// Kubelka-Munk absorption coefficient K, per unit of thickness or of amount.
     Absorption, "absorption", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
-    /// Kubelka-Munk scattering S, per unit of thickness (or of amount).
+    /// Kubelka-Munk scattering coefficient S, per unit of thickness or of amount.
     Scattering, "scattering", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
-    /// Response of an observer or a sensor; any sign.
+    /// Response of an observer or a sensor, of any sign.
     Response, "response", f64::NEG_INFINITY, f64::INFINITY, "any finite number"
 );
 
-/// Values of the quantity `Q` on a regular grid, each checked to be possible.
+/// Values of the quantity `Q` on a regular grid, each in the valid range of `Q`.
 ///
-/// Outside the grid a spectrum has no value: asking for one is an error unless
-/// the caller says [`Extrapolation::Hold`].
+/// Outside the grid a spectrum has no value: evaluating there is an error unless the caller
+/// asks for [`Extrapolation::Hold`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum<Q> {
     grid: Grid,
@@ -72,15 +72,15 @@ pub struct Spectrum<Q> {
 }
 
 impl<Q: Quantity> Spectrum<Q> {
-    /// `values` on `grid`, one for each wavelength.
+    /// A spectrum of `values` on `grid`, one for each wavelength.
     ///
     /// # Errors
-    /// [`SpectrumError`] if the count differs or a value is impossible.
+    /// [`SpectrumError`] if their number differs or a value is not valid.
     pub fn new(grid: Grid, values: Vec<f64>) -> Result<Self, SpectrumError> {
         if values.len() != grid.count() {
-            return Err(SpectrumError::Count { wanted: grid.count(), found: values.len() });
+            return Err(SpectrumError::Count { expected: grid.count(), found: values.len() });
         }
-        if let Some(index) = values.iter().position(|&v| !Q::possible(v)) {
+        if let Some(index) = values.iter().position(|&v| !Q::is_valid(v)) {
             return Err(SpectrumError::Value {
                 quantity: Q::NAME,
                 range: Q::RANGE,
@@ -91,7 +91,7 @@ impl<Q: Quantity> Spectrum<Q> {
         Ok(Self { grid, values, quantity: PhantomData })
     }
 
-    /// The grid.
+    /// The wavelengths of the spectrum.
     #[must_use]
     pub fn grid(&self) -> Grid {
         self.grid
@@ -103,17 +103,17 @@ impl<Q: Quantity> Spectrum<Q> {
         &self.values
     }
 
-    /// The values, given away.
+    /// Consumes the spectrum and returns its values in order of rising wavelength.
     #[must_use]
     pub fn into_values(self) -> Vec<f64> {
         self.values
     }
 
-    /// The value at `nm` nanometres.
+    /// The value at the wavelength `nm`.
     ///
     /// # Errors
-    /// [`InterpolateError`] outside the band (unless held) or where the method
-    /// lacks points.
+    /// [`InterpolateError`] outside the band (unless the end value is held), or if the grid has
+    /// too few wavelengths for the method.
     pub fn at(
         &self,
         nm: f64,
@@ -123,11 +123,11 @@ impl<Q: Quantity> Spectrum<Q> {
         Ok(method.row(self.grid, nm, ends)?.apply(&self.values))
     }
 
-    /// The same spectrum on another grid. A polynomial that swings past what is
-    /// possible (a reflectance below 0) is cut off there.
+    /// Resamples the spectrum to another grid. Interpolated values outside the valid range
+    /// (such as a reflectance below 0, where the polynomial overshoots) are clipped.
     ///
     /// # Errors
-    /// [`InterpolateError`] as in [`Spectrum::at`].
+    /// [`InterpolateError`] in the cases of [`Spectrum::at`].
     pub fn resampled(
         &self,
         grid: Grid,
@@ -142,27 +142,27 @@ impl<Q: Quantity> Spectrum<Q> {
     }
 }
 
-/// Values that make no spectrum.
+/// Values that do not form a spectrum.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// The number of values is not the number of wavelengths.
-    #[error("a grid of {wanted} wavelengths needs {wanted} values, found `{found}`")]
+    /// The number of values differs from the number of wavelengths.
+    #[error("a grid of {expected} wavelengths needs {expected} values, found `{found}`")]
     Count {
-        /// Wavelengths on the grid.
-        wanted: usize,
-        /// Values that were given.
+        /// Number of wavelengths on the grid.
+        expected: usize,
+        /// Number of values that were given.
         found: usize,
     },
-    /// A value is impossible for the quantity.
+    /// A value is outside the range of the quantity.
     #[error("{quantity} at {nm} nm must be {range}, found `{value}`")]
     Value {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// What it may be.
+        /// Description of the valid range.
         range: &'static str,
-        /// Where.
+        /// Wavelength of the value in nm.
         nm: f64,
-        /// What was found.
+        /// The value that was given.
         value: f64,
     },
 }

@@ -1,6 +1,6 @@
-//! Reading the tables of the CIE that ship inside the crate.
+//! Reading the tables of the CIE that are part of the crate.
 
-/// The columns of a shipped CSV by header; an empty cell is `None`.
+/// The columns of a CSV with their headings. Empty cells are `None`.
 pub(crate) fn columns(text: &str) -> Vec<(String, Vec<Option<f64>>)> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let headers = reader.headers().expect("a shipped table has headers").clone();
@@ -17,7 +17,8 @@ pub(crate) fn columns(text: &str) -> Vec<(String, Vec<Option<f64>>)> {
     columns
 }
 
-/// The column `name`, with the wavelengths of its filled cells.
+/// The wavelengths and values of the filled cells in the column `name`; the first column holds
+/// the wavelengths.
 pub(crate) fn filled(
     columns: &[(String, Vec<Option<f64>>)],
     name: &str,

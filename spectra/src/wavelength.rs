@@ -1,4 +1,4 @@
-//! A wavelength, in nanometres, said aloud.
+//! A wavelength in nanometres.
 
 use serde::{Deserialize, Serialize};
 
@@ -51,11 +51,11 @@ impl std::fmt::Display for Wavelength {
     }
 }
 
-/// A number that is no wavelength.
+/// A number that is not a wavelength.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a wavelength is a finite number of nanometres above 0, found `{nm}`")]
 pub struct WavelengthError {
-    /// The number that was given.
+    /// The number that was given, in nm.
     pub nm: f64,
 }
 

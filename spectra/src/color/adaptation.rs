@@ -1,16 +1,15 @@
-//! Chromatic adaptation: the colour that looks alike under another white.
+//! Chromatic adaptation: the corresponding colour under another white.
 
 use super::matrix::Matrix3;
 use super::xyz::Xyz;
 
-/// The space of sharpened cone responses in which von Kries scaling is done;
-/// adaptation is complete.
+/// The cone space in which von Kries adaptation is computed. Adaptation is complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Adaptation {
-    /// Bradford (Lam 1985), linear form; what ICC profiles use.
+    /// Bradford transform (Lam 1985) in its linear form, as used by ICC profiles.
     #[default]
     Bradford,
-    /// CAT16 (Li et al. 2017).
+    /// CAT16 (Li et al. 2017), the transform of CIECAM16.
     Cat16,
 }
 
@@ -30,7 +29,7 @@ impl Adaptation {
         }
     }
 
-    /// The matrix that carries XYZ under the white `from` to XYZ under `to`.
+    /// The matrix that adapts XYZ under the white `from` to the white `to`.
     #[must_use]
     pub fn matrix(self, from: Xyz, to: Xyz) -> Matrix3 {
         let cone_from_xyz = self.cone_from_xyz();
@@ -41,7 +40,7 @@ impl Adaptation {
     }
 }
 
-/// `xyz` under the white `from`, adapted to the white `to`.
+/// The colour that looks under the white `to` as `xyz` does under the white `from`.
 #[must_use]
 pub fn adapt(xyz: Xyz, from: Xyz, to: Xyz, adaptation: Adaptation) -> Xyz {
     adaptation.matrix(from, to).apply(xyz.to_array()).into()

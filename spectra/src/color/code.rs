@@ -1,4 +1,4 @@
-//! A colour written as text.
+//! Colours as text.
 
 use std::str::FromStr;
 

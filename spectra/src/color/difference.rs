@@ -1,25 +1,24 @@
 //! Colour differences in CIELAB.
 //!
-//! All four are asymmetric only where their definition is: CIE94 and CMC take
-//! the first colour as the standard.
+//! CIE94 and CMC are asymmetric by definition: their first colour is the standard.
 
 use super::lab::Lab;
 use super::matrix::Matrix3;
 
-/// CIE 1976 colour difference: the Euclidean distance (ISO/CIE 11664-4).
+/// CIE 1976 colour difference, the Euclidean distance in CIELAB (ISO/CIE 11664-4).
 #[must_use]
 pub fn delta_e_cie76(first: Lab, second: Lab) -> f64 {
     let (d_l, d_a, d_b) = differences(first, second);
     (d_l * d_l + d_a * d_a + d_b * d_b).sqrt()
 }
 
-/// The application that CIE94 is weighted for.
+/// The application for which CIE94 weights its terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Cie94 {
-    /// Graphic arts and paint.
+    /// Graphic arts and paint (k_L = 1).
     #[default]
     GraphicArts,
-    /// Textiles.
+    /// Textiles (k_L = 2).
     Textiles,
 }
 
@@ -38,12 +37,12 @@ pub fn delta_e_cie94(standard: Lab, sample: Lab, application: Cie94) -> f64 {
     (l * l + c * c + d_h_squared / (s_h * s_h)).sqrt()
 }
 
-/// The weights of CMC(l:c).
+/// The weights l and c of the CMC(l:c) difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cmc {
-    /// l, 2 for acceptability, 1 for perceptibility.
+    /// Weight l of lightness: 2 for acceptability, 1 for perceptibility.
     pub lightness: f64,
-    /// c, 1.
+    /// Weight c of chroma, usually 1.
     pub chroma: f64,
 }
 
@@ -54,8 +53,7 @@ impl Cmc {
     pub const PERCEPTIBILITY: Self = Self { lightness: 1.0, chroma: 1.0 };
 }
 
-/// CMC(l:c) colour difference of `sample` from `standard` (Clarke, McDonald
-/// and Rigg 1984).
+/// CMC(l:c) colour difference of `sample` from `standard` (Clarke, McDonald and Rigg 1984).
 #[must_use]
 pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
     let (d_l, d_c, d_h_squared) = lightness_chroma_hue(standard, sample);
@@ -79,29 +77,27 @@ pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
     (l * l + c * c + d_h_squared / (s_h * s_h)).sqrt()
 }
 
-/// CIEDE2000 colour difference, all parametric factors 1 (ISO/CIE 11664-6;
-/// the mean hue as in Sharma, Wu and Dalal 2005, equation 14).
+/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6; mean hue by
+/// Sharma, Wu and Dalal 2005, equation 14).
 ///
-/// Written here rather than taken from the `palette` crate, whose 0.7.7 keeps a
-/// mean hue above 360 degrees unreduced: 2e-5 off where two hues lie on either
-/// side of 0.
+/// Not taken from the crate `palette`: its version 0.7.7 leaves a mean hue above 360 degrees
+/// unreduced, an error of 2e-5 where two hues lie on either side of 0.
 #[must_use]
 pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
     (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
 }
 
-/// Three numbers whose squares sum to that of the CIEDE2000 difference, at any
-/// distance; for least squares in CIEDE2000. They are the differences of
-/// lightness, chroma and hue, the last two turned so that the formula's cross
-/// term vanishes.
+/// Three residuals whose squares sum to the squared CIEDE2000 difference, at any distance, for
+/// least squares. They are the weighted differences of lightness, chroma and hue, the last two
+/// rotated so that the cross term of the formula vanishes.
 #[must_use]
 pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
     [l, c + r_t / 2.0 * h, h * (1.0 - r_t * r_t / 4.0).max(0.0).sqrt()]
 }
 
-/// The weighted differences of lightness, chroma and hue, and R_T.
+/// The weighted differences of lightness, chroma and hue, and the rotation term R_T.
 fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     let mean_chroma = f64::midpoint(first.a.hypot(first.b), second.a.hypot(second.b));
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(mean_chroma));
@@ -134,19 +130,19 @@ fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     [d_l / s_l, d_c / s_c, d_h / s_h, r_t]
 }
 
-/// The linear map M for which `|M (lab - center)|` is the CIEDE2000 difference
-/// of a colour very near `center`; for least squares in CIEDE2000.
+/// The linear map M for which `|M (lab - center)|` approximates the CIEDE2000 difference of
+/// colours near `center`, for least squares.
 ///
-/// The weighting functions are taken at `center`. Measured on random colours,
-/// |M d| is within 1 % of CIEDE2000 for differences of 0.05 wherever the chroma
-/// exceeds 5; at grey, where the hue turns over, within 6 %.
+/// The weighting functions are taken at `center`. For random colours at a distance of 0.05
+/// the result agrees with CIEDE2000 to 1 % where the chroma exceeds 5, and to 6 % near grey,
+/// where the hue changes fast.
 #[must_use]
 pub fn ciede2000_metric(center: Lab) -> Matrix3 {
     let chroma = center.a.hypot(center.b);
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(chroma));
     let a = center.a * stretch;
     let c = a.hypot(center.b);
-    // The directions of rising chroma and of rising hue.
+    // Unit vector of rising chroma; that of rising hue is at a right angle to it.
     let (cos, sin) = if c > 1e-9 { (a / c, center.b / c) } else { (1.0, 0.0) };
     let hue = hue_degrees(a, center.b);
     let [s_l, s_c, s_h, r_t] = ciede2000_weights(center.lightness, c, hue);
@@ -173,7 +169,7 @@ fn ciede2000_weights(lightness: f64, chroma: f64, hue: f64) -> [f64; 4] {
     ]
 }
 
-/// sqrt(C^7 / (C^7 + 25^7)).
+/// The factor sqrt(C^7 / (C^7 + 25^7)) of CIEDE2000.
 fn seventh_root_share(chroma: f64) -> f64 {
     let c7 = chroma.powi(7);
     (c7 / (c7 + 25f64.powi(7))).sqrt()
@@ -183,7 +179,7 @@ fn differences(first: Lab, second: Lab) -> (f64, f64, f64) {
     (second.lightness - first.lightness, second.a - first.a, second.b - first.b)
 }
 
-/// Differences of lightness and chroma, and the square of that of hue.
+/// Differences of lightness and chroma, and the squared difference of hue.
 fn lightness_chroma_hue(first: Lab, second: Lab) -> (f64, f64, f64) {
     let (d_l, d_a, d_b) = differences(first, second);
     let d_c = second.a.hypot(second.b) - first.a.hypot(first.b);
@@ -200,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_residuals_make_up_ciede2000_at_any_distance() {
+    fn squared_residuals_sum_to_ciede2000_at_any_distance() {
         let colors =
             [(5.0, 8.0, 1.0), (50.0, -30.0, 20.0), (90.0, 3.0, -60.0), (30.0, 60.0, -40.0)];
         let labs = colors.map(|(lightness, a, b)| Lab { lightness, a, b });
@@ -208,14 +204,17 @@ mod tests {
             for second in labs {
                 let made =
                     ciede2000_residuals(first, second).iter().map(|r| r * r).sum::<f64>().sqrt();
-                let told = delta_e_ciede2000(first, second);
-                assert!((made - told).abs() < 1e-9, "{first:?} to {second:?}: {made} for {told}");
+                let difference = delta_e_ciede2000(first, second);
+                assert!(
+                    (made - difference).abs() < 1e-9,
+                    "{first:?} to {second:?}: {made} for {difference}"
+                );
             }
         }
     }
 
     #[test]
-    fn the_metric_is_ciede2000_nearby() {
+    fn the_metric_agrees_with_ciede2000_for_small_differences() {
         for l in [5.0, 50.0, 90.0] {
             for (a, b) in [(8.0, 1.0), (-30.0, 20.0), (3.0, -60.0), (60.0, 50.0), (40.0, -4.0)] {
                 let center = Lab { lightness: l, a, b };
@@ -223,11 +222,11 @@ mod tests {
                 for d in [[0.05, 0.0, 0.0], [0.0, 0.05, 0.0], [0.0, 0.0, 0.05], [0.02, -0.03, 0.03]]
                 {
                     let near = Lab { lightness: l + d[0], a: a + d[1], b: b + d[2] };
-                    let told = metric.apply(d).iter().map(|v| v * v).sum::<f64>().sqrt();
+                    let length = metric.apply(d).iter().map(|v| v * v).sum::<f64>().sqrt();
                     let true_value = delta_e_ciede2000(center, near);
                     assert!(
-                        (told / true_value - 1.0).abs() < 0.01,
-                        "at {center:?} by {d:?}: {told} for {true_value}"
+                        (length / true_value - 1.0).abs() < 0.01,
+                        "at {center:?} by {d:?}: {length} for {true_value}"
                     );
                 }
             }

@@ -1,37 +1,38 @@
-//! CIELAB, rectangular and in lightness, chroma and hue.
+//! CIELAB in rectangular and in cylindrical coordinates.
 
 use super::matrix::Matrix3;
 use super::xyz::Xyz;
 
-/// CIE 1976 L*a*b* (ISO/CIE 11664-4).
+/// A colour in CIE 1976 L*a*b* (ISO/CIE 11664-4).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lab {
     /// Lightness, 0 for black to 100 for the white.
     pub lightness: f64,
-    /// Green (negative) to red.
+    /// Green (negative) to red (positive).
     pub a: f64,
-    /// Blue (negative) to yellow.
+    /// Blue (negative) to yellow (positive).
     pub b: f64,
 }
 
-/// CIELAB in lightness, chroma and hue.
+/// A CIELAB colour in cylindrical coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lch {
-    /// Lightness, 0..100.
+    /// Lightness, 0 to 100.
     pub lightness: f64,
-    /// Chroma, 0 for grey.
+    /// Chroma, 0 for grey and up.
     pub chroma: f64,
-    /// Hue angle in degrees, 0..360.
+    /// Hue angle in degrees, 0 to 360.
     pub hue_degrees: f64,
 }
 
-/// (6/29)^3: below it the cube root gives way to a straight line.
+/// (6/29)^3, the relative luminance below which L* is linear.
 pub(super) const TOE: f64 = 216.0 / 24389.0;
-/// (29/3)^3, the slope of L* in the toe.
+/// (29/3)^3, the slope of L* in the linear part.
 pub(super) const KAPPA: f64 = 24389.0 / 27.0;
 
 impl Lab {
-    /// CIELAB of `xyz` seen under `white` (ISO/CIE 11664-4, equations 1 to 6).
+    /// The CIELAB colour of `xyz` under the white point `white` (ISO/CIE 11664-4, equations 1
+    /// to 6).
     #[must_use]
     pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
         let f = |t: f64| if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 };
@@ -39,7 +40,7 @@ impl Lab {
         Self { lightness: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }
     }
 
-    /// The derivatives of L*, a*, b* (rows) over X, Y, Z (columns) at `xyz`.
+    /// The derivatives of L*, a*, b* (rows) with respect to X, Y, Z (columns) at `xyz`.
     #[must_use]
     pub fn slopes_over_xyz(xyz: Xyz, white: Xyz) -> Matrix3 {
         let slope = |value: f64, white: f64| {
@@ -50,7 +51,7 @@ impl Lab {
         Matrix3([[0.0, 116.0 * y, 0.0], [500.0 * x, -500.0 * y, 0.0], [0.0, 200.0 * y, -200.0 * z]])
     }
 
-    /// The tristimulus values under `white`: the inverse of [`Lab::from_xyz`].
+    /// XYZ under the white point `white`: the inverse of [`Lab::from_xyz`].
     #[must_use]
     pub fn to_xyz(self, white: Xyz) -> Xyz {
         let inverse = |f: f64| if f > 6.0 / 29.0 { f.powi(3) } else { (116.0 * f - 16.0) / KAPPA };
@@ -62,7 +63,7 @@ impl Lab {
         }
     }
 
-    /// Lightness, chroma and hue; grey has hue 0.
+    /// Converts to lightness, chroma and hue. Grey has hue 0.
     #[must_use]
     pub fn to_lch(self) -> Lch {
         let degrees = self.b.atan2(self.a).to_degrees();
@@ -73,9 +74,8 @@ impl Lab {
         }
     }
 
-    /// The colour of three numbers parted by commas or spaces, L* from 0 to 100, a*
-    /// and b* from -300 to 300; `lab(..)` may stand around them. `None` for any other
-    /// text.
+    /// Parses three numbers separated by commas or blanks: L* from 0 to 100, a* and b* from
+    /// -300 to 300, optionally inside `lab(..)`. `None` for any other text.
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
         let lower = text.trim().to_ascii_lowercase();
@@ -92,7 +92,7 @@ impl Lab {
         }
     }
 
-    /// L*, a*, b* in order.
+    /// L*, a* and b* in this order.
     #[must_use]
     pub fn to_array(self) -> [f64; 3] {
         [self.lightness, self.a, self.b]
@@ -117,10 +117,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_numbers_are_a_color_and_nothing_else_is() {
-        let wanted = Some(Lab { lightness: 52.0, a: -10.5, b: 8.0 });
+    fn only_three_numbers_in_range_are_parsed() {
+        let expected = Some(Lab { lightness: 52.0, a: -10.5, b: 8.0 });
         for text in ["52,-10.5,8", "52 -10.5 8", "lab(52, -10.5, 8)", " LAB(52,-10.5,8) "] {
-            assert_eq!(Lab::from_text(text), wanted, "{text}");
+            assert_eq!(Lab::from_text(text), expected, "{text}");
         }
         for text in ["", "52,8", "52,8,1,2", "101,0,0", "-1,0,0", "50,400,0", "lab(1,2,3", "#fff"] {
             assert_eq!(Lab::from_text(text), None, "{text}");

@@ -1,11 +1,11 @@
-//! The 3 x 3 matrices that carry one set of tristimulus values to another.
+//! The 3 x 3 matrices that transform tristimulus values.
 
-/// A 3 x 3 matrix, rows first. Read target from source: `rgb_from_xyz`.
+/// A 3 x 3 matrix as an array of rows. Names read target from source: `rgb_from_xyz`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrix3(pub [[f64; 3]; 3]);
 
 impl Matrix3 {
-    /// The matrix with `diagonal` and zeros elsewhere.
+    /// The diagonal matrix with the given elements.
     #[must_use]
     pub fn diagonal(diagonal: [f64; 3]) -> Self {
         let mut rows = [[0.0; 3]; 3];
@@ -15,13 +15,13 @@ impl Matrix3 {
         Self(rows)
     }
 
-    /// The product of the matrix and a column.
+    /// The product of the matrix and a column vector.
     #[must_use]
     pub fn apply(&self, column: [f64; 3]) -> [f64; 3] {
         self.0.map(|row| row[0] * column[0] + row[1] * column[1] + row[2] * column[2])
     }
 
-    /// `self` after `first`.
+    /// The matrix product `self * first`, which applies `first` first.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         let mut rows = [[0.0; 3]; 3];
@@ -36,7 +36,7 @@ impl Matrix3 {
     /// The inverse, by cofactors.
     ///
     /// # Panics
-    /// If the matrix is singular; ours are made of independent primaries.
+    /// If the matrix is singular. Matrices of independent primaries or cone responses are not.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let m = &self.0;

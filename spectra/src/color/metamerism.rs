@@ -1,17 +1,17 @@
-//! How far two colours that match under one light part under another.
+//! Metamerism: the difference under one light of two colours that match under another.
 
 use super::difference::delta_e_ciede2000;
 use super::lab::Lab;
 use super::xyz::Xyz;
 use crate::hint::Explain;
 
-/// `sample` under the test light, corrected for what the pair already differs
-/// by under the reference light: each tristimulus value is multiplied by the
-/// ratio of standard to sample there (CIE 15:2018, section 9.2).
+/// Corrects a sample under the test light for its difference from the standard under the
+/// reference light: each tristimulus value is multiplied by the ratio of standard to sample
+/// under the reference light (CIE 15:2018, section 9.2).
 ///
 /// # Errors
-/// [`MetamerismError`] if the sample is black under the reference light, which
-/// leaves no ratio.
+/// [`MetamerismError`] if the sample is black under the reference light, which leaves the ratio
+/// undefined.
 pub fn corrected_to_match(
     sample_test: Xyz,
     standard_reference: Xyz,
@@ -30,12 +30,12 @@ pub fn corrected_to_match(
     Ok(corrected.into())
 }
 
-/// Special metamerism index for a change of illuminant (CIE 15:2018, section
-/// 9.2): the CIEDE2000 difference of the pair under the test light, the sample
-/// corrected as in [`corrected_to_match`].
+/// Special metamerism index for a change of illuminant (CIE 15:2018, section 9.2): the
+/// CIEDE2000 difference of the pair under the test light after [`corrected_to_match`].
+/// `standard` and `sample` each hold XYZ under the reference light and under the test light.
 ///
 /// # Errors
-/// [`MetamerismError`] as there.
+/// [`MetamerismError`] if the sample is black under the reference light.
 pub fn metamerism_index(
     standard: [Xyz; 2],
     sample: [Xyz; 2],
@@ -50,13 +50,13 @@ pub fn metamerism_index(
     ))
 }
 
-/// A sample too black to be corrected.
+/// A sample that is black under the reference light.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "a sample that is black under the reference light has no metamerism index, found XYZ `{xyz:?}`"
 )]
 pub struct MetamerismError {
-    /// The sample's tristimulus values under the reference light.
+    /// XYZ of the sample under the reference light.
     pub xyz: [f64; 3],
 }
 

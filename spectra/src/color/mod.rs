@@ -1,8 +1,8 @@
-//! Colour: tristimulus values, CIELAB, display RGB, and differences.
+//! Colour: tristimulus values, CIELAB, display RGB, and colour differences.
 //!
-//! XYZ is scaled so that Y = 100 for the white. White points are computed from
-//! an illuminant and an observer, never typed in, except where an RGB standard
-//! defines its own chromaticity.
+//! XYZ is scaled so that the white has Y = 100. White points are computed from an illuminant
+//! and an observer; only those of RGB standards are constants, because the standards define
+//! them.
 
 mod matrix;
 

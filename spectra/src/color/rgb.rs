@@ -6,18 +6,18 @@ use super::adaptation::{Adaptation, adapt};
 use super::matrix::Matrix3;
 use super::xyz::{Xyy, Xyz};
 
-/// A display's RGB space. Both have the white D65 (x 0.3127, y 0.3290) and the
+/// The RGB space of a display. Both have the white point D65 (x 0.3127, y 0.3290) and the
 /// transfer curve of IEC 61966-2-1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum RgbSpace {
-    /// IEC 61966-2-1.
+    /// sRGB (IEC 61966-2-1).
     #[default]
     Srgb,
-    /// Display P3 (SMPTE EG 432-1 primaries).
+    /// Display P3 (primaries of SMPTE EG 432-1).
     DisplayP3,
 }
 
-/// Red, green and blue, 0..1 inside the display's gamut.
+/// Red, green and blue, linear or encoded, each 0 to 1 inside the gamut of the display.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rgb(pub [f64; 3]);
 
@@ -29,14 +29,14 @@ impl RgbSpace {
         }
     }
 
-    /// The white that both standards name by its chromaticity.
+    /// White point of the display, from the chromaticity that both standards define.
     #[must_use]
     pub fn white(self) -> Xyz {
         Xyy { x: 0.3127, y: 0.3290, luminance: 100.0 }.into()
     }
 
-    /// XYZ (white Y = 100) from linear RGB (white 1), at full precision from
-    /// the primaries, not the rounded matrix of the standard.
+    /// The matrix from linear RGB (white 1) to XYZ (white Y = 100). Computed from the primaries
+    /// at full precision; the standards list a rounded one.
     #[must_use]
     pub fn xyz_from_linear(self) -> Matrix3 {
         let columns = self.primaries().map(|(x, y)| [x / y, 1.0, (1.0 - x - y) / y]);
@@ -51,21 +51,21 @@ impl RgbSpace {
         primaries.after(&Matrix3::diagonal(scale))
     }
 
-    /// Linear RGB of `xyz` seen under `white`, adapted to the display's white;
-    /// below 0 or above 1 outside the gamut.
+    /// Linear RGB of `xyz` under the white point `white`, adapted to the white of the display.
+    /// Below 0 or above 1 outside the gamut.
     #[must_use]
     pub fn linear_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
         let at_display = adapt(xyz, white, self.white(), adaptation);
         Rgb(self.xyz_from_linear().inverse().apply(at_display.to_array()))
     }
 
-    /// Encoded RGB of `xyz`: [`RgbSpace::linear_from_xyz`], then the curve.
+    /// Encoded RGB of `xyz`: [`RgbSpace::linear_from_xyz`] followed by the transfer curve.
     #[must_use]
     pub fn encoded_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
         self.linear_from_xyz(xyz, white, adaptation).encoded()
     }
 
-    /// XYZ under `white` of an encoded colour: the inverse of
+    /// XYZ of an encoded colour under the white point `white`: the inverse of
     /// [`RgbSpace::encoded_from_xyz`].
     #[must_use]
     pub fn xyz_from_encoded(self, rgb: Rgb, white: Xyz, adaptation: Adaptation) -> Xyz {
@@ -75,34 +75,33 @@ impl RgbSpace {
 }
 
 impl Rgb {
-    /// Linear to encoded, by the sRGB curve (the straight line below 0.0031308
-    /// goes on below 0).
+    /// Encodes linear RGB by the sRGB transfer curve. Its linear part below 0.0031308 continues
+    /// below 0.
     #[must_use]
     pub fn encoded(self) -> Self {
         Self(self.0.map(<Srgb as FromLinear<f64, f64>>::from_linear))
     }
 
-    /// Encoded to linear.
+    /// Decodes encoded RGB to linear RGB.
     #[must_use]
     pub fn linear(self) -> Self {
         Self(self.0.map(<Srgb as IntoLinear<f64, f64>>::into_linear))
     }
 
-    /// Whether the display can show this colour (to a millionth).
+    /// Whether the display can show the colour (to a millionth).
     #[must_use]
     pub fn in_gamut(self) -> bool {
         self.0.iter().all(|v| (-1e-6..=1.0 + 1e-6).contains(v))
     }
 
-    /// The nearest displayable values in 8 bits, each channel cut off at the
-    /// gamut's faces.
+    /// The colour in 8 bits, each channel clipped to the gamut.
     #[must_use]
     pub fn to_bytes(self) -> [u8; 3] {
         self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
     }
 
-    /// The encoded RGB of `#rrggbb` or `#rgb`, the mark left out if one likes;
-    /// `None` for any other text.
+    /// Parses encoded RGB from `#rrggbb` or `#rgb`; the `#` may be missing. `None` for any
+    /// other text.
     #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let digits = text.strip_prefix('#').unwrap_or(text);
@@ -118,7 +117,7 @@ impl Rgb {
         Some(Self(bytes.map(|byte| f64::from(byte) / 255.0)))
     }
 
-    /// `#rrggbb`, from [`Rgb::to_bytes`].
+    /// The colour as `#rrggbb`, clipped to the gamut.
     #[must_use]
     pub fn to_hex(self) -> String {
         let [r, g, b] = self.to_bytes();
@@ -131,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hexadecimal_is_read_as_it_is_written() {
+    fn hex_codes_are_read_back_as_written() {
         for text in ["#000000", "#2a5caa", "#ffffff"] {
             assert_eq!(Rgb::from_hex(text).unwrap().to_hex(), text);
         }
@@ -142,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn rgb_to_xyz_and_back_is_the_same() {
+    fn conversion_to_xyz_and_back_is_the_identity() {
         let white = Xyz { x: 109.85, y: 100.0, z: 35.58 };
         for rgb in [[0.0, 0.0, 0.0], [1.0, 0.2, 0.01], [0.5, 0.5, 0.9]] {
             let xyz = RgbSpace::Srgb.xyz_from_encoded(Rgb(rgb), white, Adaptation::Bradford);

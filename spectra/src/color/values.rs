@@ -1,4 +1,4 @@
-//! A colour in the usual three spaces at once.
+//! One colour in three colour spaces.
 
 use super::adaptation::Adaptation;
 use super::lab::Lab;

@@ -1,36 +1,35 @@
 //! Tristimulus values and chromaticity.
 
-/// CIE tristimulus values, Y = 100 for the white.
+/// Tristimulus values of the CIE, scaled so that the white has Y = 100.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Xyz {
-    /// X.
+    /// Tristimulus value X, 0 and up.
     pub x: f64,
-    /// Y, the luminance factor in percent.
+    /// Tristimulus value Y: the luminance factor in percent.
     pub y: f64,
-    /// Z.
+    /// Tristimulus value Z, 0 and up.
     pub z: f64,
 }
 
-/// Chromaticity x, y with the luminance factor Y.
+/// Chromaticity x, y and luminance factor Y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Xyy {
-    /// Chromaticity x, 0..1 for real colours.
+    /// Chromaticity x, 0 to 1 for real colours.
     pub x: f64,
-    /// Chromaticity y, 0..1 for real colours.
+    /// Chromaticity y, 0 to 1 for real colours.
     pub y: f64,
-    /// Luminance factor, 100 for the white.
+    /// Luminance factor in percent, 100 for the white.
     pub luminance: f64,
 }
 
 impl Xyz {
-    /// The three values in order.
+    /// X, Y and Z in this order.
     #[must_use]
     pub fn to_array(self) -> [f64; 3] {
         [self.x, self.y, self.z]
     }
 
-    /// Chromaticity and luminance. Black, which has no chromaticity of its own,
-    /// takes that of `white`.
+    /// Chromaticity and luminance. Black gets the chromaticity of `white`.
     #[must_use]
     pub fn to_xyy(self, white: Self) -> Xyy {
         let total = self.x + self.y + self.z;
@@ -47,7 +46,7 @@ impl From<[f64; 3]> for Xyz {
 }
 
 impl From<Xyy> for Xyz {
-    /// A chromaticity with y = 0 has no finite X and Z; it gives black.
+    /// Converts to XYZ. A chromaticity with y = 0 has no finite X and Z and gives black.
     fn from(xyy: Xyy) -> Self {
         if xyy.y == 0.0 {
             return Self::default();

@@ -1,10 +1,11 @@
-//! Avantes AvaSoft text (.ttt, .trt, .txt): a few lines about the measurement, a line of
-//! headings that starts with `Wave`, a line of units that starts with `[nm]`, then rows.
+//! Avantes AvaSoft text (.ttt, .trt, .txt): a few lines on the measurement, a line of headings
+//! that starts with `Wave`, a line of units that starts with `[nm]`, then rows of numbers.
 //!
-//! Beside a processed column may stand the counts of sample, dark and reference.
+//! Next to the processed column there may be columns with the counts of sample, dark and
+//! reference.
 
 use super::axis::Axis;
-use super::columns::{Named, table};
+use super::columns::{ColumnLabel, table};
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Unit, stem};
 use super::text::lines;
@@ -27,8 +28,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     };
     let (headings, units) = (cells(headings), cells(units));
     if headings.len() != first.len() || units.len() != first.len() {
-        let (what, text) = ("a value for every heading", lines[row - 1].1);
-        return Err(InstrumentError::line(file, *row, what, text));
+        let (expected, text) = ("a value for every heading", lines[row - 1].1);
+        return Err(InstrumentError::line(file, *row, expected, text));
     }
     let counts = ["sample", "dark", "reference", "scope"];
     let is_counts = |heading: &String| counts.contains(&heading.to_lowercase().as_str());
@@ -41,11 +42,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         MeasuredQuantity::of_words(&format!("{} {}", headings[column], units[column]))
     };
     let unit = if units[column].contains('%') { Unit::Percent } else { Unit::Unstated };
-    let named = Named { name: stem(file), quantity, unit };
-    let mut record = table.record(file, column, Axis::Nanometres, named)?;
-    let said = lines[..*at].iter().filter_map(|(_, line)| line.split_once(':'));
+    let label = ColumnLabel { name: stem(file), quantity, unit };
+    let mut record = table.spectrum(file, column, Axis::Nanometres, label)?;
+    let comments = lines[..*at].iter().filter_map(|(_, line)| line.split_once(':'));
     let plain = |text: &str| text.trim_matches(|c: char| c.is_whitespace() || c == '\0').to_owned();
-    record.details = said.map(|(key, value)| (plain(key), plain(value))).collect();
+    record.details = comments.map(|(key, value)| (plain(key), plain(value))).collect();
     Ok(vec![record])
 }
 
@@ -66,7 +67,7 @@ mod tests {
         let found = &read("x.txt", text).unwrap()[0];
         assert_eq!((found.line, &found.values), (4, &vec![47.4, 52.6]));
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Percent));
-        // The counts may stand behind it.
+        // Columns of counts may follow the processed one.
         let behind = "Wave;Reflectance;Sample;Dark\n[nm];[%];[counts];[counts]\n\
             400;47;10;1\n401;52;11;1\n";
         assert_eq!(read("x.txt", behind).unwrap()[0].values, [47.0, 52.0]);

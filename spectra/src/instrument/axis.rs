@@ -1,16 +1,18 @@
-//! What an abscissa counts.
+//! The unit of a spectrum's abscissa.
 
 /// The unit of an abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
+    /// Wavelength in nm.
     Nanometres,
+    /// Wavelength in micrometres.
     Micrometres,
-    /// Waves in a centimetre.
+    /// Waves per centimetre.
     Wavenumbers,
 }
 
 impl Axis {
-    /// The unit that `words` name, if they do.
+    /// The unit named in `words`, such as a column heading; `None` if there is none.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
         let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
@@ -25,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// The wavelength in nm at `x`; not finite where there is none.
+    /// Wavelength in nm at the abscissa `x`; not finite for a wavenumber of 0.
     pub(super) fn nm(self, x: f64) -> f64 {
         match self {
             Self::Nanometres => x,

@@ -1,11 +1,12 @@
-//! Bruker OPUS data point tables (.dpt): two columns, and nothing said of them.
+//! Bruker OPUS data point tables (.dpt): two or more columns of numbers without a heading.
 
 use super::axis::Axis;
-use super::columns::{Named, table};
+use super::columns::{ColumnLabel, table};
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Unit, stem};
 
-/// No instrument for colour reads wavelengths beyond this; wavenumbers of light do.
+/// An abscissa above this must be a wavenumber: no colour instrument measures longer
+/// wavelengths.
 const LONGEST_NM: f64 = 3300.0;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -14,14 +15,15 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let wide = table.rows.iter().any(|(_, row)| row[0] > LONGEST_NM);
     let axis = if wide { Axis::Wavenumbers } else { Axis::Nanometres };
     let unit = if wide { "as wavenumbers in 1/cm" } else { "as wavelengths in nm" };
-    let what = format!("the file does not say what its first column counts; read {unit}");
+    let remark = format!("the file does not state the unit of its first column; read {unit}");
     let width = first.len();
     (1..width)
         .map(|column| {
             let name = if width > 2 { format!("{} {column}", stem(file)) } else { stem(file) };
             let (quantity, unit) = (MeasuredQuantity::Unstated, Unit::Unstated);
-            let mut record = table.record(file, column, axis, Named { name, quantity, unit })?;
-            record.remarks.insert(0, what.clone());
+            let mut record =
+                table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })?;
+            record.remarks.insert(0, remark.clone());
             Ok(record)
         })
         .collect()

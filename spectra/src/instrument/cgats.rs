@@ -1,9 +1,9 @@
-//! CGATS.17 and its kin: Argyll .ti3, .sp and .cie, and the text of GretagMacbeth and X-Rite
-//! (Spectrolino, ProfileMaker, i1Profiler), whose first line is another.
+//! CGATS.17 and related formats: Argyll .ti3, .sp and .cie, and the text files of GretagMacbeth
+//! and X-Rite (Spectrolino, ProfileMaker, i1Profiler), which start with another line.
 //!
-//! A file is one table or several, each of keywords, the names of its fields between
+//! A file has one or more tables. Each consists of keywords, the names of its fields between
 //! `BEGIN_DATA_FORMAT` and `END_DATA_FORMAT`, and its rows between `BEGIN_DATA` and `END_DATA`.
-//! Tables without spectra are passed over.
+//! Tables without spectra are skipped.
 
 use super::cgats_fields::Fields;
 use super::cgats_words::{Cell, words};
@@ -25,7 +25,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         let Some(first) = cells.first() else { continue };
         match (part, first.as_str()) {
             (Part::Keywords, "BEGIN_DATA_FORMAT") => {
-                // A second table may say no keywords of its own.
+                // A second table need not repeat the keywords.
                 table.names.clear();
                 part = Part::Names;
             }
@@ -50,8 +50,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     match part {
         Part::Keywords => Ok(records),
         Part::Names | Part::Rows => {
-            let what = if part == Part::Names { "END_DATA_FORMAT" } else { "END_DATA" };
-            Err(InstrumentError::line(file, last.0, what, last.1))
+            let expected = if part == Part::Names { "END_DATA_FORMAT" } else { "END_DATA" };
+            Err(InstrumentError::line(file, last.0, expected, last.1))
         }
     }
 }
@@ -63,7 +63,7 @@ enum Part {
     Rows,
 }
 
-/// Names of fields; parted by tabs where there are any.
+/// The names of fields in a line, separated by tabs if it contains any, otherwise by blanks.
 fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
     if line.contains('\t') {
         let cells = line.trim().split('\t').map(|cell| cell.trim().trim_matches('"'));
@@ -76,12 +76,12 @@ fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
 /// The table that is being read.
 #[derive(Default)]
 struct Table {
-    /// Line, keyword and value.
+    /// Line, keyword and value of each keyword so far.
     keywords: Vec<(usize, String, String)>,
     names: Vec<Cell>,
     fields: Option<Fields>,
     rows: Vec<Vec<Cell>>,
-    /// A row that goes on in the next line.
+    /// Cells of a row that continues in the next line.
     open: Vec<Cell>,
 }
 
@@ -94,7 +94,7 @@ impl Table {
         words: Vec<String>,
     ) -> Result<(), InstrumentError> {
         let width = self.names.len();
-        // Names with spaces stand without quotes where tabs part the cells.
+        // Where tabs separate the cells, names may contain spaces without quotes.
         let tabs: Vec<&str> = line.trim_end().split('\t').collect();
         if self.open.is_empty() && tabs.len() == width && width > 1 {
             let plain = |cell: &str| (number, cell.trim().trim_matches('"').to_owned());
@@ -103,8 +103,8 @@ impl Table {
         }
         self.open.extend(words.into_iter().map(|word| (number, word)));
         if self.open.len() > width {
-            let what = "as many cells as BEGIN_DATA_FORMAT names";
-            return Err(InstrumentError::line(file, number, what, line));
+            let expected = "as many cells as BEGIN_DATA_FORMAT names";
+            return Err(InstrumentError::line(file, number, expected, line));
         }
         if self.open.len() == width {
             self.rows.push(std::mem::take(&mut self.open));
@@ -112,20 +112,20 @@ impl Table {
         Ok(())
     }
 
-    /// The spectra of the table, which ends in line `end`; what follows is another.
+    /// Returns the spectra of the table, which ends in line `end`, and resets it for the next.
     fn take(&mut self, file: &str, end: usize) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
         let table = std::mem::take(self);
         if let Some((line, cell)) = table.open.first() {
-            let what = "as many cells as BEGIN_DATA_FORMAT names";
-            return Err(InstrumentError::line(file, *line, what, cell));
+            let expected = "as many cells as BEGIN_DATA_FORMAT names";
+            return Err(InstrumentError::line(file, *line, expected, cell));
         }
-        let announced = table.keyword("NUMBER_OF_SETS").and_then(|sets| sets.parse().ok());
+        let stated_count = table.keyword("NUMBER_OF_SETS").and_then(|sets| sets.parse().ok());
         let found = table.rows.len();
-        if let Some(wanted) = announced.filter(|sets| *sets != found) {
+        if let Some(expected) = stated_count.filter(|sets| *sets != found) {
             let (file, what) = (file.to_owned(), "rows (NUMBER_OF_SETS)");
-            return Err(InstrumentError::Count { file, line: end, what, wanted, found });
+            return Err(InstrumentError::Count { file, line: end, what, expected, found });
         }
-        let Some(fields) = table.fields.as_ref().filter(|fields| fields.hold_spectra()) else {
+        let Some(fields) = table.fields.as_ref().filter(|fields| fields.has_spectra()) else {
             return Ok(Vec::new());
         };
         let quantity = table.quantity();
@@ -155,17 +155,17 @@ impl Table {
         records.collect()
     }
 
-    fn keyword(&self, wanted: &str) -> Option<&str> {
-        let found = self.keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(wanted));
+    fn keyword(&self, name: &str) -> Option<&str> {
+        let found = self.keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(name));
         found.map(|(_, _, value)| value.as_str())
     }
 
-    /// What the keywords say was measured.
+    /// The measured quantity according to the keywords.
     fn quantity(&self) -> MeasuredQuantity {
         use MeasuredQuantity::{Power, Reflectance, Transmittance, Unstated};
         let words = ["QUANTITY", "MEAS_TYPE", "MEASUREMENT_TYPE"];
-        for said in words.iter().filter_map(|key| self.keyword(key)) {
-            let upper = said.to_ascii_uppercase();
+        for value in words.iter().filter_map(|key| self.keyword(key)) {
+            let upper = value.to_ascii_uppercase();
             if ["EMISSION", "AMBIENT", "AMBIENT_FLASH", "EMISSION_FLASH"].contains(&upper.as_str())
             {
                 return Power;
@@ -174,7 +174,7 @@ impl Table {
             } else if upper.starts_with("TRANSMI") {
                 return Transmittance;
             }
-            let quantity = MeasuredQuantity::of_words(said);
+            let quantity = MeasuredQuantity::of_words(value);
             if quantity != Unstated {
                 return quantity;
             }
@@ -198,7 +198,7 @@ mod tests {
         2 white 0.8 0.9\nEND_DATA\n";
 
     #[test]
-    fn words_quotes_remarks_and_rows_of_two_lines() {
+    fn quoted_words_comments_and_rows_of_two_lines_are_read() {
         let found = read("f", FILE).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].name.as_str(), found[0].line), ("dark \"skin\"", 11));
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn the_measured_quantity_is_what_the_keywords_say() {
+    fn keywords_give_the_measured_quantity() {
         for (keyword, quantity) in [
             ("QUANTITY \"reflectance\"", MeasuredQuantity::Reflectance),
             ("MEAS_TYPE \"EMISSION\"", MeasuredQuantity::Power),
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn argylls_rounded_wavelengths_are_made_exact() {
+    fn wavelengths_rounded_by_argyll_are_restored() {
         let text = |end: &str| {
             format!(
                 "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\

@@ -1,26 +1,26 @@
-//! The fields of a CGATS table: which hold a spectrum, and which the sample's name.
+//! The fields of a CGATS table: the columns of the spectrum and of the sample's name.
 
 use super::cgats_words::Cell;
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, Unit};
-use super::number::{Decimal, number, wanted};
+use super::number::{Decimal, number, required_number};
 use super::points::{Duplicates, Ordered, Point, ordered};
 
-/// Where a value's wavelength stands.
+/// Where the wavelength of a value is given.
 #[derive(Clone, Copy, PartialEq)]
-enum Wavelength {
-    /// In the field's name.
+enum WavelengthSource {
+    /// In the name of the value's field, in nm.
     Nm(f64),
-    /// In the field before it.
-    Beside,
+    /// In the field before the value's.
+    FieldBefore,
 }
 
-/// The fields of a table.
+/// The fields of a table, by column.
 pub(super) struct Fields {
-    /// Column of each value.
-    values: Vec<(usize, Wavelength)>,
+    /// Column of each spectral value, with the source of its wavelength.
+    values: Vec<(usize, WavelengthSource)>,
     unit: Unit,
-    /// What a perfect white reads, where the file says so.
+    /// Value of a perfect white (keyword SPECTRAL_NORM), if the file states it.
     norm: Option<f64>,
     name: Option<usize>,
     id: Option<usize>,
@@ -28,28 +28,30 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// The fields called `names`, each with its line; `keywords` are line, keyword and value.
+    /// Finds the fields by their `names`, each with its line. `keywords` are triples of line,
+    /// keyword and value.
     pub(super) fn of(
         file: &str,
         names: &[Cell],
         keywords: &[(usize, String, String)],
     ) -> Result<Self, InstrumentError> {
         let upper: Vec<String> = names.iter().map(|(_, name)| name.to_ascii_uppercase()).collect();
-        let mut values: Vec<(usize, Wavelength)> = Vec::new();
+        let mut values: Vec<(usize, WavelengthSource)> = Vec::new();
         let mut unit = Unit::Unstated;
         for (column, name) in upper.iter().enumerate() {
             let beside = column > 0 && upper[column - 1] == "SPECTRAL_NM";
             match wavelength(name) {
                 Some(nm) => {
-                    let same = |other: &&(usize, Wavelength)| other.1 == Wavelength::Nm(nm);
+                    let same =
+                        |other: &&(usize, WavelengthSource)| other.1 == WavelengthSource::Nm(nm);
                     if let Some((first, _)) = values.iter().find(same) {
                         let (line, first) = (names[column].0, names[*first].0);
                         let file = file.to_owned();
                         return Err(InstrumentError::Duplicate { file, line, nm, first });
                     }
-                    values.push((column, Wavelength::Nm(nm)));
+                    values.push((column, WavelengthSource::Nm(nm)));
                 }
-                None if beside => values.push((column, Wavelength::Beside)),
+                None if beside => values.push((column, WavelengthSource::FieldBefore)),
                 None => continue,
             }
             if name.starts_with("SPECTRAL_PCT") {
@@ -58,67 +60,69 @@ impl Fields {
                 unit = Unit::Fraction;
             }
         }
-        let found = |wanted: &[&str]| upper.iter().position(|name| wanted.contains(&name.as_str()));
-        let said = |wanted: &str| {
-            let keyword = keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(wanted))?;
+        let found = |names: &[&str]| upper.iter().position(|name| names.contains(&name.as_str()));
+        let keyword_number = |name: &str| {
+            let keyword = keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(name))?;
             number(&keyword.2, Decimal::Point)
         };
         let mut fields = Self {
             values,
             unit,
-            norm: said("SPECTRAL_NORM").filter(|norm| *norm > 0.0),
+            norm: keyword_number("SPECTRAL_NORM").filter(|norm| *norm > 0.0),
             name: found(&["SAMPLE_NAME", "SAMPLENAME"]),
             id: found(&["SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC"]),
             remarks: Vec::new(),
         };
-        if let (Some(bands), Some(start), Some(end)) =
-            (said("SPECTRAL_BANDS"), said("SPECTRAL_START_NM"), said("SPECTRAL_END_NM"))
-        {
-            fields.unround(bands, start, end);
+        if let (Some(bands), Some(start), Some(end)) = (
+            keyword_number("SPECTRAL_BANDS"),
+            keyword_number("SPECTRAL_START_NM"),
+            keyword_number("SPECTRAL_END_NM"),
+        ) {
+            fields.restore_exact_wavelengths(bands, start, end);
         }
         Ok(fields)
     }
 
-    /// Argyll rounds wavelengths in the names of fields to whole nm; the exact ones follow
-    /// from the keywords, where these agree with the names.
-    fn unround(&mut self, bands: f64, start: f64, end: f64) {
+    /// Argyll rounds the wavelengths in field names to whole nm. Restores the exact ones from
+    /// the keywords if these agree with the names.
+    fn restore_exact_wavelengths(&mut self, bands: f64, start: f64, end: f64) {
         let last = (self.values.len().max(2) - 1) as f64;
         let exact = |index: usize| start + (end - start) * index as f64 / last;
-        let agrees = |(index, value): (usize, &(usize, Wavelength))| matches!(value.1, Wavelength::Nm(nm) if (nm - exact(index)).abs() <= 0.51);
+        let agrees = |(index, value): (usize, &(usize, WavelengthSource))| matches!(value.1, WavelengthSource::Nm(nm) if (nm - exact(index)).abs() <= 0.51);
         if self.values.is_empty() {
         } else if bands == self.values.len() as f64 && self.values.iter().enumerate().all(agrees) {
             for (index, value) in self.values.iter_mut().enumerate() {
-                value.1 = Wavelength::Nm(exact(index));
+                value.1 = WavelengthSource::Nm(exact(index));
             }
         } else {
             let what = format!(
-                "the keywords tell {bands} wavelengths from {start} to {end} nm, the names of the fields others; the names hold"
+                "the keywords state {bands} wavelengths from {start} to {end} nm, the names of the fields differ; the names are used"
             );
             self.remarks.push(what);
         }
     }
 
-    pub(super) fn hold_spectra(&self) -> bool {
+    pub(super) fn has_spectra(&self) -> bool {
         !self.values.is_empty()
     }
 
-    /// The name of each row: SAMPLE_NAME unless it tells nothing apart, else SAMPLE_ID, else
-    /// `stem` with a number.
+    /// The name of each row: SAMPLE_NAME if it differs between rows, otherwise SAMPLE_ID,
+    /// otherwise `stem` with a number.
     pub(super) fn names(&self, rows: &[Vec<Cell>], stem: &str) -> Vec<String> {
         let column = |column: usize| rows.iter().map(move |row| row[column].1.as_str());
-        let tells = |&index: &usize| {
+        let distinguishes = |&index: &usize| {
             let all_named = column(index).all(|name| !name.is_empty());
             let differs = rows.len() < 2 || column(index).any(|name| name != rows[0][index].1);
             all_named && differs
         };
-        match self.name.filter(tells).or(self.id.filter(tells)) {
+        match self.name.filter(distinguishes).or(self.id.filter(distinguishes)) {
             Some(index) => column(index).map(str::to_owned).collect(),
             None if rows.len() == 1 => vec![stem.to_owned()],
             None => (1..=rows.len()).map(|row| format!("{stem} {row}")).collect(),
         }
     }
 
-    /// The spectrum of one row.
+    /// Reads the spectrum of one row, with its unit.
     pub(super) fn spectrum(
         &self,
         file: &str,
@@ -137,11 +141,11 @@ impl Fields {
         let mut points = Vec::with_capacity(self.values.len());
         for &(column, place) in &self.values {
             let (line, text) = &row[column];
-            let value = factor * wanted(file, *line, "a value", text, decimal)?;
+            let value = factor * required_number(file, *line, "a value", text, decimal)?;
             let nm = match place {
-                Wavelength::Nm(nm) => nm,
-                Wavelength::Beside => {
-                    wanted(file, *line, "a wavelength", &row[column - 1].1, decimal)?
+                WavelengthSource::Nm(nm) => nm,
+                WavelengthSource::FieldBefore => {
+                    required_number(file, *line, "a wavelength", &row[column - 1].1, decimal)?
                 }
             };
             if !value.is_finite() {
@@ -159,8 +163,8 @@ impl Fields {
     }
 }
 
-/// The wavelength in the name of a field: `SPECTRAL_NM_400`, `SPECTRAL_NM400`, `SPEC_400`,
-/// `SPECTRAL_PCT_400`, `nm400`, `400nm`, `R400`, `400`.
+/// The wavelength in nm in the name of a field: `SPECTRAL_NM_400`, `SPECTRAL_NM400`,
+/// `SPEC_400`, `SPECTRAL_PCT_400`, `nm400`, `400nm`, `R400`, `400`.
 fn wavelength(upper: &str) -> Option<f64> {
     let bare = ["SPECTRAL_NM", "SPECTRAL_PCT", "SPECTRAL_DEC", "SPECTRAL", "SPEC", "NM", "R"]
         .iter()

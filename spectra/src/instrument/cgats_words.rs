@@ -1,9 +1,10 @@
-//! The words of a line of CGATS: parted by blanks, in quotes where they hold some.
+//! Splitting a line of CGATS into words.
 
 /// Line number (from 1) and text of a cell.
 pub(super) type Cell = (usize, String);
 
-/// The words of a line, without their quotes, up to its remark, which starts with `#`.
+/// The words of a line, separated by blanks. Quotes around a word are removed, `""` inside
+/// quotes stands for a quote, and a comment from `#` on is dropped.
 pub(super) fn words(line: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut characters = line.chars().peekable();

@@ -1,15 +1,15 @@
-//! One spectrum of a file, as a user names it.
+//! Selecting one spectrum of a file by name.
 
 use std::path::Path;
 
 use super::measured::{MeasuredSpectrum, Role};
 use crate::hint::{Explain, Hint};
 
-/// How many names an error lists.
+/// Maximum number of names listed in an error.
 const LISTED: usize = 8;
 
-/// File and spectrum of `FILE` or `FILE#NAME`. A whole text that is a file wins over the part
-/// before a `#`.
+/// Splits `FILE#NAME` into file and name; the name of a plain `FILE` is `None`. If the whole
+/// text is the path of a file, it is not split.
 #[must_use]
 pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     match text.rsplit_once('#') {
@@ -18,27 +18,28 @@ pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The one of `records`, the spectra of `file`, that is called `name`; without a name the only one
-/// that the file was written for.
+/// Selects the spectrum called `name` from `spectra`, the content of `file`. Without a name,
+/// selects the only main spectrum ([`Role::Main`]), or the only spectrum if there is no main
+/// one.
 ///
 /// # Errors
-/// [`ChoiceError`] if there is none, or more than one.
+/// [`ChoiceError`] if no spectrum or more than one qualifies.
 pub fn choose_spectrum<'a>(
     file: &str,
-    records: &'a [MeasuredSpectrum],
+    spectra: &'a [MeasuredSpectrum],
     name: Option<&str>,
 ) -> Result<&'a MeasuredSpectrum, ChoiceError> {
-    let has_main = records.iter().any(|record| record.role == Role::Main);
-    let wanted = |record: &&MeasuredSpectrum| match name {
-        Some(name) => record.name == name,
-        None => record.role == Role::Main || !has_main,
+    let has_main = spectra.iter().any(|spectrum| spectrum.role == Role::Main);
+    let qualifies = |spectrum: &&MeasuredSpectrum| match name {
+        Some(name) => spectrum.name == name,
+        None => spectrum.role == Role::Main || !has_main,
     };
-    let found: Vec<&MeasuredSpectrum> = records.iter().filter(wanted).collect();
+    let found: Vec<&MeasuredSpectrum> = spectra.iter().filter(qualifies).collect();
     let file = file.to_owned();
     match (found.as_slice(), name) {
         ([one], _) => Ok(one),
         ([], Some(name)) => {
-            Err(ChoiceError::Unknown { file, name: name.to_owned(), names: names(records.iter()) })
+            Err(ChoiceError::Unknown { file, name: name.to_owned(), names: names(spectra.iter()) })
         }
         _ => {
             let names = names(found.iter().copied());
@@ -47,38 +48,38 @@ pub fn choose_spectrum<'a>(
     }
 }
 
-fn names<'a>(records: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String> {
-    records.take(LISTED).map(|record| record.name.clone()).collect()
+fn names<'a>(spectra: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String> {
+    spectra.take(LISTED).map(|spectrum| spectrum.name.clone()).collect()
 }
 
-/// Why no spectrum is the one that is meant.
+/// A selection that does not determine one spectrum.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ChoiceError {
-    /// None is called so.
+    /// No spectrum has the name.
     #[error("{file}: no spectrum is called `{name}`")]
     Unknown {
-        /// The file.
+        /// Path of the file.
         file: String,
         /// The name that was given.
         name: String,
-        /// What there is; the first few.
+        /// Names of the first few spectra of the file.
         names: Vec<String>,
     },
-    /// One of several must be named.
-    #[error("{file}: one spectrum is wanted, found `{count}`")]
+    /// Several spectra qualify and no name was given, or they share the name.
+    #[error("{file}: expected one spectrum, found `{count}`")]
     Several {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// How many there are.
+        /// Number of spectra that qualify.
         count: usize,
-        /// Their names; the first few.
+        /// Names of the first few of them.
         names: Vec<String>,
     },
 }
 
 impl Explain for ChoiceError {
     fn hint(&self) -> Option<Hint> {
-        // Names from a file may hold brackets of their own.
+        // Names from a file may contain brackets.
         Some(Hint::verbatim(match self {
             Self::Unknown { names, .. } => format!("spectra: {}", names.join(", ")),
             Self::Several { file, names, .. } => {

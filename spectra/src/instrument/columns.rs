@@ -1,7 +1,7 @@
-//! Columns of numbers: a wavelength, then one or more values, under headings or none.
+//! Columns of numbers: a wavelength and one or more values, with or without headings.
 //!
-//! Cells are parted by semicolon, tab, spaces or comma; a decimal comma is read where a comma
-//! does not part cells. Lines that start with `#` are passed over.
+//! Cells are separated by semicolon, tab, spaces or comma. A decimal comma is read where commas
+//! do not separate cells. Lines that start with `#` are comments.
 
 use super::axis::Axis;
 use super::error::InstrumentError;
@@ -10,8 +10,9 @@ use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
 use super::text::lines;
 
-/// Whether `text` is such columns: most lines are numbers, the first of each a wavelength.
-pub(super) fn are_in(text: &str) -> bool {
+/// Whether `text` consists of such columns: most lines are numbers, and the first number of
+/// each is a wavelength.
+pub(super) fn is_column_text(text: &str) -> bool {
     let Some(layout) = Layout::of(content(text).map(|(_, line)| line)) else { return false };
     let (mut rows, mut others) = (0_usize, 0_usize);
     for (number, line) in content(text) {
@@ -35,10 +36,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let headings = table.headings(width);
     let commas = table.layout.is_some_and(|layout| layout.separator == Some(','));
     if headings.is_empty() && width > 2 && commas {
-        // `400,0,5` may be a decimal comma.
-        let what = "a wavelength and one value, or a heading for every column,";
+        // `400,0,5` may contain a decimal comma.
+        let expected = "a wavelength and one value, or a heading for every column";
         let line = lines(text).nth(first.0 - 1).map_or("", |(_, line)| line);
-        return Err(InstrumentError::line(file, first.0, what, line));
+        return Err(InstrumentError::line(file, first.0, expected, line));
     }
     let words: String = table.above.join(" ");
     let axis = headings.first().and_then(|heading| Axis::of_words(heading));
@@ -64,12 +65,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             } else {
                 Unit::Unstated
             };
-            table.record(file, column, axis, Named { name, quantity, unit })
+            table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })
         })
         .collect()
 }
 
-/// Whether a heading names a sample rather than what is measured.
+/// Whether a heading names a sample rather than a quantity.
 fn is_name(heading: &str) -> bool {
     let lower = heading.to_ascii_lowercase();
     let generic = ["", "r", "%r", "y", "v", "value", "values", "intensity", "spd", "spectrum"];
@@ -77,8 +78,8 @@ fn is_name(heading: &str) -> bool {
         && MeasuredQuantity::of_words(heading) == MeasuredQuantity::Unstated
 }
 
-/// What a column is called.
-pub(super) struct Named {
+/// Name, quantity and unit of a column.
+pub(super) struct ColumnLabel {
     pub(super) name: String,
     pub(super) quantity: MeasuredQuantity,
     pub(super) unit: Unit,
@@ -87,27 +88,27 @@ pub(super) struct Named {
 /// Rows of numbers, and the lines above them.
 pub(super) struct NumberTable<'a> {
     pub(super) above: Vec<&'a str>,
-    /// `None` without rows.
+    /// `None` if there are no rows.
     layout: Option<Layout>,
-    /// Each with its line, all of one width, 2 or more.
+    /// Rows with their line numbers; all have the same number of cells, at least 2.
     pub(super) rows: Vec<(usize, Vec<f64>)>,
 }
 
 impl NumberTable<'_> {
-    /// The headings, if a line above has one for every column.
+    /// The headings, from the last line above the rows that has one for every column.
     fn headings(&self, width: usize) -> Vec<&str> {
         let Some(layout) = self.layout else { return Vec::new() };
         let cells = self.above.iter().rev().map(|line| layout.cells(line));
         cells.into_iter().find(|cells| cells.len() == width).unwrap_or_default()
     }
 
-    /// The spectrum of one column.
-    pub(super) fn record(
+    /// The spectrum in `column`.
+    pub(super) fn spectrum(
         &self,
         file: &str,
         column: usize,
         axis: Axis,
-        named: Named,
+        label: ColumnLabel,
     ) -> Result<MeasuredSpectrum, InstrumentError> {
         let points = self.rows.iter().map(|(line, row)| Point {
             line: *line,
@@ -116,10 +117,10 @@ impl NumberTable<'_> {
         });
         let ordered = ordered(file, points.collect(), Duplicates::Average)?;
         Ok(MeasuredSpectrum {
-            name: named.name,
-            quantity: named.quantity,
+            name: label.name,
+            quantity: label.quantity,
             role: Role::Main,
-            unit: named.unit,
+            unit: label.unit,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: self.rows.first().map_or(1, |(line, _)| *line),
@@ -129,7 +130,7 @@ impl NumberTable<'_> {
     }
 }
 
-/// The rows of numbers of a text. After the first row every line must be one.
+/// Reads the rows of numbers in a text. All lines after the first row must be rows.
 pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, InstrumentError> {
     let layout = Layout::of(content(text).map(|(_, line)| line));
     let mut table = NumberTable { above: Vec::new(), layout, rows: Vec::new() };
@@ -145,7 +146,7 @@ pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, In
     Ok(table)
 }
 
-/// Lines that are neither empty nor remarks.
+/// Numbered lines that are neither empty nor comments.
 fn content(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
     let trimmed = lines(text).map(|(number, line)| (number, line.trim_matches([' ', '\0'])));
     let lines: Vec<_> =
@@ -197,9 +198,9 @@ mod tests {
 
     #[test]
     fn tables_of_other_things_are_not_columns() {
-        assert!(are_in("nm value\n400 0.1\n410 0.2\n"));
-        assert!(!are_in("name,400,410\nA,0.1,0.2\nB,0.1,0.2\n"));
-        assert!(!are_in("0.1,0.2\n0.3,0.4\n"));
-        assert!(!are_in("hello\n"));
+        assert!(is_column_text("nm value\n400 0.1\n410 0.2\n"));
+        assert!(!is_column_text("name,400,410\nA,0.1,0.2\nB,0.1,0.2\n"));
+        assert!(!is_column_text("0.1,0.2\n0.3,0.4\n"));
+        assert!(!is_column_text("hello\n"));
     }
 }

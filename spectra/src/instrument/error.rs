@@ -2,109 +2,110 @@
 
 use crate::hint::{Explain, Hint};
 
-/// Why an instrument's file cannot be used. Every variant names the file, and
-/// the line where there is one.
+/// An instrument's file that cannot be read. Every variant names the file, and the line where
+/// possible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum InstrumentError {
-    /// No format of [`super::Format`].
+    /// The content matches none of the formats in `Format`.
     #[error("{file}: no known format of an instrument")]
     Unrecognised {
-        /// The file.
+        /// Path of the file.
         file: String,
     },
-    /// The file holds no spectrum.
+    /// The file contains no spectrum.
     #[error("{file}: no spectrum in this {format} file")]
     Empty {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// What it was read as.
+        /// Name of the format as which it was read.
         format: &'static str,
     },
-    /// A line is not what the format wants there.
-    #[error("{file}, line {line}: {wanted} is wanted, found `{text}`")]
+    /// A line does not follow the format.
+    #[error("{file}, line {line}: expected {expected}, found `{text}`")]
     Line {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What should stand there.
-        wanted: &'static str,
-        /// What stands there, cut short.
+        /// Description of the expected content.
+        expected: &'static str,
+        /// The content of the line or cell, shortened to 60 characters.
         text: String,
     },
-    /// A wavelength stands twice in one spectrum.
-    #[error("{file}, line {line}: the wavelength {nm} nm stands twice, first in line {first}")]
+    /// A wavelength occurs twice in one spectrum.
+    #[error("{file}, line {line}: the wavelength {nm} nm occurs twice, first in line {first}")]
     Duplicate {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 1.
+        /// Line number of the second occurrence, from 1.
         line: usize,
-        /// The wavelength.
+        /// The wavelength in nm.
         nm: f64,
-        /// The line where it stands first.
+        /// Line number of the first occurrence.
         first: usize,
     },
-    /// A wavelength stands more than once, with values too far apart for a mean.
+    /// A wavelength occurs more than once, with values too different to be averaged.
     #[error(
-        "{file}, line {line}: {nm} nm stands more than once, with unlike values from {least} to `{most}`"
+        "{file}, line {line}: {nm} nm occurs more than once, with different values from {least} to `{most}`"
     )]
     Unlike {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Where it stands last, counted from 1.
+        /// Line number of the last occurrence, from 1.
         line: usize,
-        /// The wavelength.
+        /// The wavelength in nm.
         nm: f64,
-        /// The smallest value there.
+        /// Smallest value at the wavelength.
         least: f64,
-        /// The largest value there.
+        /// Largest value at the wavelength.
         most: f64,
     },
-    /// Wavelengths go up and down.
+    /// The wavelengths neither rise nor fall throughout.
     #[error("{file}, line {line}: wavelengths must rise or fall throughout, found `{nm}` nm")]
     Order {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 1.
+        /// Line number of the first wavelength against the direction, from 1.
         line: usize,
-        /// The wavelength.
+        /// That wavelength in nm.
         nm: f64,
     },
-    /// A spectrum without what gives its wavelengths.
+    /// The wavelengths of a spectrum are not given.
     #[error(
-        "{file}, line {line}: {element} has no {missing}, nor has the specification `{specification}`"
+        "{file}, line {line}: {element} has no {missing}, and neither has the specification `{specification}`"
     )]
     Incomplete {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 1.
+        /// Line number of the spectrum, from 1.
         line: usize,
-        /// The spectrum's element.
+        /// XML element of the spectrum.
         element: String,
-        /// The attribute.
+        /// The missing attribute.
         missing: &'static str,
-        /// The specification that it names.
+        /// The colour specification that the spectrum refers to.
         specification: String,
     },
-    /// More or fewer values than the file announces.
-    #[error("{file}, line {line}: the file announces {wanted} {what}, found `{found}`")]
+    /// The number of values differs from the number stated in the file.
+    #[error("{file}, line {line}: the file states {expected} {what}, found `{found}`")]
     Count {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Where the last one stands, counted from 1.
+        /// Line number of the last value, from 1.
         line: usize,
-        /// What is counted.
+        /// The things that are counted, in the plural.
         what: &'static str,
-        /// How many there should be.
-        wanted: usize,
-        /// How many there are.
+        /// The stated number.
+        expected: usize,
+        /// The number found.
         found: usize,
     },
 }
 
 impl InstrumentError {
-    /// A line that is not what is wanted; its text is cut short and made printable.
-    pub(super) fn line(file: &str, line: usize, wanted: &'static str, text: &str) -> Self {
+    /// An error for a line that does not follow the format. Its text is shortened and made
+    /// printable.
+    pub(super) fn line(file: &str, line: usize, expected: &'static str, text: &str) -> Self {
         const LONGEST: usize = 60;
         let text = text.trim();
         let mut short: String = text.chars().take(LONGEST).collect();
@@ -113,7 +114,7 @@ impl InstrumentError {
         }
         let printable = |c: char| if c.is_control() { ' ' } else { c };
         let text = short.chars().map(printable).collect();
-        Self::Line { file: file.to_owned(), line, wanted, text }
+        Self::Line { file: file.to_owned(), line, expected, text }
     }
 }
 
@@ -127,7 +128,7 @@ impl Explain for InstrumentError {
                 "check that the export holds spectra, or name the format with [format]"
             }
             Self::Duplicate { .. } => "remove one of the two",
-            Self::Unlike { .. } => "remove the wrong one; values nearly alike would be averaged",
+            Self::Unlike { .. } => "remove the wrong one; nearly equal values would be averaged",
             Self::Incomplete { .. } => {
                 "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
             }

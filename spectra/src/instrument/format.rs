@@ -1,35 +1,36 @@
-//! The formats, their names, and how to know a file of each.
+//! The file formats: their names, and detection by content.
 
 use super::columns;
 use super::text::lines;
 
-/// A format of instruments' files.
+/// A file format of measuring instruments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// CGATS.17 and its kin: Argyll .ti3, .sp and .cie, the text of X-Rite and GretagMacbeth.
+    /// CGATS.17 and related formats: Argyll .ti3, .sp and .cie, text files of X-Rite and
+    /// GretagMacbeth.
     Cgats,
     /// Datacolor QTX.
     Qtx,
     /// Ocean Optics: SpectraSuite, OceanView, Jaz.
     OceanOptics,
-    /// JCAMP-DX.
+    /// JCAMP-DX, a labelled text format of spectroscopy.
     Jcamp,
     /// Avantes AvaSoft text.
     Avantes,
     /// Bruker OPUS data point table.
     Bruker,
-    /// Columns of numbers: wavelength, then one or more spectra.
+    /// Columns of numbers: wavelength and one or more spectra.
     Columns,
-    /// CxF3.
+    /// CxF3, the Color Exchange Format (XML).
     Cxf,
-    /// IES TM-27.
+    /// IES TM-27, spectra of lamps (XML).
     Tm27,
     /// Sekonic SpectroMaster CSV.
     Sekonic,
 }
 
 impl Format {
-    /// Every format, in the order in which they are told.
+    /// All formats.
     pub const ALL: [Self; 10] = [
         Self::Cgats,
         Self::Qtx,
@@ -43,7 +44,7 @@ impl Format {
         Self::Sekonic,
     ];
 
-    /// Its name on the command line.
+    /// Short name of the format, as a setting takes it.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -60,7 +61,7 @@ impl Format {
         }
     }
 
-    /// What it is, in words.
+    /// Name of the format for people.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -77,16 +78,16 @@ impl Format {
         }
     }
 
-    /// The format of that name on the command line, in any case.
+    /// The format with the given short name, ignoring case.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
-    /// The format of a file, by its content; OPUS alone writes nothing but numbers, and is known
-    /// by the ending `.dpt`.
+    /// Detects the format of a file from its content. Bruker OPUS files contain only numbers
+    /// and are recognised by the ending `.dpt` of `file`.
     #[must_use]
-    pub fn detected(file: &str, text: &str) -> Option<Self> {
+    pub fn detect(file: &str, text: &str) -> Option<Self> {
         let start = text.trim_start();
         if start.starts_with('<') {
             let head: String = text.chars().take(4000).collect::<String>().to_lowercase();
@@ -119,6 +120,6 @@ impl Format {
         if file.to_ascii_lowercase().ends_with(".dpt") {
             return Some(Self::Bruker);
         }
-        columns::are_in(text).then_some(Self::Columns)
+        columns::is_column_text(text).then_some(Self::Columns)
     }
 }

@@ -1,24 +1,25 @@
-//! JCAMP-DX: labelled records `##LABEL= value`, one spectrum a block, blocks linked or one
-//! after the other.
+//! JCAMP-DX: labelled records `##LABEL= value`, one spectrum per block, blocks linked or in
+//! sequence.
 //!
 //! McDonald and Wilks, "JCAMP-DX: a standard form for exchange of infrared spectra in computer
-//! readable form", Applied Spectroscopy 42 (1988) 151. Read are XYDATA= (X++(Y..Y)), in every
-//! packed form, and XYPOINTS= (XY..XY); NTUPLES are not.
+//! readable form", Applied Spectroscopy 42 (1988) 151. Supported are XYDATA= (X++(Y..Y)) in
+//! every packed form and XYPOINTS= (XY..XY), but not NTUPLES.
 
 use super::axis::Axis;
 use super::error::InstrumentError;
 use super::jcamp_data::{Scaling, points, runs};
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::number::{Decimal, wanted};
+use super::number::{Decimal, required_number};
 use super::points::{Duplicates, ordered};
 use super::text::lines;
 
-/// A processed spectrum that is above this everywhere, in percent, is none.
+/// A processed spectrum with all values above this percentage is in fact counts.
 const MOST_PERCENT: f64 = 200.0;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
     let mut block = Block::default();
+    // Line of the last content, and whether it was ##END=.
     let mut ended = (1, true);
     for (number, line) in lines(text) {
         let line = line.split("$$").next().unwrap_or_default().trim();
@@ -30,10 +31,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             continue;
         };
         let (label, value) = labelled.split_once('=').unwrap_or((labelled, ""));
-        let label = normalised(label);
-        // A link's own labels end where its first block begins.
+        let label = normalize(label);
+        // The labels of a LINK block end where its first inner block begins.
         if label == "TITLE" && !block.fields.is_empty() || label == "END" {
-            records.extend(std::mem::take(&mut block).record(file)?);
+            records.extend(std::mem::take(&mut block).spectrum(file)?);
         }
         ended = (number, label == "END");
         if label != "END" {
@@ -53,19 +54,20 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     Ok(records)
 }
 
-/// A label without what the standard passes over.
-fn normalised(label: &str) -> String {
+/// A label in the form in which the standard compares them: upper case, without spaces and
+/// `-/_`.
+fn normalize(label: &str) -> String {
     let kept = label.chars().filter(|c| !c.is_whitespace() && !"-/_".contains(*c));
     kept.map(|c| c.to_ascii_uppercase()).collect()
 }
 
-/// A labelled record, and the lines of its value.
+/// A label, and the lines of its value.
 struct Field<'a> {
     label: String,
     lines: Vec<(usize, &'a str)>,
 }
 
-/// The fields of a block so far.
+/// The labelled records of a block.
 #[derive(Default)]
 struct Block<'a> {
     fields: Vec<Field<'a>>,
@@ -79,14 +81,14 @@ impl Block<'_> {
 
     fn number(&self, file: &str, label: &str) -> Result<Option<f64>, InstrumentError> {
         let Some((line, text)) = self.field(label) else { return Ok(None) };
-        wanted(file, line, "a number", text, Decimal::Point).map(Some)
+        required_number(file, line, "a number", text, Decimal::Point).map(Some)
     }
 
-    /// The block's spectrum, if it has one.
-    fn record(self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
+    /// The spectrum of the block, if it has one.
+    fn spectrum(self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
         if let Some((line, text)) = self.field("NTUPLES") {
-            let what = "XYDATA or XYPOINTS (this reader knows no NTUPLES)";
-            return Err(InstrumentError::line(file, line, what, text));
+            let expected = "XYDATA or XYPOINTS (NTUPLES are not supported)";
+            return Err(InstrumentError::line(file, line, expected, text));
         }
         let is_data = |field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str());
         let Some(data) = self.fields.iter().find(is_data) else { return Ok(None) };
@@ -110,16 +112,16 @@ impl Block<'_> {
             ("XYDATA", "(X++(Y..Y))") => runs(file, lines, &scaling)?,
             (_, "(XY..XY)") => points(file, lines, &scaling)?,
             _ => {
-                let what = "(X++(Y..Y)) or (XY..XY)";
-                return Err(InstrumentError::line(file, line, what, form));
+                let expected = "(X++(Y..Y)) or (XY..XY)";
+                return Err(InstrumentError::line(file, line, expected, form));
             }
         };
         let found = raw.len();
-        if let Some(wanted) = scaling.count.filter(|count| *count != found as f64) {
+        if let Some(expected) = scaling.count.filter(|count| *count != found as f64) {
             let line = data.lines[data.lines.len() - 1].0;
             let (file, what) = (file.to_owned(), "points (NPOINTS)");
-            let wanted = wanted.max(0.0) as usize;
-            return Err(InstrumentError::Count { file, line, what, wanted, found });
+            let expected = expected.max(0.0) as usize;
+            return Err(InstrumentError::Count { file, line, what, expected, found });
         }
         if raw.is_empty() {
             return Ok(None);
@@ -144,9 +146,9 @@ impl Block<'_> {
         }))
     }
 
-    /// What the block holds, and in what.
+    /// Quantity, role and unit of the block's values.
     fn kind(&self, title: &str, values: &[f64]) -> (MeasuredQuantity, Role, Unit) {
-        // SpectraSuite gives its dark and reference blocks the unit of the processed one.
+        // SpectraSuite gives dark and reference blocks the unit of the processed block.
         let title = title.to_ascii_uppercase();
         for (end, role) in [("DARK SPECTRUM", Role::Dark), ("REFERENCE SPECTRUM", Role::White)] {
             if title.ends_with(end) {
@@ -159,7 +161,7 @@ impl Block<'_> {
         } else {
             Unit::Unstated
         };
-        // It also gives that unit to counts that nothing was made of.
+        // It also gives that unit to unprocessed counts.
         if title.ends_with("PROCESSED SPECTRUM")
             && unit == Unit::Percent
             && values.iter().all(|&value| value > MOST_PERCENT)
@@ -169,7 +171,7 @@ impl Block<'_> {
         (MeasuredQuantity::of_words(units), Role::Main, unit)
     }
 
-    /// What is not needed to read the data.
+    /// The records that are not needed to read the data.
     fn details(&self) -> Vec<(String, String)> {
         let needed = [
             "TITLE", "JCAMPDX", "XUNITS", "YUNITS", "XFACTOR", "YFACTOR", "FIRSTX", "LASTX",

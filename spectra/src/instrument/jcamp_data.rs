@@ -1,18 +1,19 @@
-//! The data of JCAMP-DX: pairs, and rows of ordinates plain or packed.
+//! The data of JCAMP-DX: pairs, and rows of ordinates, plain or packed.
 //!
-//! Packed ordinates (ASDF) begin with a letter that is a first digit with its sign: SQZ for a
-//! value, DIF for a difference from the value before, DUP for how often what stands before is
-//! said. Where a row ends in differences, the next begins with the last value once more, as a
-//! check.
+//! A packed ordinate (ASDF form) begins with a letter that encodes its first digit and sign:
+//! SQZ for a value, DIF for the difference from the previous value, DUP for the number of
+//! repetitions of the previous item. If a row ends with a difference, the next row repeats the
+//! last value as a check.
 
 use super::error::InstrumentError;
-use super::number::{Decimal, number, wanted};
+use super::number::{Decimal, number, required_number};
 use super::points::Point;
 
-/// More points than any spectrometer writes; a repetition must not ask for all memory.
+/// Maximum number of points, more than any spectrometer writes. It bounds the memory that a DUP
+/// count can request.
 const MOST_POINTS: usize = 4_000_000;
 
-/// How the numbers of a block become abscissas and ordinates.
+/// Factors and limits that convert the numbers of a block into abscissas and ordinates.
 pub(super) struct Scaling {
     pub(super) x: f64,
     pub(super) y: f64,
@@ -32,7 +33,8 @@ impl Scaling {
     }
 }
 
-/// `(XY..XY)`: pairs, parted by commas, semicolons or blanks. `nm` of a point is its abscissa.
+/// Reads `(XY..XY)`: pairs separated by commas, semicolons or blanks. `nm` of each point holds
+/// the abscissa, whatever its unit.
 pub(super) fn points(
     file: &str,
     lines: &[(usize, &str)],
@@ -46,21 +48,22 @@ pub(super) fn points(
             return Err(InstrumentError::line(file, line, "pairs of abscissa and ordinate", text));
         }
         for pair in cells.chunks_exact(2) {
-            let x = wanted(file, line, "an abscissa", pair[0], Decimal::Point)?;
-            let y = wanted(file, line, "an ordinate", pair[1], Decimal::Point)?;
+            let x = required_number(file, line, "an abscissa", pair[0], Decimal::Point)?;
+            let y = required_number(file, line, "an ordinate", pair[1], Decimal::Point)?;
             points.push(scaling.point(file, line, x * scaling.x, y)?);
         }
     }
     Ok(points)
 }
 
-/// `(X++(Y..Y))`: rows of one abscissa and evenly spaced ordinates.
+/// Reads `(X++(Y..Y))`: rows of one abscissa and evenly spaced ordinates.
 pub(super) fn runs(
     file: &str,
     lines: &[(usize, &str)],
     scaling: &Scaling,
 ) -> Result<Vec<Point>, InstrumentError> {
-    // Row starts, for the check of abscissas once the step is known.
+    // Line, abscissa and index of each row's first ordinate, to check the abscissas once the
+    // step is known.
     let mut starts: Vec<(usize, f64, usize)> = Vec::new();
     let mut ordinates: Vec<(usize, f64)> = Vec::new();
     let mut check = false;
@@ -82,20 +85,20 @@ pub(super) fn runs(
                 Token::Times(times) => times - 1,
                 Token::Value(_) | Token::Difference(_) => 1,
             };
-            let said = if matches!(token, Token::Times(_)) { before } else { Some(token) };
-            let value = match (said, last) {
+            let repeated = if matches!(token, Token::Times(_)) { before } else { Some(token) };
+            let value = match (repeated, last) {
                 (Some(Token::Value(y)), _) => Some((y, 0.0)),
                 (Some(Token::Difference(d)), Some(last)) => Some((last + d, d)),
                 _ => None,
             };
             let Some((first, step)) = value else {
-                let what = "a value before a difference or a repetition";
-                return Err(InstrumentError::line(file, line, what, text));
+                let expected = "a value before a difference or a repetition";
+                return Err(InstrumentError::line(file, line, expected, text));
             };
             if std::mem::take(&mut checks) {
                 if last.is_some_and(|last| last != first) || times != 1 {
-                    let what = "the last ordinate of the line before, as a check,";
-                    return Err(InstrumentError::line(file, line, what, text));
+                    let expected = "the last ordinate of the previous line as a check";
+                    return Err(InstrumentError::line(file, line, expected, text));
                 }
             } else if ordinates.len() + times > MOST_POINTS {
                 return Err(InstrumentError::line(file, line, "at most 4000000 ordinates", text));
@@ -106,7 +109,7 @@ pub(super) fn runs(
                     value += step;
                 }
             }
-            before = said;
+            before = repeated;
         }
         check = matches!(before, Some(Token::Difference(_)));
     }
@@ -117,13 +120,13 @@ pub(super) fn runs(
         };
     };
     let steps = (ordinates.len() - 1) as f64;
-    // The step of a file cut short is that of the whole.
-    let announced = scaling.count.filter(|count| *count > 1.0).map_or(steps, |count| count - 1.0);
+    // A file that was cut off still states the step of the whole.
+    let intervals = scaling.count.filter(|count| *count > 1.0).map_or(steps, |count| count - 1.0);
     let Some(last_x) = scaling.last_x else {
         return Err(InstrumentError::line(file, line, "##LASTX=", "no such label"));
     };
     let first_x = scaling.first_x.unwrap_or(first_x);
-    let step = (last_x - first_x) / announced;
+    let step = (last_x - first_x) / intervals;
     let at = |index: usize| first_x + step * index as f64;
     for &(line, x, index) in &starts {
         // Abscissas of rows are often rounded to whole units.
@@ -143,7 +146,7 @@ enum Token {
     Times(usize),
 }
 
-/// The tokens of a row; `None` if one is none.
+/// The tokens of a row; `None` if one is invalid.
 fn tokens(text: &str) -> Option<Vec<Token>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start_matches(is_blank);
@@ -170,7 +173,8 @@ fn is_blank(c: char) -> bool {
     c.is_whitespace() || c == ','
 }
 
-/// How far a number goes on: digits, a point, and an exponent that has digits.
+/// Length of the number that `body` starts with: digits, a decimal point, and an exponent with
+/// digits.
 fn body_length(body: &str) -> usize {
     let bytes = body.as_bytes();
     let digits = bytes.iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
@@ -191,8 +195,8 @@ enum Kind {
     Times,
 }
 
-/// What a number's first character says: its kind and, for a packed one, its first digit with
-/// its sign.
+/// Decodes the first character of a number: its kind and, if packed, its first digit with its
+/// sign.
 fn packed(first: char) -> (Kind, Option<String>) {
     let after = |zero: char| (first as u32).wrapping_sub(zero as u32);
     let digit = |sign: &str, digit: u32| Some(format!("{sign}{digit}"));

@@ -1,19 +1,19 @@
-//! How the cells of a text are parted, and its rows of numbers.
+//! The separator and decimal sign of a text, and its rows of numbers.
 
 use super::error::InstrumentError;
-use super::number::{Decimal, number, wanted};
+use super::number::{Decimal, number, required_number};
 
-/// Separator and decimal sign.
+/// Separator and decimal sign of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
-    /// `None` for any run of spaces.
+    /// Character between cells; `None` for any run of blanks.
     pub(super) separator: Option<char>,
     pub(super) decimal: Decimal,
 }
 
 impl Layout {
-    /// The layout under which most lines are two numbers or more; `None` if no line is. A comma
-    /// parts cells only where nothing else does.
+    /// The layout under which the most lines are rows of two or more numbers; `None` if no line
+    /// is. A comma counts as separator only if no other separator fits as well.
     pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Option<Self> {
         let mut best: (usize, Option<Self>) = (0, None);
         for separator in [Some(';'), Some('\t'), None, Some(',')] {
@@ -32,17 +32,18 @@ impl Layout {
         best.1
     }
 
-    /// The cells of a line, trimmed; empty ones at its end are dropped.
+    /// The cells of a line, trimmed, without empty ones at its end.
     pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<&'a str> {
         split(line, self.separator)
     }
 
-    /// Whether a line is a row of numbers.
+    /// Whether all cells of a line are numbers, and there are at least two.
     pub(super) fn is_row(&self, line: &str) -> bool {
         is_row(&split(line, self.separator), self.separator)
     }
 
-    /// The numbers of a line that must be `width` numbers, or any count from 2 if that is 0.
+    /// The numbers of a line. It must have `width` cells, or any number of 2 and more if
+    /// `width` is 0.
     pub(super) fn numbers(
         &self,
         file: &str,
@@ -52,12 +53,12 @@ impl Layout {
     ) -> Result<Vec<f64>, InstrumentError> {
         let cells = self.cells(text);
         if cells.len() < 2 || (width > 0 && cells.len() != width) {
-            let what = "a wavelength and as many values as in the lines before";
-            return Err(InstrumentError::line(file, line, what, text));
+            let expected = "a wavelength and as many values as in the lines before";
+            return Err(InstrumentError::line(file, line, expected, text));
         }
         let parsed = cells.iter().enumerate().map(|(column, cell)| {
-            let what = if column == 0 { "a wavelength" } else { "a value" };
-            wanted(file, line, what, cell, self.decimal)
+            let expected = if column == 0 { "a wavelength" } else { "a value" };
+            required_number(file, line, expected, cell, self.decimal)
         });
         parsed.collect()
     }
@@ -88,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn separators_and_decimal_commas_are_told_apart() {
+    fn separators_and_decimal_commas_are_distinguished() {
         use Decimal::{Comma, Point};
         for (line, separator, decimal) in [
             ("400;0,5", Some(';'), Comma),

@@ -5,25 +5,25 @@ use crate::hint::{Explain, Hint};
 use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
 use crate::spectrum::{Reflectance, Spectrum, SpectrumError};
 
-/// What an instrument says that it measured.
+/// The quantity that an instrument measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasuredQuantity {
     /// Reflectance factor.
     Reflectance,
-    /// Transmittance.
+    /// Transmittance factor.
     Transmittance,
     /// Absorbance: the negative decimal logarithm of a reflectance or transmittance.
     Absorbance,
     /// Power of a light: radiance, irradiance or relative power.
     Power,
-    /// A detector's counts, to be set against a white and a dark reading.
+    /// Counts of a detector, which give reflectance relative to a white and a dark reading.
     Counts,
-    /// The file does not say.
+    /// The file does not state the quantity.
     Unstated,
 }
 
 impl MeasuredQuantity {
-    /// The quantity that `words` name, such as the heading of a column.
+    /// The quantity named in `words`, such as the heading of a column.
     pub(super) fn of_words(words: &str) -> Self {
         let lower = words.to_ascii_lowercase();
         let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
@@ -56,51 +56,52 @@ impl std::fmt::Display for MeasuredQuantity {
     }
 }
 
-/// The unit of a [`MeasuredSpectrum`]'s values.
+/// The unit of the values of a [`MeasuredSpectrum`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// White near 100.
+    /// Percent: white is near 100.
     Percent,
-    /// White near 1.
+    /// A fraction: white is near 1.
     Fraction,
-    /// Anything else, or nothing said.
+    /// Another unit, or none stated.
     Unstated,
 }
 
-/// What a spectrum is to its file.
+/// The role of a spectrum in its file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// What the file was written for.
+    /// The spectrum for which the file was written.
     Main,
-    /// The sample's light, from which the processed spectrum beside it was made.
+    /// Counts of the sample, from which the main spectrum was computed.
     Sample,
-    /// The light of the white, kept beside.
+    /// Counts of the white reference.
     White,
-    /// The dark, kept beside.
+    /// Counts without light.
     Dark,
 }
 
-/// One spectrum, as the file has it.
+/// One spectrum as its file contains it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredSpectrum {
-    /// The sample's name; the file's own word for it, else its place in the file.
+    /// Name of the sample according to the file, otherwise a name made from its place in the
+    /// file.
     pub name: String,
-    /// What was measured.
+    /// The quantity that was measured.
     pub quantity: MeasuredQuantity,
-    /// What it is to the file.
+    /// The role of the spectrum in the file.
     pub role: Role,
-    /// The unit of `values`.
+    /// Unit of `values`.
     pub unit: Unit,
-    /// Wavelengths in nm, rising strictly; at least one.
+    /// Wavelengths in nm, strictly rising; at least one.
     pub wavelengths_nm: Vec<f64>,
-    /// One value for each wavelength, finite, otherwise as written.
+    /// One finite value for each wavelength, as written in the file.
     pub values: Vec<f64>,
-    /// The line on which the record begins, counted from 1.
+    /// Number of the line on which the spectrum begins, from 1.
     pub line: usize,
-    /// What else the file says of it (geometry, instrument, integration time ..), in its own
-    /// words and order.
+    /// Other statements of the file on the spectrum (geometry, instrument, integration time
+    /// ..), as pairs of keyword and text in their order.
     pub details: Vec<(String, String)>,
-    /// What had to be decided in reading it, in words for the user.
+    /// Assumptions and corrections made in reading the spectrum, as messages for the user.
     pub remarks: Vec<String>,
 }
 
@@ -182,8 +183,7 @@ impl Explain for ReflectanceError {
     }
 }
 
-/// The name of a spectrum whose file does not name it: that of the file, without folder and
-/// ending.
+/// Name for a spectrum without one: the file name without folder and extension.
 pub(super) fn stem(file: &str) -> String {
     let path = std::path::Path::new(file);
     path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())

@@ -1,7 +1,8 @@
-//! Files as instruments write them.
+//! Files of measuring instruments.
 //!
-//! In scope: finding the format, and the spectra of a file with what the file says of them.
-//! Out of scope: whether those are readings of paint (see `calibrate::measurement`).
+//! In scope: detecting the format, and reading the spectra with everything that the file states
+//! about them. Out of scope: interpreting them as readings of paint (see
+//! `calibrate::measurement`).
 
 mod error;
 

@@ -1,28 +1,29 @@
-//! Numbers as instruments write them.
+//! Parsing numbers in the files of instruments.
 
 use super::error::InstrumentError;
 
-/// What parts whole from fraction in a file.
+/// The decimal sign of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Decimal {
-    /// `0.5`
+    /// A decimal point: `0.5`.
     Point,
-    /// `0,5`
+    /// A decimal comma: `0,5`.
     Comma,
 }
 
 impl Decimal {
-    /// What `cells` use: a comma, if any has one. A file that has both is then refused at
-    /// the first point, since thousands cannot be told from decimals.
+    /// The decimal sign of `cells`: a comma if any cell contains one. In a file with both signs
+    /// the first point is then an error, because a separator of thousands cannot be
+    /// distinguished from a decimal sign.
     pub(super) fn of<'a>(mut cells: impl Iterator<Item = &'a str>) -> Self {
         if cells.any(|cell| cell.contains(',')) { Self::Comma } else { Self::Point }
     }
 }
 
-/// The number in `text`; `None` if it is none, infinite, or not a number.
+/// Parses a finite number; `None` if `text` is anything else.
 pub(super) fn number(text: &str, decimal: Decimal) -> Option<f64> {
     let text = text.trim();
-    // `inf`, `nan` and the like are words to us.
+    // `inf`, `nan` and the like count as words.
     if !text.bytes().all(|b| b.is_ascii_digit() || b"+-.,eE".contains(&b)) {
         return None;
     }
@@ -35,15 +36,16 @@ pub(super) fn number(text: &str, decimal: Decimal) -> Option<f64> {
     value.filter(|value: &f64| value.is_finite())
 }
 
-/// The number in `text`, which stands in `line` of `file`.
-pub(super) fn wanted(
+/// Parses the number in `text`, a cell of `line` in `file`. `expected` describes it in the
+/// error.
+pub(super) fn required_number(
     file: &str,
     line: usize,
-    what: &'static str,
+    expected: &'static str,
     text: &str,
     decimal: Decimal,
 ) -> Result<f64, InstrumentError> {
-    number(text, decimal).ok_or_else(|| InstrumentError::line(file, line, what, text))
+    number(text, decimal).ok_or_else(|| InstrumentError::line(file, line, expected, text))
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
-//! Ocean Optics: SpectraSuite, OceanView and Jaz. `Key: value` lines, then data from
-//! `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or in Jaz wavelength, dark,
-//! reference, sample and processed (W D R S P).
+//! Ocean Optics: SpectraSuite, OceanView and Jaz. Lines `Key: value`, then data from
+//! `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or in Jaz files wavelength,
+//! dark, reference, sample and processed (W D R S P).
 //!
-//! The software processes where it has a reference, into percent of it (or absorbance), and does
-//! not write which; without one the values are counts. Jaz keeps the counts beside.
+//! With a reference the software writes percent of it (or absorbance) and does not state which;
+//! without one it writes counts. Jaz files contain the counts as well.
 
 use super::axis::Axis;
-use super::columns::{Named, table};
+use super::columns::{ColumnLabel, table};
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::text::lines;
@@ -14,7 +14,7 @@ use super::text::lines;
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut blocks: Vec<Vec<MeasuredSpectrum>> = Vec::new();
     let mut details: Vec<(String, String)> = Vec::new();
-    // Lines outside the data are emptied, so that those inside keep their numbers.
+    // Lines outside the data are left empty, so that the others keep their line numbers.
     let mut data: Option<String> = None;
     let mut last = 0;
     for (number, line) in lines(text) {
@@ -50,45 +50,44 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     Ok(blocks.into_iter().flatten().collect())
 }
 
-/// The spectra of one block of data, which ends before `end`; the first is what the block was
-/// written for.
+/// The spectra of one block of data, which ends before line `end`. The first is the main one.
 fn spectra(
     file: &str,
     data: &str,
     details: Vec<(String, String)>,
     end: usize,
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
-    let said = |start: &str| {
+    let detail = |start: &str| {
         let found = details.iter().find(|(key, _)| key.starts_with(start));
         found.map(|(_, value)| value.as_str())
     };
     let table = table(file, data)?;
-    let announced = said("Number of Pixels").and_then(|count| count.parse::<usize>().ok());
+    let stated_count = detail("Number of Pixels").and_then(|count| count.parse::<usize>().ok());
     let found = table.rows.len();
-    if let Some(wanted) = announced.filter(|count| *count > found) {
+    if let Some(expected) = stated_count.filter(|count| *count > found) {
         let (file, what) = (file.to_owned(), "pixels");
-        return Err(InstrumentError::Count { file, line: end, what, wanted, found });
+        return Err(InstrumentError::Count { file, line: end, what, expected, found });
     }
     let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let letters = table.above.last().map_or(Vec::new(), |line| line.split_whitespace().collect());
-    let named = |letter: &str| {
+    let column_of = |letter: &str| {
         let column = letters.iter().position(|l| *l == letter);
         column.filter(|column| *column < first.len())
     };
-    let is_missing = |start: &str| said(start).is_some_and(|word| word == "No");
+    let is_missing = |start: &str| detail(start).is_some_and(|word| word == "No");
     let raw = is_missing("Reference Spectrum Present") || is_missing("Processed Spectrum Present");
     let main = if raw { "S" } else { "P" };
     let record = |column, name, quantity, role| {
-        let named = Named { name, quantity, unit: Unit::Unstated };
-        let record = table.record(file, column, Axis::Nanometres, named)?;
+        let label = ColumnLabel { name, quantity, unit: Unit::Unstated };
+        let record = table.spectrum(file, column, Axis::Nanometres, label)?;
         Ok(MeasuredSpectrum { role, details: details.clone(), ..record })
     };
     let quantity = if raw { MeasuredQuantity::Counts } else { MeasuredQuantity::Unstated };
-    let column = named(main).unwrap_or(first.len() - 1);
+    let column = column_of(main).unwrap_or(first.len() - 1);
     let mut records = vec![record(column, stem(file), quantity, Role::Main)?];
-    // OceanView splices spectra and announces the pixels of the first.
-    if let Some(count) = announced.filter(|count| *count < found) {
-        let remark = format!("the file announces {count} pixels and has {found}");
+    // OceanView joins spectra and states the number of pixels of the first.
+    if let Some(count) = stated_count.filter(|count| *count < found) {
+        let remark = format!("the file states {count} pixels and has {found}");
         records[0].remarks.push(remark);
     }
     for (letter, role, kind) in [
@@ -96,8 +95,8 @@ fn spectra(
         ("R", Role::White, "Reference Spectrum Present"),
         ("D", Role::Dark, "Dark Spectrum Present"),
     ] {
-        // An absent one is a column of zeros.
-        if let Some(column) = named(letter).filter(|_| letter != main && !is_missing(kind)) {
+        // An absent spectrum is a column of zeros.
+        if let Some(column) = column_of(letter).filter(|_| letter != main && !is_missing(kind)) {
             let name = format!("{} ({letter})", stem(file));
             records.push(record(column, name, MeasuredQuantity::Counts, role)?);
         }
@@ -131,14 +130,14 @@ mod tests {
     }
 
     #[test]
-    fn jaz_gives_its_processed_column_and_the_counts_beside() {
+    fn jaz_files_give_the_processed_column_and_the_counts() {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
-        let told = |text: &str| -> Vec<_> {
-            let told = |r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values);
-            read("a.jaz", text).unwrap().into_iter().map(told).collect()
+        let summary = |text: &str| -> Vec<_> {
+            let summary = |r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values);
+            read("a.jaz", text).unwrap().into_iter().map(summary).collect()
         };
-        let beside = |number: &str| {
+        let counts_of = |number: &str| {
             let counts = |letter: &str, role, values: [f64; 2]| {
                 let name = format!("a{number} ({letter})");
                 (name, MeasuredQuantity::Counts, role, values.to_vec())
@@ -149,12 +148,12 @@ mod tests {
             let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
             vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
         };
-        assert_eq!(told(text), beside(""));
-        assert_eq!(told(&text.repeat(2)), [beside(" 1"), beside(" 2")].concat());
+        assert_eq!(summary(text), counts_of(""));
+        assert_eq!(summary(&text.repeat(2)), [counts_of(" 1"), counts_of(" 2")].concat());
         let raw = text.replace("Yes", "No\nReference Spectrum Present: No");
         let sample = ("a".to_owned(), MeasuredQuantity::Counts, Role::Main, vec![50.0, 20.0]);
-        assert_eq!(told(&raw), [sample, beside("").remove(3)]);
-        // Without a name the file is what it was written for.
+        assert_eq!(summary(&raw), [sample, counts_of("").remove(3)]);
+        // Without a name the main spectrum is selected.
         let records = read("a.jaz", text).unwrap();
         assert_eq!(choose_spectrum("a.jaz", &records, None).unwrap().name, "a");
         assert_eq!(choose_spectrum("a.jaz", &records[3..], None).unwrap().name, "a (D)");

@@ -1,30 +1,31 @@
-//! Wavelengths and values as they stand in a file, put in order.
+//! The points of a spectrum in order of wavelength.
 
 use super::error::InstrumentError;
 
-/// What to do with a wavelength that stands twice.
+/// Treatment of a wavelength that occurs more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Duplicates {
-    /// An error: a table of few wavelengths holds each once.
+    /// An error. For tables of few wavelengths, which list each once.
     Refuse,
-    /// The mean, said: dense exports round the wavelengths of neighbouring pixels to one figure.
+    /// The mean, with a remark. Dense exports round the wavelengths of neighbouring pixels to
+    /// the same number.
     Average,
-    /// The mean, said, if its values differ by no more than this; else an error.
+    /// The mean, with a remark, if the values differ by at most this; otherwise an error.
     AverageWithin(f64),
 }
 
-/// One value of a spectrum, with its place.
+/// One value of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point {
-    /// Counted from 1.
+    /// Line number in the file, from 1.
     pub(super) line: usize,
     /// Wavelength in nm, finite.
     pub(super) nm: f64,
-    /// The value there, finite.
+    /// Value at the wavelength, finite.
     pub(super) value: f64,
 }
 
-/// Wavelengths that rise strictly, a value for each, and what had to be done for it.
+/// Strictly rising wavelengths with one value each, and remarks on corrections.
 #[derive(Debug, Default)]
 pub(super) struct Ordered {
     pub(super) wavelengths_nm: Vec<f64>,
@@ -32,11 +33,11 @@ pub(super) struct Ordered {
     pub(super) remarks: Vec<String>,
 }
 
-/// The points by rising wavelength; falling ones are turned round.
+/// Brings points to rising order of wavelength; falling points are reversed.
 ///
 /// # Errors
-/// [`InstrumentError`] for a wavelength that is not above 0, goes back and forth, or
-/// stands more than once where that is refused.
+/// [`InstrumentError`] for a wavelength that is not above 0, for wavelengths that neither rise
+/// nor fall throughout, and for repeated wavelengths where `duplicates` refuses them.
 pub(super) fn ordered(
     file: &str,
     mut points: Vec<Point>,
@@ -77,25 +78,26 @@ pub(super) fn ordered(
         }
         repeated += usize::from(group.len() > 1);
         ordered.wavelengths_nm.push(first.nm);
-        // Halves first: the sum of two finite values need not be finite.
+        // Scaled first: the sum of two finite values need not be finite.
         let share = 1.0 / group.len() as f64;
         ordered.values.push(values().map(|value| value * share).sum());
     }
     if repeated > 0 {
         let what =
-            format!("{repeated} wavelengths stand more than once; their values are averaged");
+            format!("{repeated} wavelengths occur more than once; their values were averaged");
         ordered.remarks.push(what);
     }
     Ok(ordered)
 }
 
-/// Points in any order, for formats that give every value its own wavelength: sorted, a pair that
-/// stands twice once, and what had to be done for it. Two values at one wavelength stay.
+/// Sorts points, for formats that give every value its own wavelength. Repeated equal points
+/// are kept once; different values at one wavelength are kept. Returns the points and a remark
+/// if their order changed.
 pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
     let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);
     points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
     points.dedup_by(|a, b| a.nm == b.nm && a.value == b.value);
-    let remark = || "its wavelengths stand in no order; they were sorted".to_owned();
+    let remark = || "its wavelengths were in no order and were sorted".to_owned();
     (points, (!rising).then(remark))
 }
 
@@ -109,14 +111,14 @@ mod tests {
     }
 
     #[test]
-    fn falling_wavelengths_are_turned_round() {
+    fn falling_wavelengths_are_reversed() {
         let found = ordered("f", points(&[(500.0, 2.0), (400.0, 1.0)]), Duplicates::Refuse);
         let found = found.unwrap();
         assert_eq!((found.wavelengths_nm, found.values), (vec![400.0, 500.0], vec![1.0, 2.0]));
     }
 
     #[test]
-    fn duplicates_are_refused_or_averaged_and_said() {
+    fn duplicates_are_refused_or_averaged_with_a_remark() {
         let twice = points(&[(500.0, 2.0), (400.0, 1.0), (400.0, 2.0)]);
         assert_eq!(
             ordered("f", twice.clone(), Duplicates::Refuse).unwrap_err(),
@@ -128,12 +130,12 @@ mod tests {
         }
         assert_eq!(
             ordered("f", twice, Duplicates::AverageWithin(0.9)).unwrap_err().to_string(),
-            "f, line 5: 400 nm stands more than once, with unlike values from 1 to `2`"
+            "f, line 5: 400 nm occurs more than once, with different values from 1 to `2`"
         );
     }
 
     #[test]
-    fn a_wavelength_back_and_forth_is_refused_with_its_line() {
+    fn wavelengths_that_go_back_and_forth_are_refused_with_their_line() {
         let found =
             ordered("f", points(&[(400.0, 1.0), (500.0, 1.0), (450.0, 1.0)]), Duplicates::Average);
         assert!(matches!(found, Err(InstrumentError::Order { line: 5, .. })), "{found:?}");
@@ -142,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_no_order_are_sorted_and_equal_pairs_count_once() {
+    fn unordered_points_are_sorted_and_equal_points_kept_once() {
         let (found, remark) =
             sorted(points(&[(500.0, 2.0), (400.0, 1.0), (500.0, 2.0), (450.0, 3.0)]));
         let nm: Vec<f64> = found.iter().map(|point| point.nm).collect();

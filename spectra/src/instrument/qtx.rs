@@ -1,9 +1,9 @@
-//! Datacolor QTX: `KEY=value` lines, those of a standard starting with `STD_`, those of a batch
-//! with `BAT_`. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
+//! Datacolor QTX: lines `KEY=value`, starting with `STD_` for a standard and with `BAT_` for a
+//! batch. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
 
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
-use super::number::{Decimal, wanted};
+use super::number::{Decimal, required_number};
 use super::points::{Duplicates, Point, ordered};
 use super::text::lines;
 
@@ -26,7 +26,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             continue;
         }
         let mut values = vec![(number, value)];
-        // A long list may go on in the lines below.
+        // A long list may continue in the following lines.
         let goes_on =
             |(_, line): &(usize, &str)| !line.contains('=') && !line.trim_start().starts_with('[');
         while let Some(more) = lines.next_if(goes_on) {
@@ -34,16 +34,16 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         }
         let word = ["standard", "batch"][kind];
         let name = format!("{word} {}", records.len() + 1);
-        records.push(section.record(file, &values, name)?);
+        records.push(section.spectrum(file, &values, name)?);
         section.values.clear();
     }
     Ok(records)
 }
 
-/// What was said since the last spectrum of its kind.
+/// Keys since the last spectrum of the same kind.
 #[derive(Default)]
 struct Section {
-    /// Line, key and value.
+    /// Line, key and value of each.
     values: Vec<(usize, String, String)>,
 }
 
@@ -51,15 +51,15 @@ impl Section {
     fn number(&self, file: &str, at: usize, key: &'static str) -> Result<f64, InstrumentError> {
         let found = self.values.iter().rev().find(|(_, k, _)| k == key);
         let (line, text) = found.map_or((at, ""), |(line, _, text)| (*line, text));
-        let what = match key {
+        let expected = match key {
             "REFLPOINTS" => "a number of wavelengths (REFLPOINTS)",
             "REFLLOW" => "the first wavelength (REFLLOW)",
             _ => "the step of wavelengths (REFLINTERVAL)",
         };
-        wanted(file, line, what, text, Decimal::Point)
+        required_number(file, line, expected, text, Decimal::Point)
     }
 
-    fn record(
+    fn spectrum(
         &self,
         file: &str,
         lists: &[(usize, &str)],
@@ -71,13 +71,13 @@ impl Section {
         let (count, low, step) = (count?, low?, step?);
         let mut points = Vec::new();
         for &(line, list) in lists {
-            // Files joined without a line end have the next section's heading here.
+            // In files joined without a line end the heading of the next section follows here.
             let list = list.split('[').next().unwrap_or_default();
             for cell in list.trim().trim_end_matches(',').split(',') {
                 if list.trim().is_empty() {
                     continue;
                 }
-                let value = wanted(file, line, "a reflectance", cell, Decimal::Point)?;
+                let value = required_number(file, line, "a reflectance", cell, Decimal::Point)?;
                 let nm = low + step * points.len() as f64;
                 points.push(Point { line, nm, value });
             }
@@ -85,12 +85,12 @@ impl Section {
         let found = points.len();
         if found as f64 != count {
             let (line, file, what) = (lists[lists.len() - 1].0, file.to_owned(), "reflectances");
-            let wanted = count.max(0.0) as usize;
-            return Err(InstrumentError::Count { file, line, what, wanted, found });
+            let expected = count.max(0.0) as usize;
+            return Err(InstrumentError::Count { file, line, what, expected, found });
         }
         let ordered = ordered(file, points, Duplicates::Refuse)?;
-        let said = self.values.iter();
-        let name = said.clone().rev().find(|(_, key, value)| key == "NAME" && !value.is_empty());
+        let pairs = self.values.iter();
+        let name = pairs.clone().rev().find(|(_, key, value)| key == "NAME" && !value.is_empty());
         let is_detail = |key: &str| key != "NAME" && !key.starts_with("REFL");
         Ok(MeasuredSpectrum {
             name: name.map_or(unnamed, |(_, _, name)| name.clone()),
@@ -100,7 +100,7 @@ impl Section {
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: name.map_or(at, |(line, _, _)| *line),
-            details: said
+            details: pairs
                 .filter(|(_, key, _)| is_detail(key))
                 .map(|(_, key, value)| (key.clone(), value.clone()))
                 .collect(),
@@ -133,7 +133,7 @@ mod tests {
     fn faults_name_their_line() {
         let cut = read("f", &FILE.replace("3.1, 3.2, 3.3", "3.1, 3.2"));
         assert!(
-            matches!(cut, Err(InstrumentError::Count { line: 7, wanted: 3, found: 2, .. })),
+            matches!(cut, Err(InstrumentError::Count { line: 7, expected: 3, found: 2, .. })),
             "{cut:?}"
         );
         for (old, new, at) in [

@@ -1,4 +1,4 @@
-//! A file of any format, read.
+//! Reading a file of any format.
 
 use super::error::InstrumentError;
 use super::format::Format;
@@ -6,19 +6,20 @@ use super::measured::MeasuredSpectrum;
 use super::text::decode_text;
 use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
 
-/// An instrument's file.
+/// The content of an instrument's file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InstrumentFile {
-    /// Its format.
+    /// Format as which the file was read.
     pub format: Format,
-    /// Its spectra in order of the file; at least one.
+    /// The spectra in the order of the file; at least one.
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
-/// The spectra in `bytes`, the content of `file`, of `format` or the one found.
+/// Reads the spectra in `bytes`, the content of `file`, in the given format or in the one
+/// detected.
 ///
 /// # Errors
-/// [`InstrumentError`], with the line.
+/// [`InstrumentError`] with the line.
 pub fn read(
     file: &str,
     bytes: &[u8],
@@ -26,7 +27,7 @@ pub fn read(
 ) -> Result<InstrumentFile, InstrumentError> {
     let (text, _) = decode_text(bytes);
     let format = format
-        .or_else(|| Format::detected(file, &text))
+        .or_else(|| Format::detect(file, &text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
     let spectra = match format {
         Format::Cgats => cgats::read(file, &text),

@@ -1,17 +1,17 @@
-//! The CSV of Sekonic's spectrometers for light (C-700, C-800, C-7000): rows of a key and a
-//! value, the spectrum once at 5 nm and once at 1 nm. A file of several readings has a column
-//! for each.
+//! CSV files of Sekonic's light spectrometers (C-700, C-800, C-7000): rows of a key and a
+//! value, with the spectrum once at 5 nm and once at 1 nm. A file of several readings has a
+//! column for each.
 
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::number::{Decimal, wanted};
+use super::number::{Decimal, required_number};
 use super::points::{Duplicates, Point, ordered};
 use super::text::lines;
 
-/// A line of the spectrum begins so: `Spectral Data 380[nm],0.001`.
+/// Start of a line of the spectrum: `Spectral Data 380[nm],0.001`.
 const SPECTRAL: &str = "Spectral Data";
 
-/// The readings of a Sekonic file, each at the finest step that the file has.
+/// The readings of a Sekonic file, each at the finest step of the file.
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let head =
         lines(text).find(|(_, line)| line.starts_with(SPECTRAL)).map_or("", |(_, line)| line);
@@ -29,10 +29,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             continue;
         };
         let nm = nm.trim().trim_end_matches("[nm]");
-        let nm = wanted(file, line, "a wavelength in nm", nm, Decimal::Point)?;
-        let number = |cell| wanted(file, line, "a number", cell, decimal);
+        let nm = required_number(file, line, "a wavelength in nm", nm, Decimal::Point)?;
+        let number = |cell| required_number(file, line, "a number", cell, decimal);
         let values = cells.map(number).collect::<Result<Vec<f64>, _>>()?;
-        // The next table starts over.
+        // A smaller wavelength starts the next table.
         if nm < last_nm {
             tables.push(Vec::new());
         }
@@ -41,10 +41,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             table.push(Row { line, nm, values });
         }
     }
-    // Of tables as fine as each other, the first.
+    // Of several tables with the most rows, the first.
     let finest = tables.into_iter().rev().max_by_key(Vec::len).unwrap_or_default();
     let Some(first) = finest.first() else { return Ok(Vec::new()) };
-    (0..first.values.len()).map(|column| record(file, column, &finest, &details)).collect()
+    (0..first.values.len()).map(|column| spectrum(file, column, &finest, &details)).collect()
 }
 
 struct Row {
@@ -53,7 +53,7 @@ struct Row {
     values: Vec<f64>,
 }
 
-fn record(
+fn spectrum(
     file: &str,
     column: usize,
     rows: &[Row],
@@ -69,10 +69,10 @@ fn record(
         points.push(Point { line, nm, value });
     }
     let ordered = ordered(file, points, Duplicates::Refuse)?;
-    let said = |(key, values): &(String, Vec<String>)| {
+    let detail = |(key, values): &(String, Vec<String>)| {
         Some((key.clone(), values.get(column).filter(|value| !value.is_empty())?.clone()))
     };
-    let details: Vec<(String, String)> = details.iter().filter_map(said).collect();
+    let details: Vec<(String, String)> = details.iter().filter_map(detail).collect();
     let title = details.iter().find(|(key, _)| key == "Title").map(|(_, title)| title.clone());
     Ok(MeasuredSpectrum {
         name: title.unwrap_or_else(|| stem(file)),
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn decimal_commas_are_read_where_semicolons_part_the_columns() {
+    fn decimal_commas_are_read_between_semicolons() {
         let records = read("a/lamp.csv", "Spectral Data 380[nm];0,5\nSpectral Data 385[nm];1\n");
         let records = records.unwrap();
         assert_eq!(
@@ -121,11 +121,11 @@ mod tests {
     #[test]
     fn faults_name_the_line() {
         for (text, fault) in [
-            ("Spectral Data 380[nm],x\n", "f, line 1: a number is wanted, found `x`"),
-            ("\nSpectral Data 3x0[nm],1\n", "f, line 2: a wavelength in nm is wanted, found `3x0`"),
+            ("Spectral Data 380[nm],x\n", "f, line 1: expected a number, found `x`"),
+            ("\nSpectral Data 3x0[nm],1\n", "f, line 2: expected a wavelength in nm, found `3x0`"),
             (
                 "Spectral Data 380[nm],1,2\nSpectral Data 385[nm],1\n",
-                "f, line 2: a value for every",
+                "f, line 2: expected a value for every",
             ),
             ("Spectral Data 380[nm],1\nSpectral Data 380[nm],2\n", "f, line 2: the wavelength 380"),
         ] {

@@ -1,22 +1,22 @@
-//! The bytes of a file as text, and its lines.
+//! Decoding the bytes of a file, and splitting text into lines.
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-/// The text of a file, and the name of its encoding: UTF-8 or UTF-16 by their byte order
-/// mark, UTF-16 by its zeros, UTF-8 where it is that, else Windows-1252 (of which Latin-1 is
-/// a part). Never fails; what is no character becomes U+FFFD.
+/// Decodes the text of a file and names its encoding: UTF-8 or UTF-16 by byte order mark,
+/// UTF-16 by its zero bytes, UTF-8 if the bytes are valid, otherwise Windows-1252 (which
+/// contains Latin-1). Never fails: invalid characters become U+FFFD.
 #[must_use]
 pub fn decode_text(bytes: &[u8]) -> (String, &'static str) {
     let (encoding, bytes) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (encoding, &bytes[length..]),
-        None => (guessed(bytes), bytes),
+        None => (guess_encoding(bytes), bytes),
     };
     let (text, _) = encoding.decode_without_bom_handling(bytes);
     (text.into_owned(), encoding.name())
 }
 
-/// Text of an instrument is mostly ASCII, every second byte of which is zero in UTF-16.
-fn guessed(bytes: &[u8]) -> &'static Encoding {
+/// Instrument files are mostly ASCII, of which every second byte is zero in UTF-16.
+fn guess_encoding(bytes: &[u8]) -> &'static Encoding {
     let start = &bytes[..bytes.len().min(200)];
     let zeros = |odd: usize| start.iter().skip(odd).step_by(2).filter(|&&b| b == 0).count();
     let most = start.len() * 2 / 5;
@@ -31,8 +31,8 @@ fn guessed(bytes: &[u8]) -> &'static Encoding {
     }
 }
 
-/// The lines with their numbers, counted from 1. A line ends in LF, CR LF or CR; LF CR is one
-/// end too (OceanView writes it).
+/// The lines of a text, numbered from 1. A line ends with LF, CR LF or CR; LF CR also counts as
+/// one end (OceanView writes it).
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = Some(text);
     let next = move || {
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn every_line_end_ends_one_line() {
+    fn every_kind_of_line_end_is_recognised() {
         let found: Vec<_> = lines("a\nb\r\nc\rd\n\re\n\r\nf").collect();
         assert_eq!(found, [(1, "a"), (2, "b"), (3, "c"), (4, "d"), (5, "e"), (6, ""), (7, "f")]);
         assert_eq!(lines("").count(), 0);

@@ -2,30 +2,30 @@
 
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::number::{Decimal, wanted};
+use super::number::{Decimal, required_number};
 use super::points::{Duplicates, Point, ordered, sorted};
 use super::xml::parse;
 
-/// The spectral distribution of a TM-27 file.
+/// The spectral distributions of a TM-27 file.
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if !root.name.starts_with("IESTM27") {
         return Err(InstrumentError::line(file, root.line, "an IESTM2714 element", &root.name));
     }
     let header = root.child("Header").map_or_else(Vec::new, |header| header.leaves());
-    let said = |name: &str| {
+    let header_text = |name: &str| {
         let text = header.iter().find(|(key, _)| key == name).map(|(_, text)| text.as_str());
         text.filter(|text| !matches!(*text, "N/A" | "Unknown"))
     };
-    let name = said("Description").or_else(|| said("CatalogNumber"));
+    let name = header_text("Description").or_else(|| header_text("CatalogNumber"));
     let name = name.map_or_else(|| stem(file), str::to_owned);
     let mut records = Vec::new();
     for distribution in root.all("SpectralDistribution") {
         let mut points = Vec::new();
         for datum in distribution.all("SpectralData") {
             let nm = datum.attribute("wavelength").unwrap_or_default();
-            let nm = wanted(file, datum.line, "a wavelength in nm", nm, Decimal::Point)?;
-            let value = wanted(file, datum.line, "a number", &datum.text, Decimal::Point)?;
+            let nm = required_number(file, datum.line, "a wavelength in nm", nm, Decimal::Point)?;
+            let value = required_number(file, datum.line, "a number", &datum.text, Decimal::Point)?;
             points.push(Point { line: datum.line, nm, value });
         }
         if points.is_empty() {
@@ -51,7 +51,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     Ok(records)
 }
 
-/// The standard's words for a quantity; `relative` is relative power.
+/// The quantity for a term of the standard; `relative` is relative power.
 fn quantity_of(word: &str) -> MeasuredQuantity {
     match word.to_ascii_lowercase().as_str() {
         "flux" | "intensity" | "irradiance" | "radiance" | "exitance" | "relative" => {
@@ -100,15 +100,21 @@ mod tests {
     #[test]
     fn faults_name_the_line() {
         for (data, fault) in [
-            ("<SpectralData wavelength='x'>1</SpectralData>", "f, line 3: a wavelength in nm"),
-            ("\n<SpectralData wavelength='400'/>", "f, line 4: a number is wanted"),
-            ("<SpectralData wavelength='-1'>1</SpectralData>", "f, line 3: a wavelength above 0"),
+            (
+                "<SpectralData wavelength='x'>1</SpectralData>",
+                "f, line 3: expected a wavelength in nm",
+            ),
+            ("\n<SpectralData wavelength='400'/>", "f, line 4: expected a number"),
+            (
+                "<SpectralData wavelength='-1'>1</SpectralData>",
+                "f, line 3: expected a wavelength above 0",
+            ),
         ] {
             let error = read("f", &file("d", "flux", data)).unwrap_err().to_string();
             assert!(error.starts_with(fault), "{error}");
         }
         let error = read("f", "<a/>").unwrap_err().to_string();
-        assert!(error.starts_with("f, line 1: an IESTM2714 element"), "{error}");
+        assert!(error.starts_with("f, line 1: expected an IESTM2714 element"), "{error}");
         assert_eq!(read("f", &file("d", "flux", "")).unwrap(), []);
     }
 }

@@ -1,7 +1,7 @@
-//! An XML file as a tree of elements by their local names.
+//! Reading an XML file into a tree of elements with local names.
 //!
-//! Prefixes are dropped: writers choose them freely. No entity is expanded beside
-//! XML's own five and characters by number, and the depth is bounded, so that a
+//! Namespace prefixes are dropped, since writers choose them freely. Only the five predefined
+//! entities and numeric character references are expanded and the depth is limited, so that a
 //! file cannot grow in memory.
 
 use quick_xml::XmlVersion;
@@ -13,15 +13,15 @@ use super::error::InstrumentError;
 
 const DEEPEST: usize = 64;
 
-/// One element, with its place.
+/// An XML element.
 #[derive(Debug, Default)]
 pub(super) struct Element {
-    /// The name without its prefix.
+    /// Local name, without its prefix.
     pub(super) name: String,
     attributes: Vec<(String, String)>,
-    /// Its own text, joined; that of its children left out.
+    /// Text of the element itself, joined, without that of its children.
     pub(super) text: String,
-    /// Where it begins, counted from 1.
+    /// Number of the line on which the element begins, from 1.
     pub(super) line: usize,
     pub(super) children: Vec<Element>,
 }
@@ -39,7 +39,7 @@ impl Element {
         self.children.iter().find(|child| child.name == name)
     }
 
-    /// Name and text of every element below that has text and no children.
+    /// Name and text of every descendant that has text and no children.
     pub(super) fn leaves(&self) -> Vec<(String, String)> {
         let mut found = Vec::new();
         for child in &self.children {
@@ -52,7 +52,7 @@ impl Element {
     }
 }
 
-/// The root element of `text`.
+/// Parses `text` and returns its root element.
 pub(super) fn parse(file: &str, text: &str) -> Result<Element, InstrumentError> {
     let fault = |at: u64, what: String| {
         let before = &text.as_bytes()[..text.len().min(at as usize)];
@@ -88,7 +88,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Element, InstrumentError> 
             }
             Event::Text(text) => append(&mut open, &text.xml10_content()),
             Event::CData(text) => append(&mut open, &text.xml10_content()),
-            // Keeps the lines of the text after it countable.
+            // Keeps the line numbers of the text that follows.
             Event::Comment(text) => append(&mut open, &"\n".repeat(newlines(text.as_bytes()))),
             Event::GeneralRef(name) => {
                 let character = name.resolve_char_ref().map_err(|e| fault(start, e.to_string()))?;
@@ -133,7 +133,7 @@ fn append(open: &mut [Element], text: &str) {
     }
 }
 
-/// Ends of lines: LF, CR LF, or CR alone.
+/// Number of line ends: LF, CR LF, or CR alone.
 fn newlines(bytes: &[u8]) -> usize {
     let ends = |(i, &byte): (usize, &u8)| {
         byte == b'\n' || (byte == b'\r' && bytes.get(i + 1) != Some(&b'\n'))
@@ -158,16 +158,16 @@ mod tests {
 
     #[test]
     fn faults_name_the_line() {
-        for (text, wanted) in [
-            ("<a>\n<b></a>", "f, line 2: well-formed XML is wanted"),
-            ("<a>\n<b>\n", "f, line 2: well-formed XML is wanted, found `<b>, which is never"),
-            ("<a>\n&lol;</a>", "f, line 2: well-formed XML is wanted, found `the unknown entity"),
+        for (text, expected) in [
+            ("<a>\n<b></a>", "f, line 2: expected well-formed XML"),
+            ("<a>\n<b>\n", "f, line 2: expected well-formed XML, found `<b>, which is never"),
+            ("<a>\n&lol;</a>", "f, line 2: expected well-formed XML, found `the unknown entity"),
             ("<a>\n<b c='&x;'/></a>", "f, line 2:"),
             ("<a/>\n<b/>", "f, line 2:"),
-            ("", "f, line 1: well-formed XML is wanted, found `no element`"),
+            ("", "f, line 1: expected well-formed XML, found `no element`"),
         ] {
             let error = parse("f", text).unwrap_err().to_string();
-            assert!(error.starts_with(wanted), "{text:?}: {error}");
+            assert!(error.starts_with(expected), "{text:?}: {error}");
         }
     }
 

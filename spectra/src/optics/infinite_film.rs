@@ -1,13 +1,13 @@
-//! A film so thick that its backing does not show.
+//! Optics of a paint film so thick that its backing is invisible.
 
-/// Reflectance of a film that hides, 0..1 (Kubelka and Munk 1931).
+/// Reflectance of an opaque film, 0 to 1 (Kubelka and Munk 1931).
 ///
-/// | symbol | here         | unit       | range   |
-/// |--------|--------------|------------|---------|
-/// | K      | `absorption` | per length | 0..     |
-/// | S      | `scattering` | per length | 0..     |
+/// | symbol | argument     | unit       | range    |
+/// |--------|--------------|------------|----------|
+/// | K      | `absorption` | per length | 0 and up |
+/// | S      | `scattering` | per length | 0 and up |
 ///
-/// With neither K nor S there is no film; the limit K = 0 is taken, 1.
+/// K = 0 gives 1, also for S = 0, where the limit is undefined.
 ///
 /// ```
 /// use spectra::optics::{absorption_over_scattering, infinite_film};
@@ -16,26 +16,25 @@
 /// ```
 #[must_use]
 pub fn infinite_film(absorption: f64, scattering: f64) -> f64 {
-    // S / (K + S + sqrt(K (K + 2 S))): no difference of near values.
+    // S / (K + S + sqrt(K (K + 2 S))) has no difference of nearly equal values.
     let (k, s) = (absorption, scattering);
     if k == 0.0 { 1.0 } else { s / (k + s + (k * (k + 2.0 * s)).sqrt()) }
 }
 
-/// Reflectance of a film that hides, from `ratio` = K/S, 0 and up.
+/// Reflectance of an opaque film from `ratio` = K/S, 0 and up.
 #[must_use]
 pub fn infinite_film_from_ratio(ratio: f64) -> f64 {
     1.0 / (1.0 + ratio + (ratio * (ratio + 2.0)).sqrt())
 }
 
-/// K/S of a film that hides, from its reflectance in 0..=1: (1 - R)^2 / (2 R),
-/// infinite at 0.
+/// K/S of an opaque film from its reflectance, 0 to 1: (1 - R)^2 / (2 R). Infinite at 0.
 #[must_use]
 pub fn absorption_over_scattering(reflectance: f64) -> f64 {
     (1.0 - reflectance).powi(2) / (2.0 * reflectance)
 }
 
-/// The slope dR/d(K/S) at the reflectance R of a film that hides: 0 or below.
-/// At R = 1 the slope is infinite.
+/// The derivative dR/d(K/S) at the reflectance R of an opaque film. Not positive; infinite at R
+/// = 1.
 #[must_use]
 pub fn infinite_film_slope(reflectance: f64) -> f64 {
     let r = reflectance;

@@ -1,9 +1,8 @@
-//! A paint film of finite thickness.
+//! Optics of a paint film of finite thickness.
 //!
-//! The layer equations as printed in Baxter, Wendt and Lin 2004 (eq. 8 and 9)
-//! are misprinted (tanh for coth, sinh for 1/sinh, by the authors' erratum),
-//! and the textbook form fails at K = 0 and on thick films. The form here has
-//! no special cases; see `Layer::new`.
+//! Equations 8 and 9 of Baxter, Wendt and Lin 2004 are misprinted (tanh for coth, sinh for
+//! 1/sinh, according to the authors' erratum), and the textbook form fails at K = 0 and for
+//! thick films. The form used here has no special cases, see `Layer::new`.
 
 /// Reflectance and transmittance of a film without a backing, each 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,11 +14,10 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// The film of `thickness` whose paint has `absorption` K and `scattering`
-    /// S per unit of thickness; all 0 and up.
+    /// A film of the given `thickness` whose paint has the `absorption` K and the `scattering`
+    /// S per unit of thickness. All arguments are 0 and up.
     ///
-    /// Kubelka 1948 (hyperbolic solution), rewritten with decaying
-    /// exponentials:
+    /// Kubelka 1948 (hyperbolic solution), rewritten with decaying exponentials:
     /// ```text
     /// alpha = sqrt(K (K + 2 S))   x = alpha d   e = exp(-2 x)
     /// phi   = (1 - e) / alpha     (2 d as alpha goes to 0)
@@ -45,25 +43,24 @@ impl Layer {
         Self { reflectance, transmittance: 2.0 * decay / den }
     }
 
-    /// The reflectance seen when the layer lies over something of reflectance
-    /// `backing` (Kubelka 1948, eq. 34).
+    /// The reflectance of the film over a backing of reflectance `backing` (Kubelka 1948, eq.
+    /// 34).
     #[must_use]
     pub fn over(self, backing: f64) -> f64 {
         let t = self.transmittance;
         self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
     }
 
-    /// The reflectance of a film of unit thickness over `backing`, with its
-    /// derivatives over absorption and over scattering.
+    /// The reflectance of a film of unit thickness over `backing`, followed by its derivatives
+    /// with respect to absorption and scattering.
     ///
-    /// Differentiates [`Layer::new`] and [`Layer::over`]; along a ray the
-    /// derivatives satisfy Kubelka's equation,
-    /// `K dR/dK + S dR/dS = S - 2 (K + S) R + S R^2`.
+    /// These are the derivatives of [`Layer::new`] and [`Layer::over`]. They satisfy Kubelka's
+    /// equation, `K dR/dK + S dR/dS = S - 2 (K + S) R + S R^2`.
     #[must_use]
     pub fn over_with_slopes(absorption: f64, scattering: f64, backing: f64) -> [f64; 3] {
         let (k, s, g) = (absorption, scattering, backing);
-        // cosh x, sinh x / x and the slope of the latter over y = x^2, each
-        // times exp(-x); that slope by its series where the difference loses digits.
+        // cosh x, sinh x / x, and the derivative of the latter with respect to y = x^2, each
+        // times exp(-x). For small y a series avoids the loss of digits in the difference.
         let y = k * (k + 2.0 * s);
         let x = y.sqrt();
         let decay = (-x).exp();
@@ -76,7 +73,7 @@ impl Layer {
         };
         let den = (k + s) * sinh + cosh;
         let (r, t) = (s * sinh / den, decay / den);
-        // By K and S through y, then on their own.
+        // Derivatives by K and S: through y, and directly.
         let slopes = |y_slope: f64, own: f64| {
             let den_slope = sinh + ((k + s) * sinh_over_y + sinh / 2.0) * y_slope;
             let r_slope = (own * sinh + s * sinh_over_y * y_slope - r * den_slope) / den;

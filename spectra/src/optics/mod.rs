@@ -1,7 +1,7 @@
-//! Kubelka-Munk optics of a paint film, with a surface.
+//! Kubelka-Munk optics of a paint film with a surface.
 //!
-//! Two fluxes, diffuse light, no fluorescence. Reflectances in this module are
-//! internal (below the surface) but for those [`Surface`] calls measured.
+//! Two diffuse fluxes, no fluorescence. Reflectances are internal (below the surface) unless
+//! [`Surface`] calls them measured.
 
 mod layer;
 

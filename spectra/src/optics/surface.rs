@@ -1,48 +1,48 @@
-//! The surface of a film: what air and paint reflect between them.
+//! Reflection at the surface of a film, between air and paint.
 
 use serde::{Deserialize, Serialize};
 
 use crate::hint::Explain;
 
-/// Whether the instrument catches the mirror reflection of the surface.
+/// Whether readings contain the specular reflection at the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Specular {
-    /// Sphere with the specular component included (SCI, d/8:i).
+    /// Included: a sphere instrument with a closed gloss trap (SCI, d/8:i).
     #[default]
     Included,
-    /// Excluded (SCE), or a 45/0 geometry.
+    /// Excluded: a sphere with an open gloss trap (SCE), or a 45/0 geometry.
     Excluded,
 }
 
 /// Saunderson's correction for reflection at the surface (Saunderson 1942).
 ///
-/// | symbol | meaning                                          | usual |
-/// |--------|--------------------------------------------------|-------|
-/// | k1     | share of the arriving light the surface reflects | 0.03 to 0.04 |
-/// | k2     | share of the diffuse light turned back inside    | 0.4 to 0.6 |
+/// | symbol | meaning                                                 | usual |
+/// |--------|---------------------------------------------------------|-------|
+/// | k1     | fraction of the incident light reflected at the surface | 0.03 to 0.04 |
+/// | k2     | fraction of the diffuse internal light reflected back   | 0.4 to 0.6 |
 ///
-/// Measured from internal R: `k1 + (1 - k1)(1 - k2) R / (1 - k2 R)`, the first
-/// term missing where the specular component is excluded.
+/// A film of internal reflectance R has the measured reflectance `k1 + (1 - k1)(1 - k2) R / (1
+/// - k2 R)`, without the first term if the specular component is excluded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SurfaceParts")]
 pub struct Surface {
-    /// Share of the arriving light reflected, 0..1.
+    /// Fraction of the incident light that the surface reflects, 0 to below 1.
     pub k1: f64,
-    /// Share of the diffuse light turned back inside, 0..1.
+    /// Fraction of the diffuse internal light that the surface reflects back, 0 to below 1.
     pub k2: f64,
-    /// Whether the readings hold the mirror reflection.
+    /// Whether readings contain the specular reflection.
     pub specular: Specular,
 }
 
 impl Surface {
-    /// No surface: measured is internal.
+    /// No surface: measured and internal reflectance are equal.
     pub const NONE: Self = Self { k1: 0.0, k2: 0.0, specular: Specular::Included };
 
-    /// A surface with these shares.
+    /// A surface with the coefficients k1 and k2.
     ///
     /// # Errors
-    /// [`SurfaceError`] unless both lie in 0..1 (1 excluded).
+    /// [`SurfaceError`] unless both are at least 0 and below 1.
     pub fn new(k1: f64, k2: f64, specular: Specular) -> Result<Self, SurfaceError> {
         for (name, value) in [("k1", k1), ("k2", k2)] {
             if !(0.0..1.0).contains(&value) {
@@ -52,7 +52,7 @@ impl Surface {
         Ok(Self { k1, k2, specular })
     }
 
-    /// The least that can be measured: that of a black body below the surface.
+    /// The smallest possible measured reflectance: that of a perfectly black film.
     #[must_use]
     pub fn floor(&self) -> f64 {
         match self.specular {
@@ -61,23 +61,22 @@ impl Surface {
         }
     }
 
-    /// What an instrument reads of the internal reflectance.
+    /// The measured reflectance of a film with the given internal reflectance.
     #[must_use]
     pub fn measured_from_internal(&self, internal: f64) -> f64 {
         self.floor() + (1.0 - self.k1) * (1.0 - self.k2) * internal / (1.0 - self.k2 * internal)
     }
 
-    /// The slope of [`Surface::measured_from_internal`].
+    /// The derivative of [`Surface::measured_from_internal`].
     #[must_use]
     pub fn measured_slope(&self, internal: f64) -> f64 {
         (1.0 - self.k1) * (1.0 - self.k2) / (1.0 - self.k2 * internal).powi(2)
     }
 
-    /// The reflectance below the surface, from what an instrument read.
+    /// The internal reflectance of a film from its measured reflectance.
     ///
     /// # Errors
-    /// [`SurfaceError::BelowFloor`] for a reading below what the surface alone
-    /// reflects.
+    /// [`SurfaceError::BelowFloor`] for a reading below what the surface alone reflects.
     pub fn internal_from_measured(&self, measured: f64) -> Result<f64, SurfaceError> {
         let above = measured - self.floor();
         if above < 0.0 {
@@ -87,7 +86,7 @@ impl Surface {
     }
 }
 
-/// The form in which a surface is read from a file.
+/// The fields of a surface in a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SurfaceParts {
@@ -104,23 +103,23 @@ impl TryFrom<SurfaceParts> for Surface {
     }
 }
 
-/// A surface or a reading that cannot be.
+/// Coefficients or a reading that are physically impossible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
-    /// A share outside 0..1.
-    #[error("{name} is a share from 0 to below 1, found `{value}`")]
+    /// A coefficient is outside 0 to 1.
+    #[error("{name} is a fraction from 0 to below 1, found `{value}`")]
     Share {
-        /// `k1` or `k2`.
+        /// Name of the coefficient, `k1` or `k2`.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: f64,
     },
-    /// A reading below k1.
+    /// A reading is below what the surface alone reflects.
     #[error("a reading below what the surface alone reflects (k1 = {floor}), found `{measured}`")]
     BelowFloor {
-        /// The reading.
+        /// The measured reflectance.
         measured: f64,
-        /// What the surface reflects.
+        /// The reflectance of the surface alone.
         floor: f64,
     },
 }

@@ -1,28 +1,28 @@
-//! A film whose thickness varies under the instrument's aperture.
+//! A film whose thickness varies within the instrument's aperture.
 
 use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
 use super::surface::Surface;
 
-/// A film over a backing, under a surface, its thickness lognormal with mean 1
-/// and `unevenness` the standard deviation of its logarithm.
+/// A film over a backing and under a surface. Its thickness is lognormal with mean 1, and
+/// `unevenness` is the standard deviation of its logarithm.
 ///
-/// A wash is never even: pigment gathers in the paper's hollows and at edges,
-/// and an instrument reads the mean. The mean is taken over three thicknesses
-/// (Gauss-Hermite, exact for polynomials of degree 5 in the logarithm).
+/// A wash is never even: pigment collects in the hollows of the paper and at edges, and an
+/// instrument reads the mean. The mean is computed from three thicknesses (Gauss-Hermite
+/// quadrature, exact for polynomials of degree 5 in the logarithm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct UnevenFilm {
-    /// The surface of film and bare backing.
+    /// The surface of the film and of the bare backing.
     pub surface: Surface,
-    /// 0 for an even film, about 0.5 for a granulating wash.
+    /// Standard deviation of the logarithm of thickness: 0 for an even film, about 0.5 for a
+    /// granulating wash.
     pub unevenness: f64,
 }
 
 impl UnevenFilm {
-    /// Measured reflectance of a film with K d = `absorption` and S d =
-    /// `scattering` at its mean thickness, over a backing of internal
-    /// reflectance `backing`.
+    /// Measured reflectance of a film with K d = `absorption` and S d = `scattering` at its
+    /// mean thickness, over a backing with the internal reflectance `backing`.
     #[must_use]
     pub fn reflectance(&self, absorption: f64, scattering: f64, backing: f64) -> f64 {
         let at = |factor: f64| {
@@ -35,7 +35,8 @@ impl UnevenFilm {
         self.thicknesses().iter().map(|(factor, weight)| weight * at(*factor)).sum()
     }
 
-    /// The same, with its derivatives over `absorption` and `scattering`.
+    /// The value of [`UnevenFilm::reflectance`], followed by its derivatives with respect to
+    /// `absorption` and `scattering`.
     #[must_use]
     pub fn reflectance_with_slopes(
         &self,
@@ -61,7 +62,7 @@ impl UnevenFilm {
         sum
     }
 
-    /// Thicknesses relative to the mean, with their weights.
+    /// Thicknesses relative to the mean, with their quadrature weights.
     fn thicknesses(&self) -> [(f64, f64); 3] {
         let sd = self.unevenness;
         let at = |z: f64| (sd * z - 0.5 * sd * sd).exp();
@@ -76,7 +77,7 @@ mod tests {
     use crate::optics::Specular;
 
     #[test]
-    fn slopes_are_those_of_difference_quotients() {
+    fn slopes_agree_with_difference_quotients() {
         let surface = Surface::new(0.03, 0.5, Specular::Included).unwrap();
         for unevenness in [0.0, 0.4] {
             let film = UnevenFilm { surface, unevenness };

@@ -1,129 +1,127 @@
-//! Why counts give no reflectance.
+//! Errors in computing reflectance from counts.
 
 use crate::hint::{Explain, Hint};
 use crate::instrument::MeasuredQuantity;
 
-/// What is wrong between a sample, its white and its dark.
+/// Readings of sample, white and dark that do not give a reflectance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReferencingError {
-    /// A reading that is no light any more.
+    /// A reading is neither counts nor power.
     #[error("the {role} `{name}` must be counts or power to be referenced, found `{found}`")]
     Quantity {
-        /// Sample, white or dark.
+        /// `sample`, `white` or `dark`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
-        /// What it is.
+        /// Quantity of the reading.
         found: MeasuredQuantity,
     },
-    /// The white's own reflectance is given as something else.
+    /// The white's own reflectance is given as another quantity.
     #[error("the tile `{name}` must be a reflectance, found `{found}`")]
     TileQuantity {
-        /// The record.
+        /// Name of the tile's spectrum.
         name: String,
-        /// What it is.
+        /// Quantity of the spectrum.
         found: MeasuredQuantity,
     },
-    /// Counts against power.
-    #[error("the {role} `{name}` must be {wanted} as the sample is, found `{found}`")]
+    /// Counts and power are mixed.
+    #[error("the {role} `{name}` must be {expected} like the sample, found `{found}`")]
     Mixed {
-        /// White or dark.
+        /// `white` or `dark`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
-        /// What the sample is.
-        wanted: MeasuredQuantity,
-        /// What the reading is.
+        /// Quantity of the sample.
+        expected: MeasuredQuantity,
+        /// Quantity of the reading.
         found: MeasuredQuantity,
     },
-    /// Counts hold the detector's own signal.
+    /// Counts contain the signal of the detector without light, so they need a dark.
     #[error("counts of the {role} `{name}` need a dark reading")]
     NoDark {
-        /// Sample or white.
+        /// `sample` or `white`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
     },
-    /// The dark was taken at another integration time.
+    /// No dark was taken at the integration time of the reading.
     #[error(
-        "the {role} `{name}` was integrated for {time_ms} ms, and a dark of that time is wanted; found `{found}`"
+        "the {role} `{name}` was integrated for {time_ms} ms, but no dark was; found `{found}`"
     )]
     DarkTime {
-        /// Sample or white.
+        /// `sample` or `white`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
-        /// Its integration time.
+        /// Integration time of the reading in ms.
         time_ms: f64,
-        /// The times of the darks.
+        /// Integration times of the darks, as text.
         found: String,
     },
-    /// Several darks, and no time to choose by.
-    #[error(
-        "which of {darks} darks belongs to the {role} is unknown: no integration time in `{name}`"
-    )]
+    /// There are several darks, and the reading does not state its integration time.
+    #[error("cannot select one of {darks} darks for the {role}: no integration time in `{name}`")]
     UnknownTime {
-        /// Sample or white.
+        /// `sample` or `white`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
-        /// How many darks there are.
+        /// Number of darks.
         darks: usize,
     },
-    /// The detector was full.
+    /// The detector is saturated.
     #[error("the {role} `{name}` is saturated at {nm} nm, at `{value}`")]
     Saturated {
-        /// Sample or white.
+        /// `sample` or `white`.
         role: &'static str,
-        /// The reading.
+        /// Name of the reading.
         name: String,
-        /// Where.
+        /// Wavelength in nm.
         nm: f64,
-        /// The value at which it stops.
+        /// Value at which the detector saturates.
         value: f64,
     },
-    /// Too little light to divide by.
+    /// The white has too little light to divide by.
     #[error(
-        "the white `{name}` has too little light at {nm} nm: {least:.4} above its dark is wanted, found `{light:.4}`"
+        "the white `{name}` has too little light at {nm} nm: expected {least:.4} above its dark, found `{light:.4}`"
     )]
     Dim {
-        /// The white.
+        /// Name of the white.
         name: String,
-        /// Where.
+        /// Wavelength in nm.
         nm: f64,
-        /// White less dark.
+        /// Signal of the white minus its dark.
         light: f64,
-        /// What it must exceed.
+        /// The signal that it must exceed.
         least: f64,
     },
-    /// A reading that does not reach as far as the sample.
+    /// A reading does not cover a wavelength of the sample.
     #[error("the {role} has no value at `{nm}` nm, where the sample has one")]
     Uncovered {
-        /// White, dark or tile.
+        /// `white`, `dark` or `tile`.
         role: &'static str,
-        /// Where.
+        /// Wavelength in nm.
         nm: f64,
     },
-    /// Well below the dark.
+    /// The sample is darker than its dark by more than noise.
     #[error("the sample `{name}` reads below its dark at {nm} nm: reflectance `{reflectance}`")]
     BelowDark {
-        /// The sample.
+        /// Name of the sample.
         name: String,
-        /// Where.
+        /// Wavelength in nm.
         nm: f64,
-        /// What would come out.
+        /// The negative reflectance that results.
         reflectance: f64,
     },
-    /// Nothing that an eye sees.
+    /// The sample has no visible wavelength.
     #[error("the sample `{name}` has no wavelength from 380 to 730 nm")]
     Invisible {
-        /// The sample.
+        /// Name of the sample.
         name: String,
     },
-    /// The white's own reflectance is none.
+    /// The white's own reflectance is out of range.
     #[error("the tile's reflectance must be above 0 and at most 1.2, found `{value}`")]
     Tile {
-        /// The value, as a fraction.
+        /// Reflectance of the tile, as a fraction.
         value: f64,
     },
 }

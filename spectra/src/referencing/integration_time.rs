@@ -1,9 +1,9 @@
-//! How long a reading was integrated, out of the words of its file.
+//! Finding the integration time in the details of a file.
 
 use crate::instrument::MeasuredSpectrum;
 
-/// The integration time in ms, from a detail such as `Integration Time (usec): 24000 (JAZA1479)`
-/// or `Integration time: 100.00 ms`; `None` if there is none or no unit.
+/// The integration time in ms, from a detail such as `Integration Time (usec): 24000
+/// (JAZA1479)` or `Integration time: 100.00 ms`. `None` if there is none, or none with a unit.
 #[must_use]
 pub fn integration_time_ms(record: &MeasuredSpectrum) -> Option<f64> {
     record.details.iter().find_map(|(key, value)| {
@@ -11,7 +11,7 @@ pub fn integration_time_ms(record: &MeasuredSpectrum) -> Option<f64> {
         let (_, after) = key.split_once("integration time")?;
         let value = value.trim().to_lowercase();
         let number = value.split_whitespace().next()?;
-        // The unit stands beside the key, behind the number or at the number.
+        // The unit follows the keyword or the number, or is attached to the number.
         let digits = number.trim_end_matches(|c: char| c.is_alphabetic() || c == '\u{b5}');
         let behind = value.split_whitespace().nth(1).unwrap_or_default();
         let units =
@@ -42,7 +42,7 @@ mod tests {
     use crate::instrument::{MeasuredQuantity, Role, Unit};
 
     #[test]
-    fn the_makers_words_are_understood() {
+    fn integration_times_of_several_makers_are_parsed() {
         for (key, value, ms) in [
             ("Integration Time (usec)", "24000 (JAZA1479)", Some(24.0)),
             ("Integration Time (sec)", "2.000000E-2", Some(20.0)),

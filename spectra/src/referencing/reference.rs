@@ -158,8 +158,8 @@ impl Referencing {
                 && reading.quantity != Unstated
                 && sample.quantity != Unstated
             {
-                let wanted = sample.quantity;
-                return Err(ReferencingError::Mixed { role, name, wanted, found });
+                let expected = sample.quantity;
+                return Err(ReferencingError::Mixed { role, name, expected, found });
             }
         }
         Ok(())

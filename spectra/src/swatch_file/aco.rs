@@ -1,4 +1,5 @@
-//! Photoshop colour swatches: version 1 without names, then version 2 with them.
+//! Photoshop colour swatches (.aco): a section of version 1 without names, then one of version
+//! 2 with names.
 //!
 //! Adobe, "Adobe Photoshop File Formats Specification", section "Color Swatches".
 
@@ -13,10 +14,11 @@ const CMYK: u16 = 2;
 const LAB: u16 = 7;
 const GREY: u16 = 8;
 
-/// `palette` as an `.aco`, both versions one after the other; groups are left out.
+/// Writes both versions of an `.aco` file. Groups are left out.
 ///
 /// # Errors
-/// [`SwatchFileError::TooMany`] for more colours or letters than it can count.
+/// [`SwatchFileError::TooMany`] if the format cannot count the colours, or the letters of a
+/// name.
 pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     let Ok(count) = u16::try_from(palette.swatches.len()) else {
         let (what, found) = ("colours", palette.swatches.len());
@@ -40,10 +42,10 @@ pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     Ok(bytes)
 }
 
-/// The space and the four words of a colour.
+/// The colour space and the four 16-bit words of a colour.
 fn words(color: SwatchColor) -> (u16, [u16; 4]) {
     let share = |v: f64| (v.clamp(0.0, 1.0) * 65535.0).round() as u16;
-    // Hundredths, those below 0 as two's complement.
+    // Hundredths in two's complement.
     let hundredths = |v: f64| ((v * 100.0).round().clamp(-12800.0, 12700.0) as i16) as u16;
     match color {
         SwatchColor::Rgb(Rgb([r, g, b])) => (RGB, [share(r), share(g), share(b), 0]),
@@ -51,7 +53,7 @@ fn words(color: SwatchColor) -> (u16, [u16; 4]) {
             let lightness = (lab.lightness * 100.0).round().clamp(0.0, 10000.0) as u16;
             (LAB, [lightness, hundredths(lab.a), hundredths(lab.b), 0])
         }
-        // Counted from full ink.
+        // CMYK counts down from full ink.
         SwatchColor::Cmyk(inks) => (CMYK, inks.map(|ink| share(1.0 - ink))),
         SwatchColor::Grey(grey) => {
             (GREY, [(grey.clamp(0.0, 1.0) * 10000.0).round() as u16, 0, 0, 0])
@@ -59,11 +61,11 @@ fn words(color: SwatchColor) -> (u16, [u16; 4]) {
     }
 }
 
-/// The palette in `bytes`, the content of `file`: that of version 2 where there is
-/// one, else that of version 1, without names.
+/// Reads `bytes`, the content of `file`: its section of version 2 if there is one, otherwise
+/// that of version 1, which has no names.
 ///
 /// # Errors
-/// [`SwatchFileError`], with the byte.
+/// [`SwatchFileError`] with the offset in bytes.
 pub fn read_aco(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let mut palette = None;
@@ -102,7 +104,7 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
     Ok(palette)
 }
 
-/// `None` for a space such as a book of spot colours.
+/// The colour of a space and its words; `None` for other spaces, such as books of spot colours.
 fn color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
     let hundredths = |word: u16| f64::from(word as i16) / 100.0;

@@ -1,7 +1,7 @@
-//! Adobe Swatch Exchange: blocks of colours and groups, big-endian.
+//! Adobe Swatch Exchange (.ase): blocks of colours and groups, big-endian.
 //!
-//! Adobe has published no description; the layout is the one that other programs
-//! read and write (O. Berisha, "Adobe Swatch Exchange file format", 2006).
+//! Adobe has not published the format; the layout is that which other programs read and write
+//! (O. Berisha, "Adobe Swatch Exchange file format", 2006).
 
 use super::bytes::{Bytes, put_units, units};
 use super::entries::{SwatchColor, SwatchEntry, SwatchFile};
@@ -11,13 +11,13 @@ use crate::color::{Lab, Rgb};
 const COLOR: u16 = 0x0001;
 const GROUP_START: u16 = 0xc001;
 const GROUP_END: u16 = 0xc002;
-/// A colour that changes no other when changed.
+/// Type of an ordinary colour, which is neither global nor a spot colour.
 const NORMAL: u16 = 2;
-/// A colour with its model's four letters.
+/// The four letters of a colour model, and its values.
 type Model<'a> = (&'a [u8; 4], Vec<f64>);
 
-/// `palette` as an `.ase`; neighbours of one group stand in one group. RGB is cut
-/// off at the gamut's faces.
+/// Writes an `.ase` file. Adjacent colours of one group are written as a group; RGB is clipped
+/// to the gamut.
 ///
 /// # Errors
 /// [`SwatchFileError::TooMany`] for a name that is too long.
@@ -70,11 +70,10 @@ fn model(color: SwatchColor) -> Model<'static> {
     }
 }
 
-/// The palette in `bytes`, the content of `file`. Blocks of other kinds are passed
-/// over.
+/// Reads `bytes`, the content of `file`. Blocks of other kinds are skipped.
 ///
 /// # Errors
-/// [`SwatchFileError`], with the byte.
+/// [`SwatchFileError`] with the offset in bytes.
 pub fn read_ase(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let head = bytes.part(4, "`ASEF`")?;
@@ -88,7 +87,7 @@ pub fn read_ase(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError>
     for _ in 0..count {
         let kind = bytes.u16("a block")?;
         let length = bytes.u32("the length of a block")?;
-        let mut block = bytes.part(length as usize, "a block of the length told")?;
+        let mut block = bytes.part(length as usize, "a block of the stated length")?;
         match kind {
             GROUP_START => group = text(&mut block)?,
             GROUP_END => group.clear(),

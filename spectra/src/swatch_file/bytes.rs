@@ -1,12 +1,12 @@
-//! Reading and writing big-endian bytes, every fault with its place.
+//! Reading and writing big-endian values, with the offset of every error.
 
 use super::error::SwatchFileError;
 
-/// What is left of a file, or of a block in it.
+/// The unread part of a file, or of a block in it.
 pub(super) struct Bytes<'a> {
     pub(super) file: &'a str,
     pub(super) rest: &'a [u8],
-    /// Where `rest` begins in the file.
+    /// Offset of `rest` in the file, in bytes.
     pub(super) offset: usize,
 }
 
@@ -14,61 +14,65 @@ impl<'a> Bytes<'a> {
     pub(super) fn wrong(
         &self,
         offset: usize,
-        wanted: &'static str,
+        expected: &'static str,
         found: impl ToString,
     ) -> SwatchFileError {
         let (file, found) = (self.file.to_owned(), found.to_string());
-        SwatchFileError::Bytes { file, offset, wanted, found }
+        SwatchFileError::Bytes { file, offset, expected, found }
     }
 
-    /// The next `count` bytes, as a part of its own.
+    /// Splits off the next `count` bytes.
     pub(super) fn part(
         &mut self,
         count: usize,
-        wanted: &'static str,
+        expected: &'static str,
     ) -> Result<Self, SwatchFileError> {
-        let Some((taken, rest)) = self.rest.split_at_checked(count) else {
+        let Some((head, rest)) = self.rest.split_at_checked(count) else {
             let found = format!("{} bytes before the end", self.rest.len());
-            return Err(self.wrong(self.offset, wanted, found));
+            return Err(self.wrong(self.offset, expected, found));
         };
-        let part = Bytes { file: self.file, rest: taken, offset: self.offset };
+        let part = Bytes { file: self.file, rest: head, offset: self.offset };
         self.rest = rest;
         self.offset += count;
         Ok(part)
     }
 
-    fn array<const N: usize>(&mut self, wanted: &'static str) -> Result<[u8; N], SwatchFileError> {
-        let part = self.part(N, wanted)?;
-        Ok(part.rest.try_into().expect("a part has the length asked for"))
+    fn array<const N: usize>(
+        &mut self,
+        expected: &'static str,
+    ) -> Result<[u8; N], SwatchFileError> {
+        let part = self.part(N, expected)?;
+        Ok(part.rest.try_into().expect("a part has the requested length"))
     }
 
-    pub(super) fn u16(&mut self, wanted: &'static str) -> Result<u16, SwatchFileError> {
-        Ok(u16::from_be_bytes(self.array(wanted)?))
+    pub(super) fn u16(&mut self, expected: &'static str) -> Result<u16, SwatchFileError> {
+        Ok(u16::from_be_bytes(self.array(expected)?))
     }
 
-    pub(super) fn u32(&mut self, wanted: &'static str) -> Result<u32, SwatchFileError> {
-        Ok(u32::from_be_bytes(self.array(wanted)?))
+    pub(super) fn u32(&mut self, expected: &'static str) -> Result<u32, SwatchFileError> {
+        Ok(u32::from_be_bytes(self.array(expected)?))
     }
 
-    pub(super) fn f32(&mut self, wanted: &'static str) -> Result<f64, SwatchFileError> {
+    pub(super) fn f32(&mut self, expected: &'static str) -> Result<f64, SwatchFileError> {
         let offset = self.offset;
-        let value = f32::from_be_bytes(self.array(wanted)?);
-        if value.is_finite() { Ok(value.into()) } else { Err(self.wrong(offset, wanted, value)) }
+        let value = f32::from_be_bytes(self.array(expected)?);
+        if value.is_finite() { Ok(value.into()) } else { Err(self.wrong(offset, expected, value)) }
     }
 
-    /// Text of `count` UTF-16 units, its closing zero among them.
+    /// Reads text of `count` UTF-16 units, including a closing zero.
     pub(super) fn text(&mut self, count: usize) -> Result<String, SwatchFileError> {
-        let wanted = "a name in UTF-16";
-        let mut part = self.part(count.saturating_mul(2), wanted)?;
+        let expected = "a name in UTF-16";
+        let mut part = self.part(count.saturating_mul(2), expected)?;
         let offset = part.offset;
         let mut units = Vec::with_capacity(count);
         while !part.rest.is_empty() {
-            units.push(part.u16(wanted)?);
+            units.push(part.u16(expected)?);
         }
         if units.last() == Some(&0) {
             units.pop();
         }
-        String::from_utf16(&units).map_err(|_| self.wrong(offset, wanted, "half a surrogate pair"))
+        String::from_utf16(&units)
+            .map_err(|_| self.wrong(offset, expected, "half a surrogate pair"))
     }
 }
 

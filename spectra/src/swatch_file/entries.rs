@@ -7,21 +7,22 @@ use crate::integrate::TristimulusWeights;
 use crate::interpolate::Interpolation;
 use crate::observer::Observer;
 
-/// A colour as a palette holds it.
+/// A colour in one of the models of swatch files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SwatchColor {
-    /// Encoded RGB, 0..1; sRGB unless one knows better.
+    /// Encoded RGB, each channel 0 to 1. Swatch files do not name the RGB space; it is taken as
+    /// sRGB.
     Rgb(Rgb),
     /// CIELAB under D50 ([`d50_white`]).
     Lab(Lab),
-    /// Shares of ink, 0..1; without a profile no colour.
+    /// Amounts of ink, each 0 to 1. Without a colour profile they do not define a colour.
     Cmyk([f64; 4]),
-    /// From 0 for black to 1 for white.
+    /// Grey, from 0 for black to 1 for white.
     Grey(f64),
 }
 
 impl SwatchColor {
-    /// The colour in sRGB, not cut off at the gamut; none for inks.
+    /// The colour in sRGB, not clipped to the gamut; `None` for inks.
     #[must_use]
     pub fn srgb(self) -> Option<Rgb> {
         match self {
@@ -37,31 +38,31 @@ impl SwatchColor {
     }
 }
 
-/// The white of a palette's Lab: D50 for the observer of 1931.
+/// White point of Lab in swatch files: D50 for the observer of 1931.
 #[must_use]
 pub fn d50_white() -> Xyz {
     let light = Illuminant::named("D50").expect("D50 is one of the CIE's");
     let weights =
         TristimulusWeights::new(Grid::cie(), &light, Observer::default(), Interpolation::Linear);
-    weights.expect("lines join any grid").white()
+    weights.expect("linear interpolation suits any grid").white()
 }
 
-/// One named colour.
+/// One named colour of a swatch file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchEntry {
-    /// Its name.
+    /// Name of the colour.
     pub name: String,
-    /// The group it stands in; empty for none. Only `.ase` has groups.
+    /// Name of its group, empty for none. Only `.ase` files have groups.
     pub group: String,
-    /// Its colour.
+    /// Value of the colour.
     pub color: SwatchColor,
 }
 
-/// Named colours in order.
+/// The content of a swatch file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SwatchFile {
-    /// The palette's own name; only `.gpl` has one.
+    /// Name of the whole palette; only `.gpl` files have one.
     pub name: String,
-    /// The colours.
+    /// The colours in the order of the file.
     pub swatches: Vec<SwatchEntry>,
 }

@@ -2,49 +2,49 @@
 
 use crate::hint::Explain;
 
-/// A fault of a palette, with its place.
+/// A swatch file that cannot be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SwatchFileError {
-    /// Bytes that are not what the format wants there.
-    #[error("{file}, byte {offset}: {wanted} is wanted, found `{found}`")]
+    /// Bytes do not follow the format.
+    #[error("{file}, byte {offset}: expected {expected}, found `{found}`")]
     Bytes {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 0.
+        /// Offset in bytes, from 0.
         offset: usize,
-        /// What should stand there.
-        wanted: &'static str,
-        /// What stands there.
+        /// Description of the expected content.
+        expected: &'static str,
+        /// The content that was found.
         found: String,
     },
-    /// A line that is not what the format wants there.
-    #[error("{file}, line {line}: {wanted} is wanted, found `{text}`")]
+    /// A line does not follow the format.
+    #[error("{file}, line {line}: expected {expected}, found `{text}`")]
     Line {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Counted from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What should stand there.
-        wanted: &'static str,
-        /// What stands there, cut short.
+        /// Description of the expected content.
+        expected: &'static str,
+        /// The content of the line, shortened.
         text: String,
     },
-    /// A colour that the format cannot hold.
-    #[error("{format} holds no such colour as that of `{name}`")]
+    /// The format cannot represent a colour.
+    #[error("{format} files cannot hold the colour of `{name}`")]
     Color {
-        /// The format.
+        /// Extension of the format.
         format: &'static str,
-        /// The swatch.
+        /// Name of the swatch.
         name: String,
     },
-    /// More than the format can count.
-    #[error("{format} holds up to 65535 {what}, found `{found}`")]
+    /// There are more items than the format can count.
+    #[error("{format} files hold up to 65535 {what}, found `{found}`")]
     TooMany {
-        /// The format.
+        /// Extension of the format.
         format: &'static str,
-        /// Colours, or letters of a name.
+        /// The things that are counted, in the plural.
         what: &'static str,
-        /// How many.
+        /// Number of items.
         found: usize,
     },
 }

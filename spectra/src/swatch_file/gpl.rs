@@ -1,4 +1,4 @@
-//! GIMP palettes: lines of text, `R G B<tab>name`, after a head.
+//! GIMP palettes (.gpl): a header, then lines of `R G B<tab>name`.
 //!
 //! GIMP developer documentation, "GIMP Palette (.gpl) File Format".
 
@@ -10,11 +10,11 @@ use crate::color::Rgb;
 
 const HEAD: &str = "GIMP Palette";
 
-/// `palette` as a `.gpl`; colours outside sRGB are cut off at its faces, and
-/// control characters of names become spaces.
+/// Writes a `.gpl` file. Colours outside sRGB are clipped, and control characters in names
+/// become spaces.
 ///
 /// # Errors
-/// [`SwatchFileError::Color`] for inks.
+/// [`SwatchFileError::Color`] for inks, which do not define a colour.
 pub fn write_gpl(palette: &SwatchFile) -> Result<String, SwatchFileError> {
     let name = one_line(&palette.name);
     let mut text = format!("{HEAD}\nName: {name}\nColumns: 0\n#\n");
@@ -25,26 +25,26 @@ pub fn write_gpl(palette: &SwatchFile) -> Result<String, SwatchFileError> {
             .ok_or_else(|| SwatchFileError::Color { format: ".gpl", name: swatch.name.clone() })?;
         let [r, g, b] = rgb.to_bytes();
         let name = one_line(&swatch.name);
-        writeln!(text, "{r:3} {g:3} {b:3}\t{name}").expect("text takes a line");
+        writeln!(text, "{r:3} {g:3} {b:3}\t{name}").expect("writing to a string succeeds");
     }
     Ok(text)
 }
 
-/// The palette in `bytes`, the content of `file`.
+/// Reads `bytes`, the content of `file`.
 ///
 /// # Errors
-/// [`SwatchFileError`], with line or byte.
+/// [`SwatchFileError`] with the line, or the offset in bytes.
 pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let text = std::str::from_utf8(bytes).map_err(|error| SwatchFileError::Bytes {
         file: file.to_owned(),
         offset: error.valid_up_to(),
-        wanted: "text in UTF-8",
+        expected: "text in UTF-8",
         found: format!("{:#04x}", bytes[error.valid_up_to()]),
     })?;
-    let wrong = |line: usize, wanted, text: &str| SwatchFileError::Line {
+    let wrong = |line: usize, expected, text: &str| SwatchFileError::Line {
         file: file.to_owned(),
         line,
-        wanted,
+        expected,
         text: text.escape_default().take(40).collect(),
     };
     let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..);

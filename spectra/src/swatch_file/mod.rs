@@ -1,13 +1,13 @@
-//! Palettes as painting programs exchange them: named colours, no spectra.
+//! Swatch files of painting programs: named colours without spectra.
 //!
-//! | file | of | holds |
+//! | extension | program | content |
 //! |------|----|-------|
 //! | `.gpl` | GIMP, Inkscape, Krita | sRGB in 8 bits |
 //! | `.ase` | Adobe programs | RGB, Lab, CMYK or grey as 32-bit floats, in groups |
-//! | `.aco` | Photoshop | the same in 16 bits |
+//! | `.aco` | Photoshop | RGB, HSB, Lab, CMYK or grey in 16 bits |
 //!
-//! None of the three says which RGB is meant; here it is sRGB. Lab is that of the
-//! graphic arts, under D50 for the 1931 observer.
+//! None of the formats names its RGB space; it is taken as sRGB. Lab is that of the graphic
+//! arts, under D50 for the 1931 observer.
 
 mod entries;
 

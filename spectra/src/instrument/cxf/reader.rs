@@ -1,31 +1,32 @@
-//! The spectra of a CxF3 file.
+//! Reading the spectra of a CxF3 file.
 //!
-//! Objects of a collection carry spectra; each names a colour specification that
-//! holds the wavelengths' increment, the geometry and the device. Reflectance and
-//! transmittance are fractions, white near 1. Objects that hold colours only are
-//! passed over.
+//! The objects of a collection contain spectra. Each spectrum refers to a colour specification
+//! with the increment of the wavelengths, the geometry and the device. Reflectance and
+//! transmittance are fractions, white near 1. Objects with colours only are skipped.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::error::InstrumentError;
 use super::super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
-use super::super::number::{Decimal, wanted};
+use super::super::number::{Decimal, required_number};
 use super::super::points::{Duplicates, Point, ordered, sorted};
 use super::super::xml::{Element, parse};
 
-/// A reflectance at or above this is no fraction: the schema keeps values below 3.
+/// A file with a reflectance from this value up is in percent: the schema keeps fractions below
+/// 3.
 const MOST_FRACTION: f64 = 3.0;
 
-/// Values at one wavelength are averaged if they differ by no more than this share of full scale.
+/// Values at one wavelength are averaged if they differ by at most this fraction of full scale
+/// (chosen by eye).
 const MOST_APART: f64 = 0.1;
 
-/// What a wavelength must be, in errors.
+/// Description of a wavelength in errors.
 const NM: &str = "a wavelength in nm";
 
-/// What a value must be, in errors.
+/// Description of a value in errors.
 const NUMBER: &str = "a number";
 
-/// Every spectrum of a CxF3 file, in its order.
+/// Reads every spectrum of a CxF3 file, in the order of the file.
 pub(in crate::instrument) fn read(
     file: &str,
     text: &str,
@@ -36,19 +37,19 @@ pub(in crate::instrument) fn read(
     }
     let specifications = specifications(&root);
     let mut found = Vec::new();
-    for object in below(&root, ["Resources", "ObjectCollection", "Object"]) {
+    for object in descendants(&root, ["Resources", "ObjectCollection", "Object"]) {
         for element in object.all("ColorValues").flat_map(|values| &values.children) {
             if let Some(quantity) = quantity(&element.name) {
                 found.push(spectrum(file, object, element, quantity, &specifications)?);
             }
         }
     }
-    name_apart(&mut found);
+    make_names_unique(&mut found);
     let mut records: Vec<MeasuredSpectrum> = found.into_iter().map(|found| found.record).collect();
     let fraction = |record: &MeasuredSpectrum| record.unit == Unit::Fraction;
     let above =
         |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
-    // Some writers put percent there; one sample shows it for all.
+    // Some writers use percent; one sample shows it for all.
     if records.iter().any(|record| fraction(record) && above(record)) {
         for record in records.iter_mut().filter(|record| fraction(record)) {
             record.unit = Unit::Percent;
@@ -57,11 +58,11 @@ pub(in crate::instrument) fn read(
     Ok(records)
 }
 
-/// A record, and what it was measured with.
+/// A spectrum, with the specification and illumination of its measurement.
 struct Found {
     record: MeasuredSpectrum,
     specification: String,
-    /// `M0` to `M3` (ISO 13655), where the file says so.
+    /// Illumination condition, `M0` to `M3` (ISO 13655), if the file states it.
     condition: Option<String>,
 }
 
@@ -129,7 +130,7 @@ fn spectrum(
     Ok(Found { record, specification: id.to_owned(), condition })
 }
 
-/// Values at a constant increment, parted by white space.
+/// Values at a constant increment, separated by white space.
 fn regular(
     file: &str,
     element: &Element,
@@ -162,11 +163,16 @@ fn regular(
     Ok(points)
 }
 
-fn number(file: &str, line: usize, what: &'static str, text: &str) -> Result<f64, InstrumentError> {
-    wanted(file, line, what, text, Decimal::Point)
+fn number(
+    file: &str,
+    line: usize,
+    expected: &'static str,
+    text: &str,
+) -> Result<f64, InstrumentError> {
+    required_number(file, line, expected, text, Decimal::Point)
 }
 
-/// Values each with its own wavelength.
+/// Values with a wavelength for each.
 fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentError> {
     let point = |child: &Element| {
         let nm = number(file, child.line, NM, child.attribute("WL").unwrap_or_default())?;
@@ -176,9 +182,9 @@ fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentErro
     element.all("SpectralPoint").map(point).collect()
 }
 
-/// Spectra of one object under several specifications (M0 and M1, several angles) are no repeated
-/// readings: their names are told apart.
-fn name_apart(found: &mut [Found]) {
+/// Makes names unique for spectra of one object under several specifications (M0 and M1,
+/// several angles), which are not repeated readings.
+fn make_names_unique(found: &mut [Found]) {
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, found) in found.iter().enumerate() {
         groups.entry(found.record.name.clone()).or_default().push(index);
@@ -212,7 +218,7 @@ fn quantity(element: &str) -> Option<MeasuredQuantity> {
     }
 }
 
-/// What a specification says of a spectrum with its own wavelengths.
+/// The quantity of a spectrum with its own wavelengths, according to its specification.
 fn custom_quantity(measurement_type: &str) -> MeasuredQuantity {
     match measurement_type {
         "Spectrum_Reflectance" => MeasuredQuantity::Reflectance,
@@ -224,11 +230,11 @@ fn custom_quantity(measurement_type: &str) -> MeasuredQuantity {
 
 fn specifications(root: &Element) -> BTreeMap<&str, &Element> {
     let path = ["Resources", "ColorSpecificationCollection", "ColorSpecification"];
-    below(root, path).into_iter().filter_map(|it| Some((it.attribute("Id")?, it))).collect()
+    descendants(root, path).into_iter().filter_map(|it| Some((it.attribute("Id")?, it))).collect()
 }
 
-/// The elements at the end of `path`.
-fn below<'a>(root: &'a Element, path: [&'a str; 3]) -> Vec<&'a Element> {
+/// The descendants of `root` along a path of three element names.
+fn descendants<'a>(root: &'a Element, path: [&'a str; 3]) -> Vec<&'a Element> {
     let mut found = vec![root];
     for name in path {
         found = found.into_iter().flat_map(|element| element.all(name)).collect();
@@ -300,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_custom_wavelength_that_stands_twice_is_averaged_unless_far_apart() {
+    fn values_at_a_repeated_custom_wavelength_are_averaged_unless_far_apart() {
         let points = |second: f64| {
             let point = |nm: f64, value: f64| {
                 format!("<c:SpectralPoint WL='{nm}'>{value}</c:SpectralPoint>")
@@ -313,11 +319,11 @@ mod tests {
         assert!((found.values[1] - 0.24).abs() < 1e-12 && found.values.len() == 2, "{found:?}");
         assert!(found.remarks[0].contains("averaged"), "{found:?}");
         let error = points(0.31).unwrap_err().to_string();
-        assert!(error.starts_with("f, line 3: 500 nm stands more than once"), "{error}");
+        assert!(error.starts_with("f, line 3: 500 nm occurs more than once"), "{error}");
     }
 
     #[test]
-    fn conditions_are_told_apart_and_repeats_are_not() {
+    fn conditions_get_different_names_and_repeats_do_not() {
         let both = reflectance("m0", "0.1 0.2") + &reflectance("m1", "0.3 0.4");
         let twice = reflectance("s", "0.1") + &reflectance("s", "0.2");
         let mixed = reflectance("s", "0.1") + &reflectance("m1", "0.2");
@@ -327,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn percent_is_seen_by_the_file_as_a_whole() {
+    fn percent_in_one_spectrum_holds_for_the_whole_file() {
         let text =
             file(&(object("a", &reflectance("s", "80")) + &object("b", &reflectance("s", "2"))));
         let units: Vec<_> = read("f", &text).unwrap().into_iter().map(|r| r.unit).collect();
@@ -337,23 +343,23 @@ mod tests {
     #[test]
     fn faults_have_a_place() {
         let lab = object("a", "<c:ColorCIELab ColorSpecification='s'><c:L>5</c:L></c:ColorCIELab>");
-        for (objects, wanted) in [
+        for (objects, expected) in [
             (
                 object("a", &reflectance("s", "0.1\n0.2 x")),
-                "f, line 3: a number is wanted, found `x`",
+                "f, line 3: expected a number, found `x`",
             ),
-            (object("a", &reflectance("s", "NaN")), "f, line 2: a number is wanted, found `NaN`"),
-            (object("a", &reflectance("s", " ")), "f, line 2: a value is wanted"),
+            (object("a", &reflectance("s", "NaN")), "f, line 2: expected a number, found `NaN`"),
+            (object("a", &reflectance("s", " ")), "f, line 2: expected a value"),
             (
                 object("a", &reflectance("none", "1")),
-                "f, line 2: ReflectanceSpectrum has no StartWL, nor has the specification `none`",
+                "f, line 2: ReflectanceSpectrum has no StartWL, and neither has the specification `none`",
             ),
         ] {
             let error = read("f", &file(&objects)).unwrap_err().to_string();
-            assert!(error.starts_with(wanted), "{error}");
+            assert!(error.starts_with(expected), "{error}");
         }
         assert_eq!(read("f", &file(&lab)).unwrap(), [], "colours only");
         let error = read("f", "<svg/>").unwrap_err().to_string();
-        assert_eq!(error, "f, line 1: a CxF element is wanted, found `svg`");
+        assert_eq!(error, "f, line 1: expected a CxF element, found `svg`");
     }
 }

@@ -1,8 +1,8 @@
-//! Reflectance as a CxF3 file.
+//! Writing reflectances as a CxF3 file.
 //!
-//! Order of elements, required ones and bounds as in the schema of CxF3-core: a list
-//! of values starts at a whole wavelength from 360 to 400 nm and has a whole
-//! increment; a grid that does not is written point by point.
+//! The order of elements, required elements and bounds follow the schema of CxF3-core. A list
+//! of values must start at a whole wavelength from 360 to 400 nm and have a whole increment;
+//! other grids are written point by point.
 
 use std::fmt::Write;
 
@@ -11,24 +11,24 @@ use quick_xml::escape::escape;
 use crate::grid::Grid;
 use crate::spectrum::{Reflectance, Spectrum};
 
-/// What a file says of itself.
+/// Statements about a CxF file as a whole.
 #[derive(Debug, Clone, Copy)]
 pub struct CxfHead<'a> {
-    /// The program or person.
+    /// The program or person that made the file.
     pub creator: &'a str,
-    /// What the file holds.
+    /// Description of the content.
     pub description: &'a str,
-    /// How the reflectances came about: the geometry, or `predicted`.
+    /// Origin of the reflectances: the geometry of the measurement, or `predicted`.
     pub geometry: &'a str,
-    /// Date and time as `2026-01-31T12:00:00Z`. The schema wants one for every object; where
-    /// there is none, so that the same spectra give the same file, 1970 stands.
+    /// Date and time as `2026-01-31T12:00:00Z`. The schema requires one for every object;
+    /// `None` writes 1970, so that equal spectra give equal files.
     pub creation_date: Option<&'a str>,
 }
 
-/// A CxF3 file of named reflectances, to six decimals.
+/// Writes named reflectances as a CxF3 file, to six decimals.
 ///
-/// Names may hold any character; what XML cannot hold (control characters) becomes
-/// U+FFFD. Read back, a name has no white space around it.
+/// Names may contain any character. Characters that XML cannot represent (control characters)
+/// become U+FFFD. White space around a name is lost on reading.
 #[must_use]
 pub fn write_cxf(head: &CxfHead<'_>, spectra: &[(&str, &Spectrum<Reflectance>)]) -> String {
     let date = escaped(head.creation_date.unwrap_or("1970-01-01T00:00:00Z"));
@@ -70,7 +70,7 @@ pub fn write_cxf(head: &CxfHead<'_>, spectra: &[(&str, &Spectrum<Reflectance>)])
 fn values(spectrum: &Spectrum<Reflectance>, specification: usize) -> String {
     let grid = spectrum.grid();
     let id = format!("ColorSpecification=\"specification{specification}\"");
-    if let Some((start, _)) = whole(grid) {
+    if let Some((start, _)) = whole_start_and_step(grid) {
         let values: Vec<_> = spectrum.values().iter().map(|value| format!("{value:.6}")).collect();
         let values = values.join(" ");
         return format!(
@@ -85,10 +85,10 @@ fn values(spectrum: &Spectrum<Reflectance>, specification: usize) -> String {
 }
 
 fn specification(number: usize, grid: Grid, geometry: &str) -> String {
-    let range = whole(grid).map_or_else(String::new, |(start, step)| {
+    let range = whole_start_and_step(grid).map_or_else(String::new, |(start, step)| {
         format!("          <WavelengthRange StartWL=\"{start}\" Increment=\"{step}\"/>\n")
     });
-    // The schema wants at least one character here.
+    // The schema requires at least one character.
     let geometry = if geometry.is_empty() { "unknown" } else { geometry };
     format!(
         "      <ColorSpecification Id=\"specification{number}\">\n        <MeasurementSpec>\n          \
@@ -98,14 +98,15 @@ fn specification(number: usize, grid: Grid, geometry: &str) -> String {
     )
 }
 
-/// Start and step, where the schema can say them.
-fn whole(grid: Grid) -> Option<(u32, u32)> {
+/// Start and step in whole nm, if the schema can express them.
+fn whole_start_and_step(grid: Grid) -> Option<(u32, u32)> {
     let whole = |nm: f64| (nm.fract() == 0.0 && nm <= 1000.0).then_some(nm as u32);
     let start = whole(grid.start_nm()).filter(|start| (360..=400).contains(start))?;
     Some((start, whole(grid.step_nm())?))
 }
 
-/// Text for an element or an attribute; what would be read back as a space is written by number.
+/// Escapes text for an element or an attribute. Characters that would be read back as a space
+/// are written by number.
 fn escaped(text: &str) -> String {
     let held = |c: char| match c {
         '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn reading_returns_what_was_written() {
         let white = spectrum(380.0, 10.0, &[0.25, 0.5, 1.0]);
         let fine = spectrum(402.5, 2.5, &[0.125, 0.75]);
         let name = "<\"blue\" & 'green'>\n\u{1f3a8}\u{1}";
@@ -152,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_stand_in_the_order_of_the_schema() {
+    fn elements_follow_the_order_of_the_schema() {
         let white = spectrum(400.0, 20.0, &[1.0]);
         let text = write_cxf(&HEAD, &[("white", &white), ("again", &white)]);
         let order = [
