@@ -52,7 +52,7 @@ pub enum CsvTableError {
     /// A cell does not contain the required number.
     #[error("{place}: {wanted} is wanted, found `{text}`")]
     Cell {
-        /// The cell.
+        /// File, row and column of the cell.
         place: CellPlace,
         /// Description of the required number.
         wanted: &'static str,

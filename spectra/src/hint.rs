@@ -15,8 +15,8 @@ use std::fmt;
 ///
 /// let hint = Hint::new("name another white with [reference]");
 /// assert_eq!(hint.to_string(), "name another white with `reference`");
-/// let option = hint.with_settings(|name, _| format!("--{name}"));
-/// assert_eq!(option, "name another white with --reference");
+/// let panel = hint.with_settings(|name, _| format!("the panel {name}"));
+/// assert_eq!(panel, "name another white with the panel reference");
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hint {

@@ -25,9 +25,9 @@ use crate::spectrum::{Reflectance, Spectrum};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Viewing {
-    /// The light.
+    /// The light that falls on the sample.
     pub illuminant: Illuminant,
-    /// The observer.
+    /// The standard observer that looks at it.
     pub observer: Observer,
 }
 

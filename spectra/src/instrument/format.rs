@@ -9,7 +9,7 @@ pub enum Format {
     /// CGATS.17 and related formats: Argyll .ti3, .sp and .cie, text files of X-Rite and
     /// GretagMacbeth.
     Cgats,
-    /// Datacolor QTX.
+    /// Datacolor QTX: text with sections in square brackets.
     Qtx,
     /// Ocean Optics: SpectraSuite, OceanView, Jaz.
     OceanOptics,
@@ -30,7 +30,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats.
+    /// All formats, for lists of choices.
     pub const ALL: [Self; 10] = [
         Self::Cgats,
         Self::Qtx,

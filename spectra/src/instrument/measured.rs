@@ -8,9 +8,9 @@ use crate::spectrum::{Reflectance, Spectrum, SpectrumError};
 /// The quantity that an instrument measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasuredQuantity {
-    /// Reflectance factor.
+    /// Reflectance factor, relative to a perfect diffuser.
     Reflectance,
-    /// Transmittance factor.
+    /// Transmittance factor, relative to the incident light.
     Transmittance,
     /// Absorbance: the negative decimal logarithm of a reflectance or transmittance.
     Absorbance,
@@ -147,7 +147,7 @@ pub enum ReflectanceError {
     Quantity {
         /// Name of the spectrum.
         name: String,
-        /// Its quantity.
+        /// The quantity that the file states.
         found: MeasuredQuantity,
     },
     /// A value is outside 0 to 2.
@@ -164,7 +164,7 @@ pub enum ReflectanceError {
     Wavelengths {
         /// Name of the spectrum.
         name: String,
-        /// What is wrong with the wavelengths.
+        /// The fault of the wavelengths.
         #[source]
         reason: IrregularSpectrumError,
     },

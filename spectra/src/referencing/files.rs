@@ -45,7 +45,7 @@ pub enum TileSource {
 /// A reference measurement that was opened, with the content of its files.
 #[derive(Debug, Clone)]
 pub struct OpenedReferences {
-    /// The readings.
+    /// The counts of white and dark, and the reflectance of the white.
     pub referencing: Referencing,
     /// Path and bytes of every file that was read, for checksums.
     pub files: Vec<(String, Vec<u8>)>,

@@ -24,7 +24,7 @@ pub enum Dark {
 /// The reflectance of the white itself.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tile {
-    /// The same fraction at every wavelength.
+    /// One fraction (0 to 1) for all wavelengths.
     Even(f64),
     /// Measured reflectance as a fraction.
     Measured(IrregularSpectrum),

@@ -1,4 +1,4 @@
-//! Named colours.
+//! The named colours that a swatch file holds.
 
 use crate::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 use crate::grid::Grid;
@@ -41,7 +41,7 @@ impl SwatchColor {
 /// White point of Lab in swatch files: D50 for the observer of 1931.
 #[must_use]
 pub fn d50_white() -> Xyz {
-    let light = Illuminant::named("D50").expect("D50 is one of the CIE's");
+    let light = Illuminant::named("D50").expect("D50 is in the table of CIE illuminants");
     let weights =
         TristimulusWeights::new(Grid::cie(), &light, Observer::default(), Interpolation::Linear);
     weights.expect("linear interpolation suits any grid").white()

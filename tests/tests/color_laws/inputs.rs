@@ -37,7 +37,7 @@ fn impossible_values_are_refused_with_their_wavelength() {
     assert!(Spectrum::<Response>::new(grid(), vec![-1.0; 6]).is_ok(), "a response has any sign");
     assert_eq!(
         Spectrum::<Power>::new(grid(), vec![1.0; 5]),
-        Err(SpectrumError::Count { wanted: 6, found: 5 }),
+        Err(SpectrumError::Count { expected: 6, found: 5 }),
         "a value is missing"
     );
 }
