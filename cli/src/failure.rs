@@ -11,9 +11,9 @@ use calibrate::matching::MatchError;
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
 use render::camera::CameraPathError;
-use render::export::{FrameError, SequenceError};
+use render::export::{FrameError, PaintingExportError, SequenceError};
 use render::gpu::DeviceError;
-use render::light::LightFailure;
+use render::light::PaintLightError;
 use render::mesh::MeshError;
 use render::paint::file::PaintingFileError;
 use render::paint::ground::GroundError;
@@ -106,6 +106,11 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<CameraPathError>,
         as_explained::<FrameError>,
         as_explained::<SequenceError>,
+        as_explained::<PaintLightError>,
+        as_explained::<PaintingFileError>,
+        as_explained::<GroundError>,
+        as_explained::<SeparationError>,
+        as_explained::<PaintingExportError>,
     ];
     known.into_iter().find_map(|known| known(cause))
 }
@@ -159,21 +164,9 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
 
 /// Hints of what paints.
 fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
-    if let Some(error) = cause.downcast_ref::<LightFailure>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<PaintingFileError>() {
-        return error.hint().map(Into::into);
-    }
-    if let Some(error) = cause.downcast_ref::<GroundError>() {
-        return error.hint();
-    }
     if cause.is::<DeviceError>() || matches!(cause.downcast_ref(), Some(ModelPainterError::Gpu(_)))
     {
         return Some("paint on the processor: --backend cpu".to_owned());
-    }
-    if let Some(error) = cause.downcast_ref::<SeparationError>() {
-        return Some(error.hint().to_owned());
     }
     watercolor_hint(cause)
 }
@@ -216,7 +209,10 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
             matches!(
                 cause.downcast_ref(),
                 Some(LightError::Unknown { .. } | LightError::Illuminant(_))
-            ) || matches!(cause.downcast_ref(), Some(ReferenceFilesError::Setting { .. }));
+            ) || matches!(cause.downcast_ref(), Some(ReferenceFilesError::Setting { .. }))
+                || cause.is::<PaintLightError>()
+                || cause.is::<FrameError>()
+                || cause.is::<SequenceError>();
         return Some(if wrong_option || error.fault() == Fault::Environment { 2 } else { 1 });
     }
     let data = cause.is::<MeasurementError>()
@@ -232,10 +228,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<SessionError>()
         || cause.is::<ScriptStartError>()
         || cause.is::<ScriptError>()
-        || cause.is::<PaintingFileError>()
-        || cause.is::<GroundError>()
         || cause.is::<PhotographError>()
-        || cause.is::<SeparationError>()
         || cause.is::<SettingsError>()
         || cause.is::<PaperTextureError>()
         || cause.is::<GlazeError>()

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use render::export::{self, PictureFormat, painting_maps, pigment_maps, spectral_file};
+use render::export::{self, ClippedColors, PaintingExports, PictureFormat, SpectralBands};
 use render::field::Field;
-use render::paint::file;
 use render::paint::painting::Painting;
+use spectra::hint::Explain;
 
 use crate::console::Console;
 use crate::failure::Refusal;
@@ -22,9 +22,9 @@ pub(crate) enum Bits {
     Sixteen,
 }
 
-/// Which wavelengths a spectral picture holds.
+/// Wavelengths of a spectral picture.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum SpectralBands {
+enum Bands {
     /// The eight that the picture was computed with
     Nodes,
     /// All of the library's, computed anew in double precision
@@ -45,7 +45,7 @@ pub(crate) struct Exports {
     spectral: Option<PathBuf>,
     /// Wavelengths of --spectral
     #[arg(long, value_enum, default_value = "nodes", help_heading = "Exports")]
-    bands: SpectralBands,
+    bands: Bands,
     /// Write a map of each pigment into this folder (16-bit PNG, the scale in JSON, the
     /// amounts in CSV), summed over all layers
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
@@ -128,90 +128,70 @@ impl OpenExports {
         all.into_iter().flatten().any(|output| output.is_same_as(other))
     }
 
-    /// Writes the picture alone, which is linear sRGB.
+    /// Writes only the picture, given in linear sRGB.
     pub(crate) fn write_picture(
         self,
         picture: &Field<[f32; 4]>,
         cell_mm: f64,
         console: &mut Console<'_>,
     ) -> anyhow::Result<()> {
-        match self.picture {
-            Some(output) => write_picture(output, self.options.bits, picture, cell_mm, console),
-            None => Ok(()),
-        }
+        let Some(output) = self.picture else { return Ok(()) };
+        let format = self.options.bits.format(output.path());
+        let file = export::picture_file(picture, cell_mm, format)?;
+        remark_clipping(output.path(), file.clipping(), console)?;
+        output.write(file.bytes)
     }
 
-    /// Computes and writes them.
+    /// Computes and writes all files.
     pub(crate) fn write(
         self,
         painting: &mut Painting,
         console: &mut Console<'_>,
     ) -> anyhow::Result<()> {
-        let cell_mm = painting.cell_mm();
-        if let Some(output) = self.picture {
-            write_picture(output, self.options.bits, &painting.picture()?, cell_mm, console)?;
+        let Exports { bits, bands, pigment_maps, .. } = self.options;
+        let path = |output: &Output| output.path().to_owned();
+        let bands = match bands {
+            Bands::Nodes => SpectralBands::Nodes,
+            Bands::Full => SpectralBands::Full,
+        };
+        let exports = PaintingExports {
+            picture: self.picture.as_ref().map(|output| (path(output), bits.format(output.path()))),
+            spectral: self.spectral.as_ref().map(|output| (path(output), bands)),
+            pigment_maps,
+            painting: self.painting.as_ref().map(path),
+        };
+        let clipped = exports.write(painting)?;
+        match &exports.picture {
+            Some((path, _)) => remark_clipping(path, clipped, console),
+            None => Ok(()),
         }
-        if self.spectral.is_none() && self.options.pigment_maps.is_none() && self.painting.is_none()
-        {
-            return Ok(());
-        }
-        let document = painting.document()?;
-        if let Some(output) = self.spectral {
-            let picture = painting.picture()?;
-            let bands = match self.options.bands {
-                SpectralBands::Nodes => export::Bands::Nodes,
-                SpectralBands::Full => export::Bands::Full,
-            };
-            let made = spectral_file(&document, painting.light(), &picture, bands, |_| true)?;
-            if let Some(bytes) = made {
-                output.write(bytes)?;
-            }
-        }
-        if let Some(folder) = self.options.pigment_maps {
-            for file in pigment_maps("painting", &painting_maps(&document), cell_mm)? {
-                Output::open(&folder.join(file.name), &[])?.write(file.bytes)?;
-            }
-        }
-        if let Some(output) = self.painting {
-            output.write(file::write(&document)?)?;
-        }
-        Ok(())
     }
 }
 
-fn write_picture(
-    output: Output,
-    bits: Bits,
-    picture: &Field<[f32; 4]>,
-    cell_mm: f64,
+impl Bits {
+    /// Format of the picture at `path`.
+    fn format(self, path: &Path) -> PictureFormat {
+        match (PictureFormat::from_path(path), self) {
+            (Some(PictureFormat::LinearExr), _) => PictureFormat::LinearExr,
+            (_, Self::Eight) => PictureFormat::Png8,
+            (_, Self::Sixteen) => PictureFormat::Png16,
+        }
+    }
+}
+
+fn remark_clipping(
+    path: &Path,
+    clipped: Option<ClippedColors>,
     console: &mut Console<'_>,
 ) -> anyhow::Result<()> {
-    let (bytes, remark) = picture_file(output.path(), bits, picture, cell_mm)?;
-    if let Some(remark) = remark {
-        console.remark(remark)?;
+    match clipped.map(|clipped| clipping_remark(path, clipped)) {
+        Some(remark) => console.remark(remark),
+        None => Ok(()),
     }
-    output.write(bytes)
 }
 
-/// The picture in the format that its name says, and a remark on what that
-/// format could not hold.
-pub(crate) fn picture_file(
-    path: &Path,
-    bits: Bits,
-    picture: &Field<[f32; 4]>,
-    cell_mm: f64,
-) -> anyhow::Result<(Vec<u8>, Option<String>)> {
-    let exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
-    let format = match bits {
-        _ if exr => PictureFormat::LinearExr,
-        Bits::Eight => PictureFormat::Png8,
-        Bits::Sixteen => PictureFormat::Png16,
-    };
-    let file = export::picture_file(picture, cell_mm, format)?;
-    let share = 100.0 * file.clipped;
-    let remark = format!(
-        "{}: {share:.1} % of the cells are outside sRGB and were clipped; .exr keeps them",
-        path.display()
-    );
-    Ok((file.bytes, (share >= 0.05).then_some(remark)))
+/// Remark on colours that the picture at `path` could not hold.
+pub(crate) fn clipping_remark(path: &Path, clipped: ClippedColors) -> String {
+    let hint = clipped.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
+    format!("{}: {clipped}{hint}", path.display())
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
+use render::export::{PictureFormat, picture_file};
 use render::paint::document::Document;
 use render::paint::ground::GroundRelief;
 use render::paint::painting::Painting;
@@ -20,7 +21,7 @@ use crate::engine::EngineOptions;
 use crate::failure::Refusal;
 use crate::input::{built_in_library, library, unreadable};
 use crate::output::Output;
-use crate::pictures::{Bits, Exports, picture_file};
+use crate::pictures::{Exports, clipping_remark};
 use crate::progress::Progress;
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
@@ -140,8 +141,7 @@ impl Paint {
             ));
         }
         let path = folder.join(start);
-        let bytes = std::fs::read(&path).with_context(|| unreadable(&path))?;
-        let document = render::paint::file::read(&path.display().to_string(), &bytes)?;
+        let document = Document::open(&path)?;
         Ok(Some((path, document)))
     }
 
@@ -228,9 +228,9 @@ fn save(
     let path = output.path();
     let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         let picture = painting.picture()?;
-        let (bytes, remark) = picture_file(path, Bits::Eight, &picture, painting.cell_mm())?;
-        remarks.extend(remark);
-        bytes
+        let file = picture_file(&picture, painting.cell_mm(), PictureFormat::Png8)?;
+        remarks.extend(file.clipping().map(|clipped| clipping_remark(path, clipped)));
+        file.bytes
     } else {
         render::paint::file::write(&painting.document()?)?
     };

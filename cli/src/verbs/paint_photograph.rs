@@ -11,7 +11,7 @@ use render::paint::painting::Painting;
 use render::paint::session::PaintingSession;
 use render::paint::strokes::{Canvas, MAX_CELLS, PaletteSpec, StrokeScript};
 use render::photograph::{
-    LevelReport, Materials, PaintFilm, Painted, Painter, Photograph, Picture, Plan, Separation,
+    FilmMaterials, LevelReport, PaintFilm, Painted, Painter, Photograph, Picture, Plan, Separation,
     SeparationSettings, black_compensated, choose_palette,
 };
 use serde_json::json;
@@ -137,7 +137,7 @@ impl PhotographOptions {
             Some(library_path.map_or(library.title.clone(), |path| path.display().to_string()));
         let resolved = script.resolve(&library)?;
         let (width, height) = script.canvas.cells();
-        let ground = script.canvas.ground.ground(width, height, self.cell_mm, &library)?;
+        let ground = script.canvas.ground.build(width, height, self.cell_mm, &library)?;
         let backend = engine.engine(&ground.height, console)?;
         // Nothing is ever taken back here.
         let canvas = Painting::open(script.bare(&library, &resolved, ground), backend, 0)?;
@@ -225,7 +225,7 @@ impl PhotographOptions {
         let seen = photograph.on_canvas(width, height);
         let lighting = Lighting::default();
         let light = Light::named(library, &lighting.illuminant, &lighting.observer)?;
-        let ground = GroundSpec::default().ground(1, 1, canvas.cell_mm, library)?.reflectance;
+        let ground = GroundSpec::default().build(1, 1, canvas.cell_mm, library)?.reflectance;
         let settings = SeparationSettings {
             least_mm: THINNEST_MM,
             most_mm: THICKEST_MM,
@@ -233,13 +233,13 @@ impl PhotographOptions {
             ..SeparationSettings::default()
         };
         let bare = Slots::default();
-        let materials = Materials {
+        let materials = FilmMaterials {
             library,
             slots: &bare,
             ground: &ground,
             scattering_per_mm: Medium::default().scattering_per_mm,
         };
-        let film = |materials: Materials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
+        let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
         let slots = if self.palette.is_empty() {
             let toned = black_compensated(&seen, library.saunderson.floor() as f32);
             choose_palette(&toned, materials, film, &settings)?.slots
@@ -247,7 +247,7 @@ impl PhotographOptions {
             palette(&self.palette, library)?
         };
         let separation =
-            Separation::new(film(Materials { slots: &slots, ..materials }), &settings)?;
+            Separation::new(film(FilmMaterials { slots: &slots, ..materials }), &settings)?;
         let target = black_compensated(&seen, separation.black());
         let names = slots.iter().flatten().map(|&i| library.pigments[i].name.clone()).collect();
         drop(waiting);

@@ -2,17 +2,16 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
 use render::light::Light;
-use render::paint::document::Lighting;
+use render::paint::document::{Document, Lighting};
 use render::paint::painting::{LayerRef, Painting};
 use serde_json::json;
 
 use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::Refusal;
-use crate::input::{unreadable, viewing};
+use crate::input::viewing;
 use crate::pictures::Exports;
 
 /// Show a painting under another light, or as if painted with other pigments
@@ -59,10 +58,7 @@ pub(crate) struct Relight {
 
 impl Relight {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let name = self.painting.display().to_string();
-        let bytes = std::fs::read(&self.painting).with_context(|| unreadable(&self.painting))?;
-        let mut document = render::paint::file::read(&name, &bytes)?;
-        drop(bytes);
+        let mut document = Document::open(&self.painting)?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
         let light = Light::new(&document.library, &viewing(illuminant, observer)?)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use render::export::{PigmentMap, pigment_maps, png8};
 use render::field::Field;
-use render::photograph::{ColorErrors, Picture, Separation, rebuilt};
+use render::photograph::{ColorErrors, Picture, Separation, rebuild_picture};
 use serde_json::json;
 
 use crate::console::Console;
@@ -35,7 +35,7 @@ pub(super) fn write(
             PigmentMap { name: name.clone(), height_mm: Field::from_values(width, height, values) }
         })
         .collect();
-    let picture = rebuilt(separation.film(), &heights);
+    let picture = rebuild_picture(separation.film(), &heights);
     let errors = ColorErrors::between(separation, target, &picture);
     let opaque = picture.values().iter().map(|&[red, green, blue]| [red, green, blue, 1.0]);
     let opaque = Field::from_values(width, height, opaque.collect());

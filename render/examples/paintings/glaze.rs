@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
-use render::paint::ground::{GroundRelief, Panel};
+use render::paint::ground::GroundKind;
 use render::paint::strokes::{Canvas, StrokeScript};
 
 use super::easel::{Easel, Place};
@@ -16,7 +16,7 @@ const HEIGHT: f64 = 70.0;
 
 /// The script.
 pub(crate) fn script() -> StrokeScript {
-    let ground = GroundRelief::Panel(Panel::default()).into();
+    let ground = GroundKind::Panel.spec(1);
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.125, ground };
     let body = [("W", "Lead White"), ("Y", "Chrome Yellow"), ("R", "Vermilion")];
     let mut easel = Easel::new("Glazes over impasto", canvas, &body, 1);

@@ -58,7 +58,7 @@ fn oils() -> PigmentLibrary {
 /// A painting on linen with wet paint all over, and `dry` layers below it.
 fn painting(width: usize, height: usize, dry: usize) -> Painting {
     let library = oils();
-    let ground = GroundSpec::default().ground(width, height, CELL_MM, &library).expect("linen");
+    let ground = GroundSpec::default().build(width, height, CELL_MM, &library).expect("linen");
     let slots: Slots = std::array::from_fn(Some);
     let (medium, lighting) = (Medium::default(), Lighting::default());
     let mut document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);

@@ -3,8 +3,7 @@
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 
-use crate::document::Ground;
-use crate::ground::{GroundError, GroundSpec};
+use crate::ground::{Ground, GroundError, GroundSpec};
 
 /// A canvas without paint: its size, its cells and its ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,7 +43,7 @@ impl Canvas {
     /// [`GroundError`] for a ground that cannot be made or whose picture cannot be read.
     pub fn ground(&self, library: &PigmentLibrary) -> Result<Ground, GroundError> {
         let (width, height) = self.cells();
-        self.ground.ground(width, height, self.cell_mm, library)
+        self.ground.build(width, height, self.cell_mm, library)
     }
 
     /// The longer side in mm.

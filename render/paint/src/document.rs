@@ -1,58 +1,45 @@
-//! A painting at rest: all that its file keeps.
+//! A painting at rest: everything that its file stores.
 
 use pigment::library::PigmentLibrary;
 
+use crate::ground::Ground;
 use crate::layer::{Layer, SLOTS};
 use crate::optics::Gloss;
-use graphics::field::Field;
 
-/// The pigments of a layer: an index into the library for each slot in use.
+/// The pigments of a layer: for each slot in use, an index into the library's pigments.
 pub type Slots = [Option<usize>; SLOTS];
 
-/// What is painted on.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ground {
-    /// What it is, for people: `linen, seed 1`.
-    pub name: String,
-    /// Height over the plane of the canvas, in quanta.
-    pub height: Field<i32>,
-    /// Reflectance as an instrument would read it, on the library's grid.
-    pub reflectance: Vec<f64>,
-    /// Its shine.
-    pub gloss: Gloss,
-}
-
-/// A dry layer.
+/// A dry layer of paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryLayer {
-    /// Its pigments.
+    /// Pigments of the layer.
     pub slots: Slots,
-    /// What its optical thickness is multiplied with; 1 as painted, 0 hides it.
+    /// Factor on the optical thickness of the paint: 1 as painted, 0 invisible.
     pub opacity: f64,
-    /// Its paint.
+    /// Amounts of paint in every cell.
     pub paint: Layer,
 }
 
-/// The light that a painting is shown under.
+/// Light that a painting is viewed under.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lighting {
-    /// The illuminant, as `--illuminant` names it (`D65`, `A`, `4000K`).
+    /// Name of the illuminant, as [`spectra::light_from_text`] reads it (`D65`, `A`, `4000K`).
     pub illuminant: String,
-    /// The observer, as `--observer` names it.
+    /// Name of the observer, as [`spectra::Observer::named`] reads it (`1931-2`).
     pub observer: String,
-    /// Where the light stands, in degrees clockwise from the top of the canvas.
+    /// Direction of the light, in degrees clockwise from the top of the canvas.
     pub azimuth_deg: f64,
-    /// How high, in degrees above the canvas, above 0 up to 90.
+    /// Elevation of the light above the canvas in degrees, above 0 and up to 90.
     pub elevation_deg: f64,
-    /// Share of the light that comes from all sides, 0..1.
+    /// Share of diffuse light from all sides, 0..1.
     pub ambient: f64,
-    /// How much the relief counts: 0 flat, 1 as it is.
+    /// Factor on the shading by the relief: 0 flat, 1 physical.
     pub relief: f64,
 }
 
 impl Default for Lighting {
-    /// Daylight from the upper left, half of it from all sides.
+    /// Daylight from the upper left, half of it diffuse.
     fn default() -> Self {
         Self {
             illuminant: "D65".to_owned(),
@@ -65,21 +52,21 @@ impl Default for Lighting {
     }
 }
 
-/// What the binder is: how strong a film of given height is, and how it shines.
+/// The binder: how strongly a film of given height colours, and its gloss.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {
-    /// The reference white's S per mm of height, by which heights become the
-    /// library's thickness; a library alone does not know millimetres.
+    /// S of the library's reference white per mm of height. It converts heights to the
+    /// library's thickness, which has no unit of its own.
     pub scattering_per_mm: f64,
-    /// Shine of wet paint.
+    /// Gloss of wet paint.
     pub wet: Gloss,
-    /// Shine of dry paint.
+    /// Gloss of dry paint.
     pub dry: Gloss,
 }
 
 impl Default for Medium {
-    /// Oil: a tenth of a millimetre of white hides nearly all (S d = 5).
+    /// Oil: 0.1 mm of white is nearly opaque (S d = 5). Values chosen by eye.
     fn default() -> Self {
         Self {
             scattering_per_mm: 50.0,
@@ -92,23 +79,23 @@ impl Default for Medium {
 /// A painting at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
-    /// What it is called.
+    /// Title of the painting.
     pub title: String,
     /// Width and height of a cell in mm.
     pub cell_mm: f64,
-    /// What is painted on.
+    /// Ground of the painting; its size is that of the canvas.
     pub ground: Ground,
-    /// The pigments that its layers name.
+    /// Pigments that the layers refer to.
     pub library: PigmentLibrary,
-    /// The binder.
+    /// Binder of the paint.
     pub medium: Medium,
     /// Dry layers, lowest first.
     pub dry: Vec<DryLayer>,
-    /// The pigments of the wet layer: the palette.
+    /// Pigments of the wet layer.
     pub slots: Slots,
-    /// The wet paint.
+    /// Wet paint.
     pub wet: Layer,
-    /// The light it is shown under.
+    /// Light that the painting is viewed under.
     pub lighting: Lighting,
 }
 

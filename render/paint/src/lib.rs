@@ -33,9 +33,9 @@ pub mod motion;
 
 pub mod engine;
 
-pub mod document;
-
 pub mod ground;
+
+pub mod document;
 
 pub mod canvas;
 

@@ -18,8 +18,8 @@ mod painter;
 pub use graphics::orientation::OrientationField;
 pub use graphics::picture::{MOST_PIXELS, Photograph, PhotographError, Picture};
 pub use paint::separation::{
-    ChosenPalette, ColorErrors, Materials, OUT_OF_GAMUT, PaintFilm, Separation, SeparationError,
-    SeparationSettings, choose_palette, rebuilt,
+    ChosenPalette, ColorErrors, FilmMaterials, OUT_OF_GAMUT, PaintFilm, Separation,
+    SeparationError, SeparationSettings, choose_palette, rebuild_picture,
 };
 pub use painter::{LevelReport, Painted, Painter, PainterError};
 pub use plan::{Order, Plan, PlanError};

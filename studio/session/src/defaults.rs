@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pigment::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
-use render::paint::ground::{GroundRelief, GroundSpec, Wood};
+use render::paint::ground::{GroundKind, GroundSpec};
 use render::paint::strokes::{Action, BrushSpec, Canvas, Load, PaletteSpec, StrokeScript};
 
 use super::command::{Command, Origin};
@@ -43,7 +43,7 @@ pub fn default_brushes() -> BTreeMap<String, BrushSpec> {
 /// 64 x 42 mm beside the usual canvas.
 #[must_use]
 pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
-    let ground = GroundRelief::Wood(Wood::default()).into();
+    let ground = GroundKind::Wood.spec(1);
     let (width_mm, height_mm) = (640.0 * cell_mm, 420.0 * cell_mm);
     Canvas { width_mm, height_mm, cell_mm, ground }
 }

@@ -48,7 +48,7 @@ impl Explain for OpenError {
             Self::Painting(error) => error.hint(),
             Self::Session(error) => error.hint(),
             Self::Start { .. } => Some(Hint::new("put it back where the script names it")),
-            Self::StartFile(error) => error.hint().map(Hint::new),
+            Self::StartFile(error) => error.hint(),
         }
     }
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use render::field::Field;
 use render::layer::Layer;
-use render::paint::document::{Document, DryLayer, Ground, Slots};
+use render::paint::document::{Document, DryLayer, Slots};
+use render::paint::ground::Ground;
 use render::paint::painting::Painting;
 use render::paint::scene;
 use render::tile::{Rect, TILE};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use eframe::egui::{Align, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, Ui};
-use render::export::{Bands, PictureFormat};
-use render::paint::ground::{GroundRelief, GroundSpec, Linen, Panel, Paper};
+use render::export::{PictureFormat, SpectralBands};
+use render::paint::ground::GroundKind;
 use render::paint::strokes::Canvas;
 
 use super::exporting::Export;
@@ -99,12 +99,12 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
             "Linear light in 32-bit floats, nothing clipped",
         ),
         (
-            Export::Spectral(Bands::Nodes),
+            Export::Spectral(SpectralBands::Nodes),
             "Spectra, OpenEXR of 8 wavelengths",
             "Reflectance of every cell at the eight wavelengths of the light",
         ),
         (
-            Export::Spectral(Bands::Full),
+            Export::Spectral(SpectralBands::Full),
             "Spectra, OpenEXR of all wavelengths",
             "Reflectance of every cell at all wavelengths of the library; takes a while",
         ),
@@ -128,17 +128,10 @@ pub(super) struct NewPainting {
     width_mm: f64,
     height_mm: f64,
     cell_mm: f64,
-    ground: Ground,
+    ground: GroundKind,
     seed: u64,
     /// Whether the new painting uses the library and palette of the current one.
     pub(super) same_pigments: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ground {
-    Linen,
-    Paper,
-    Panel,
 }
 
 impl Default for NewPainting {
@@ -147,7 +140,7 @@ impl Default for NewPainting {
             width_mm: 192.0,
             height_mm: 108.0,
             cell_mm: 0.1,
-            ground: Ground::Linen,
+            ground: GroundKind::Linen,
             seed: 1,
             same_pigments: true,
         }
@@ -160,14 +153,8 @@ const MAX_CELLS: usize = 64 << 20;
 impl NewPainting {
     /// The canvas that was described.
     pub(super) fn canvas(&self) -> Canvas {
-        let seed = self.seed;
-        let relief = match self.ground {
-            Ground::Linen => GroundRelief::Linen(Linen { seed, ..Linen::default() }),
-            Ground::Paper => GroundRelief::Paper(Paper { seed, ..Paper::default() }),
-            Ground::Panel => GroundRelief::Panel(Panel { seed, ..Panel::default() }),
-        };
-        let Self { width_mm, height_mm, cell_mm, .. } = *self;
-        Canvas { width_mm, height_mm, cell_mm, ground: GroundSpec::from(relief) }
+        let Self { width_mm, height_mm, cell_mm, ground, seed, .. } = *self;
+        Canvas { width_mm, height_mm, cell_mm, ground: ground.spec(seed) }
     }
 
     /// Whether the canvas has at most `MAX_CELLS` cells.
@@ -197,9 +184,9 @@ impl NewPainting {
                 });
                 grid_row(ui, "Ground", |ui| {
                     for (ground, name, tip) in [
-                        (Ground::Linen, "Linen", "Primed linen in plain weave"),
-                        (Ground::Paper, "Paper", "Cold-pressed paper"),
-                        (Ground::Panel, "Panel", "A primed panel, nearly flat"),
+                        (GroundKind::Linen, "Linen", "Primed linen in plain weave"),
+                        (GroundKind::Paper, "Paper", "Cold-pressed paper"),
+                        (GroundKind::Panel, "Panel", "A primed panel, nearly flat"),
                     ] {
                         ui.radio_value(&mut self.ground, ground, name).on_hover_text(tip);
                     }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use render::export::{
-    Bands, PictureFormat, painting_maps, picture_file, pigment_maps, spectral_file,
+    ClippedColors, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
+    spectral_file,
 };
 use render::light::Light;
 use render::paint::document::Document;
@@ -19,7 +20,7 @@ pub(crate) enum Export {
     /// The picture under its light.
     Picture(PictureFormat),
     /// A spectral OpenEXR with the reflectance of every cell.
-    Spectral(Bands),
+    Spectral(SpectralBands),
     /// A folder with one map for each pigment.
     PigmentMaps,
 }
@@ -59,7 +60,7 @@ pub(crate) fn export(
             let file = picture_file(&picture, document.cell_mm, format).map_err(problem)?;
             progress.report(0.9)?;
             write_whole(path, &file.bytes).map_err(Problem::from)?;
-            Ok((file.clipped >= 0.0005).then(|| clipped(path, file.clipped)))
+            Ok(file.clipping().map(|clipped| clipping_remark(path, clipped)))
         }
         Export::Spectral(bands) => {
             let picture = render_picture();
@@ -86,8 +87,7 @@ pub(crate) fn export(
     }
 }
 
-fn clipped(path: &Path, share: f64) -> Problem {
-    let (path, share) = (path.display(), 100.0 * share);
-    let text = format!("{path}: {share:.1} % of the cells are outside sRGB and were clipped");
+fn clipping_remark(path: &Path, clipped: ClippedColors) -> Problem {
+    let text = format!("{}: {clipped}", path.display());
     Problem::new(text, "export linear OpenEXR to keep them")
 }

@@ -73,7 +73,7 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
     let opened = match kind {
         Kind::OpenExr => {
             let document = render::paint::file::read(&name, &bytes)
-                .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+                .map_err(|error| Problem::from_error(&error))?;
             Opened::Painting(Box::new(document), Arc::new(bytes))
         }
         Kind::Json => json(path, &name, &bytes)?,
@@ -245,7 +245,7 @@ mod tests {
         let script = script();
         let resolved = script.resolve(&library).unwrap();
         let (width, height) = script.canvas.cells();
-        let ground = script.canvas.ground.ground(width, height, 0.5, &library).unwrap();
+        let ground = script.canvas.ground.build(width, height, 0.5, &library).unwrap();
         let document = script.bare(&library, &resolved, ground);
         let painting = render::paint::file::write(&document).unwrap();
         let wanted = Opened::Painting(Box::new(document), Arc::new(painting.clone()));

@@ -55,8 +55,8 @@ pub(super) fn keep(
     let folder = folder(path);
     std::fs::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
     let number = 1 + numbers(&folder)?.into_iter().map(|(number, _)| number).max().unwrap_or(0);
-    let bytes = render::paint::file::write(document)
-        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+    let bytes =
+        render::paint::file::write(document).map_err(|error| Problem::from_error(&error))?;
     progress.report(0.5)?;
     let thumbnail = thumbnail(document, light);
     progress.report(0.9)?;

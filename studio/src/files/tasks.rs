@@ -92,7 +92,7 @@ impl Files {
                 let lighting = &document.lighting;
                 Light::named(&document.library, &lighting.illuminant, &lighting.observer)
                     .map(Arc::new)
-                    .map_err(|error| Problem::with_hint(&error, error.hint()))
+                    .map_err(|error| Problem::from_error(&error))
             }
         }
     }
@@ -245,8 +245,7 @@ fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 }
 
 fn write_painting(path: &Path, canvas: &Document, progress: &Progress) -> Result<(), JobError> {
-    let bytes = render::paint::file::write(canvas)
-        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+    let bytes = render::paint::file::write(canvas).map_err(|error| Problem::from_error(&error))?;
     progress.report(0.8)?;
     write_whole(path, &bytes).map_err(Problem::from)?;
     Ok(())

@@ -7,7 +7,9 @@ mod bench;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::{Event as Input, Key, ViewportCommand, ViewportEvent, ViewportId};
-use render::export::{self, Bands, PictureFormat, painting_maps, picture_file, pigment_maps};
+use render::export::{
+    self, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
+};
 use render::paint::document::Document;
 use render::paint::strokes::{Action, StrokeScript};
 use session::{Command, Origin};
@@ -265,8 +267,16 @@ fn exports_are_those_of_the_engine() {
         ("Picture, PNG of 8 bits", "a.png", picture_of(PictureFormat::Png8)),
         ("Picture, PNG of 16 bits", "b.png", picture_of(PictureFormat::Png16)),
         ("Picture, linear OpenEXR", "c.exr", picture_of(PictureFormat::LinearExr)),
-        ("Spectra, OpenEXR of 8 wavelengths", "d.spectral.exr", spectral(Bands::Nodes).unwrap()),
-        ("Spectra, OpenEXR of all wavelengths", "e.spectral.exr", spectral(Bands::Full).unwrap()),
+        (
+            "Spectra, OpenEXR of 8 wavelengths",
+            "d.spectral.exr",
+            spectral(SpectralBands::Nodes).unwrap(),
+        ),
+        (
+            "Spectra, OpenEXR of all wavelengths",
+            "e.spectral.exr",
+            spectral(SpectralBands::Full).unwrap(),
+        ),
     ] {
         ask(&mut window, FileRequest::Export);
         click(&mut window, kind);

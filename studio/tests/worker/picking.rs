@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use render::gpu::BackendChoice;
-use render::paint::scene::Spectral;
+use render::paint::scene::SpectralDocument;
 use render::paint::strokes::{Action, SurfaceId};
 use session::{Command, Event, Picked};
 
@@ -29,7 +29,7 @@ fn a_pick_is_what_an_instrument_would_read() {
     window.stroke(SurfaceId::Canvas, "round", [&over[..]]);
     let (x_mm, y_mm) = (over[30].x_mm, over[30].y_mm);
     let snapshot = window.snapshot();
-    let spectral = Spectral::full(&snapshot.canvas);
+    let spectral = SpectralDocument::full(&snapshot.canvas);
     let (column, row) = ((x_mm / 0.1) as usize, (y_mm / 0.1) as usize);
     let one = pick(&mut window, x_mm, y_mm, 0.0);
     let wanted = spectral.measured_reflectance(column, row);

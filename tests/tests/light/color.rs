@@ -1,11 +1,11 @@
 //! Colour of paint: what eight wavelengths keep of the spectrum, and what paint
 //! does that light alone does not.
 
-use calibrate::evaluate::{Summary, percentile};
+use calibrate::evaluate::{Summary, Viewing, percentile};
 use render::light::{Light, Mixer};
 use render::paint::document::{Document, DryLayer};
-use render::paint::scene::{Spectral, picture, scene};
-use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, delta_e_ciede2000};
+use render::paint::scene::{SpectralDocument, picture, scene};
+use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, Xyz, delta_e_ciede2000};
 
 use crate::made_up::{document, glazes_over_mixtures, lay, light, slots, viewing};
 
@@ -20,13 +20,22 @@ fn lab(rgb: [f32; 3]) -> Lab {
     Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
 }
 
+/// XYZ of every cell over the full spectrum.
+fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
+    let spectral = SpectralDocument::full(document);
+    let weights = viewing.weights(document.library.grid).unwrap();
+    let (width, height) = (document.wet.width(), document.wet.height());
+    let cells = (0..width * height).map(|i| (i % width, i / width));
+    cells.map(|(x, y)| weights.xyz(&spectral.measured_reflectance(x, y))).collect()
+}
+
 /// CIEDE2000 of the eight wavelengths against the full spectrum, by cell, both
 /// as they look on the screen.
 fn errors(document: &Document, name: &str) -> Vec<f64> {
     let light = light(&document.library, name);
     let white = light.quadrature.white;
-    let exact = Spectral::full(document).xyz(&viewing(name));
-    let pairs = labs(document, &light).into_iter().zip(exact.values());
+    let exact = exact_xyz(document, &viewing(name));
+    let pairs = labs(document, &light).into_iter().zip(&exact);
     pairs
         .map(|(found, xyz)| {
             let rgb = RgbSpace::Srgb.linear_from_xyz(*xyz, white, Adaptation::Bradford);
@@ -51,11 +60,11 @@ fn eight_wavelengths_keep_the_color_of_a_painting() {
 fn the_spectrum_at_the_nodes_has_the_color_of_the_picture() {
     let document = glazes_over_mixtures();
     let light = light(&document.library, "D65");
-    let at_nodes = Spectral::at_nodes(&document, &light.quadrature);
+    let at_nodes = SpectralDocument::at_nodes(&document, &light.quadrature);
     let picture = picture(&document, &scene(&document, &light));
     for y in [0, 17, 47] {
-        for (x, reflectance) in at_nodes.measured_row(y).into_iter().enumerate() {
-            let xyz = light.quadrature.xyz(&reflectance);
+        for x in 0..picture.width() {
+            let xyz = light.quadrature.xyz(&at_nodes.measured_reflectance(x, y));
             let white = light.quadrature.white;
             let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
             let found = picture[(x, y)];
@@ -197,10 +206,10 @@ fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
     let document = glazes_over_mixtures();
     let under = |name: &str| labs(&document, &light(&document.library, name));
     let (day, bulb) = (under("D65"), under("A"));
-    let exact = Spectral::full(&document).xyz(&viewing("A"));
+    let exact = exact_xyz(&document, &viewing("A"));
     let white = viewing("A").weights(document.library.grid).unwrap().white();
     let errors = |labs: &[Lab]| {
-        let pairs = labs.iter().zip(exact.values());
+        let pairs = labs.iter().zip(&exact);
         let each: Vec<f64> = pairs
             .map(|(lab, xyz)| {
                 let on_screen = spectra::color::adapt(

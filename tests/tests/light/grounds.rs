@@ -2,9 +2,9 @@
 
 use calibrate::evaluate::Viewing;
 use render::amount::QUANTA_PER_CELL;
-use render::paint::document::Ground;
-use render::paint::ground::{GroundError, GroundSpec};
+use render::paint::ground::{Ground, GroundError, GroundSpec};
 use spectra::color::{Adaptation, RgbSpace};
+use spectra::hint::Explain;
 
 use crate::made_up::{CELL_MM, oils};
 
@@ -13,7 +13,7 @@ fn spec(json: &str) -> GroundSpec {
 }
 
 fn made(json: &str, width: usize, height: usize) -> Ground {
-    spec(json).ground(width, height, CELL_MM, &oils()).unwrap()
+    spec(json).build(width, height, CELL_MM, &oils()).unwrap()
 }
 
 /// Heights in mm, rising.
@@ -84,7 +84,7 @@ fn a_larger_canvas_of_paper_goes_on_where_the_smaller_ends() {
 fn linen_has_as_many_threads_as_it_says() {
     for count in [8.0, 14.0, 22.0] {
         let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":{count}}}"#);
-        let cloth = spec(&json).ground(2000, 400, 0.05, &oils()).unwrap().height;
+        let cloth = spec(&json).build(2000, 400, 0.05, &oils()).unwrap().height;
         // Over all rows the up and down of the weave is gone; what stays is a
         // hill for each thread.
         let column = |x: usize| -> f64 { (0..400).map(|y| f64::from(cloth[(x, y)])).sum() };
@@ -124,7 +124,7 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     for path in [folder.path().join("none.png"), broken] {
         let path = path.display().to_string();
         let json = serde_json::json!({"kind": "image", "path": path});
-        let error = spec(&json.to_string()).ground(4, 4, CELL_MM, &oils()).unwrap_err();
+        let error = spec(&json.to_string()).build(4, 4, CELL_MM, &oils()).unwrap_err();
         assert!(error.to_string().starts_with(&path), "{error}");
         assert!(error.hint().is_some());
     }
@@ -182,9 +182,9 @@ fn descriptions_come_back_and_faulty_ones_are_refused() {
             "410",
         ),
     ] {
-        let error = spec(json).ground(4, 4, CELL_MM, &oils()).unwrap_err();
+        let error = spec(json).build(4, 4, CELL_MM, &oils()).unwrap_err();
         assert!(error.to_string().contains(told), "{json}: {error}");
     }
-    let deep = spec(r#"{"kind":"linen","relief_mm":2}"#).ground(64, 64, 0.001, &oils());
+    let deep = spec(r#"{"kind":"linen","relief_mm":2}"#).build(64, 64, 0.001, &oils());
     assert!(matches!(deep, Err(GroundError::TooHigh { .. })), "{deep:?}");
 }

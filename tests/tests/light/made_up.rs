@@ -9,7 +9,8 @@ use render::field::Field;
 use render::layer::Layer;
 use render::light::Light;
 use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use render::paint::ground::Ground;
 use spectra::{Observer, light_from_text};
 pub(crate) use suite::oils::library as oils;
 

@@ -107,7 +107,7 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
 fn a_row_may_be_cut_anywhere() {
     let mut document = glazes_over_mixtures();
     document.lighting = Lighting::default();
-    let linen = GroundSpec::default().ground(48, 48, CELL_MM, &document.library).unwrap();
+    let linen = GroundSpec::default().build(48, 48, CELL_MM, &document.library).unwrap();
     document.ground.height = linen.height;
     let light = Light::new(&document.library, &Viewing::default()).unwrap();
     let scene = scene(&document, &light);

@@ -5,7 +5,7 @@ use calibrate::evaluate::Viewing;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
 use render::paint::painting::{LayerRef, Painting};
-use render::paint::scene::Spectral;
+use render::paint::scene::SpectralDocument;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 use super::studio::{
@@ -84,12 +84,15 @@ fn eight_wavelengths_show_a_finished_painting_as_the_full_spectrum_does() {
     finished(&mut painting);
     let flat = painting.flat_picture().unwrap();
     let document = painting.document().unwrap();
-    let xyz = Spectral::full(&document).xyz(&Viewing::default());
+    let spectral = SpectralDocument::full(&document);
+    let weights = Viewing::default().weights(document.library.grid).unwrap();
+    let cells = (0..130 * 100).map(|i| (i % 130, i / 130));
     let light = painting.light();
     let white = light.quadrature.white;
-    let exact = xyz.values().iter().map(|xyz| {
+    let exact = cells.map(|(x, y)| {
+        let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
         let linear =
-            RgbSpace::Srgb.linear_from_xyz(*xyz, white, spectra::color::Adaptation::Bradford);
+            RgbSpace::Srgb.linear_from_xyz(xyz, white, spectra::color::Adaptation::Bradford);
         let adapted = RgbSpace::Srgb.xyz_from_linear().apply(linear.0);
         Lab::from_xyz(adapted.into(), RgbSpace::Srgb.white())
     });

@@ -6,7 +6,7 @@ use render::field::Field;
 use render::paint::brush::HeadShape;
 use render::paint::file;
 use render::paint::painting::{MERGE_TOLERANCE, Painting, PaintingError};
-use render::paint::scene::Spectral;
+use render::paint::scene::SpectralDocument;
 use spectra::color::{Adaptation, Rgb, RgbSpace};
 use spectra::hint::Explain;
 
@@ -170,7 +170,7 @@ fn a_spectral_export_at_the_nodes_has_the_colors_that_were_shown() {
     let flat = painting.flat_picture().unwrap();
     let document = painting.document().unwrap();
     let quadrature = painting.light().quadrature.clone();
-    let spectral = Spectral::at_nodes(&document, &quadrature);
+    let spectral = SpectralDocument::at_nodes(&document, &quadrature);
     let planes: Vec<Field<f32>> = (0..spectral.count())
         .map(|node| {
             let cells = (0..130 * 100).map(|i| spectral.measured_reflectance(i % 130, i / 130));

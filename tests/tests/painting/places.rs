@@ -1,7 +1,7 @@
 //! Looking at one place of a painting, and not at the rest.
 
 use render::paint::painting::{LayerRef, PaintingError};
-use render::paint::scene::Spectral;
+use render::paint::scene::SpectralDocument;
 use render::tile::Rect;
 
 use super::studio::{bare, crossing, on_both};
@@ -41,7 +41,7 @@ fn the_reflectance_of_a_place_is_the_mean_of_its_cells() {
         painting.set_opacity(LayerRef::Dry(0), 1.7).unwrap();
         crossing(&mut painting);
         let document = painting.document().unwrap();
-        let spectral = Spectral::full(&document);
+        let spectral = SpectralDocument::full(&document);
         for rect in &RECTS[1..] {
             let found = painting.reflectance_in(*rect).unwrap();
             let mut wanted = vec![0.0; spectral.count()];

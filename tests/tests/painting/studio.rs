@@ -10,9 +10,9 @@ use render::gpu::{BackendChoice, choose};
 use render::layer::SLOTS;
 use render::light::Light;
 use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Ground, Lighting, Medium, Slots};
+use render::paint::document::{Document, Lighting, Medium, Slots};
 use render::paint::engine::PaintEngine;
-use render::paint::ground::GroundSpec;
+use render::paint::ground::{Ground, GroundSpec};
 use render::paint::painting::{Painting, UNDO_BYTES};
 use render::paint::pose::Sample;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
@@ -54,7 +54,7 @@ pub(crate) fn pigment(name: &str) -> usize {
 
 fn ground(json: &str, width: usize, height: usize) -> Ground {
     let spec: GroundSpec = serde_json::from_str(json).unwrap();
-    spec.ground(width, height, CELL_MM, oils()).unwrap()
+    spec.build(width, height, CELL_MM, oils()).unwrap()
 }
 
 /// A canvas of linen without paint.

@@ -5,7 +5,8 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
 use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use render::paint::ground::Ground;
 pub(crate) use suite::oils::library;
 
 /// Paint on about a third of the cells within a rectangle, up to `highest`

@@ -11,7 +11,7 @@ use crate::made::STUDIO;
 
 fn chosen(picture: &Picture) -> ChosenPalette {
     let materials = STUDIO.materials(&[None; SLOTS]);
-    let film = |materials: render::photograph::Materials<'_>| {
+    let film = |materials: render::photograph::FilmMaterials<'_>| {
         PaintFilm::at_nodes(materials, &STUDIO.quadrature)
     };
     choose_palette(picture, materials, film, &SeparationSettings::default()).unwrap()
@@ -63,8 +63,8 @@ fn a_library_of_unknown_scattering_is_refused() {
     let mut library = STUDIO.library.clone();
     library.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
     let materials = STUDIO.materials(&[None; SLOTS]);
-    let materials = render::photograph::Materials { library: &library, ..materials };
-    let film = |materials: render::photograph::Materials<'_>| {
+    let materials = render::photograph::FilmMaterials { library: &library, ..materials };
+    let film = |materials: render::photograph::FilmMaterials<'_>| {
         PaintFilm::at_nodes(materials, &STUDIO.quadrature)
     };
     let picture = Field::filled(2, 2, [0.5; 3]);

@@ -9,13 +9,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::layer::SLOTS;
 use render::paint::document::{Medium, Slots};
-use render::photograph::{Materials, PaintFilm, Picture, Separation, SeparationSettings};
+use render::photograph::{FilmMaterials, PaintFilm, Picture, Separation, SeparationSettings};
 use suite::program::repository;
 
 /// The shipped oils, eight wavelengths for daylight, and a white ground.
 pub(crate) struct Studio {
     pub(crate) library: PigmentLibrary,
-    pub(crate) viewing: Viewing,
+
     pub(crate) quadrature: Quadrature,
     pub(crate) ground: Vec<f64>,
     /// White, black, three yellows to reds, two blues and a green.
@@ -26,8 +26,7 @@ pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
     let path = repository("measurements/van-gogh-oils.pigments.json");
     let text = std::fs::read_to_string(&path).unwrap();
     let library = PigmentLibrary::from_json(&path, &text).unwrap();
-    let viewing = Viewing::default();
-    let quadrature = Quadrature::library(&viewing, &library, 8).unwrap();
+    let quadrature = Quadrature::library(&Viewing::default(), &library, 8).unwrap();
     let ground = vec![0.85; library.grid.count()];
     let slots = [
         "Zinc White",
@@ -40,13 +39,13 @@ pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
         "Viridian",
     ]
     .map(|name| Some(library.find(name).unwrap()));
-    Studio { library, viewing, quadrature, ground, slots }
+    Studio { library, quadrature, ground, slots }
 });
 
 impl Studio {
-    pub(crate) fn materials<'a>(&'a self, slots: &'a Slots) -> Materials<'a> {
+    pub(crate) fn materials<'a>(&'a self, slots: &'a Slots) -> FilmMaterials<'a> {
         let scattering_per_mm = Medium::default().scattering_per_mm;
-        Materials { library: &self.library, slots, ground: &self.ground, scattering_per_mm }
+        FilmMaterials { library: &self.library, slots, ground: &self.ground, scattering_per_mm }
     }
 
     pub(crate) fn film(&self) -> PaintFilm {

@@ -10,7 +10,7 @@ use render::paint::painting::Painting;
 use render::paint::session::{PaintingSession, ReplayReport};
 use render::paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
 use render::photograph::{
-    LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuilt,
+    LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuild_picture,
 };
 
 use crate::made::{HIDING, STUDIO};
@@ -47,7 +47,7 @@ fn bare_script() -> StrokeScript {
 fn opened(script: &StrokeScript) -> Painting {
     let resolved = script.resolve(&STUDIO.library).unwrap();
     let (width, height) = script.canvas.cells();
-    let ground = script.canvas.ground.ground(width, height, CELL_MM, &STUDIO.library).unwrap();
+    let ground = script.canvas.ground.build(width, height, CELL_MM, &STUDIO.library).unwrap();
     let engine = PaintEngine::on_cpu(ground.height.clone());
     Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
 }
@@ -137,6 +137,6 @@ fn a_seed_gives_the_same_bytes_and_another_gives_others() {
 #[test]
 fn what_is_as_near_as_the_palette_comes_is_left_alone() {
     let target = target();
-    let reached = rebuilt(HIDING.film(), &HIDING.separate(&target));
+    let reached = rebuild_picture(HIDING.film(), &HIDING.separate(&target));
     assert_eq!(plan_layer(&target, &reached, &HIDING, &plan(), 2, CELL_MM), []);
 }

@@ -8,8 +8,8 @@ use render::light::Light;
 use render::paint::document::Medium;
 use render::paint::ground::GroundSpec;
 use render::photograph::{
-    ColorErrors, Materials, PaintFilm, Photograph, Separation, SeparationSettings,
-    black_compensated, rebuilt,
+    ColorErrors, FilmMaterials, PaintFilm, Photograph, Separation, SeparationSettings,
+    black_compensated, rebuild_picture,
 };
 use suite::program::{Run, impasto};
 
@@ -102,16 +102,16 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     for (slot, name) in slots.iter_mut().zip(PALETTE.split(',')) {
         *slot = Some(library.find(name).unwrap());
     }
-    let ground = GroundSpec::default().ground(1, 1, 0.5, library).unwrap().reflectance;
+    let ground = GroundSpec::default().build(1, 1, 0.5, library).unwrap().reflectance;
     let scattering_per_mm = Medium::default().scattering_per_mm;
-    let materials = Materials { library, slots: &slots, ground: &ground, scattering_per_mm };
+    let materials = FilmMaterials { library, slots: &slots, ground: &ground, scattering_per_mm };
     let film = PaintFilm::at_nodes(materials, &light.quadrature);
     let settings =
         SeparationSettings { least_mm: 0.03, most_mm: 0.12, ..SeparationSettings::default() };
     let separation = Separation::new(film, &settings).unwrap();
     let seen = Photograph::open(Path::new(&photo)).unwrap().on_canvas(32, 24);
     let target = black_compensated(&seen, separation.black());
-    let made = rebuilt(separation.film(), &separation.separate(&target));
+    let made = rebuild_picture(separation.film(), &separation.separate(&target));
     let errors = ColorErrors::between(&separation, &target, &made);
     assert_eq!(told["error"], serde_json::to_value(errors).unwrap());
     assert_eq!(told["palette"][2], "Prussian Blue");

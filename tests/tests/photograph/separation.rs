@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::photograph::{
     ColorErrors, PaintFilm, Picture, Separation, SeparationError, SeparationSettings,
-    black_compensated, rebuilt,
+    black_compensated, rebuild_picture,
 };
 use spectra::color::{Rgb, delta_e_ciede2000};
 
@@ -13,7 +13,7 @@ use crate::made::{HIDING, STUDIO, THIN, mixtures};
 
 fn errors(separation: &Separation, picture: &Picture) -> ColorErrors {
     let heights = separation.separate(picture);
-    ColorErrors::between(separation, picture, &rebuilt(separation.film(), &heights))
+    ColorErrors::between(separation, picture, &rebuild_picture(separation.film(), &heights))
 }
 
 /// Linear light of `#rrggbb`.
@@ -36,7 +36,7 @@ fn the_table_alone_is_near_and_refining_brings_nearer() {
     let picture = mixtures(13, 2000, 0.03);
     let looked_up: Vec<_> = picture.values().iter().map(|&rgb| THIN.heights_mm(rgb)).collect();
     let looked_up = Field::from_values(2000, 1, looked_up);
-    let table = ColorErrors::between(&THIN, &picture, &rebuilt(THIN.film(), &looked_up));
+    let table = ColorErrors::between(&THIN, &picture, &rebuild_picture(THIN.film(), &looked_up));
     assert!(table.mean < 1.6, "{table:?}");
     assert!(errors(&THIN, &picture).mean < table.mean / 4.0);
 }
@@ -117,7 +117,7 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let black = vec![0.03; STUDIO.library.grid.count()];
     let materials = STUDIO.materials(&STUDIO.slots);
     let over_black = PaintFilm::at_nodes(
-        render::photograph::Materials { ground: &black, ..materials },
+        render::photograph::FilmMaterials { ground: &black, ..materials },
         &STUDIO.quadrature,
     );
     let shows = |separation: &Separation| {
@@ -129,16 +129,6 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
         differences.sum::<f64>() / 1000.0
     };
     assert!(shows(&HIDING) < 0.7 * shows(&THIN), "{} {}", shows(&HIDING), shows(&THIN));
-}
-
-#[test]
-fn eight_wavelengths_and_the_whole_spectrum_agree() {
-    let picture = mixtures(16, 1000, 0.03);
-    let heights = THIN.separate(&picture);
-    let full = PaintFilm::on_grid(STUDIO.materials(&STUDIO.slots), &STUDIO.viewing).unwrap();
-    let painted = rebuilt(&full, &heights);
-    let told = ColorErrors::between(&THIN, &rebuilt(THIN.film(), &heights), &painted);
-    assert!(told.mean < 0.3, "{told:?}");
 }
 
 #[test]

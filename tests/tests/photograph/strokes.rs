@@ -1,7 +1,9 @@
 //! Strokes planned for a picture.
 
 use render::field::Field;
-use render::photograph::{Order, Picture, Plan, PlanError, PlannedStroke, plan_layer, rebuilt};
+use render::photograph::{
+    Order, Picture, Plan, PlanError, PlannedStroke, plan_layer, rebuild_picture,
+};
 
 use crate::made::HIDING;
 
@@ -122,7 +124,7 @@ fn without_a_difference_there_is_no_stroke() {
     assert_eq!(plan_layer(&picture, &picture, &HIDING, &plan(), 0, CELL_MM), []);
     // Nor where the painting is as near as the palette comes.
     let vivid = Field::filled(160, 120, [0.0, 1.0, 0.0]);
-    let reached = rebuilt(HIDING.film(), &HIDING.separate(&vivid));
+    let reached = rebuild_picture(HIDING.film(), &HIDING.separate(&vivid));
     assert_eq!(plan_layer(&vivid, &reached, &HIDING, &plan(), 1, CELL_MM), []);
     assert_ne!(plan_layer(&vivid, &blank(&vivid), &HIDING, &plan(), 1, CELL_MM), []);
 }

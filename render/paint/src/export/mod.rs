@@ -1,7 +1,7 @@
-//! A painting at rest as files for others: pictures, spectral OpenEXR, pigment maps.
+//! Exports of a painting for other programs: pictures, spectral OpenEXR and pigment maps.
 //!
-//! Functions here give bytes; who calls them writes the files. The same painting
-//! gives the same bytes.
+//! [`PaintingExports`] writes the files of a painting at work. The other functions encode a
+//! document in memory; the same document always gives the same bytes.
 
 mod pigment_maps;
 
@@ -9,6 +9,9 @@ mod spectral_exr;
 
 mod painting;
 
-pub use painting::{Bands, PictureFile, PictureFormat, painting_maps, picture_file, spectral_file};
+mod save;
+
+pub use painting::{SpectralBands, painting_maps, spectral_file};
 pub use pigment_maps::{NamedFile, PigmentMap, pigment_maps};
+pub use save::{PaintingExportError, PaintingExports, save_files};
 pub use spectral_exr::spectral_exr;

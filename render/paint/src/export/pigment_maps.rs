@@ -1,5 +1,5 @@
-//! How much of each paint lies where, for those who lay it down by other means:
-//! a printer, a plotter, a hand.
+//! Maps of the amount of each pigment, for reproducing a painting by other means:
+//! printer, plotter or hand.
 
 use serde_json::json;
 
@@ -7,35 +7,35 @@ use graphics::export::grey16;
 use graphics::export::{ExportError, check_cell, check_size};
 use graphics::field::Field;
 
-/// The paint of one pigment.
+/// Amounts of one pigment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentMap {
-    /// The pigment, or `vehicle`.
+    /// Name of the pigment, or `vehicle`.
     pub name: String,
-    /// Height of its paint in mm, cell by cell.
+    /// Height of the paint in mm, for every cell.
     pub height_mm: Field<f32>,
 }
 
-/// A file by name.
+/// A file in memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedFile {
-    /// Its name, without a folder.
+    /// File name, without a folder.
     pub name: String,
-    /// Its content.
+    /// Content of the file.
     pub bytes: Vec<u8>,
 }
 
-/// For each map a 16-bit grey PNG `STEM.PIGMENT.png`, for all together
-/// `STEM.thickness.png`; the scale in `STEM.maps.json`; and `STEM.recipe.csv`
-/// with what each pigment takes in all.
+/// Encodes maps as files: for each a 16-bit grey PNG `STEM.PIGMENT.png`, for their sum
+/// `STEM.thickness.png`, the scale in `STEM.maps.json`, and a table of each pigment's
+/// total in `STEM.recipe.csv`.
 ///
-/// Every map has the same scale, so that they can be compared: 65535 is the
-/// thickest cell of all paint, in mm (`mm_at_65535`). Cells are `cell_mm` wide,
-/// which the PNGs tell in `pHYs`.
+/// All PNGs have one scale, so that they can be compared: 65535 is the height of the
+/// thickest cell of all paint together, in mm (`mm_at_65535`). Cells are `cell_mm` wide;
+/// the PNGs store that in `pHYs`.
 ///
 /// # Errors
-/// [`ExportError`] for maps of several sizes or without cells, cells without a
-/// size, and amounts below 0 or not finite.
+/// [`ExportError`] for maps of different sizes or without cells, a cell size out of
+/// range, and amounts that are negative or not finite.
 pub fn pigment_maps(
     stem: &str,
     maps: &[PigmentMap],
@@ -111,7 +111,7 @@ fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), Export
     })
 }
 
-/// A row per pigment: what it takes in all, how thick it lies, and where.
+/// CSV table with a row per pigment: total, mean and greatest height, and coverage.
 fn recipe(maps: &[PigmentMap], cell_mm: f64) -> String {
     let sum_mm = |map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum();
     let sums: Vec<f64> = maps.iter().map(sum_mm).collect();
@@ -142,7 +142,7 @@ fn rounded(value: f64) -> f64 {
     pigment::digits::rounded(value)
 }
 
-/// A field of a CSV, in quotes where it must be (RFC 4180).
+/// Quotes a CSV field where needed (RFC 4180).
 fn quoted(text: &str) -> String {
     if text.contains(['"', ',', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -151,7 +151,7 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// Gives pigments names that every file system takes.
+/// Assigns file names that every file system accepts.
 #[derive(Default)]
 struct FileNames {
     taken: Vec<String>,

@@ -1,11 +1,11 @@
-//! Spectral OpenEXR.
+//! Spectral OpenEXR files.
 //!
-//! The layout of A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for
-//! Spectral Images" (Journal of Computer Graphics Techniques 10(3), 2021): a
-//! channel `T.550,000000nm` for each wavelength of a reflective image (decimal
-//! comma, since a dot parts layers), R, G and B for programs that know no
-//! spectra, and the attribute `spectralLayoutVersion` "1.0". Reflectance has no
-//! unit, so no other attribute is due.
+//! Layout by A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral
+//! Images" (Journal of Computer Graphics Techniques 10(3), 2021): a channel
+//! `T.550,000000nm` per wavelength of a reflective image (with a decimal comma, since a
+//! dot separates layers), R, G and B for programs that know no spectra, and attribute
+//! `spectralLayoutVersion` "1.0". Reflectance has no unit, so no other attribute is
+//! needed.
 
 use exr::image::FlatSamples;
 use exr::meta::attribute::{AttributeValue, Text};
@@ -14,12 +14,12 @@ use exr::meta::header::LayerAttributes;
 use graphics::export::{ExportError, exr_file, rgb_channels};
 use graphics::field::Field;
 
-/// `planes` of reflectance (0..1) at `wavelengths_nm`, 32 bits each, and
-/// `picture`, linear sRGB, as R, G and B; cells of `cell_mm`.
+/// Encodes `planes` of reflectance (0..1) at `wavelengths_nm` with 32 bits each, and
+/// `picture` (linear sRGB) as R, G and B; a cell is `cell_mm` wide.
 ///
 /// # Errors
-/// [`ExportError`] unless wavelengths rise, there is one for each plane, all
-/// planes have the picture's size, and every value is finite.
+/// [`ExportError`] unless wavelengths rise, there is one per plane, all planes have the
+/// picture's size, and every value is finite.
 pub fn spectral_exr(
     picture: &Field<[f32; 4]>,
     wavelengths_nm: &[f64],
@@ -50,13 +50,14 @@ pub fn spectral_exr(
         channels.push((name, FlatSamples::F32(plane.values().to_vec())));
     }
     let mut attributes = LayerAttributes::default();
-    // One attribute beyond the standard's: the crate keeps them in no order.
+    // At most one attribute beyond the standard's, because the encoder does not keep their
+    // order.
     let version = AttributeValue::Text("1.0".into());
     attributes.other.insert(Text::from("spectralLayoutVersion"), version);
     exr_file((width, height), cell_mm, channels, attributes)
 }
 
-/// The channel of a wavelength of a reflective image.
+/// Channel name for a wavelength of a reflective image.
 fn channel_name(nm: f64) -> String {
     format!("T.{}nm", format!("{nm:.6}").replace('.', ","))
 }

@@ -1,123 +1,132 @@
-//! Why a file is no painting.
+//! Errors of painting files.
 
 use pigment::library::LibraryError;
+use spectra::file::FileError;
+use spectra::hint::{Explain, Fault, Hint};
 
-/// A file that cannot be read, or a painting that cannot be written.
+/// A painting's file cannot be read, or a painting cannot be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PaintingFileError {
-    /// No OpenEXR file, or a damaged one.
-    #[error("{file}: no sound OpenEXR file: {reason}")]
+    /// The file cannot be read from or written to the disk.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is not OpenEXR, or is damaged.
+    #[error("{file}: not an intact OpenEXR file: {reason}")]
     Container {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// What is wrong with it.
+        /// Reason given by the decoder.
         reason: String,
     },
-    /// An OpenEXR file without our attribute, or with another format's.
-    #[error("{file}: no impasto painting: {reason}")]
+    /// The file is OpenEXR, but not a painting of impasto.
+    #[error("{file}: not a painting of impasto: {reason}")]
     Format {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// What was found.
+        /// Reason, with what was found.
         reason: String,
     },
-    /// Another version.
+    /// The file has a version that this program does not know.
     #[error("{file}: this program reads paintings up to version {newest}, found `{found}`")]
     Version {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Its version.
+        /// Version of the file.
         found: String,
-        /// The newest known.
+        /// Newest version that can be read.
         newest: u64,
     },
-    /// A description that contradicts itself.
+    /// The description in attribute `impasto` is invalid.
     #[error("{file}: attribute `impasto`: {reason}")]
     Header {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// What is wrong.
+        /// Reason, with the key.
         reason: String,
     },
-    /// The pigment library in the file is none.
+    /// The pigment library in the file is invalid.
     #[error(transparent)]
     Library(#[from] LibraryError),
-    /// A layer's part as a whole.
+    /// A part of the file is missing or malformed.
     #[error("{file}: part `{part}` {reason}")]
     Part {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The part.
+        /// Name of the part.
         part: String,
-        /// What is wrong.
+        /// Reason, continuing the sentence that starts with the part.
         reason: String,
     },
-    /// A channel as a whole.
+    /// A channel is missing or malformed.
     #[error("{file}: part `{part}`, channel `{channel}` {reason}")]
     Channel {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The part.
+        /// Name of the part.
         part: String,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// What is wrong.
+        /// Reason, continuing the sentence that starts with the channel.
         reason: String,
     },
-    /// A value that no painting has.
+    /// A value is not a possible amount or height.
     #[error("{file}: part `{part}`, channel `{channel}`, x {x}, y {y}: {wanted}, found `{found}`")]
     Value {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// The part.
+        /// Name of the part.
         part: String,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
         /// Column on the canvas, from 0.
         x: u32,
         /// Row on the canvas, from 0.
         y: u32,
-        /// What was wanted.
+        /// Values allowed.
         wanted: &'static str,
-        /// What stands there, in mm.
+        /// Value found, in mm.
         found: String,
     },
-    /// More than memory should be given.
+    /// The painting would take more memory than allowed.
     #[error("{file}: the painting takes {bytes} bytes in memory, the limit is {limit}")]
     TooLarge {
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// What it would take.
+        /// Bytes needed.
         bytes: u64,
-        /// What it may take.
+        /// Bytes allowed.
         limit: u64,
     },
-    /// A painting that no file can hold.
+    /// The painting is inconsistent, so no file can hold it.
     #[error("the painting cannot be saved: {reason}")]
     Unwritable {
-        /// Why not.
+        /// Reason, with the layer.
         reason: String,
     },
 }
 
-impl PaintingFileError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
+impl Explain for PaintingFileError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::File(error) => return error.hint(),
             Self::Container { .. } => {
-                Some("the file is cut off, damaged or no OpenEXR: take it from a backup")
+                "the file is truncated, damaged or not OpenEXR: restore it from a backup"
             }
-            Self::Format { .. } => {
-                Some("`impasto paint STROKES.json --output PAINTING.exr` makes one")
-            }
-            Self::Version { .. } => Some("a newer impasto may read it"),
-            Self::Library(error) => error.hint(),
+            Self::Format { .. } => "choose a painting that was saved by impasto",
+            Self::Version { .. } => "a newer impasto may read it",
+            Self::Library(error) => return error.hint().map(Hint::new),
             Self::Channel { .. } | Self::Value { .. } => {
-                Some("another program changed the file: keep channels as they were, in mm")
+                "another program changed the file: keep channels as they were, in mm"
             }
-            Self::TooLarge { .. } => Some("reduce the canvas, or merge dry layers"),
-            Self::Header { .. } | Self::Part { .. } | Self::Unwritable { .. } => None,
+            Self::TooLarge { .. } => "reduce the canvas, or merge dry layers",
+            Self::Header { .. } | Self::Part { .. } | Self::Unwritable { .. } => return None,
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            _ => Fault::Input,
         }
     }
 }

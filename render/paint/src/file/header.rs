@@ -1,27 +1,25 @@
-//! What the file says of the painting in words and numbers: the JSON of the
-//! attribute `impasto`.
+//! The description of a painting in its file: JSON in attribute `impasto`.
 
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::channels::ChannelNames;
 use super::error::PaintingFileError;
-use super::parts::{WET, dry_part};
+use super::names::{ChannelNames, WET, dry_part};
 use crate::document::{Document, Lighting, Medium, Slots};
 use crate::layer::SLOTS;
 use crate::optics::Gloss;
 
-/// The attribute's name.
+/// Name of the attribute.
 pub(super) const ATTRIBUTE: &str = "impasto";
 
 const FORMAT: &str = "impasto-painting";
 const VERSION: u64 = 1;
 
-/// Cells from a hair to a hand; outside, floats in mm would not hold quanta.
+/// Cell widths in mm for which heights in mm as floats represent quanta.
 const CELL_MM: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
-/// The attribute's content.
+/// Content of the attribute.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FileHeader {
@@ -34,7 +32,7 @@ pub(super) struct FileHeader {
     pub(super) ground: GroundHeader,
     pub(super) medium: Medium,
     pub(super) lighting: Lighting,
-    /// The wet layer, then the dry ones, lowest first.
+    /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
     library: Value,
 }
@@ -65,7 +63,7 @@ pub(super) struct PigmentHeader {
 }
 
 impl FileHeader {
-    /// What is to be said of `document`.
+    /// Description of `document`.
     pub(super) fn of(document: &Document) -> Result<Self, PaintingFileError> {
         let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
         let dry = document.dry.iter().enumerate();
@@ -97,7 +95,7 @@ impl FileHeader {
             layers: layers.collect::<Result<_, _>>()?,
             library: library.map_err(|error| unwritable(error.to_string()))?,
         };
-        // A number that is not finite has no JSON; reading it back says which.
+        // JSON cannot hold numbers that are not finite: reading it back finds them.
         match Self::from_json("", &header.to_json()?) {
             Ok((back, library)) if back == header && library == document.library => Ok(header),
             Ok(_) => Err(unwritable("its header does not come back as it was".to_owned())),
@@ -106,7 +104,7 @@ impl FileHeader {
         }
     }
 
-    /// As JSON in ASCII.
+    /// Encodes the description as JSON in ASCII.
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
         let text = serde_json::to_string(self);
         let text =
@@ -124,7 +122,7 @@ impl FileHeader {
         Ok(ascii)
     }
 
-    /// The header in `json` and the library that it holds.
+    /// Parses and checks a description; returns it with the library that it holds.
     pub(super) fn from_json(
         file: &str,
         json: &str,
@@ -180,7 +178,7 @@ impl FileHeader {
 }
 
 impl LayerHeader {
-    /// The pigments by slot.
+    /// Pigments of the layer by slot.
     pub(super) fn slots(&self, library: &PigmentLibrary) -> Result<Slots, String> {
         let mut slots = [None; SLOTS];
         for PigmentHeader { slot, name, channel } in &self.pigments {
@@ -202,8 +200,7 @@ impl LayerHeader {
     }
 }
 
-/// The slots in use with a channel for each; `None` for a pigment that the
-/// library has not.
+/// Slots in use with a channel for each; `None` if the library lacks a pigment.
 fn pigments(library: &PigmentLibrary, slots: &Slots) -> Option<Vec<PigmentHeader>> {
     let mut names = ChannelNames::default();
     let used = slots.iter().enumerate().filter_map(|(slot, pigment)| Some((slot, (*pigment)?)));

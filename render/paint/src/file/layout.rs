@@ -1,5 +1,4 @@
-//! Whether the parts of a file are those that its header tells of, and where
-//! their channels are.
+//! Check of a file's parts and channels against its header, before memory is allocated.
 
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{Compression, SampleType};
@@ -8,37 +7,37 @@ use exr::meta::header::Header;
 use super::channels::{Channel, Content, of_ground, of_layer};
 use super::error::PaintingFileError;
 use super::header::FileHeader;
-use super::parts::BASE;
+use super::names::BASE;
 use crate::layer::SLOTS;
 use graphics::tile::Rect;
 
-/// What a stored byte can become, at most: 1032 by ZIP, less by PIZ, and room
-/// for headers. A file that promises more is cut off or a trap.
+/// Most bytes that one stored byte can expand to: 1032 by ZIP, less by PIZ, plus headers.
+/// A file that announces more is truncated or malicious.
 const EXPANSION: u64 = 1100;
 
-/// A part of the file, found sound.
+/// A part of the file that passed the checks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PartLayout {
     pub(super) name: String,
-    /// The layer of the header that it holds; `None` for the ground.
+    /// Index of the header's layer that the part holds; `None` for the ground.
     pub(super) layer: Option<usize>,
     pub(super) window: Rect,
-    /// How many channels the part has.
+    /// Number of channels of the part.
     pub(super) channels: usize,
     pub(super) planes: Vec<Plane>,
 }
 
-/// An amount, or the height, and which of the part's channels hold it.
+/// Channels that hold one amount, or the ground's height.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Plane {
     pub(super) name: String,
-    /// [`SLOTS`] is the vehicle, or the height.
+    /// Slot of the amount; [`SLOTS`] stands for the vehicle, and for the ground's height.
     pub(super) slot: usize,
     pub(super) channel: usize,
-    pub(super) rest: Option<usize>,
+    pub(super) residue: Option<usize>,
 }
 
-/// A part that does not fit, before the file's name is known.
+/// Builder of errors about one part.
 struct Fault<'a> {
     file: &'a str,
     part: &'a str,
@@ -56,8 +55,8 @@ impl Fault<'_> {
     }
 }
 
-/// The parts in the file's order, checked against `header`, before anything is
-/// allocated.
+/// Checks the parts against `header` and returns them in the file's order. Nothing has
+/// been allocated yet.
 pub(super) fn layout(
     file: &str,
     parts: &[Header],
@@ -70,7 +69,8 @@ pub(super) fn layout(
     if bytes > limit {
         return Err(PaintingFileError::TooLarge { file: file.to_owned(), bytes, limit });
     }
-    let found = parts.iter().map(|part| one(file, part, header)).collect::<Result<Vec<_>, _>>()?;
+    let found =
+        parts.iter().map(|part| check_part(file, part, header)).collect::<Result<Vec<_>, _>>()?;
     let wanted = header.layers.iter().map(|layer| layer.part.as_str());
     for part in wanted.chain([BASE]) {
         let fault = Fault { file, part };
@@ -94,7 +94,11 @@ pub(super) fn layout(
     Ok(found)
 }
 
-fn one(file: &str, part: &Header, header: &FileHeader) -> Result<PartLayout, PaintingFileError> {
+fn check_part(
+    file: &str,
+    part: &Header,
+    header: &FileHeader,
+) -> Result<PartLayout, PaintingFileError> {
     let name = part.own_attributes.layer_name.as_ref();
     let name = name.map_or_else(String::new, |name| name.chars().collect());
     let fault = Fault { file, part: &name };
@@ -120,7 +124,7 @@ fn one(file: &str, part: &Header, header: &FileHeader) -> Result<PartLayout, Pai
     Ok(PartLayout { name, layer, window, channels, planes })
 }
 
-/// The cells that a part covers; the ground covers all.
+/// Cells that a part covers; the ground must cover the whole canvas.
 fn window(
     fault: &Fault<'_>,
     part: &Header,
@@ -156,7 +160,7 @@ fn window(
     Ok(rect)
 }
 
-/// Every channel of the part, matched with what it may hold.
+/// Matches every channel of the part with the content that it may hold.
 fn planes(
     fault: &Fault<'_>,
     part: &Header,
@@ -189,15 +193,15 @@ fn planes(
                 Some(_) => continue,
                 None => return Err(fault.channel(name.clone(), "is missing")),
             },
-            Content::HeightRest | Content::AmountRest(_) => continue,
+            Content::HeightResidue | Content::AmountResidue(_) => continue,
         };
         let channel = place(name).ok_or_else(|| fault.channel(name.clone(), "is missing"))?;
-        let rest = wanted.iter().find(|other| match other.content {
-            Content::AmountRest(of) => of == slot,
-            content => content == Content::HeightRest,
+        let residue = wanted.iter().find(|other| match other.content {
+            Content::AmountResidue(of) => of == slot,
+            content => content == Content::HeightResidue,
         });
-        let rest = rest.and_then(|rest| place(&rest.name));
-        planes.push(Plane { name: name.clone(), slot, channel, rest });
+        let residue = residue.and_then(|residue| place(&residue.name));
+        planes.push(Plane { name: name.clone(), slot, channel, residue });
     }
     Ok(planes)
 }

@@ -1,37 +1,40 @@
-//! Paintings as OpenEXR files: format `impasto-painting`, version 1.
+//! Painting files: OpenEXR, format `impasto-painting`, version 1. The usual door is
+//! [`Document::open`](crate::document::Document::open) and
+//! [`Document::save`](crate::document::Document::save).
 //!
-//! One file with a part per layer, all scan lines, 32-bit float channels,
-//! compressed without loss (PIZ, which on wet paint takes half of ZIP's time to write and
-//! two thirds of its bytes; ZIP and plain are read too), so that any program
-//! that reads OpenEXR shows and edits them:
+//! One file has a part per layer, with scan lines of 32-bit float channels, so that any
+//! program that reads OpenEXR can show and edit them. Compression is lossless: PIZ, which
+//! writes wet paint in half of ZIP's time and two thirds of its bytes. Files with ZIP or
+//! without compression are read too.
 //!
 //! | part | channels, in mm |
 //! | --- | --- |
-//! | `base` | `height` of the ground over the plane of the canvas |
-//! | `wet`, `dry.000`, `dry.001` .. (lowest first) | one channel per pigment: height of its paint; `vehicle`; `thickness`: the sum of all, for other programs, not read |
+//! | `base` | `height` of the ground above the plane of the canvas |
+//! | `wet`, `dry.000`, `dry.001` .. (lowest first) | one channel per pigment: height of its paint; `vehicle`; `thickness`: their sum, for other programs, not read |
 //!
-//! The display window is the canvas; a layer's data window is what it covers,
-//! and where it has none there is no paint. Attribute `impasto` of part `base`
-//! is JSON in ASCII: format and version, title, size of a cell, ground, medium,
-//! lighting, the layers with the channel of each pigment, their opacity, and
-//! the pigment library.
+//! The display window is the canvas. The data window of a layer is the rectangle that has
+//! paint. Attribute `impasto` of part `base` is JSON in ASCII: format and version, title,
+//! cell size, ground, medium, lighting, the layers with the channel of each pigment, their
+//! opacity, and the pigment library.
 //!
-//! A pigment's channel has its name. What is not ASCII or a dot (which OpenEXR
-//! reads as a layer within the part) becomes `_`, and what is taken already
-//! gets a number: the JSON tells which channel is whose.
+//! A pigment's channel has the pigment's name. Characters outside ASCII and dots (which
+//! OpenEXR reads as layers within the part) become `_`, and a name that is taken gets a
+//! number; the JSON says which channel belongs to which pigment.
 //!
-//! Amounts are whole quanta (see [`crate::amount`]) and come back the same. A
-//! 32-bit float tells quanta below 2^23 apart, that is paint up to four cell
-//! widths high. Where a layer holds more, the channel `NAME.rest` has what the
-//! float left out, in mm, and the amount is the sum of both.
-
-mod channels;
+//! Amounts are whole quanta (see [`crate::amount`]) and are restored exactly. A 32-bit
+//! float distinguishes quanta below 2^23, that is paint up to four cell widths high. If a
+//! layer holds more, channel `NAME.rest` has the rounding residue in mm, and the amount is
+//! the sum of both.
 
 mod error;
 
+mod millimetres;
+
+mod names;
+
 mod header;
 
-mod millimetres;
+mod channels;
 
 mod parts;
 
@@ -40,6 +43,8 @@ mod layout;
 mod read;
 
 mod write;
+
+mod saved;
 
 pub use error::PaintingFileError;
 pub use read::{MEMORY_LIMIT, read, read_within};

@@ -1,31 +1,22 @@
-//! The parts of the file: where each lies on the canvas, and its rows as bytes.
+//! Parts of the file: their window on the canvas, and their rows as bytes.
 
 use exr::block::{BlockIndex, UncompressedBlock};
 use rayon::prelude::*;
 
-use super::channels::{Channel, Content, of_ground, of_layer, rough_slots};
+use super::channels::{Channel, Content, inexact_slots, of_ground, of_layer};
 use super::header::FileHeader;
-use super::millimetres::{Millimetres, ROUGH};
+use super::millimetres::{INEXACT_FROM, Millimetres};
+use super::names::BASE;
 use crate::document::Document;
 use crate::layer::{Layer, SLOTS};
 use graphics::field::Field;
 use graphics::tile::Rect;
 
-/// The ground's part.
-pub(super) const BASE: &str = "base";
-/// The wet layer's part.
-pub(super) const WET: &str = "wet";
-
-/// The part of the dry layer number `index`, counted from the lowest.
-pub(super) fn dry_part(index: usize) -> String {
-    format!("dry.{index:03}")
-}
-
 /// A part to be written.
 #[derive(Debug)]
 pub(super) struct Part<'a> {
     pub(super) name: String,
-    /// The cells that it has.
+    /// Cells of the canvas that the part covers.
     pub(super) window: Rect,
     pub(super) channels: Vec<Channel>,
     source: Source<'a>,
@@ -37,14 +28,14 @@ enum Source<'a> {
     Paint(&'a Layer),
 }
 
-/// All parts of `document`, in the order of the file.
+/// All parts of `document` in the order of the file.
 pub(super) fn parts<'a>(document: &'a Document, header: &FileHeader) -> Vec<Part<'a>> {
     let ground = &document.ground.height;
-    let rough = ground.values().iter().any(|height| height.unsigned_abs() >= ROUGH);
+    let inexact = ground.values().iter().any(|height| height.unsigned_abs() >= INEXACT_FROM);
     let base = Part {
         name: BASE.to_owned(),
         window: ground.bounds(),
-        channels: of_ground(rough),
+        channels: of_ground(inexact),
         source: Source::Ground(ground),
     };
     let paints =
@@ -52,14 +43,14 @@ pub(super) fn parts<'a>(document: &'a Document, header: &FileHeader) -> Vec<Part
     let layers = header.layers.iter().zip(paints).map(|(layer, paint)| Part {
         name: layer.part.clone(),
         window: covered(paint),
-        channels: of_layer(&layer.pigments, rough_slots(paint)),
+        channels: of_layer(&layer.pigments, inexact_slots(paint)),
         source: Source::Paint(paint),
     });
     std::iter::once(base).chain(layers).collect()
 }
 
-/// The smallest rectangle that holds all paint; one cell where there is none,
-/// since a data window cannot be empty.
+/// Smallest rectangle that contains all paint; one cell if there is none, since a data
+/// window cannot be empty.
 fn covered(paint: &Layer) -> Rect {
     let (width, height) = (paint.width(), paint.height());
     let painted = |index: usize| {
@@ -81,7 +72,7 @@ fn covered(paint: &Layer) -> Rect {
 }
 
 impl Part<'_> {
-    /// The rows that `index` names, channel by channel within each row.
+    /// Samples of the rows in block `index`, channel by channel within each row.
     pub(super) fn block(&self, index: BlockIndex, scale: Millimetres) -> UncompressedBlock {
         let (rows, width) = (index.pixel_size.height(), index.pixel_size.width());
         let mut data = Vec::with_capacity(rows * width * self.channels.len() * size_of::<f32>());
@@ -95,7 +86,7 @@ impl Part<'_> {
         UncompressedBlock { index, data }
     }
 
-    /// A row of one channel, in mm.
+    /// One row of a channel, in mm.
     fn values(
         &self,
         content: Content,
@@ -103,10 +94,10 @@ impl Part<'_> {
         scale: Millimetres,
     ) -> impl Iterator<Item = f32> + '_ {
         let Rect { x, width, .. } = self.window;
-        let rest = matches!(content, Content::HeightRest | Content::AmountRest(_));
+        let residue = matches!(content, Content::HeightResidue | Content::AmountResidue(_));
         let quanta = move |i: usize| match (self.source, content) {
             (Source::Ground(height), _) => f64::from(height[(x + i, y)]),
-            (Source::Paint(paint), Content::Amount(slot) | Content::AmountRest(slot)) => {
+            (Source::Paint(paint), Content::Amount(slot) | Content::AmountResidue(slot)) => {
                 f64::from(match paint.pigments[(x + i, y)].get(slot) {
                     Some(&amount) => amount,
                     None => paint.vehicle[(x + i, y)],
@@ -114,8 +105,8 @@ impl Part<'_> {
             }
             (Source::Paint(paint), _) => f64::from(paint.cell(y * paint.width() + x + i).volume()),
         };
-        (0..width).map(move |i| match rest {
-            true => scale.rest(quanta(i)),
+        (0..width).map(move |i| match residue {
+            true => scale.residue(quanta(i)),
             false => scale.mm(quanta(i)),
         })
     }

@@ -1,4 +1,4 @@
-//! A painting from the bytes of a file.
+//! Decoding of a painting's file.
 
 use std::io::Cursor;
 
@@ -13,34 +13,34 @@ use super::error::PaintingFileError;
 use super::header::{ATTRIBUTE, FileHeader};
 use super::layout::{PartLayout, Plane, layout};
 use super::millimetres::Millimetres;
-use super::parts::BASE;
+use super::names::BASE;
 use crate::amount::MAX_COLUMN;
-use crate::document::{Document, DryLayer, Ground};
+use crate::document::{Document, DryLayer};
+use crate::ground::Ground;
 use crate::layer::{Cell, Layer};
 use graphics::field::Field;
 
-/// What [`read`] lets a painting take in memory, in bytes: 16 GiB, which is
-/// 4096 x 4096 cells with 28 layers (a layer takes 36 bytes a cell, the ground 4).
+/// Memory that [`read`] allows a painting, in bytes: 16 GiB, which is 4096 x 4096 cells
+/// with 28 layers (a layer takes 36 bytes per cell, the ground 4).
 pub const MEMORY_LIMIT: u64 = 16 << 30;
 
-/// Blocks that are read before they are expanded side by side.
+/// Blocks that are read before they are decompressed in parallel.
 const BATCH: usize = 64;
 
-/// The painting in `bytes`, the content of `file`.
+/// Decodes a painting from `bytes`, the content of `file`. The name is used in errors
+/// only.
 ///
 /// # Errors
-/// [`PaintingFileError`]: no OpenEXR, no painting, a newer version, parts or
-/// channels that are missing or that nobody names, sizes that disagree, values
-/// that are no amounts, a file that is cut off, or one that needs more than
-/// [`MEMORY_LIMIT`].
+/// [`PaintingFileError`] if the content is not OpenEXR, not a painting, of a newer
+/// version, truncated, inconsistent, or needs more than [`MEMORY_LIMIT`].
 pub fn read(file: &str, bytes: &[u8]) -> Result<Document, PaintingFileError> {
     read_within(file, bytes, MEMORY_LIMIT)
 }
 
-/// As [`read`], within `limit` bytes of memory.
+/// Decodes a painting like [`read`], within `limit` bytes of memory.
 ///
 /// # Errors
-/// As [`read`].
+/// [`PaintingFileError`] in the cases of [`read`].
 pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, PaintingFileError> {
     let damaged = |error: exr::error::Error| PaintingFileError::Container {
         file: file.to_owned(),
@@ -103,7 +103,7 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
     document(file, header, library, ground, paints)
 }
 
-/// The attribute `impasto` of part `base`, the first that has it.
+/// Text of attribute `impasto` of part `base`.
 fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
     let format = |reason: &str| PaintingFileError::Format {
         file: file.to_owned(),
@@ -120,11 +120,10 @@ fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
     }
 }
 
-/// Some rows of a part. The ground's height stands in the cells' vehicle, as
-/// the same bits.
+/// Some rows of a part. The ground's height is stored bit by bit as the cells' vehicle.
 struct Rows {
     part: usize,
-    /// The first row, counted from the top of the part's window.
+    /// First row, counted from the top of the part's window.
     y: usize,
     values: Vec<Cell>,
 }
@@ -153,27 +152,27 @@ fn rows(
     for ((row, cells), lines) in
         (0..).zip(values.chunks_mut(width)).zip(lines.chunks(layout.channels))
     {
-        let place = Place { file, part: layout, y: layout.window.y + y + row };
+        let row = PartRow { file, part: layout, y: layout.window.y + y + row };
         for plane in &layout.planes {
-            place.read(plane, lines, cells, scale)?;
+            row.read(plane, lines, cells, scale)?;
         }
         if layout.layer.is_some() {
-            place.check_volumes(cells)?;
+            row.check_volumes(cells)?;
         }
     }
     Ok(Rows { part, y, values })
 }
 
-/// A row of a part.
-struct Place<'a> {
+/// One row of a part, for decoding and error messages.
+struct PartRow<'a> {
     file: &'a str,
     part: &'a PartLayout,
-    /// On the canvas.
+    /// Row on the canvas.
     y: usize,
 }
 
-impl Place<'_> {
-    /// Puts what `plane` holds into `cells`.
+impl PartRow<'_> {
+    /// Decodes one plane into `cells`.
     fn read(
         &self,
         plane: &Plane,
@@ -181,26 +180,32 @@ impl Place<'_> {
         cells: &mut [Cell],
         scale: Millimetres,
     ) -> Result<(), PaintingFileError> {
-        let rest = plane.rest.map(|rest| lines[rest]);
+        let residue = plane.residue.map(|residue| lines[residue]);
         let (values, _) = lines[plane.channel].as_chunks::<4>();
         for (x, (cell, &bytes)) in cells.iter_mut().zip(values).enumerate() {
             let mm = f32::from_ne_bytes(bytes);
-            let rest = rest.map_or(0.0, |rest| f32::from_ne_bytes(rest.as_chunks().0[x]));
-            let quanta = scale.quanta(mm, rest);
-            let told = || match rest {
+            let residue =
+                residue.map_or(0.0, |residue| f32::from_ne_bytes(residue.as_chunks().0[x]));
+            let quanta = scale.quanta(mm, residue);
+            let found = || match residue {
                 0.0 => mm.to_string(),
-                _ => format!("{mm} and {rest}"),
+                _ => format!("{mm} and {residue}"),
             };
             if self.part.layer.is_none() {
                 if quanta.is_nan() || quanta.abs() > f64::from(i32::MAX) {
-                    return Err(self.value(x, &plane.name, "a height is up to 1023 cells", told()));
+                    return Err(self.value(
+                        x,
+                        &plane.name,
+                        "a height is up to 1023 cells",
+                        found(),
+                    ));
                 }
                 cell.vehicle = (quanta as i32) as u32;
                 continue;
             }
             if quanta.is_nan() || mm < 0.0 || quanta < 0.0 || quanta > f64::from(MAX_COLUMN) {
                 let wanted = "an amount is 0 to 512 cell widths";
-                return Err(self.value(x, &plane.name, wanted, told()));
+                return Err(self.value(x, &plane.name, wanted, found()));
             }
             match cell.pigments.get_mut(plane.slot) {
                 Some(amount) => *amount = quanta as u32,
@@ -210,7 +215,7 @@ impl Place<'_> {
         Ok(())
     }
 
-    /// Refuses cells that hold more than a cell can.
+    /// Checks that no cell holds more paint than a cell can.
     fn check_volumes(&self, cells: &[Cell]) -> Result<(), PaintingFileError> {
         for (x, cell) in cells.iter().enumerate() {
             let volume: u64 =
@@ -256,7 +261,7 @@ fn document(
         Ok(DryLayer { slots, opacity: layer.opacity, paint })
     });
     let mut layers = layers.collect::<Result<Vec<_>, PaintingFileError>>()?;
-    // The header was checked to name the wet layer first.
+    // The header check guarantees that the wet layer comes first.
     let wet = layers.remove(0);
     Ok(Document {
         title: header.title,

@@ -1,4 +1,4 @@
-//! A painting as the bytes of a file.
+//! Encoding of a painting's file.
 
 use std::io::Cursor;
 
@@ -14,28 +14,28 @@ use rayon::prelude::*;
 use super::error::PaintingFileError;
 use super::header::{ATTRIBUTE, FileHeader};
 use super::millimetres::Millimetres;
+use super::names::{BASE, WET, dry_part};
 use super::parts::{Part, parts};
 use crate::amount::MAX_COLUMN;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
 
-/// Blocks that are compressed side by side.
+/// Blocks that are compressed in parallel.
 const BATCH: usize = 64;
 
-/// The bytes of a file that holds `document` whole; the same document gives the
-/// same bytes.
+/// Encodes a painting as a file. The same document always gives the same bytes.
 ///
 /// # Errors
-/// [`PaintingFileError::Unwritable`] if the document contradicts itself: layers
-/// of another size than the ground, paint in a slot without a pigment, pigments
-/// that the library has not, numbers that are not finite.
+/// [`PaintingFileError::Unwritable`] if the document is inconsistent: layers of another
+/// size than the ground, paint in a slot without a pigment, pigments that the library
+/// lacks, numbers that are not finite.
 pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
     check(document)?;
     let header = FileHeader::of(document)?;
     let parts = parts(document, &header);
     let json = header.to_json()?;
     let headers = parts.iter().map(|part| {
-        let json = (part.name == super::parts::BASE).then_some(json.as_str());
+        let json = (part.name == BASE).then_some(json.as_str());
         exr_header(part, &header, json)
     });
     let scale = Millimetres::new(document.cell_mm);
@@ -67,7 +67,8 @@ fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Heade
     let mut own = LayerAttributes::named(part.name.as_str());
     own.layer_position = Vec2(window.x as i32, window.y as i32);
     own.horizontal_density = Some((25.4 / header.cell_mm) as f32);
-    // One attribute beyond the standard's: the crate keeps them in no order.
+    // At most one attribute beyond the standard's, because the encoder does not keep their
+    // order.
     own.other.extend(json.map(|json| (Text::from(ATTRIBUTE), AttributeValue::Text(json.into()))));
     let canvas = IntegerBounds::new((0, 0), (header.width, header.height));
     Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())
@@ -83,8 +84,8 @@ fn check(document: &Document) -> Result<(), PaintingFileError> {
         return Err(unwritable(format!("a side has `{}` cells", bounds.width.max(bounds.height))));
     }
     let dry = document.dry.iter().enumerate();
-    let dry = dry.map(|(i, layer)| (super::parts::dry_part(i), &layer.slots, &layer.paint));
-    let wet = (super::parts::WET.to_owned(), &document.slots, &document.wet);
+    let dry = dry.map(|(i, layer)| (dry_part(i), &layer.slots, &layer.paint));
+    let wet = (WET.to_owned(), &document.slots, &document.wet);
     for (name, slots, paint) in std::iter::once(wet).chain(dry) {
         let sizes = [paint.pigments.bounds(), paint.vehicle.bounds()];
         if let Some(size) = sizes.into_iter().find(|size| *size != bounds) {

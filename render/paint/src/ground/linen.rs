@@ -1,27 +1,27 @@
-//! Linen in plain weave.
+//! Primed linen in plain weave.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{GroundError, within};
+use super::error::{GroundError, check_range};
+use super::relief::{self, Stream};
 use graphics::field::Field;
-use graphics::noise::{Hills, random};
+use graphics::noise::Hills;
 
-/// Primed linen: warp (along y) and weft (along x) over and under each other,
-/// threads unevenly spaced, with slubs; the priming has filled the gaps.
+/// Settings of primed linen: warp (along y) and weft (along x) in plain weave, unevenly
+/// spaced threads with slubs, gaps filled by the priming.
 ///
-/// Canvases of painters have about 8 to 25 threads in a centimetre; primed, their
-/// relief is 0.1 to 0.2 mm.
+/// Painters' canvases have about 8 to 25 threads per centimetre; primed, their relief is
+/// 0.1 to 0.2 mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Linen {
-    /// The same seed, the same cloth.
+    /// Seed of the cloth's irregularities, 1 by default.
     pub seed: u64,
-    /// Threads in a centimetre, both ways.
+    /// Threads per centimetre in both directions, 2 to 60; 14 by default.
     pub threads_per_cm: f64,
-    /// From the gaps to the top of a usual thread, in mm.
+    /// Height from the gaps to the top of an average thread in mm, 0 to 2; 0.12 by default.
     pub relief_mm: f64,
 }
 
@@ -31,73 +31,68 @@ impl Default for Linen {
     }
 }
 
-/// How far a thread swings up and down, as a share of the relief; the rest is its
-/// roundness.
+/// Up and down of a thread in the weave, as a share of the relief; the rest is its round
+/// profile (chosen by eye).
 const SWING: f32 = 0.45;
 
-/// What the priming fills, as a share of the relief.
+/// Depth up to which the priming fills the gaps, as a share of the relief (chosen by eye).
 const FILLED: f32 = 0.25;
 
 impl Linen {
-    /// Heights over `width` x `height` cells of `cell_mm`, in mm.
+    /// Heights in mm of `width` x `height` cells, each `cell_mm` wide.
     ///
     /// # Errors
-    /// [`GroundError::Figure`].
+    /// [`GroundError::OutOfRange`].
     pub fn heights_mm(
         &self,
         width: usize,
         height: usize,
         cell_mm: f64,
     ) -> Result<Field<f32>, GroundError> {
-        let relief = within("relief_mm", " mm", self.relief_mm, [0.0, 2.0])? as f32;
-        let count = within("threads_per_cm", "", self.threads_per_cm, [2.0, 60.0])?;
+        let (relief, mut random) = relief::set_up(self.relief_mm, self.seed, Stream::Linen)?;
+        let count = check_range("threads_per_cm", "", self.threads_per_cm, [2.0, 60.0])?;
         let pitch = 10.0 / count / cell_mm;
-        let mut random = random(self.seed, 0);
         let warp = Threads::new(width, height, pitch, &mut random);
         let weft = Threads::new(height, width, pitch, &mut random);
         let grain = Hills::new(&mut random);
         let grain_step = (cell_mm / 0.25) as f32;
-        let mut heights = Field::filled(width, height, 0.0);
-        let fill = |(y, row): (usize, &mut [f32])| {
-            for (x, out) in row.iter_mut().enumerate() {
-                // Where a thread of the warp is up, the weft is down.
-                let top = warp.top(x, y, weft.swing[y]).max(weft.top(y, x, -warp.swing[x]));
-                let rough = 0.03 * grain.at(x as f32 * grain_step, y as f32 * grain_step);
-                let filled = soft_max(top, FILLED) + rough;
-                *out = (relief * (filled - FILLED) / (1.0 - FILLED)).max(0.0);
-            }
-        };
-        heights.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(fill);
-        Ok(heights)
+        Ok(relief::heights_mm(width, height, |x, y| {
+            // Where the warp is up, the weft is down.
+            let top = warp.top(x, y, weft.swing[y]).max(weft.top(y, x, -warp.swing[x]));
+            let rough = 0.03 * grain.at(x as f32 * grain_step, y as f32 * grain_step);
+            let filled = soft_max(top, FILLED) + rough;
+            relief * (filled - FILLED) / (1.0 - FILLED)
+        }))
     }
 }
 
-/// The greater of two, rounded where they are near.
+/// Smooth maximum of two values.
 fn soft_max(a: f32, b: f32) -> f32 {
     let d = a - b;
     0.5 * (a + b + (d * d + 0.02).sqrt())
 }
 
-/// The threads of one direction. `across` counts cells over the threads, `along`
-/// cells down their length.
+/// All threads of one direction. `across` counts cells perpendicular to the threads,
+/// `along` cells in their direction.
 struct Threads {
-    /// By cell across: the thread whose middle is nearest.
+    /// Index of the nearest thread, for each cell across.
     nearest: Vec<usize>,
-    /// By cell across, how far threads of the other direction swing: 1 over the
-    /// middle of a thread of sign 1, -1 over one of sign -1.
+    /// Vertical deflection of threads of the other direction, for each cell across: 1 over
+    /// the middle of a thread of sign 1, -1 over one of sign -1.
     swing: Vec<f32>,
     threads: Vec<Thread>,
 }
 
 struct Thread {
-    /// By cell along: middle, in cells across, and half the width.
+    /// Middle and half width of the thread, in cells across, for each cell along.
     course: Vec<[f32; 2]>,
+    /// 1 and -1 for neighbouring threads, which deflect in opposite directions.
     sign: f32,
 }
 
 impl Threads {
     fn new(across: usize, along: usize, pitch: f64, random: &mut ChaCha8Rng) -> Self {
-        // Two threads beyond both edges, for the neighbours of those at the edge.
+        // Two threads more at both edges, as neighbours of the outermost visible ones.
         let mut middles = vec![-2.0 * pitch * random.random_range(0.8..1.0)];
         while middles[middles.len() - 1] < across as f64 + 2.0 * pitch {
             let step = pitch * random.random_range(0.82..1.18);
@@ -111,7 +106,7 @@ impl Threads {
             let course = (0..along).map(|cell| {
                 let place = cell as f32 / pitch;
                 let aside = 0.12 * wander.at(place / 9.0, row);
-                // Slubs: here and there a thread is thick over a dozen others.
+                // Slubs: thick stretches, some dozen threads long.
                 let slub = (thickness.at(place / 14.0, row) - 0.45).max(0.0);
                 let width = usual + 0.05 * thickness.at(place / 3.0, row + 3.0) + 0.45 * slub;
                 [*middle as f32 + pitch * aside, pitch * width]
@@ -128,7 +123,7 @@ impl Threads {
                 index += 1;
             }
             nearest.push(index);
-            // A cosine from the middle of one thread to that of the next.
+            // A cosine from the middle of one thread to the next.
             let from = if place < middles[index] { index - 1 } else { index };
             let share = (place - middles[from]) / (middles[from + 1] - middles[from]);
             let sign = f64::from(threads[from].sign);
@@ -137,8 +132,8 @@ impl Threads {
         Self { nearest, swing, threads }
     }
 
-    /// The top of the threads at a cell, as a share of the relief, where `swing`
-    /// is 1 if threads of sign 1 are all the way up, -1 if they are down.
+    /// Height of the threads at a cell, as a share of the relief. `swing` is 1 where
+    /// threads of sign 1 are all the way up, -1 where they are down.
     fn top(&self, across: usize, along: usize, swing: f32) -> f32 {
         let nearest = self.nearest[across];
         let mut top = 0.0f32;

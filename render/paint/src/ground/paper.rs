@@ -1,69 +1,70 @@
 //! Watercolour paper.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{GroundError, within};
+use super::error::GroundError;
+use super::relief::{self, Stream};
 use graphics::field::Field;
-use graphics::noise::{Hills, random};
+use graphics::noise::Hills;
 
-/// How watercolour paper was pressed, which decides its grain.
+/// Finish of watercolour paper: how it was pressed, which decides its grain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Making {
-    /// Between felts without heat: an even grain.
+pub enum PaperFinish {
+    /// Pressed between felts without heat: an even grain.
     #[default]
     ColdPressed,
-    /// Hardly at all: deep and coarse.
+    /// Hardly pressed: a deep, coarse grain.
     Rough,
-    /// Between hot rollers: nearly smooth.
+    /// Pressed between hot rollers: nearly smooth.
     HotPressed,
 }
 
-/// Watercolour paper: the mark of the felt it was pressed against, bumps of half a
-/// millimetre to three, flattened on top.
+/// Settings of watercolour paper: the imprint of the felt it was pressed against, bumps 0.3
+/// to 3.6 mm wide with flattened tops.
 ///
 /// Profiles of cold-pressed papers are 0.05 to 0.1 mm deep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, from = "Told")]
+#[serde(deny_unknown_fields, from = "PaperFields")]
 pub struct Paper {
-    /// The same seed, the same paper.
+    /// Seed of the grain, 1 by default.
     pub seed: u64,
-    /// From the usual hollow to the usual height, in mm.
+    /// Height from an average hollow to an average bump in mm, 0 to 2; by default that of
+    /// the finish.
     pub relief_mm: f64,
-    /// How it was pressed.
-    #[serde(skip_serializing_if = "Making::is_usual")]
-    pub making: Making,
+    /// Finish of the paper, cold-pressed by default.
+    #[serde(rename = "making", skip_serializing_if = "PaperFinish::is_default")]
+    pub finish: PaperFinish,
 }
 
-/// A paper as a file tells it.
+/// Fields of a paper in a file, all optional.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Told {
+struct PaperFields {
     seed: Option<u64>,
     relief_mm: Option<f64>,
-    making: Option<Making>,
+    making: Option<PaperFinish>,
 }
 
-impl From<Told> for Paper {
-    fn from(told: Told) -> Self {
-        let usual = Self::of(told.making.unwrap_or_default(), told.seed.unwrap_or(1));
-        Self { relief_mm: told.relief_mm.unwrap_or(usual.relief_mm), ..usual }
+impl From<PaperFields> for Paper {
+    fn from(fields: PaperFields) -> Self {
+        let default = Self::of(fields.making.unwrap_or_default(), fields.seed.unwrap_or(1));
+        Self { relief_mm: fields.relief_mm.unwrap_or(default.relief_mm), ..default }
     }
 }
 
 impl Default for Paper {
     fn default() -> Self {
-        Self::of(Making::ColdPressed, 1)
+        Self::of(PaperFinish::ColdPressed, 1)
     }
 }
 
-/// A size of bumps: their width in mm, what share of the relief they have, and by
-/// how many degrees their lattice is turned, so that none shows.
+/// One octave of bumps: their width in mm, their share of the relief, and the rotation of
+/// their noise lattice in degrees, which hides its axes.
 type Bumps = (f64, f32, f64);
 
-impl Making {
-    /// The usual relief in mm.
+impl PaperFinish {
+    /// Average relief of papers of this finish, in mm.
     #[must_use]
     pub fn relief_mm(self) -> f64 {
         match self {
@@ -73,10 +74,11 @@ impl Making {
         }
     }
 
-    fn is_usual(&self) -> bool {
+    fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
+    /// Octaves of the grain, chosen by eye.
     fn bumps(self) -> [Bumps; 4] {
         match self {
             Self::ColdPressed => {
@@ -93,40 +95,37 @@ impl Making {
 }
 
 impl Paper {
-    /// Paper of the usual relief of its making.
+    /// Paper with the average relief of its finish.
     #[must_use]
-    pub fn of(making: Making, seed: u64) -> Self {
-        Self { seed, relief_mm: making.relief_mm(), making }
+    pub fn of(finish: PaperFinish, seed: u64) -> Self {
+        Self { seed, relief_mm: finish.relief_mm(), finish }
     }
 
-    /// Heights over `width` x `height` cells of `cell_mm`, in mm.
+    /// Heights in mm of `width` x `height` cells, each `cell_mm` wide.
     ///
     /// # Errors
-    /// [`GroundError::Figure`].
+    /// [`GroundError::OutOfRange`].
     pub fn heights_mm(
         &self,
         width: usize,
         height: usize,
         cell_mm: f64,
     ) -> Result<Field<f32>, GroundError> {
-        let relief = within("relief_mm", " mm", self.relief_mm, [0.0, 2.0])? as f32;
-        let mut random = random(self.seed, 1);
-        let layers = self.making.bumps().map(|(size_mm, share, degrees)| {
+        let (relief, mut random) = relief::set_up(self.relief_mm, self.seed, Stream::Paper)?;
+        let octaves = self.finish.bumps().map(|(size_mm, share, degrees)| {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let step = cell_mm / size_mm;
             (Hills::new(&mut random), share, [cos * step, sin * step].map(|v| v as f32))
         });
-        let mut heights = Field::filled(width, height, 0.0);
-        heights.values_mut().par_iter_mut().enumerate().for_each(|(index, out)| {
-            let (x, y) = ((index % width) as f32, (index / width) as f32);
-            let sum: f32 = layers
+        Ok(relief::heights_mm(width, height, |x, y| {
+            let (x, y) = (x as f32, y as f32);
+            let sum: f32 = octaves
                 .iter()
                 .map(|(hills, share, [c, s])| share * hills.at(x * c - y * s, x * s + y * c))
                 .sum();
-            // Pressed: heights are cut off softly, hollows less so.
+            // Pressing limits heights softly, and hollows less so.
             let pressed = if sum > 0.0 { sum / (1.0 + 1.5 * sum) } else { sum / (1.0 - 0.3 * sum) };
-            *out = (relief * (0.65 + 1.3 * pressed)).max(0.0);
-        });
-        Ok(heights)
+            relief * (0.65 + 1.3 * pressed)
+        }))
     }
 }

@@ -1,44 +1,43 @@
-//! Relief from a picture.
+//! Relief taken from the grey values of a picture.
 
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{GroundError, within};
+use super::error::{GroundError, check_range};
 use graphics::field::Field;
 
-/// Heights from a grey picture of 8 or 16 bits, stretched over the canvas: black
-/// is 0, white is `depth_mm`, and in between the numbers count as they stand. Of
-/// a coloured picture its luma is taken.
+/// Relief from a grey picture with 8 or 16 bits, stretched over the canvas. Heights are
+/// proportional to the stored values: black is 0, white is `depth_mm`. Coloured pictures
+/// are converted to luma.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PictureRelief {
-    /// The file, a PNG or JPEG.
+    /// Path of the picture, a PNG or JPEG file.
     pub path: String,
-    /// The height of white, in mm.
-    #[serde(default = "usual_depth")]
+    /// Height of white in mm, 0 to 20; 0.2 by default.
+    #[serde(default = "default_depth_mm")]
     pub depth_mm: f64,
 }
 
-fn usual_depth() -> f64 {
+fn default_depth_mm() -> f64 {
     0.2
 }
 
-/// The most pixels on a side.
+/// Greatest width and height of the picture, in pixels.
 const LARGEST: u32 = 16384;
 
 impl PictureRelief {
-    /// Heights over `width` x `height` cells, in mm, by straight lines between
-    /// the pixels.
+    /// Heights in mm of `width` x `height` cells, by bilinear interpolation.
     ///
     /// # Errors
     /// [`GroundError`] for a depth out of range or a picture that cannot be read.
     pub fn heights_mm(&self, width: usize, height: usize) -> Result<Field<f32>, GroundError> {
-        let depth = within("depth_mm", " mm", self.depth_mm, [0.0, 20.0])? as f32;
+        let depth = check_range("depth_mm", " mm", self.depth_mm, [0.0, 20.0])? as f32;
         let picture = self.read()?;
         let (columns, rows) = (picture.width() as usize, picture.height() as usize);
-        // By cell: two pixels and the share of the second.
-        let between = |cells: usize, pixels: usize| -> Vec<(usize, usize, f32)> {
+        // For each cell: two neighbouring pixels, and the share of the second.
+        let interpolation = |cells: usize, pixels: usize| -> Vec<(usize, usize, f32)> {
             let last = pixels as f64 - 1.0;
             let place = |cell: usize| {
                 let place = (cell as f64 + 0.5) / cells as f64 * pixels as f64 - 0.5;
@@ -48,7 +47,7 @@ impl PictureRelief {
             };
             (0..cells).map(place).collect()
         };
-        let (across, down) = (between(width, columns), between(height, rows));
+        let (across, down) = (interpolation(width, columns), interpolation(height, rows));
         let values = picture.as_raw();
         let scale = depth / f32::from(u16::MAX);
         let mut heights = Field::filled(width, height, 0.0);
@@ -65,16 +64,17 @@ impl PictureRelief {
     }
 
     fn read(&self) -> Result<image::ImageBuffer<image::Luma<u16>, Vec<u16>>, GroundError> {
-        let told = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
-        let reader = ImageReader::open(&self.path).map_err(|error| told(error.to_string()))?;
-        let mut reader = reader.with_guessed_format().map_err(|error| told(error.to_string()))?;
+        let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
+        let reader = ImageReader::open(&self.path).map_err(|error| rejected(error.to_string()))?;
+        let mut reader =
+            reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
         let mut limits = Limits::default();
         limits.max_image_width = Some(LARGEST);
         limits.max_image_height = Some(LARGEST);
         reader.limits(limits);
-        let picture = reader.decode().map_err(|error| told(error.to_string()))?.into_luma16();
+        let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_luma16();
         if picture.is_empty() {
-            return Err(told("the picture has no pixels".to_owned()));
+            return Err(rejected("the picture has no pixels".to_owned()));
         }
         Ok(picture)
     }

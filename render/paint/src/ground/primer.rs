@@ -1,4 +1,4 @@
-//! The reflectance of a ground.
+//! Reflectance of a ground: its priming.
 
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use spectra::color::{Adaptation, Rgb, RgbSpace};
 use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum};
 
-use super::{GroundError, within};
+use super::error::{GroundError, check_range};
 
-/// What a ground reflects, as measured: `0.87`, `{"rgb": "#f4f1e8"}`, or
+/// Measured reflectance of a ground: `0.87`, `{"rgb": "#f4f1e8"}`, or
 /// `{"spectrum": {"grid": {..}, "values": [..]}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(
@@ -17,49 +17,49 @@ use super::{GroundError, within};
     expecting = "reflectance is a number 0 to 1, {rgb: #rrggbb} or {spectrum: {grid, values}}"
 )]
 pub enum Primer {
-    /// The same at every wavelength, 0..=1.
+    /// One reflectance for all wavelengths, 0 to 1.
     Grey(f64),
-    /// The smoothest reflectance of a colour.
+    /// The smoothest reflectance that has a given colour.
     Color(ColorPrimer),
-    /// As measured.
+    /// A measured spectrum.
     Measured(MeasuredPrimer),
 }
 
-/// A colour of a ground.
+/// Colour of a ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColorPrimer {
-    /// `#rrggbb`, sRGB seen under D65. A colour that no film of the library's
-    /// surface can have is replaced by one near it.
+    /// sRGB colour under D65, written `#rrggbb`. A colour that no paint with the library's
+    /// surface can have is replaced by a near one.
     pub rgb: String,
 }
 
-/// A measured ground.
+/// Measured reflectance of a ground, as a file stores it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredPrimer {
-    /// Its spectrum.
+    /// Reflectance by wavelength.
     pub spectrum: PrimerSpectrum,
 }
 
-/// Reflectance on a grid.
+/// Reflectance on a wavelength grid of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrimerSpectrum {
-    /// The wavelengths.
+    /// Wavelengths of the values.
     pub grid: Grid,
-    /// Reflectance as measured, 0..=1, one for each.
+    /// Measured reflectance for each wavelength, 0 to 1.
     pub values: Vec<f64>,
 }
 
-/// Made up: a white priming, where a library has no white of its own.
+/// Reflectance of a white priming for libraries without a reference white (an assumption).
 const WHITE: f64 = 0.87;
 
 impl Primer {
-    /// The white of a library: a film of its reference pigment that hides, on
-    /// its grid; 0.87 where it has none.
+    /// Measured reflectance of an opaque film of the library's reference white, on its
+    /// grid; 0.87 throughout if it has none.
     #[must_use]
-    pub fn of_library(library: &PigmentLibrary) -> Vec<f64> {
+    pub fn library_white(library: &PigmentLibrary) -> Vec<f64> {
         let reference = library.reference.as_deref().and_then(|name| library.find(name).ok());
         let film = reference.and_then(|index| library.mix(&[(index, 1.0)]).ok());
         film.map_or_else(
@@ -68,15 +68,16 @@ impl Primer {
         )
     }
 
-    /// The reflectance on the grid of `library`; the ends of a spectrum held.
+    /// Measured reflectance on the grid of `library`. A spectrum that covers less is
+    /// extended by its end values.
     ///
     /// # Errors
-    /// [`GroundError`] for a value, colour or spectrum that cannot be.
+    /// [`GroundError`] for a value out of range, or an invalid colour or spectrum.
     pub fn reflectance(&self, library: &PigmentLibrary) -> Result<Vec<f64>, GroundError> {
         let grid = library.grid;
         match self {
             Self::Grey(value) => {
-                Ok(vec![within("reflectance", "", *value, [0.0, 1.0])?; grid.count()])
+                Ok(vec![check_range("reflectance", "", *value, [0.0, 1.0])?; grid.count()])
             }
             Self::Color(ColorPrimer { rgb }) => {
                 let color =

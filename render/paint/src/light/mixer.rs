@@ -1,33 +1,33 @@
-//! Two paints mixed in any ratio, fast.
+//! Fast mixing of two paints in any ratio.
 
 use pigment::library::{PigmentLibrary, RecipeError};
 use pulp::Simd;
 
-use super::studio::Light;
+use super::node_light::Light;
 use crate::node_pigments::{at_nodes, scene_surface};
 use crate::optics::{NODES, SceneSurface};
 use graphics::lanes::{greater, lesser, multiply_add};
 
-/// Two paints of a library under one light: K and S at its wavelengths, kept, so
-/// that a mixture costs eight square roots and eight divisions.
+/// Two paints of a library under one light. K and S at the light's wavelengths are
+/// precomputed, so that a mixture costs eight square roots and eight divisions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixer {
-    /// K of the first paint, and what the second has more.
+    /// K of the first paint, and the difference to the second.
     absorption: [[f32; NODES]; 2],
-    /// S likewise.
+    /// S of the first paint, and the difference to the second.
     scattering: [[f32; NODES]; 2],
     surface: SceneSurface,
     rgb_from_nodes: [[f32; 3]; NODES],
 }
 
-/// Mixtures computed side by side.
+/// Mixtures computed together in SIMD lanes.
 const BLOCK: usize = 16;
 
 impl Mixer {
-    /// A mixer of two recipes, each of `(pigment index, parts)`.
+    /// Makes a mixer of two recipes, given as (pigment index, parts).
     ///
     /// # Errors
-    /// [`RecipeError`] as `PigmentLibrary::mix`.
+    /// [`RecipeError`] if [`PigmentLibrary::mix`] rejects a recipe.
     pub fn new(
         library: &PigmentLibrary,
         light: &Light,
@@ -47,8 +47,7 @@ impl Mixer {
         })
     }
 
-    /// Linear sRGB of a film that hides, of which `share`, 0..=1, is the second
-    /// paint.
+    /// Linear sRGB of an opaque mixture; `share` in 0..=1 is the part of the second paint.
     #[must_use]
     pub fn mix(&self, share: f32) -> [f32; 3] {
         let mut out = [[0.0; 3]];
@@ -56,16 +55,16 @@ impl Mixer {
         out[0]
     }
 
-    /// The same for each of `shares`, into `out`.
+    /// Computes the mixture for each of `shares` into `out`, like [`Mixer::mix`].
     ///
     /// # Panics
-    /// If there is not one place for each share.
+    /// If `shares` and `out` differ in length.
     pub fn mix_into(&self, shares: &[f32], out: &mut [[f32; 3]]) {
         assert_eq!(shares.len(), out.len(), "one colour for each share");
         pulp::Arch::new().dispatch(MixInto { mixer: self, shares, out });
     }
 
-    /// Linear sRGB of a block of mixtures, by channel.
+    /// Linear sRGB of a block of mixtures, one array per channel.
     #[inline(always)]
     fn block<S: Simd>(&self, shares: &[f32; BLOCK]) -> [[f32; BLOCK]; 3] {
         let SceneSurface { k1, k2, specular } = self.surface;
@@ -78,7 +77,7 @@ impl Mixer {
             for (measured, &share) in measured.iter_mut().zip(shares) {
                 let k = greater(multiply_add::<S>(share, k_more, k_first), 0.0);
                 let s = greater(multiply_add::<S>(share, s_more, s_first), 0.0);
-                // R = S / den of a film that hides, then Saunderson, in one division.
+                // Opaque film R = S / den and Saunderson's correction with one division.
                 let den = (k + s) + (k * multiply_add::<S>(2.0, s, k)).sqrt();
                 let den = greater(multiply_add::<S>(-k2, s, den), f32::MIN_POSITIVE);
                 *measured = specular + through * s / den;

@@ -1,9 +1,9 @@
-//! A light for painting: eight wavelengths that stand for its spectrum, and
-//! mixing two paints under it.
+//! Light for painting: eight wavelengths that represent a light's spectrum, and mixing of
+//! two paints under it.
 
 mod mixer;
 
-mod studio;
+mod node_light;
 
 pub use mixer::Mixer;
-pub use studio::{Light, LightFailure};
+pub use node_light::{Light, PaintLightError};

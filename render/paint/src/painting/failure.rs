@@ -1,7 +1,7 @@
 //! Errors of a painting.
 
 use crate::brush::BrushError;
-use crate::light::LightFailure;
+use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use graphics::gpu::DeviceError;
 use spectra::hint::{Explain, Fault, Hint};
@@ -14,7 +14,7 @@ pub enum PaintingError {
     Engine(#[from] DeviceError),
     /// The light is unknown or has no wavelengths in common with the library.
     #[error(transparent)]
-    Light(#[from] LightFailure),
+    Light(#[from] PaintLightError),
     /// A brush head cannot have this size.
     #[error(transparent)]
     Brush(#[from] BrushError),
@@ -160,7 +160,7 @@ impl Explain for PaintingError {
     fn hint(&self) -> Option<Hint> {
         let hint = match self {
             Self::Engine(error) => return error.hint(),
-            Self::Light(error) => return error.hint().map(Hint::new),
+            Self::Light(error) => return error.hint(),
             Self::Brush(error) => error.hint(),
             Self::Stroke(error) => error.hint(),
             Self::TooHigh { .. } => "paint thinner, or with larger cells",

@@ -6,7 +6,7 @@ use super::views::Unseen;
 use crate::document::{Lighting, Slots};
 use crate::engine::View;
 use crate::optics::Scene;
-use crate::scene::{Appearance, Films};
+use crate::scene::{Appearance, SpectralStack};
 use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
 
@@ -85,12 +85,12 @@ impl Painting {
         let mut layers = dry.collect::<Result<Vec<_>, _>>()?;
         layers.push(self.engine.wet_in(rect)?);
         let dry = self.dry_states();
-        let films = Films::full(&self.appearance(&dry, &self.state.lighting));
+        let stack = SpectralStack::full(&self.appearance(&dry, &self.state.lighting));
         let cells = rect.width * rect.height;
-        let mut mean = vec![0.0; films.count()];
+        let mut mean = vec![0.0; stack.count()];
         for index in 0..cells {
             let pigments = layers.iter().map(|layer| layer.pigments.values()[index]);
-            for (mean, one) in mean.iter_mut().zip(films.measured_reflectance(pigments)) {
+            for (mean, one) in mean.iter_mut().zip(stack.measured_reflectance(pigments)) {
                 *mean += one / cells as f64;
             }
         }
@@ -169,7 +169,7 @@ mod tests {
 
     fn bare() -> Painting {
         let library = PigmentLibrary::van_gogh_oils();
-        let ground = GroundSpec::default().ground(300, 200, 0.1, &library).unwrap();
+        let ground = GroundSpec::default().build(300, 200, 0.1, &library).unwrap();
         let (medium, lighting) = (Medium::default(), Lighting::default());
         let slots = std::array::from_fn(Some);
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))

@@ -1,4 +1,4 @@
-//! The picture of a painting at rest, computed here and now on all cores.
+//! Picture of a painting at rest, computed on all CPU cores.
 
 use rayon::prelude::*;
 
@@ -9,10 +9,10 @@ use crate::optics::Scene;
 use crate::shade::{RowHeights, TopMaterial, shade_row};
 use graphics::field::Field;
 
-/// Linear sRGB of every cell, white at 1, and 1; what a backend shows of the
-/// same painting. 20 bytes a cell besides the painting.
+/// Picture of a document in linear sRGB, white at 1; the fourth value is 1. It equals the
+/// picture of a paint engine. Takes 20 bytes per cell beside the document.
 ///
-/// `scene` must be that of `document`.
+/// `scene` must have been made for `document`.
 #[must_use]
 pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
     let width = document.wet.width();
@@ -60,7 +60,7 @@ fn mark(layer: &Layer, y: usize, material: TopMaterial, materials: &mut [TopMate
     }
 }
 
-/// The height of the surface over every cell, in quanta.
+/// Height of the surface at every cell, in quanta.
 fn tops(document: &Document) -> Field<i32> {
     let mut tops = document.ground.height.clone();
     let layers = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);

@@ -1,34 +1,31 @@
-//! The reflectance of every cell by wavelength, in f64: what eight wavelengths
-//! stand for, for tests, for spectral files, and to look at one place.
+//! Reflectance of every cell by wavelength in f64: the reference for the eight
+//! wavelengths of the engine, used for spectral files and the eyedropper.
 
-use pigment::evaluate::Viewing;
 use pigment::quadrature::Quadrature;
 use rayon::prelude::*;
-use spectra::color::Xyz;
 use spectra::optics::{Layer as Film, Surface};
 
-use super::{Appearance, internal_ground};
+use super::appearance::{Appearance, internal_ground};
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
 use crate::node_pigments::thickness_per_quantum;
 use graphics::field::Field;
 
-/// What a stack of layers over a ground is made of, by wavelength; lit flat: no
-/// relief, no gloss.
+/// Optics of a stack of layers over a ground, by wavelength, without relief and gloss.
 #[derive(Debug, Clone)]
-pub struct Films {
+pub struct SpectralStack {
     surface: Surface,
-    /// Internal reflectance of the ground.
+    /// Internal reflectance of the ground, by wavelength.
     ground: Vec<f64>,
-    /// Of the layers, lowest first, the wet one last.
+    /// K and S of the layers, lowest first, the wet layer last.
     optics: Vec<Optics>,
 }
 
-/// K and S for one quantum, by wavelength and slot.
+/// K and S per quantum, by wavelength and slot.
 type Optics = Vec<[[f64; 2]; SLOTS]>;
 
-impl Films {
-    /// On all wavelengths of the library.
+impl SpectralStack {
+    /// The stack at all wavelengths of the library.
     #[must_use]
     pub fn full(appearance: &Appearance<'_>) -> Self {
         Self::new(appearance, |values| values.to_vec())
@@ -55,14 +52,14 @@ impl Films {
         Self { surface: library.saunderson, ground, optics }
     }
 
-    /// How many wavelengths.
+    /// Number of wavelengths.
     #[must_use]
     pub fn count(&self) -> usize {
         self.ground.len()
     }
 
-    /// Reflectance as an instrument would measure it, by wavelength, of a column
-    /// of paint: what each layer holds of each pigment, in quanta, lowest first.
+    /// Measured reflectance (0..1) by wavelength of a column of paint, given the quanta of
+    /// each pigment in each layer, lowest first.
     pub fn measured_reflectance(
         &self,
         pigments: impl IntoIterator<Item = [u32; SLOTS]>,
@@ -86,23 +83,23 @@ impl Films {
     }
 }
 
-/// A painting at rest as films over its ground.
+/// A document whose reflectance can be computed cell by cell.
 #[derive(Debug, Clone)]
-pub struct Spectral<'a> {
+pub struct SpectralDocument<'a> {
     document: &'a Document,
-    films: Films,
-    /// Lowest first.
+    stack: SpectralStack,
+    /// Layers, lowest first.
     layers: Vec<&'a Layer>,
 }
 
-impl<'a> Spectral<'a> {
-    /// On all wavelengths of the painting's library.
+impl<'a> SpectralDocument<'a> {
+    /// Reflectance at all wavelengths of the document's library.
     #[must_use]
     pub fn full(document: &'a Document) -> Self {
         Self::new(document, |values| values.to_vec())
     }
 
-    /// At the wavelengths of `quadrature`.
+    /// Reflectance at the nodes of `quadrature`.
     #[must_use]
     pub fn at_nodes(document: &'a Document, quadrature: &Quadrature) -> Self {
         Self::new(document, |values| quadrature.at_nodes(document.library.grid, values))
@@ -110,43 +107,42 @@ impl<'a> Spectral<'a> {
 
     fn new(document: &'a Document, at: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
-        let films = Films::new(&Appearance::of(document, &dry), at);
+        let stack = SpectralStack::new(&Appearance::of(document, &dry), at);
         let layers = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);
-        Self { document, films, layers: layers.collect() }
+        Self { document, stack, layers: layers.collect() }
     }
 
-    /// How many wavelengths.
+    /// Number of wavelengths.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.films.count()
+        self.stack.count()
     }
 
-    /// Reflectance of the cell at column `x` of row `y` as an instrument would
-    /// measure it, by wavelength.
+    /// Measured reflectance (0..1) by wavelength of the cell in column `x` and row `y`.
     #[must_use]
     pub fn measured_reflectance(&self, x: usize, y: usize) -> Vec<f64> {
-        self.films.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
+        self.stack.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
     }
 
-    /// The same of all cells of row `y`, on all cores.
-    #[must_use]
-    pub fn measured_row(&self, y: usize) -> Vec<Vec<f64>> {
-        let columns = (0..self.document.wet.width()).into_par_iter();
-        columns.map(|x| self.measured_reflectance(x, y)).collect()
-    }
-
-    /// XYZ (Y of the white 100) of every cell under `viewing`; of a painting on
-    /// all wavelengths ([`Spectral::full`]).
-    ///
-    /// # Panics
-    /// If it stands on other wavelengths than its library.
-    #[must_use]
-    pub fn xyz(&self, viewing: &Viewing) -> Field<Xyz> {
-        let weights = viewing.weights(self.document.library.grid);
-        let weights = weights.expect("the method fits the grid");
+    /// Measured reflectance of all cells as 32-bit planes, one per wavelength. Rows are
+    /// computed on all CPU cores. After each row `go_on` is called with the number of rows
+    /// done; if it returns `false`, the
+    /// result is `None`.
+    pub fn planes(&self, mut go_on: impl FnMut(usize) -> bool) -> Option<Vec<Field<f32>>> {
         let (width, height) = (self.document.wet.width(), self.document.wet.height());
-        let cells = (0..width * height).into_par_iter();
-        let xyz = cells.map(|i| weights.xyz(&self.measured_reflectance(i % width, i / width)));
-        Field::from_values(width, height, xyz.collect())
+        let mut planes = vec![Field::filled(width, height, 0.0); self.count()];
+        for y in 0..height {
+            let columns = (0..width).into_par_iter();
+            let row: Vec<Vec<f64>> = columns.map(|x| self.measured_reflectance(x, y)).collect();
+            for (x, spectrum) in row.into_iter().enumerate() {
+                for (plane, value) in planes.iter_mut().zip(spectrum) {
+                    plane[(x, y)] = value as f32;
+                }
+            }
+            if !go_on(y + 1) {
+                return None;
+            }
+        }
+        Some(planes)
     }
 }

@@ -1,111 +1,88 @@
-//! The colour of a film of a palette's paint over a ground, and how it changes
-//! with each pigment.
+//! Colour of a paint film over a ground, and its derivatives by the amount of each
+//! pigment.
 //!
-//! Kubelka and Munk 1931 through `spectra::optics::Layer`, Saunderson's surface,
-//! then XYZ by a few nodes or by the whole grid. Colours of the photograph are
-//! brought to the white of the light by Bradford's adaptation, as everywhere else.
+//! Kubelka and Munk 1931 through [`spectra::optics::Layer`], Saunderson's surface
+//! correction, then XYZ at a few nodes or over the whole grid. sRGB colours are adapted
+//! to the white of the light by Bradford's transform, as everywhere in impasto.
 
-use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::quadrature::Quadrature;
-use spectra::InterpolateError;
 use spectra::color::{Adaptation, Lab, Matrix3, RgbSpace, Xyz};
 use spectra::optics::{Layer, Surface};
 
 use crate::document::Slots;
 use crate::layer::SLOTS;
 
-/// What is painted with, and on what.
+/// Pigments, ground and binder that films are made of.
 #[derive(Debug, Clone, Copy)]
-pub struct Materials<'a> {
-    /// The pigments.
+pub struct FilmMaterials<'a> {
+    /// Library of the pigments.
     pub library: &'a PigmentLibrary,
-    /// The palette: indices into the library.
+    /// Pigments of the palette.
     pub slots: &'a Slots,
-    /// Reflectance of the ground as an instrument would read it, on the
-    /// library's grid.
+    /// Measured reflectance of the ground on the library's grid, 0..1.
     pub ground: &'a [f64],
-    /// The library's thickness for one mm, `Medium::scattering_per_mm`.
+    /// Thickness in the library's unit per mm, see
+    /// [`Medium::scattering_per_mm`](crate::document::Medium::scattering_per_mm).
     pub scattering_per_mm: f64,
 }
 
-/// Films of a palette over a ground, under one light.
+/// Films of a palette over a ground, seen under one light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaintFilm {
     used: Vec<usize>,
-    waves: Vec<Wave>,
+    bands: Vec<Band>,
     surface: Surface,
     white: Xyz,
     xyz_from_rgb: Matrix3,
     rgb_from_xyz: Matrix3,
 }
 
-/// One wavelength.
+/// Coefficients at one wavelength.
 #[derive(Debug, Clone, PartialEq)]
-struct Wave {
+struct Band {
     /// K per mm of each slot.
     absorption: [f64; SLOTS],
     /// S per mm of each slot.
     scattering: [f64; SLOTS],
-    /// Internal reflectance of the ground.
+    /// Internal reflectance of the ground, 0..1.
     ground: f64,
-    /// Weights of X, Y and Z.
+    /// Weights of the reflectance in X, Y and Z.
     weights: [f64; 3],
 }
 
-/// CIELAB of a film, and its slopes over each slot's mm.
+/// CIELAB of a film, with its derivatives by the height of each slot.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Slopes {
+pub(super) struct LabSlopes {
     pub(super) lab: [f64; 3],
     pub(super) over_mm: [[f64; SLOTS]; 3],
 }
 
 impl PaintFilm {
-    /// Films seen at a few wavelengths, as the engine sees them.
+    /// Films seen at the nodes of `quadrature`, as the paint engine computes them.
     ///
     /// # Panics
-    /// If the ground does not stand on the library's grid, or a slot names no
-    /// pigment of it.
+    /// If the ground's reflectance is not on the library's grid, or a slot refers to a
+    /// pigment that the library lacks.
     #[must_use]
-    pub fn at_nodes(materials: Materials<'_>, quadrature: &Quadrature) -> Self {
-        let grid = materials.library.grid;
-        let at = |values: &[f64]| quadrature.at_nodes(grid, values);
-        Self::new(materials, &quadrature.weights, quadrature.white, at)
-    }
-
-    /// Films seen over the library's whole grid.
-    ///
-    /// # Errors
-    /// Never in practice: the interpolation is chosen to fit the grid.
-    ///
-    /// # Panics
-    /// As [`PaintFilm::at_nodes`].
-    pub fn on_grid(materials: Materials<'_>, viewing: &Viewing) -> Result<Self, InterpolateError> {
-        let weights = viewing.weights(materials.library.grid)?;
-        Ok(Self::new(materials, weights.weights(), weights.white(), <[f64]>::to_vec))
-    }
-
-    fn new(
-        materials: Materials<'_>,
-        weights: &[[f64; 3]],
-        white: Xyz,
-        at: impl Fn(&[f64]) -> Vec<f64>,
-    ) -> Self {
-        let Materials { library, slots, ground, scattering_per_mm } = materials;
+    pub fn at_nodes(materials: FilmMaterials<'_>, quadrature: &Quadrature) -> Self {
+        let FilmMaterials { library, slots, ground, scattering_per_mm } = materials;
         assert_eq!(
             ground.len(),
             library.grid.count(),
-            "one reflectance of the ground a wavelength"
+            "the ground's reflectance is not on the library's grid"
         );
-        let surface = library.saunderson;
+        let at = |values: &[f64]| quadrature.at_nodes(library.grid, values);
+        let (surface, white) = (library.saunderson, quadrature.white);
         let ground = at(ground);
-        let mut waves: Vec<Wave> = weights
+        let mut bands: Vec<Band> = quadrature
+            .weights
             .iter()
             .zip(&ground)
-            .map(|(&weights, &bare)| Wave {
+            .map(|(&weights, &bare)| Band {
                 absorption: [0.0; SLOTS],
                 scattering: [0.0; SLOTS],
-                // A ground darker than its own surface counts as black.
+                // A ground darker than the surface reflection counts as black.
                 ground: surface.internal_from_measured(bare).unwrap_or(0.0).min(1.0),
                 weights,
             })
@@ -116,75 +93,76 @@ impl PaintFilm {
             let pigment = &library.pigments[*index];
             used.push(slot);
             let planes = at(&pigment.absorption).into_iter().zip(at(&pigment.scattering));
-            for (wave, (k, s)) in waves.iter_mut().zip(planes) {
-                wave.absorption[slot] = scattering_per_mm * k;
-                wave.scattering[slot] = scattering_per_mm * s;
+            for (band, (k, s)) in bands.iter_mut().zip(planes) {
+                band.absorption[slot] = scattering_per_mm * k;
+                band.scattering[slot] = scattering_per_mm * s;
             }
         }
         let adaptation = Adaptation::Bradford.matrix(RgbSpace::Srgb.white(), white);
         let xyz_from_rgb = adaptation.after(&RgbSpace::Srgb.xyz_from_linear());
         let rgb_from_xyz = xyz_from_rgb.inverse();
-        Self { used, waves, surface, white, xyz_from_rgb, rgb_from_xyz }
+        Self { used, bands, surface, white, xyz_from_rgb, rgb_from_xyz }
     }
 
-    /// The slots that hold a pigment, rising.
+    /// Indices of the slots in use, rising.
     #[must_use]
     pub fn used(&self) -> &[usize] {
         &self.used
     }
 
-    /// CIELAB, under the light, of a linear sRGB colour.
+    /// CIELAB of a linear sRGB colour under the film's light.
     #[must_use]
     pub fn lab_from_rgb(&self, rgb: [f32; 3]) -> Lab {
         Lab::from_xyz(self.xyz_from_rgb.apply(rgb.map(f64::from)).into(), self.white)
     }
 
-    /// Linear sRGB of the film that these heights in mm make over the ground;
-    /// outside 0..1 where sRGB does not reach it.
+    /// Linear sRGB of the film of these heights (in mm, by slot) over the ground; outside
+    /// 0..1 beyond the sRGB gamut.
     #[must_use]
     pub fn rgb(&self, heights_mm: &[f32; SLOTS]) -> [f32; 3] {
         let xyz = self.xyz(&heights_mm.map(f64::from), 1.0);
         self.rgb_from_xyz.apply(xyz.to_array()).map(|value| value as f32)
     }
 
-    /// CIELAB of the film that these heights in mm make over the ground.
+    /// CIELAB of the film of these heights (in mm, by slot) over the ground.
     #[must_use]
     pub fn lab(&self, heights_mm: &[f64; SLOTS]) -> Lab {
         Lab::from_xyz(self.xyz(heights_mm, 1.0), self.white)
     }
 
-    /// The same over black.
+    /// CIELAB of the film of these heights (in mm, by slot) over black.
     pub(super) fn lab_over_black(&self, heights_mm: &[f64; SLOTS]) -> Lab {
         Lab::from_xyz(self.xyz(heights_mm, 0.0), self.white)
     }
 
-    /// XYZ over the ground, its reflectance multiplied with `lit`: 0 for black.
+    /// XYZ of a film. The ground's reflectance is multiplied by `lit`: 1, or 0 for black.
     fn xyz(&self, heights_mm: &[f64; SLOTS], lit: f64) -> Xyz {
         let mut xyz = [0.0; 3];
-        for wave in &self.waves {
-            let (k, s) = wave.mixed(heights_mm);
-            let internal = Layer::new(k, s, 1.0).over(lit * wave.ground);
+        for band in &self.bands {
+            let (k, s) = band.mixed(heights_mm);
+            let internal = Layer::new(k, s, 1.0).over(lit * band.ground);
             let seen = self.surface.measured_from_internal(internal);
-            for (sum, weight) in xyz.iter_mut().zip(&wave.weights) {
+            for (sum, weight) in xyz.iter_mut().zip(&band.weights) {
                 *sum += weight * seen;
             }
         }
         xyz.into()
     }
 
-    /// CIELAB with its slopes, over the ground lit as in [`PaintFilm::xyz`].
-    pub(super) fn slopes(&self, heights_mm: &[f64; SLOTS], lit: f64) -> Slopes {
+    /// CIELAB of a film with its derivatives, over the ground multiplied by `lit`: 1, or 0
+    /// for black.
+    pub(super) fn slopes(&self, heights_mm: &[f64; SLOTS], lit: f64) -> LabSlopes {
         let mut xyz = [0.0; 3];
         let mut over_mm = [[0.0; SLOTS]; 3];
-        for wave in &self.waves {
-            let (k, s) = wave.mixed(heights_mm);
-            let [internal, by_k, by_s] = Layer::over_with_slopes(k, s, lit * wave.ground);
+        for band in &self.bands {
+            let (k, s) = band.mixed(heights_mm);
+            let [internal, by_k, by_s] = Layer::over_with_slopes(k, s, lit * band.ground);
             let slope = self.surface.measured_slope(internal);
             let seen = self.surface.measured_from_internal(internal);
             let (by_k, by_s) = (slope * by_k, slope * by_s);
             let by_slot: [f64; SLOTS] =
-                std::array::from_fn(|i| by_k * wave.absorption[i] + by_s * wave.scattering[i]);
-            for (channel, &weight) in wave.weights.iter().enumerate() {
+                std::array::from_fn(|i| by_k * band.absorption[i] + by_s * band.scattering[i]);
+            for (channel, &weight) in band.weights.iter().enumerate() {
                 xyz[channel] += weight * seen;
                 for (sum, slope) in over_mm[channel].iter_mut().zip(&by_slot) {
                     *sum += weight * slope;
@@ -192,7 +170,7 @@ impl PaintFilm {
             }
         }
         let lab_over_xyz = Lab::slopes_over_xyz(xyz.into(), self.white).0;
-        Slopes {
+        LabSlopes {
             lab: Lab::from_xyz(xyz.into(), self.white).to_array(),
             over_mm: lab_over_xyz
                 .map(|row| std::array::from_fn(|i| (0..3).map(|j| row[j] * over_mm[j][i]).sum())),
@@ -200,8 +178,8 @@ impl PaintFilm {
     }
 }
 
-impl Wave {
-    /// K d and S d of a film.
+impl Band {
+    /// Optical thicknesses K d and S d of a film of these heights.
     #[inline]
     fn mixed(&self, heights_mm: &[f64; SLOTS]) -> (f64, f64) {
         let sum = |values: &[f64; SLOTS]| values.iter().zip(heights_mm).map(|(v, h)| v * h).sum();

@@ -1,14 +1,14 @@
-//! Colours as films of a palette's pigments.
+//! Separation of colours into films of a palette's pigments.
 //!
-//! [`PaintFilm`] tells the colour of any film of a palette over a ground;
-//! [`Separation`] finds the film for a colour; [`choose_palette`] finds the pigments
+//! [`PaintFilm`] computes the colour of any film of a palette over a ground,
+//! [`Separation`] finds the film for a colour, and [`choose_palette`] finds the pigments
 //! for a picture.
 
 mod film;
 
-mod nearest;
+mod film_search;
 
-mod mixtures;
+mod sampled_films;
 
 mod table;
 
@@ -16,7 +16,7 @@ mod errors;
 
 mod selection;
 
-pub use errors::{ColorErrors, rebuilt};
-pub use film::{Materials, PaintFilm};
+pub use errors::{ColorErrors, rebuild_picture};
+pub use film::{FilmMaterials, PaintFilm};
 pub use selection::{ChosenPalette, choose_palette};
 pub use table::{OUT_OF_GAMUT, Separation, SeparationError, SeparationSettings};

@@ -1,36 +1,37 @@
-//! From colours to heights of pigments: a table over the sRGB cube.
+//! Table over the sRGB cube from colours to pigment heights.
 //!
-//! The table is a lattice over the square roots of linear red, green and blue,
-//! which are nearly even to the eye. Each point holds the film nearest to its
-//! colour (see `nearest`); between points heights are interpolated in the
-//! tetrahedron that holds the colour, as is usual for colour tables.
+//! The lattice is even in the square roots of linear red, green and blue, which are
+//! perceptually nearly even. Each point holds the film nearest to its colour (see
+//! `film_search`); between points, heights are interpolated within tetrahedra, as usual for
+//! colour tables.
 
 use rayon::prelude::*;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
+use spectra::hint::{Explain, Hint};
 
 use super::film::PaintFilm;
-use super::mixtures::Mixtures;
-use super::nearest::{Anchor, Mixed, Nearest};
+use super::film_search::{Anchor, FilmMix, FilmSearch};
+use super::sampled_films::SampledFilms;
 use crate::layer::SLOTS;
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-/// How colours become paint.
+/// Settings of a separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparationSettings {
-    /// Points of the table along each side, 5 to 65; 25 by default. More take
-    /// time by the cube, and come nearer between the points.
+    /// Lattice points along each side of the table, 5 to 65; 25 by default. Time grows with
+    /// the cube.
     pub lattice: usize,
-    /// The least height of a film in mm, above 0; 0.03 by default.
+    /// Least height of a film in mm, above 0; 0.03 by default.
     pub least_mm: f64,
-    /// The greatest in mm, not below the least; 0.3 by default.
+    /// Greatest height of a film in mm, from `least_mm` to 100; 0.3 by default.
     pub most_mm: f64,
-    /// Whether paint is to hide the ground as well as the range allows (the
-    /// default). Else the ground may shine through, which over white reaches
-    /// lighter and more saturated colours.
+    /// Whether films should hide the ground as well as the heights allow; true by default. If
+    /// false, the ground may show through, which over white reaches lighter and more
+    /// saturated colours.
     pub hides: bool,
-    /// Whether [`Separation::separate`] refines each pixel's film after looking
-    /// it up, which takes some microseconds a pixel; `true` by default.
+    /// Whether [`Separation::separate`] refines the table's film for every pixel, at some
+    /// microseconds each; true by default.
     pub refined: bool,
 }
 
@@ -40,38 +41,39 @@ impl Default for SeparationSettings {
     }
 }
 
-/// What a difference over black and over the ground counts to one from the
-/// wanted colour, where paint is to hide.
+/// Weight of the difference between a film over black and over the ground, relative to
+/// that from the target colour, if films should hide (chosen by eye).
 const HIDING: f64 = 0.07;
 
-/// Sets of pigments tried at each point of the table.
+/// Sets of pigments tried at each lattice point.
 const STARTS: usize = 3;
-/// Steps of each descent.
+/// Iterations of each search.
 const STEPS: usize = 20;
-/// Passes over the table in which each point hears its neighbours.
+/// Passes that smooth the table.
 const SMOOTHINGS: usize = 2;
-/// How much a point stays at the mean of its neighbours.
+/// Weight that keeps a lattice point near the mean of its neighbours (chosen by eye).
 const NEIGHBOURS: f64 = 0.3;
-/// How much a pixel stays at its film of the table, and the steps from there.
+/// Weight that keeps a pixel near the table's film (chosen by eye), and iterations from
+/// there.
 const FROM_TABLE: f64 = 1.0;
 const REFINEMENTS: usize = 8;
 
-/// The nearest reproducible colour is farther than this, in CIEDE2000: the
-/// colour is out of gamut.
+/// A colour is out of gamut if the nearest reproducible colour differs by more than this,
+/// in CIEDE2000.
 pub const OUT_OF_GAMUT: f64 = 1.0;
 
-/// A table from linear sRGB to heights of a palette's pigments in mm.
+/// Table from linear sRGB to the heights of a palette's pigments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Separation {
-    nearest: Nearest,
+    search: FilmSearch,
     refined: bool,
     lattice: usize,
-    /// Heights in mm by slot; blue runs fastest.
+    /// Heights in mm by slot; blue varies fastest.
     heights: Vec<[f32; SLOTS]>,
 }
 
 impl Separation {
-    /// The table of `film`'s palette, ground and light.
+    /// Computes the table for the palette, ground and light of `film`.
     ///
     /// # Errors
     /// [`SeparationError`] for an empty palette or settings out of range.
@@ -80,43 +82,43 @@ impl Separation {
         if film.used().is_empty() {
             return Err(SeparationError::NoPigment);
         }
-        let nearest = settings.nearest(film);
+        let search = settings.film_search(film);
         let count = settings.lattice;
-        let mixtures = Mixtures::of(&nearest);
-        let mut films: Vec<Mixed> = (0..count.pow(3))
+        let mixtures = SampledFilms::new(&search);
+        let mut films: Vec<FilmMix> = (0..count.pow(3))
             .into_par_iter()
             .map(|index| {
-                let wanted = nearest.wanted(color(&nearest, count, index));
+                let target = search.target(color(&search, count, index));
                 let found = mixtures
-                    .nearest_to(&wanted, STARTS)
+                    .nearest_to(&target, STARTS)
                     .iter()
-                    .map(|start| nearest.descended(&wanted, start, None, STEPS))
+                    .map(|start| search.minimize(&target, start, None, STEPS))
                     .min_by(|a, b| a.0.total_cmp(&b.0));
-                found.expect("a palette has a film").1
+                found.expect("a palette has at least one sampled film").1
             })
             .collect();
         for _ in 0..SMOOTHINGS {
             films = (0..films.len())
                 .into_par_iter()
-                .map(|index| smoothed(&nearest, count, &films, index))
+                .map(|index| smoothed(&search, count, &films, index))
                 .collect();
         }
         let heights: Vec<[f32; SLOTS]> =
             films.iter().map(|mixed| mixed.heights_mm().map(|height| height as f32)).collect();
-        Ok(Self { nearest, refined: settings.refined, lattice: count, heights })
+        Ok(Self { search, refined: settings.refined, lattice: count, heights })
     }
 
-    /// The films that the table was made for.
+    /// The films that the table was computed for.
     #[must_use]
     pub fn film(&self) -> &PaintFilm {
-        &self.nearest.film
+        &self.search.film
     }
 
-    /// Heights in mm by slot for a linear sRGB colour, by the table; values
-    /// outside 0..1 count as the nearest inside.
+    /// Heights in mm by slot for a linear sRGB colour, interpolated in the table. Values
+    /// outside 0..1 are clamped.
     #[must_use]
     pub fn heights_mm(&self, rgb: [f32; 3]) -> [f32; SLOTS] {
-        let corners = self.corners(inside(rgb));
+        let corners = self.corners(clamped(rgb));
         let mut sum = [0.0; SLOTS];
         for (index, weight) in corners {
             for (sum, height) in sum.iter_mut().zip(&self.heights[index]) {
@@ -126,24 +128,25 @@ impl Separation {
         sum
     }
 
-    /// The same, then brought nearer by least squares from there.
+    /// Heights in mm by slot for a linear sRGB colour, refined by least squares from the
+    /// table's film.
     #[must_use]
     pub fn refined_heights_mm(&self, rgb: [f32; 3]) -> [f32; SLOTS] {
-        let nearest = &self.nearest;
-        let rgb = inside(rgb);
+        let search = &self.search;
+        let rgb = clamped(rgb);
         let table = self.heights_mm(rgb).map(f64::from);
-        let start = Mixed::of(table, nearest.film.used()[0]);
+        let start = FilmMix::of(table, search.film.used()[0]);
         let anchor = Anchor { mixed: start, strength: FROM_TABLE };
-        let wanted = nearest.wanted(nearest.film.lab_from_rgb(rgb));
-        let (_, found) = nearest.descended(&wanted, &start, Some(&anchor), REFINEMENTS);
+        let target = search.target(search.film.lab_from_rgb(rgb));
+        let (_, found) = search.minimize(&target, &start, Some(&anchor), REFINEMENTS);
         found.heights_mm().map(|height| height as f32)
     }
 
-    /// Whether the nearest colour that the palette reproduces is farther than
+    /// Whether the nearest colour that the palette reproduces differs by more than
     /// [`OUT_OF_GAMUT`].
     #[must_use]
     pub fn is_out_of_gamut(&self, rgb: [f32; 3]) -> bool {
-        let film = &self.nearest.film;
+        let film = &self.search.film;
         let found = film.lab(&self.refined_heights_mm(rgb).map(f64::from));
         delta_e_ciede2000(film.lab_from_rgb(rgb), found) > OUT_OF_GAMUT
     }
@@ -160,7 +163,7 @@ impl Separation {
         Field::from_values(picture.width(), picture.height(), heights)
     }
 
-    /// The luminance, 0..1, of the darkest grey that the palette reproduces.
+    /// Luminance, 0..1, of the darkest grey that the palette reproduces.
     #[must_use]
     pub fn black(&self) -> f32 {
         let rgb = self.film().rgb(&self.refined_heights_mm([0.0; 3]));
@@ -168,9 +171,8 @@ impl Separation {
         (luminance / 100.0).clamp(0.0, 1.0) as f32
     }
 
-    /// The corners of the tetrahedron that holds a colour, with their weights:
-    /// from the lowest corner of its cube to the highest, along the channel
-    /// with the largest rest first.
+    /// Corners of the tetrahedron that contains a colour, with their weights: from the lowest
+    /// corner of its cell to the highest, along the channel with the largest fraction first.
     fn corners(&self, rgb: [f32; 3]) -> [(usize, f32); 4] {
         let last = self.lattice - 1;
         let mut base = 0;
@@ -203,27 +205,27 @@ impl Separation {
     }
 }
 
-/// The nearest colour inside the sRGB cube; what is no number counts as 0.
-fn inside(rgb: [f32; 3]) -> [f32; 3] {
+/// The nearest colour inside the sRGB cube; NaN counts as 0.
+fn clamped(rgb: [f32; 3]) -> [f32; 3] {
     rgb.map(|value| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) })
 }
 
-/// The colour of a point of the table.
-fn color(nearest: &Nearest, count: usize, index: usize) -> Lab {
+/// Colour of a lattice point.
+fn color(search: &FilmSearch, count: usize, index: usize) -> Lab {
     let place = [index / (count * count), index / count % count, index % count];
     let rgb = place.map(|at| (at as f32 / (count - 1) as f32).powi(2));
-    nearest.film.lab_from_rgb(rgb)
+    search.film.lab_from_rgb(rgb)
 }
 
-/// The film of a point after hearing its six neighbours: from its own film and
-/// from their mean, whichever ends better.
-fn smoothed(nearest: &Nearest, count: usize, films: &[Mixed], index: usize) -> Mixed {
+/// Film of a lattice point after smoothing with its neighbours: starts from its own film
+/// and from their mean, and keeps the better result.
+fn smoothed(search: &FilmSearch, count: usize, films: &[FilmMix], index: usize) -> FilmMix {
     let place = [index / (count * count), index / count % count, index % count];
     let strides = [count * count, count, 1];
     let mut sum = [0.0; SLOTS];
     let mut neighbours = 0.0;
     for (at, stride) in place.into_iter().zip(strides) {
-        // In pairs, so that an even change along the axis is no roughness.
+        // Only opposite pairs of neighbours: a linear change along an axis is smooth.
         if at > 0 && at < count - 1 {
             for other in [index - stride, index + stride] {
                 let heights = films[other].heights_mm();
@@ -235,20 +237,20 @@ fn smoothed(nearest: &Nearest, count: usize, films: &[Mixed], index: usize) -> M
     if neighbours == 0.0 {
         return films[index];
     }
-    let mean = Mixed::of(sum.map(|height| height / neighbours), nearest.film.used()[0]);
-    let wanted = nearest.wanted(color(nearest, count, index));
+    let mean = FilmMix::of(sum.map(|height| height / neighbours), search.film.used()[0]);
+    let target = search.target(color(search, count, index));
     let anchor = Anchor { mixed: mean, strength: NEIGHBOURS };
     let found = [films[index], mean]
         .iter()
-        .map(|start| nearest.descended(&wanted, start, Some(&anchor), STEPS))
+        .map(|start| search.minimize(&target, start, Some(&anchor), STEPS))
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    found.expect("two starts").1
+    found.expect("there are two starts").1
 }
 
 impl SeparationSettings {
-    pub(super) fn nearest(&self, film: PaintFilm) -> Nearest {
+    pub(super) fn film_search(&self, film: PaintFilm) -> FilmSearch {
         let hiding = if self.hides { HIDING } else { 0.0 };
-        Nearest::new(film, self.least_mm, self.most_mm, hiding)
+        FilmSearch::new(film, self.least_mm, self.most_mm, hiding)
     }
 
     pub(super) fn check(&self) -> Result<(), SeparationError> {
@@ -264,36 +266,34 @@ impl SeparationSettings {
     }
 }
 
-/// A separation that cannot be made.
+/// A separation cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SeparationError {
-    /// A palette without pigments.
+    /// The palette has no pigment.
     #[error("a palette has at least one pigment, found `0`")]
     NoPigment,
-    /// A table too coarse or too large.
+    /// The lattice is too coarse or too large.
     #[error("a table has 5 to 65 points along each side, found `{lattice}`")]
     Lattice {
-        /// What was asked for.
+        /// Points along each side.
         lattice: usize,
     },
-    /// No range of heights.
+    /// The heights are not a valid range.
     #[error("heights run from above 0 to 100 mm, rising, found `{least_mm}:{most_mm}`")]
     Heights {
-        /// The least.
+        /// Least height in mm.
         least_mm: f64,
-        /// The greatest.
+        /// Greatest height in mm.
         most_mm: f64,
     },
 }
 
-impl SeparationError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for SeparationError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::NoPigment => "name pigments of the library, or none, to have them chosen",
             Self::Lattice { .. } => "25 points are usual",
             Self::Heights { .. } => "0.03:0.3 is usual; the same number twice for an even film",
-        }
+        }))
     }
 }

@@ -9,8 +9,8 @@ use super::palette::PaletteSpec;
 use super::resolve::Resolved;
 use super::script::StrokeScript;
 use crate::canvas::{Canvas, covering_cells};
-use crate::document::{Document, Ground, Slots};
-use crate::ground::{GroundError, GroundSpec};
+use crate::document::{Document, Slots};
+use crate::ground::{Ground, GroundError, GroundSpec};
 use graphics::tile::Rect;
 use spectra::hint::{Explain, Hint};
 
@@ -29,7 +29,7 @@ impl Explain for ScriptStartError {
     fn hint(&self) -> Option<Hint> {
         match self {
             Self::Script(error) => error.hint(),
-            Self::Ground(error) => error.hint().map(Hint::new),
+            Self::Ground(error) => error.hint(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use pigment::library::PigmentLibrary;
 use rayon::prelude::*;
 use spectra::color::Rgb;
+use spectra::hint::Explain;
 
 use super::thickness::thickness;
 use crate::watercolor::textures::PaperTexture;
@@ -12,12 +13,13 @@ use graphics::gpu::DeviceError;
 use graphics::image::OnCpu;
 use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
-use paint::document::{Document, DryLayer, Ground, Lighting, Medium, Slots};
+use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use paint::ground::Ground;
 use paint::layer::{Layer, SLOTS};
 use paint::light::Light;
 use paint::optics::Gloss;
 use paint::separation::{
-    Materials, PaintFilm, Separation, SeparationError, SeparationSettings, choose_palette,
+    FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings, choose_palette,
 };
 
 /// Glazes run from next to nothing, which is the lightest, to what a heavy wash
@@ -95,8 +97,8 @@ impl Glazes {
         let colors = Picture::from_values(values.len(), 1, values);
         let ground = paper;
         let scattering_per_mm = medium().scattering_per_mm;
-        let materials = Materials { library, slots: &none, ground, scattering_per_mm };
-        let film = |materials: Materials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
+        let materials = FilmMaterials { library, slots: &none, ground, scattering_per_mm };
+        let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
         Ok(choose_palette(&colors, materials, film, &HEIGHTS)?.slots)
     }
 
@@ -186,7 +188,7 @@ impl Glazes {
 
 fn film(library: &PigmentLibrary, slots: &Slots, paper: &[f64], light: &Light) -> PaintFilm {
     let scattering_per_mm = medium().scattering_per_mm;
-    let materials = Materials { library, slots, ground: paper, scattering_per_mm };
+    let materials = FilmMaterials { library, slots, ground: paper, scattering_per_mm };
     PaintFilm::at_nodes(materials, &light.quadrature)
 }
 
@@ -208,8 +210,8 @@ pub enum GlazeError {
 impl GlazeError {
     /// What to try.
     #[must_use]
-    pub fn hint(&self) -> &'static str {
+    pub fn hint(&self) -> String {
         let Self::Separation(error) = self;
-        error.hint()
+        error.hint().map(|hint| hint.to_string()).unwrap_or_default()
     }
 }

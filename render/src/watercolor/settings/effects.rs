@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
-use paint::ground::Making;
+use paint::ground::PaperFinish;
 
 /// How much water is in the paint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,7 +67,7 @@ pub struct DispersionSettings {
 #[serde(deny_unknown_fields, default)]
 pub struct PaperSettings {
     /// How it was made.
-    pub kind: Making,
+    pub kind: PaperFinish,
     /// A picture of heights (PNG or JPEG, white the highest) instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scan: Option<String>,
@@ -138,7 +138,7 @@ impl Default for DispersionSettings {
 impl Default for PaperSettings {
     fn default() -> Self {
         Self {
-            kind: Making::ColdPressed,
+            kind: PaperFinish::ColdPressed,
             scan: None,
             scan_scale: 1.0,
             seed: 1,

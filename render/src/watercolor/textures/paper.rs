@@ -4,12 +4,13 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
+use spectra::hint::Explain;
 
 use crate::watercolor::PaperSettings;
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
 use paint::amount::QUANTA_PER_CELL;
-use paint::ground::{GroundError, Making, Paper};
+use paint::ground::{GroundError, Paper, PaperFinish};
 
 /// The usual bump of cold-pressed paper in mm.
 const BUMP_MM: f64 = 1.3;
@@ -60,7 +61,7 @@ impl PaperTexture {
             Some(path) => (scanned(width, height, path, settings.scan_scale)?, 1.0),
             None => {
                 let paper = Paper::of(settings.kind, settings.seed);
-                let depth = paper.relief_mm / Making::ColdPressed.relief_mm();
+                let depth = paper.relief_mm / PaperFinish::ColdPressed.relief_mm();
                 (paper.heights_mm(width, height, px_mm)?, depth)
             }
         };
@@ -192,7 +193,7 @@ impl PaperTextureError {
             Self::Scan(_) => {
                 "paper.scan names a PNG or JPEG; without it paper.kind makes a paper".to_owned()
             }
-            Self::Ground(error) => error.hint().unwrap_or_default(),
+            Self::Ground(error) => error.hint().map(|hint| hint.to_string()).unwrap_or_default(),
         }
     }
 }

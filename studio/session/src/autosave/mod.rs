@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::FileFailure;
 use crate::whole::sync_folder;
+use spectra::hint::Explain;
 
 const LOCK: &str = "lock";
 const PARTIAL: &str = ".partial";
@@ -95,8 +96,9 @@ impl Autosave {
         meta: &SessionMeta,
     ) -> Result<(), FileFailure> {
         let bytes = |document| {
-            render::paint::file::write(document)
-                .map_err(|error| FileFailure::told(&error, error.hint()))
+            render::paint::file::write(document).map_err(|error| {
+                FileFailure::told(&error, error.hint().map(|hint| hint.to_string()))
+            })
         };
         let meta =
             serde_json::to_vec(meta).map_err(|error| FileFailure::told(&error, None::<String>))?;

@@ -30,7 +30,7 @@ pub(super) fn painted(title: &str) -> Document {
     script.title = title.to_owned();
     let resolved = script.resolve(&library).unwrap();
     let (width, height) = script.canvas.cells();
-    let ground = script.canvas.ground.ground(width, height, 0.2, &library).unwrap();
+    let ground = script.canvas.ground.build(width, height, 0.2, &library).unwrap();
     let document = script.bare(&library, &resolved, ground);
     let mut painting = opened(document);
     for (pigment, y_mm) in [(3, 4.0), (5, 8.0), (1, 11.0)] {

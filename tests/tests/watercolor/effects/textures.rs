@@ -1,7 +1,7 @@
 //! Textures: their mean, spread and spectrum.
 
 use render::field::Field;
-use render::paint::ground::Making;
+use render::paint::ground::PaperFinish;
 use render::watercolor::{
     DispersionSettings, FlowSettings, PaperSettings, PaperTexture, PaperTextureError, dispersion,
     turbulent_flow,
@@ -114,7 +114,7 @@ fn rough_paper_is_deeper_and_wider_than_cold_pressed_and_that_than_hot_pressed()
         let settings = PaperSettings { kind, grain_px: 8.0, ..PaperSettings::default() };
         PaperTexture::new(SIZE, SIZE, &settings).unwrap()
     };
-    let papers = [Making::Rough, Making::ColdPressed, Making::HotPressed].map(of);
+    let papers = [PaperFinish::Rough, PaperFinish::ColdPressed, PaperFinish::HotPressed].map(of);
     let spreads = papers.each_ref().map(|paper| moments(&paper.heights));
     for ((mean, spread), wanted) in spreads.iter().zip([0.18 * 0.13 / 0.08, 0.18, 0.045]) {
         // What is cut off takes a little.

@@ -1,11 +1,11 @@
-//! The film nearest to a colour: least squares over the heights of a palette.
+//! Search for the film nearest to a colour: least squares over the amounts of a palette's
+//! pigments.
 //!
-//! Colours have three dimensions and palettes up to eight, so many films match.
-//! Of those the one is taken that is mixed of pigments near the colour (the
-//! shares' sum of squared distances of their masstones is least; were mixing
-//! linear these would be the corners of the tetrahedron of Delaunay's
-//! triangulation that holds the colour, so at most four, and they would change
-//! without jumps); that hides the ground; and that is no thicker than needed.
+//! Colours have three dimensions and palettes up to eight, so many films match. The cost
+//! therefore also prefers pigments near the colour (sum over shares of the squared
+//! distance of their masstones; with linear mixing this selects the corners of the
+//! Delaunay tetrahedron that contains the colour, so at most four pigments that change
+//! continuously), films that hide the ground, and thin films.
 
 use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_inside};
 use spectra::color::{Lab, delta_e_cie76};
@@ -13,43 +13,44 @@ use spectra::color::{Lab, delta_e_cie76};
 use super::film::PaintFilm;
 use crate::layer::SLOTS;
 
-/// How much a difference of lightness and of hue counts, to one of chroma: a
-/// colour out of reach keeps its lightness first, then its hue.
+/// Weights of differences in lightness and hue relative to chroma (chosen by eye): a
+/// colour out of gamut keeps its lightness first, then its hue.
 const LIGHTNESS: f64 = 3.0;
 const HUE: f64 = 1.5;
 
-/// The pull to pigments near the colour, per squared unit of CIELAB. Of two
-/// films of one colour it chooses; it moves the colour by some hundredths.
+/// Weight of the preference for pigments near the colour, per squared unit of CIELAB. It
+/// decides between films of equal colour and moves the colour by some hundredths of a
+/// unit.
 const NEARNESS: f64 = 1e-3;
 
-/// The pull to thin films, per mm.
+/// Weight of the preference for thin films, per mm (chosen by eye).
 const THINNESS: f64 = 0.5;
 
-/// What makes one film better than another.
+/// Cost function over the films of a palette.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Nearest {
+pub(super) struct FilmSearch {
     pub(super) film: PaintFilm,
     least_mm: f64,
     most_mm: f64,
-    /// What the film's difference over ground and over black counts.
+    /// Weight of the colour difference between a film over the ground and over black.
     hiding: f64,
-    /// CIELAB of each slot's masstone: as thick as is allowed, over the ground.
+    /// CIELAB of each slot's masstone: the thickest film allowed over the ground.
     masstones: [[f64; 3]; SLOTS],
 }
 
-/// A film: each slot's share of it, and its height.
+/// A film given by the share of each slot and the total height.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Mixed {
+pub(super) struct FilmMix {
     pub(super) shares: [f64; SLOTS],
     pub(super) height_mm: f64,
 }
 
-impl Mixed {
+impl FilmMix {
     pub(super) fn heights_mm(&self) -> [f64; SLOTS] {
         self.shares.map(|share| share * self.height_mm)
     }
 
-    /// The film of these heights; all of `fallback` where there is none.
+    /// Film of these heights. A film of height 0 gets all of slot `fallback`.
     pub(super) fn of(heights_mm: [f64; SLOTS], fallback: usize) -> Self {
         let height_mm: f64 = heights_mm.iter().sum();
         if height_mm <= 0.0 {
@@ -60,24 +61,24 @@ impl Mixed {
     }
 }
 
-/// A film to stay near to, and how much that counts (of shares, squared).
+/// A film to stay close to, with the weight of the squared difference in shares.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Anchor {
-    pub(super) mixed: Mixed,
+    pub(super) mixed: FilmMix,
     pub(super) strength: f64,
 }
 
-/// A colour wanted, with the frame in which differences from it count.
+/// A target colour, with the coordinate frame that differences are measured in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wanted {
+pub(super) struct TargetColor {
     lab: [f64; 3],
-    /// Rows: lightness, chroma, hue, each weighted.
+    /// Rows of weighted unit vectors: lightness, chroma, hue.
     frame: [[f64; 3]; 3],
     nearness: [f64; SLOTS],
 }
 
-impl Wanted {
-    /// The weighted squared distance of a colour.
+impl TargetColor {
+    /// Weighted squared distance of a colour from the target.
     pub(super) fn distance_squared(&self, lab: [f64; 3]) -> f64 {
         self.residuals(lab).iter().map(|r| r * r).sum()
     }
@@ -87,13 +88,13 @@ impl Wanted {
         self.frame.map(|row| row[0] * off[0] + row[1] * off[1] + row[2] * off[2])
     }
 
-    /// What the shares' distance from the colour costs.
+    /// Cost of the distance between the pigments in use and the target.
     pub(super) fn nearness_cost(&self, shares: &[f64; SLOTS]) -> f64 {
         shares.iter().zip(&self.nearness).map(|(share, cost)| share * cost).sum()
     }
 }
 
-impl Nearest {
+impl FilmSearch {
     pub(super) fn new(film: PaintFilm, least_mm: f64, most_mm: f64, hiding: f64) -> Self {
         let masstones = std::array::from_fn(|slot| {
             let mut heights = [0.0; SLOTS];
@@ -103,20 +104,20 @@ impl Nearest {
         Self { film, least_mm, most_mm, hiding, masstones }
     }
 
-    /// The lowest and the greatest height of a film, in mm.
+    /// Least and greatest height of a film, in mm.
     pub(super) fn heights_mm(&self) -> (f64, f64) {
         (self.least_mm, self.most_mm)
     }
 
-    /// What the ground's showing through and the height of a film cost.
-    pub(super) fn showing_cost(&self, mixed: &Mixed) -> f64 {
+    /// Cost of the ground showing through and of the film's height.
+    pub(super) fn ground_cost(&self, mixed: &FilmMix) -> f64 {
         let pull = if self.least_mm < self.most_mm { THINNESS * mixed.height_mm } else { 0.0 };
-        0.5 * self.showing(mixed).powi(2) + pull
+        0.5 * self.ground_residual(mixed).powi(2) + pull
     }
 
-    /// The difference of a film over the ground and over black (CIE 1976), times
-    /// what that counts; 0 where the ground may show.
-    pub(super) fn showing(&self, mixed: &Mixed) -> f64 {
+    /// Weighted difference between a film over the ground and over black (CIE 1976); 0 if the
+    /// ground may show.
+    pub(super) fn ground_residual(&self, mixed: &FilmMix) -> f64 {
         if self.hiding == 0.0 {
             return 0.0;
         }
@@ -125,13 +126,12 @@ impl Nearest {
         self.hiding * delta_e_cie76(ground, black)
     }
 
-    /// A wanted colour; chroma and hue weigh less the more chroma there is
-    /// (CIE94).
-    pub(super) fn wanted(&self, lab: Lab) -> Wanted {
+    /// Target for a colour. Chroma and hue weigh less at high chroma, as in CIE94.
+    pub(super) fn target(&self, lab: Lab) -> TargetColor {
         let chroma = lab.a.hypot(lab.b);
         let (cos, sin) = if chroma > 1e-9 { (lab.a / chroma, lab.b / chroma) } else { (1.0, 0.0) };
         let c = 1.0 / (1.0 + 0.045 * chroma);
-        // Greys have no hue: there both directions count alike.
+        // Greys have no hue: both directions count alike.
         let h = (1.0 + (HUE - 1.0) * (chroma / 10.0).min(1.0)) / (1.0 + 0.015 * chroma);
         let frame = [[LIGHTNESS, 0.0, 0.0], [0.0, c * cos, c * sin], [0.0, -h * sin, h * cos]];
         let lab = lab.to_array();
@@ -139,17 +139,18 @@ impl Nearest {
             let squared: f64 = masstone.iter().zip(&lab).map(|(m, w)| (m - w) * (m - w)).sum();
             NEARNESS * squared
         });
-        Wanted { lab, frame, nearness }
+        TargetColor { lab, frame, nearness }
     }
 
-    /// The least cost found from `start` within `steps`, and its film.
-    pub(super) fn descended(
+    /// Minimises the cost from `start` within `steps` iterations. Returns the cost and the
+    /// film.
+    pub(super) fn minimize(
         &self,
-        wanted: &Wanted,
-        start: &Mixed,
+        target: &TargetColor,
+        start: &FilmMix,
         anchor: Option<&Anchor>,
         steps: usize,
-    ) -> (f64, Mixed) {
+    ) -> (f64, FilmMix) {
         let used = self.film.used();
         let shares = used.len();
         let chooses_height = self.least_mm < self.most_mm;
@@ -172,7 +173,7 @@ impl Nearest {
                 .clamp(bounds.lower[shares], bounds.upper[shares]);
         }
         let cost = descend_inside(
-            |point| self.cost(wanted, &self.mixed(point), anchor, chooses_height),
+            |point| self.cost(target, &self.mixed(point), anchor, chooses_height),
             &mut point,
             &bounds,
             steps,
@@ -180,8 +181,8 @@ impl Nearest {
         (cost.value, self.mixed(&point))
     }
 
-    /// The film that the unknowns mean.
-    fn mixed(&self, point: &[f64; UNKNOWNS]) -> Mixed {
+    /// Film for the values of the unknowns.
+    fn mixed(&self, point: &[f64; UNKNOWNS]) -> FilmMix {
         let used = self.film.used();
         let mut shares = [0.0; SLOTS];
         for (place, &slot) in used.iter().enumerate() {
@@ -192,13 +193,13 @@ impl Nearest {
         } else {
             self.least_mm
         };
-        Mixed { shares, height_mm }
+        FilmMix { shares, height_mm }
     }
 
     fn cost(
         &self,
-        wanted: &Wanted,
-        mixed: &Mixed,
+        target: &TargetColor,
+        mixed: &FilmMix,
         anchor: Option<&Anchor>,
         chooses_height: bool,
     ) -> Cost {
@@ -215,8 +216,8 @@ impl Nearest {
         };
         let heights = mixed.heights_mm();
         let over_ground = self.film.slopes(&heights, 1.0);
-        let residuals = wanted.residuals(over_ground.lab);
-        for (row, residual) in wanted.frame.iter().zip(residuals) {
+        let residuals = target.residuals(over_ground.lab);
+        for (row, residual) in target.frame.iter().zip(residuals) {
             let over_mm: [f64; SLOTS] = std::array::from_fn(|slot| {
                 (0..3).map(|j| row[j] * over_ground.over_mm[j][slot]).sum()
             });
@@ -233,9 +234,9 @@ impl Nearest {
             }
         }
         let Sum { mut cost, .. } = sum;
-        cost.value += wanted.nearness_cost(&mixed.shares);
+        cost.value += target.nearness_cost(&mixed.shares);
         for (place, &slot) in used.iter().enumerate() {
-            cost.gradient[place] += wanted.nearness[slot];
+            cost.gradient[place] += target.nearness[slot];
         }
         if chooses_height {
             let place = used.len();
@@ -256,16 +257,16 @@ impl Nearest {
     }
 }
 
-/// A cost while its residuals are added up.
+/// Accumulator of the cost's residuals.
 struct Sum<'a> {
     cost: Cost,
     used: &'a [usize],
-    mixed: &'a Mixed,
+    mixed: &'a FilmMix,
     chooses_height: bool,
 }
 
 impl Sum<'_> {
-    /// One residual, with its slopes over the slots' mm.
+    /// Adds one residual with its derivatives by the slots' heights in mm.
     fn add(&mut self, residual: f64, over_mm: &[f64; SLOTS]) {
         let count = self.used.len();
         let mut row = [0.0; UNKNOWNS];

@@ -1,67 +1,68 @@
-//! Where the search for a film begins: films of up to three pigments, from a
-//! trace to all of each, thin and thick.
+//! Starting points of the search for a film: sampled films of one to three pigments, thin
+//! and thick.
 
 use rayon::prelude::*;
 
 use super::film::PaintFilm;
-use super::nearest::{Mixed, Nearest, Wanted};
+use super::film_search::{FilmMix, FilmSearch, TargetColor};
 use crate::layer::SLOTS;
 
-/// Parts of one pigment to one of another, as powers of `STEP`.
+/// Two pigments are mixed in ratios of `PAIR_RATIO` to the powers -8 to 8, from a trace to
+/// nearly all.
+const PAIR_RATIO: f64 = 1.9;
 const PAIR_STEPS: i32 = 8;
-/// The same among three.
+/// Three pigments are mixed in ratios of `TRIPLE_RATIO` to the powers -2 to 2.
+const TRIPLE_RATIO: f64 = 4.0;
 const TRIPLE_STEPS: i32 = 2;
-const STEP: f64 = 1.9;
-const TRIPLE_STEP: f64 = 4.0;
 
-/// Films with their colours.
+/// Sampled films with their colours.
 #[derive(Debug, Clone)]
-pub(super) struct Mixtures {
-    films: Vec<Sampled>,
+pub(super) struct SampledFilms {
+    films: Vec<SampledFilm>,
 }
 
 #[derive(Debug, Clone)]
-struct Sampled {
-    mixed: Mixed,
+struct SampledFilm {
+    mixed: FilmMix,
     lab: [f64; 3],
-    /// One bit a slot in use.
+    /// Bit set of the slots in use.
     set: u32,
-    /// What showing the ground costs.
+    /// Cost of the ground showing through and of the height.
     showing: f64,
 }
 
-impl Mixtures {
-    /// The films that start a search of `nearest`.
-    pub(super) fn of(nearest: &Nearest) -> Self {
-        let (least, most) = nearest.heights_mm();
+impl SampledFilms {
+    /// Samples films as starting points of `search`.
+    pub(super) fn new(search: &FilmSearch) -> Self {
+        let (least, most) = search.heights_mm();
         let heights =
             if least < most { vec![least, (least * most).sqrt(), most] } else { vec![most] };
-        let all = shares(&nearest.film);
+        let all = shares(&search.film);
         let films = all
             .par_iter()
             .flat_map_iter(|shares| {
                 heights.iter().map(|&height_mm| {
-                    let mixed = Mixed { shares: *shares, height_mm };
+                    let mixed = FilmMix { shares: *shares, height_mm };
                     let set = (0..SLOTS).filter(|&i| shares[i] > 0.0).map(|i| 1 << i).sum();
-                    let lab = nearest.film.lab(&mixed.heights_mm()).to_array();
-                    Sampled { mixed, lab, set, showing: nearest.showing_cost(&mixed) }
+                    let lab = search.film.lab(&mixed.heights_mm()).to_array();
+                    SampledFilm { mixed, lab, set, showing: search.ground_cost(&mixed) }
                 })
             })
             .collect();
         Self { films }
     }
 
-    /// The best films of `count` different sets of pigments, best first.
-    pub(super) fn nearest_to(&self, wanted: &Wanted, count: usize) -> Vec<Mixed> {
-        let mut best: Vec<(f64, &Sampled)> = Vec::with_capacity(count + 1);
+    /// The films with least cost of `count` different sets of pigments, best first.
+    pub(super) fn nearest_to(&self, target: &TargetColor, count: usize) -> Vec<FilmMix> {
+        let mut best: Vec<(f64, &SampledFilm)> = Vec::with_capacity(count + 1);
         for film in &self.films {
             let worst = if best.len() < count { f64::INFINITY } else { best[count - 1].0 };
-            // The distance alone rules most out.
-            let distance = 0.5 * wanted.distance_squared(film.lab);
+            // The colour term alone excludes most films.
+            let distance = 0.5 * target.distance_squared(film.lab);
             if distance >= worst {
                 continue;
             }
-            let cost = distance + film.showing + wanted.nearness_cost(&film.mixed.shares);
+            let cost = distance + film.showing + target.nearness_cost(&film.mixed.shares);
             if cost >= worst {
                 continue;
             }
@@ -80,7 +81,7 @@ impl Mixtures {
     }
 }
 
-/// One, two and three pigments.
+/// Shares by slot of all sampled mixtures of one, two and three pigments.
 fn shares(film: &PaintFilm) -> Vec<[f64; SLOTS]> {
     let used = film.used();
     let of = |parts: &[(usize, f64)]| {
@@ -94,12 +95,12 @@ fn shares(film: &PaintFilm) -> Vec<[f64; SLOTS]> {
         all.push(of(&[(first, 1.0)]));
         for (b, &second) in used.iter().enumerate().skip(a + 1) {
             for step in -PAIR_STEPS..=PAIR_STEPS {
-                all.push(of(&[(first, STEP.powi(step)), (second, 1.0)]));
+                all.push(of(&[(first, PAIR_RATIO.powi(step)), (second, 1.0)]));
             }
             for &third in &used[b + 1..] {
                 for i in -TRIPLE_STEPS..=TRIPLE_STEPS {
                     for j in -TRIPLE_STEPS..=TRIPLE_STEPS {
-                        let parts = [TRIPLE_STEP.powi(i), TRIPLE_STEP.powi(j)];
+                        let parts = [TRIPLE_RATIO.powi(i), TRIPLE_RATIO.powi(j)];
                         all.push(of(&[(first, parts[0]), (second, parts[1]), (third, 1.0)]));
                     }
                 }

@@ -1,0 +1,135 @@
+//! Exports of a painting at work, written to files in one call.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use spectra::file::{FileAction, FileError, write_whole};
+use spectra::hint::{Explain, Fault, Hint};
+
+use super::painting::{SpectralBands, painting_maps, spectral_file};
+use super::pigment_maps::{NamedFile, pigment_maps};
+use crate::file::{PaintingFileError, write};
+use crate::painting::{Painting, PaintingError};
+use graphics::export::{ClippedColors, ExportError, PictureFormat, picture_file};
+
+/// Start of the names of pigment maps.
+const STEM: &str = "painting";
+
+/// Files to make of a painting; `None` skips a file. Each is written whole or not at all.
+///
+/// ```no_run
+/// use paint::export::PaintingExports;
+/// use graphics::export::PictureFormat;
+///
+/// # fn example(painting: &mut paint::painting::Painting) -> Result<(), Box<dyn std::error::Error>> {
+/// let exports = PaintingExports {
+///     picture: Some(("wheat.png".into(), PictureFormat::Png16)),
+///     painting: Some("wheat.exr".into()),
+///     ..PaintingExports::default()
+/// };
+/// if let Some(clipped) = exports.write(painting)? {
+///     eprintln!("{clipped}");
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PaintingExports {
+    /// Path and format of the picture.
+    pub picture: Option<(PathBuf, PictureFormat)>,
+    /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
+    /// relief and gloss.
+    pub spectral: Option<(PathBuf, SpectralBands)>,
+    /// Folder for a map of each pigment, created if needed; see [`pigment_maps`] for the
+    /// files.
+    pub pigment_maps: Option<PathBuf>,
+    /// Path of the painting itself, see [`crate::file`].
+    pub painting: Option<PathBuf>,
+}
+
+impl PaintingExports {
+    /// Makes and writes the files. Returns a note if colours of the picture were clipped.
+    ///
+    /// # Errors
+    /// [`PaintingExportError`] if the painting cannot be computed or a file cannot be encoded
+    /// or written. Files before it have been written.
+    pub fn write(
+        &self,
+        painting: &mut Painting,
+    ) -> Result<Option<ClippedColors>, PaintingExportError> {
+        let cell_mm = painting.cell_mm();
+        let mut clipped = None;
+        if let Some((path, format)) = &self.picture {
+            let file = picture_file(&painting.picture()?, cell_mm, *format)?;
+            write_whole(path, &file.bytes)?;
+            clipped = file.clipping();
+        }
+        if self.spectral.is_none() && self.pigment_maps.is_none() && self.painting.is_none() {
+            return Ok(clipped);
+        }
+        let document = painting.document()?;
+        if let Some((path, bands)) = &self.spectral {
+            let picture = painting.picture()?;
+            let file = spectral_file(&document, painting.light(), &picture, *bands, |_| true)?;
+            write_whole(path, &file.unwrap_or_default())?;
+        }
+        if let Some(folder) = &self.pigment_maps {
+            save_files(folder, &pigment_maps(STEM, &painting_maps(&document), cell_mm)?)?;
+        }
+        if let Some(path) = &self.painting {
+            write_whole(path, &write(&document)?)?;
+        }
+        Ok(clipped)
+    }
+}
+
+/// Writes `files` into `folder`, which is created if needed. Each file is written whole or
+/// not at all.
+///
+/// # Errors
+/// [`FileError`] with the path of the file, or of the folder if it cannot be created.
+pub fn save_files(folder: &Path, files: &[NamedFile]) -> Result<(), FileError> {
+    std::fs::create_dir_all(folder).map_err(|reason| FileError {
+        path: folder.to_owned(),
+        action: FileAction::Write,
+        reason: Arc::new(reason),
+    })?;
+    files.iter().try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+}
+
+/// A painting cannot be exported.
+#[derive(Debug, thiserror::Error)]
+pub enum PaintingExportError {
+    /// The state of the painting cannot be computed.
+    #[error(transparent)]
+    Painting(#[from] PaintingError),
+    /// A picture, spectrum or map cannot be encoded.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// The painting cannot be encoded.
+    #[error(transparent)]
+    PaintingFile(#[from] PaintingFileError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl Explain for PaintingExportError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Painting(error) => error.hint(),
+            Self::Export(error) => error.hint(),
+            Self::PaintingFile(error) => error.hint(),
+            Self::File(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Painting(error) => error.fault(),
+            Self::Export(error) => error.fault(),
+            Self::PaintingFile(error) => error.fault(),
+            Self::File(error) => error.fault(),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Errors of making a ground.
+
+use spectra::hint::{Explain, Hint};
+
+/// A ground cannot be made as described.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GroundError {
+    /// A setting is out of its range.
+    #[error("{name} of a ground is {least} to {most}{unit}, found `{value}`")]
+    OutOfRange {
+        /// Name of the setting, for example `relief_mm`.
+        name: &'static str,
+        /// Unit with a space before it; empty for a plain number.
+        unit: &'static str,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        most: f64,
+        /// Value given.
+        value: f64,
+    },
+    /// The relief is higher than heights in quanta allow.
+    #[error("a ground may be {highest_mm} mm high over cells of this size, found `{mm}`")]
+    TooHigh {
+        /// Height found, in mm.
+        mm: f64,
+        /// Greatest height allowed, in mm.
+        highest_mm: f64,
+    },
+    /// The colour is not written as `#rrggbb`.
+    #[error("the colour of a ground is written #rrggbb, found `{text}`")]
+    Color {
+        /// Text given.
+        text: String,
+    },
+    /// The reflectance spectrum is invalid.
+    #[error("reflectance of the ground: {0}")]
+    Spectrum(#[from] spectra::SpectrumError),
+    /// The reflectance spectrum cannot be resampled to the library's grid.
+    #[error("reflectance of the ground: {0}")]
+    Resampled(#[from] spectra::InterpolateError),
+    /// The reflectance spectrum does not overlap the library's wavelengths.
+    #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
+    Band {
+        /// First wavelength of the spectrum, in nm.
+        start_nm: f64,
+        /// Last wavelength of the spectrum, in nm.
+        end_nm: f64,
+        /// The library's grid, for example `380 to 730 nm in steps of 10 nm`.
+        library: String,
+    },
+    /// The picture of a relief cannot be read.
+    #[error("{path}: {reason}")]
+    Picture {
+        /// Path of the picture.
+        path: String,
+        /// Reason given by the system or the decoder.
+        reason: String,
+    },
+}
+
+impl Explain for GroundError {
+    fn hint(&self) -> Option<Hint> {
+        Some(match self {
+            Self::TooHigh { .. } => Hint::new("use larger cells, or a lower ground"),
+            Self::Color { .. } => Hint::new("or give a number 0 to 1, or {\"spectrum\": {..}}"),
+            Self::Band { library, .. } => Hint::new(format!("the library covers {library}")),
+            Self::Picture { .. } => {
+                Hint::new("the relief of a ground is a grey PNG or JPEG, white the highest")
+            }
+            Self::OutOfRange { .. } | Self::Spectrum(_) | Self::Resampled(_) => return None,
+        })
+    }
+}
+
+/// Returns `value` if it lies within `range`, both ends included.
+pub(super) fn check_range(
+    name: &'static str,
+    unit: &'static str,
+    value: f64,
+    [least, most]: [f64; 2],
+) -> Result<f64, GroundError> {
+    if (least..=most).contains(&value) {
+        Ok(value)
+    } else {
+        Err(GroundError::OutOfRange { name, unit, least, most, value })
+    }
+}
