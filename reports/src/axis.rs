@@ -1,13 +1,13 @@
-//! Axes: a quantity with its unit, a range, and where the ticks stand.
+//! Axes: a quantity with its unit, range and ticks.
 
 use spectra::Grid;
 
-/// How values are spread along an axis.
+/// Mapping of values to positions along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Position proportional to the value.
     Linear,
-    /// By their logarithm.
+    /// Position proportional to the logarithm of the value.
     Log,
 }
 
@@ -16,18 +16,18 @@ pub enum Scale {
 pub struct Axis {
     /// Quantity and unit, such as `Wavelength (nm)`.
     pub name: String,
-    /// The lowest value.
+    /// Value at the low end.
     pub low: f64,
-    /// The highest value.
+    /// Value at the high end.
     pub high: f64,
-    /// Linear or logarithmic.
+    /// Linear or logarithmic scale.
     pub scale: Scale,
-    /// Where ticks stand, with their labels.
+    /// Values of the ticks, with their labels.
     pub ticks: Vec<(f64, String)>,
 }
 
 impl Axis {
-    /// From `low` to `high`, with about `count` ticks at round numbers.
+    /// A linear axis from `low` to `high` with about `count` ticks at round numbers.
     #[must_use]
     pub fn linear(quantity: &str, unit: &str, low: f64, high: f64, count: usize) -> Self {
         let high = if high > low { high } else { low + 1.0 };
@@ -48,8 +48,7 @@ impl Axis {
         }
     }
 
-    /// From `low` or below to `high` or above, on a linear axis that ends at
-    /// ticks; room for what is drawn.
+    /// A linear axis that includes `low` to `high` and ends at ticks.
     #[must_use]
     pub fn around(quantity: &str, unit: &str, low: f64, high: f64, count: usize) -> Self {
         let high = if high > low { high } else { low + 1.0 };
@@ -58,8 +57,8 @@ impl Axis {
         Self::linear(quantity, unit, low, high, count)
     }
 
-    /// Whole decades around `low` to `high`, at most `decades` of them, counted
-    /// from the top; smaller values stand at the foot.
+    /// A logarithmic axis of whole decades that includes `low` to `high`, limited to the upper
+    /// `decades`. Smaller values, also 0, are drawn at the low end.
     #[must_use]
     pub fn log(quantity: &str, unit: &str, low: f64, high: f64, decades: i32) -> Self {
         let top = if high > 0.0 { (high.log10() - 1e-9).ceil() as i32 } else { 0 };
@@ -81,8 +80,8 @@ impl Axis {
         }
     }
 
-    /// The least range around `low` to `high` that ends at 1, 2 or 5 times a
-    /// power of ten, with ticks at all of these.
+    /// A logarithmic axis with the smallest range around `low` to `high` that ends at 1, 2 or 5
+    /// times a power of ten, with ticks at all of these.
     #[must_use]
     pub fn log_close(quantity: &str, unit: &str, low: f64, high: f64) -> Self {
         let round: Vec<f64> = (-9..=9)
@@ -101,8 +100,8 @@ impl Axis {
         Self { name: named(quantity, unit), low, high, scale: Scale::Log, ticks }
     }
 
-    /// The axis that all figures over wavelength share: 380 to 730 nm, more
-    /// where the library reaches further, with a tick every `every_nm`.
+    /// The wavelength axis of all figures: 380 to 730 nm, extended if `grid` reaches further, with
+    /// a tick every `every_nm`.
     #[must_use]
     pub fn wavelength(grid: Grid, every_nm: u32) -> Self {
         let low = 10.0 * (grid.start_nm().min(380.0) / 10.0).floor();
@@ -114,15 +113,15 @@ impl Axis {
         Self { name: named("Wavelength", "nm"), low, high, scale: Scale::Linear, ticks }
     }
 
-    /// Measured or predicted reflectance, 0 to `high` or more.
+    /// An axis of reflectance from 0 to 1, or to `high` rounded up to 0.2 if that is larger.
     #[must_use]
     pub fn reflectance(high: f64, count: usize) -> Self {
         let high = if high <= 1.0 { 1.0 } else { (high * 5.0).ceil() / 5.0 };
         Self::linear("Reflectance", "white = 1", 0.0, high, count)
     }
 
-    /// Where `value` stands, 0 at the low end and 1 at the high one; values
-    /// beyond an end stand at it.
+    /// Position of `value` along the axis, 0 at the low and 1 at the high end. Values beyond an
+    /// end are clamped to it.
     #[must_use]
     pub fn place(&self, value: f64) -> f64 {
         let along = |v: f64| match self.scale {
@@ -138,7 +137,7 @@ fn named(quantity: &str, unit: &str) -> String {
     format!("{quantity} ({unit})")
 }
 
-/// 1, 2 or 5 times a power of ten, `rough` or the next above.
+/// The smallest of 1, 2 or 5 times a power of ten that is at least `rough`.
 fn round_step(rough: f64) -> f64 {
     let power = 10_f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
@@ -163,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_log_axis_spans_whole_decades_and_keeps_zero_at_its_foot() {
+    fn a_log_axis_spans_whole_decades_and_places_zero_at_its_low_end() {
         let axis = Axis::log("K", "1", 0.0, 70.0, 4);
         assert_eq!((axis.low, axis.high), (0.01, 100.0));
         assert_eq!(labels(&axis), ["0.01", "0.1", "1", "10", "100"]);

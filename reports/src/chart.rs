@@ -1,8 +1,8 @@
-//! Charts as SVG; the only file that names plotters.
+//! Charts drawn as SVG. The only file that uses the crate plotters.
 //!
-//! plotters counts whole px, which would make curves of small panels jagged: it
-//! draws ten times as large, and the document says so in its view box. Labels
-//! are set here, since without a font plotters can only guess their size.
+//! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is
+//! ten times as large, and the view box of the document scales it down. Labels are place_labels here,
+//! since plotters without a font can only guess their size.
 
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
@@ -15,28 +15,29 @@ use plotters::prelude::{
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontFamily, IntoFont};
 
-use crate::names::{Placed, placed};
-use crate::panel::{Chart, Frame, Mark, Panel, Point, Shown, Sign};
+use crate::names::{Placed, place_labels};
+use crate::panel::{AxisLabels, Chart, Frame, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, Color, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
 use crate::svg::{Anchor, estimated_width, opening, shortened};
 
+/// Units of plotters in one px of the figure.
 const FINE: f64 = 10.0;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 impl Chart {
-    /// The chart as a document.
+    /// Draws the chart as an SVG document.
     ///
     /// # Panics
-    /// Never: memory takes any drawing.
+    /// Never: the backend writes to memory.
     #[must_use]
     pub fn svg(&self) -> String {
         let mut text = String::new();
         {
             let size = (self.width * FINE as u32, self.height * FINE as u32);
             let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-            drawn(area.fill(&rgb(PAPER)));
+            infallible(area.fill(&rgb(PAPER)));
             for panel in &self.panels {
                 Drawing { area: &area, panel }.draw();
             }
@@ -45,14 +46,14 @@ impl Chart {
                 write(&area, (width / 2.0, height - 14.0), TEXT, Anchor::Middle, INK, below);
                 write_upwards(&area, (14.0, height / 2.0), left);
             }
-            drawn(area.present());
+            infallible(area.present());
         }
         compact(&text, &opening(self.width, self.height, FINE as u32))
     }
 }
 
-fn drawn<T, E: std::fmt::Debug>(result: Result<T, E>) -> T {
-    result.expect("memory takes any drawing")
+fn infallible<T, E: std::fmt::Debug>(result: Result<T, E>) -> T {
+    result.expect("drawing to memory does not fail")
 }
 
 fn rgb(color: Color) -> RGBColor {
@@ -77,7 +78,7 @@ impl Drawing<'_, '_> {
     fn draw(&self) {
         let Frame { x, y, width, height } = self.panel.frame;
         let inner = self.area.clone().shrink((fine(x), fine(y)), (fine(width), fine(height)));
-        let mut axes = drawn(ChartBuilder::on(&inner).build_cartesian_2d(0.0..1.0, 0.0..1.0));
+        let mut axes = infallible(ChartBuilder::on(&inner).build_cartesian_2d(0.0..1.0, 0.0..1.0));
         self.grid(&mut axes);
         for mark in &self.panel.marks {
             self.mark(&mut axes, mark);
@@ -86,19 +87,20 @@ impl Drawing<'_, '_> {
         self.heading();
     }
 
-    /// A point as shares of the frame.
-    fn share(&self, point: &Point) -> Point {
+    /// A point as fractions of the frame, (0, 0) at the lower left.
+    fn fraction(&self, point: &Point) -> Point {
         (self.panel.x.place(point.0), self.panel.y.place(point.1))
     }
 
-    fn shares(&self, points: &[Point]) -> Vec<Point> {
-        points.iter().map(|point| self.share(point)).collect()
+    fn fractions(&self, points: &[Point]) -> Vec<Point> {
+        points.iter().map(|point| self.fraction(point)).collect()
     }
 
-    /// A point in px.
+    /// A point in px of the figure.
     fn px(&self, point: &Point) -> Point {
-        let (Frame { x, y, width, height }, share) = (self.panel.frame, self.share(point));
-        (x + share.0 * width, y + (1.0 - share.1) * height)
+        let Frame { x, y, width, height } = self.panel.frame;
+        let (right, up) = self.fraction(point);
+        (x + right * width, y + (1.0 - up) * height)
     }
 
     fn grid(&self, axes: &mut Axes<'_, '_>) {
@@ -106,46 +108,47 @@ impl Drawing<'_, '_> {
         let path = |from: Point, to: Point| PathElement::new(vec![from, to], thin);
         for (value, _) in &self.panel.x.ticks {
             let at = self.panel.x.place(*value);
-            drawn(axes.draw_series([path((at, 0.0), (at, 1.0))]));
+            infallible(axes.draw_series([path((at, 0.0), (at, 1.0))]));
         }
         for (value, _) in &self.panel.y.ticks {
             let at = self.panel.y.place(*value);
-            drawn(axes.draw_series([path((0.0, at), (1.0, at))]));
+            infallible(axes.draw_series([path((0.0, at), (1.0, at))]));
         }
         let foot = vec![(0.0, 1.0), (0.0, 0.0), (1.0, 0.0)];
-        drawn(axes.draw_series([PathElement::new(foot, stroke(FAINT, HAIR))]));
+        infallible(axes.draw_series([PathElement::new(foot, stroke(FAINT, HAIR))]));
     }
 
     fn mark(&self, axes: &mut Axes<'_, '_>, mark: &Mark) {
         match mark {
             Mark::Line { points, color, width } => {
-                let path = PathElement::new(self.shares(points), stroke(*color, *width));
-                drawn(axes.draw_series([path]));
+                let path = PathElement::new(self.fractions(points), stroke(*color, *width));
+                infallible(axes.draw_series([path]));
             }
             Mark::Dashes { points, color } => {
                 let style = stroke(*color, CURVE);
-                let path = DashedPathElement::new(self.shares(points), fine(6.0), fine(4.0), style);
-                drawn(axes.draw_series([path]));
+                let path =
+                    DashedPathElement::new(self.fractions(points), fine(6.0), fine(4.0), style);
+                infallible(axes.draw_series([path]));
             }
             Mark::Dots { points, color, radius } => {
                 let style = rgb(*color).filled();
-                let dots = self.shares(points).into_iter();
-                drawn(axes.draw_series(dots.map(|p| Circle::new(p, fine(*radius), style))));
+                let dots = self.fractions(points).into_iter();
+                infallible(axes.draw_series(dots.map(|p| Circle::new(p, fine(*radius), style))));
             }
             Mark::Area { points, color, opacity } => {
                 let style = rgb(*color).mix(*opacity).filled();
-                drawn(axes.draw_series([Polygon::new(self.shares(points), style)]));
+                infallible(axes.draw_series([Polygon::new(self.fractions(points), style)]));
             }
             Mark::Bar { from, to, color } => {
-                let corners = [self.share(from), self.share(to)];
-                drawn(axes.draw_series([Rectangle::new(corners, rgb(*color).filled())]));
+                let corners = [self.fraction(from), self.fraction(to)];
+                infallible(axes.draw_series([Rectangle::new(corners, rgb(*color).filled())]));
             }
             Mark::Names { names, around, color } => {
                 let dots: Vec<Point> = around.iter().map(|at| self.px(at)).collect();
                 let points: Vec<(Point, &str)> =
                     names.iter().map(|(at, name)| (self.px(at), name.as_str())).collect();
                 for Placed { at, anchor, text } in
-                    placed(&points, &dots, SMALL_TEXT, self.panel.frame)
+                    place_labels(&points, &dots, SMALL_TEXT, self.panel.frame)
                 {
                     write(self.area, at, SMALL_TEXT, anchor, *color, text);
                 }
@@ -154,30 +157,30 @@ impl Drawing<'_, '_> {
     }
 
     fn axis_labels(&self) {
-        let Panel { x, y, frame, shown, .. } = self.panel;
+        let Panel { x, y, frame, labels, .. } = self.panel;
         let foot = frame.y + frame.height;
-        if shown.0 != Shown::Nothing {
+        if labels.0 != AxisLabels::None {
             for (value, label) in &x.ticks {
                 let at = (self.px(&(*value, y.low)).0, foot + 10.0);
                 write(self.area, at, SMALL_TEXT, Anchor::Middle, FAINT, label);
             }
         }
-        if shown.1 != Shown::Nothing {
+        if labels.1 != AxisLabels::None {
             for (value, label) in &y.ticks {
                 let at = (frame.x - 6.0, self.px(&(x.low, *value)).1);
                 write(self.area, at, SMALL_TEXT, Anchor::End, FAINT, label);
             }
         }
-        if shown.0 == Shown::All {
+        if labels.0 == AxisLabels::All {
             let at = (frame.x + frame.width / 2.0, foot + 28.0);
             write(self.area, at, TEXT, Anchor::Middle, INK, &x.name);
         }
-        if shown.1 == Shown::All {
+        if labels.1 == AxisLabels::All {
             write_upwards(self.area, (frame.x - 46.0, frame.y + frame.height / 2.0), &y.name);
         }
     }
 
-    /// Title on the left, then the key; note and patches on the right.
+    /// Draws title and key on the left, note and patches on the right, above the frame.
     fn heading(&self) {
         let Panel { frame, title, note, patches, key, .. } = self.panel;
         let middle = frame.y - 9.0;
@@ -185,7 +188,7 @@ impl Drawing<'_, '_> {
         for patch in patches.iter().rev() {
             let corners = [(right - side, middle - side / 2.0), (right, middle + side / 2.0)];
             let corners = corners.map(|(x, y)| (fine(x), fine(y)));
-            drawn(self.area.draw(&Rectangle::new(corners, rgb(*patch).filled())));
+            infallible(self.area.draw(&Rectangle::new(corners, rgb(*patch).filled())));
             right -= side;
         }
         if !note.is_empty() {
@@ -199,39 +202,41 @@ impl Drawing<'_, '_> {
             write(self.area, (x, middle), SMALL_TEXT, Anchor::Start, INK, &title);
             x += estimated_width(&title, SMALL_TEXT) + 18.0;
         }
-        for (sign, color, name) in key {
-            self.sign(*sign, *color, (x, middle));
+        for (symbol, color, name) in key {
+            self.key_symbol(*symbol, *color, (x, middle));
             write(self.area, (x + 24.0, middle), SMALL_TEXT, Anchor::Start, INK, name);
             x += 24.0 + estimated_width(name, SMALL_TEXT) + 18.0;
         }
     }
 
-    fn sign(&self, sign: Sign, color: Color, at: Point) {
+    fn key_symbol(&self, symbol: KeySymbol, color: Color, at: Point) {
         let (x, y) = at;
         let point = |dx: f64, dy: f64| (fine(x + dx), fine(y + dy));
         let path = vec![point(0.0, 0.0), point(18.0, 0.0)];
-        match sign {
-            Sign::Line => drawn(self.area.draw(&PathElement::new(path, stroke(color, CURVE)))),
-            Sign::Dashes => {
+        match symbol {
+            KeySymbol::Line => {
+                infallible(self.area.draw(&PathElement::new(path, stroke(color, CURVE))))
+            }
+            KeySymbol::Dashes => {
                 let style = stroke(color, CURVE);
                 let dashes = DashedPathElement::new(path, fine(5.0), fine(3.0), style);
-                drawn(self.area.draw(&dashes));
+                infallible(self.area.draw(&dashes));
             }
-            Sign::Dots => {
+            KeySymbol::Dots => {
                 for dx in [2.0, 9.0, 16.0] {
                     let dot = Circle::new(point(dx, 0.0), fine(1.8), rgb(color).filled());
-                    drawn(self.area.draw(&dot));
+                    infallible(self.area.draw(&dot));
                 }
             }
-            Sign::Patch => {
+            KeySymbol::Patch => {
                 let corners = [point(4.0, -5.0), point(16.0, 5.0)];
-                drawn(self.area.draw(&Rectangle::new(corners, rgb(color).filled())));
+                infallible(self.area.draw(&Rectangle::new(corners, rgb(color).filled())));
             }
         }
     }
 }
 
-/// A line of text, `at` its middle height, in px.
+/// Draws a line of text, vertically centred at `at` in px.
 fn write(area: &Area<'_>, at: Point, size: f64, anchor: Anchor, color: Color, text: &str) {
     let pos = match anchor {
         Anchor::Start => HPos::Left,
@@ -239,15 +244,15 @@ fn write(area: &Area<'_>, at: Point, size: f64, anchor: Anchor, color: Color, te
         Anchor::End => HPos::Right,
     };
     let style = style(size, color).pos(Pos::new(pos, VPos::Center));
-    drawn(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
+    infallible(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
 }
 
-/// The name of an axis on the left, `at` its middle.
+/// Draws the name of a vertical axis, reading upwards and centred at `at` in px.
 fn write_upwards(area: &Area<'_>, at: Point, text: &str) {
     let style = style(TEXT, INK)
         .transform(FontTransform::Rotate270)
         .pos(Pos::new(HPos::Center, VPos::Center));
-    drawn(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
+    infallible(area.draw(&Text::new(text.to_owned(), (fine(at.0), fine(at.1)), style)));
 }
 
 fn style(size: f64, color: Color) -> TextStyle<'static> {
@@ -256,7 +261,7 @@ fn style(size: f64, color: Color) -> TextStyle<'static> {
     font.color(&rgb(color))
 }
 
-/// The document with its own opening, and without what goes without saying.
+/// Replaces the opening element of the document and drops attributes that have their default.
 fn compact(text: &str, opening: &str) -> String {
     let body = text.split_once(">\n").map_or(text, |(_, body)| body);
     let mut out = String::with_capacity(text.len());

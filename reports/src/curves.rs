@@ -1,4 +1,4 @@
-//! K and S of every pigment, with what is known of their uncertainty.
+//! Section with K and S of each pigment and their standard deviations.
 
 use crate::axis::{Axis, Scale};
 use crate::figure::{Drawing, Figure, Words};
@@ -10,7 +10,9 @@ use crate::table::{Cell, Column, Table};
 const COLUMNS: usize = 5;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
-    Section::new("Absorption and scattering").with(absorption(subject)).with(scattering(subject))
+    Section::new("Absorption and scattering")
+        .with_figure(absorption(subject))
+        .with_figure(scattering(subject))
 }
 
 fn absorption(subject: &Subject<'_>) -> Figure {
@@ -64,7 +66,7 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
     debug_assert_eq!(y.scale, Scale::Log, "bands are cut at the foot of a log axis");
     let x = Axis::wavelength(library.grid, 100);
     let mut data = Table::new([
-        Column::words("pigment"),
+        Column::text("pigment"),
         Column::quantity("wavelength", "nm", 0),
         Column::quantity(curves.quantity, &unit, 4),
         Column::quantity("standard deviation", &unit, 4),
@@ -97,7 +99,9 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
         }
         let patch = [subject.masstone(index)];
         let pigment = &library.pigments[index];
-        Panel::new(x.clone(), y.clone(), marks).titled(pigment.name.as_str()).with_patches(patch)
+        Panel::new(x.clone(), y.clone(), marks)
+            .with_title(pigment.name.as_str())
+            .with_patches(patch)
     });
     let panels: Vec<Panel> = panels.collect();
     let chart = Chart::small_multiples(panels, COLUMNS, 110.0);

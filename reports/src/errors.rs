@@ -1,11 +1,11 @@
-//! Colour errors: how they are spread, and the table of all samples.
+//! Section on colour errors: their histogram, and the table of all samples.
 
 use calibrate::evaluate::Summary;
 use calibrate::library::SampleEvidence;
 
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, Mark, Panel, Sign};
+use crate::panel::{Chart, KeySymbol, Mark, Panel};
 use crate::samples::worst_first;
 use crate::style::{Color, INK, SERIES};
 use crate::subject::{Section, Subject};
@@ -16,12 +16,13 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     if subject.comparison.is_none() {
         return section;
     }
-    section.with(histogram(subject)).with_table("Every sample, worst first", table(subject))
+    section.with_figure(histogram(subject)).with_table("Every sample, worst first", table(subject))
 }
 
-/// A row of bars to be.
+/// The data of one histogram.
 struct Errors {
-    what: &'static str,
+    /// Name of the counted samples, such as `samples, fitted`.
+    items: &'static str,
     errors: Vec<f64>,
     summary: Summary,
     color: Color,
@@ -32,12 +33,12 @@ fn histogram(subject: &Subject<'_>) -> Figure {
     if let Some(comparison) = &subject.comparison {
         let errors = comparison.sure().map(|film| film.delta_e).collect();
         let summary = comparison.delta_e;
-        rows.push(Errors { what: "samples, fitted", errors, summary, color: SERIES[0] });
+        rows.push(Errors { items: "samples, fitted", errors, summary, color: SERIES[0] });
     }
     if let Some(validation) = &subject.validation {
         let errors = validation.per_sample.iter().map(|sample| sample.delta_e).collect();
         let summary = validation.delta_e;
-        rows.push(Errors { what: "mixtures, left out", errors, summary, color: SERIES[1] });
+        rows.push(Errors { items: "mixtures, left out", errors, summary, color: SERIES[1] });
     }
     let largest = rows.iter().map(|row| row.summary.max).fold(0.5, f64::max);
     let x = Axis::around("Colour error", "CIEDE2000", 0.0, largest, 10);
@@ -48,7 +49,7 @@ fn histogram(subject: &Subject<'_>) -> Figure {
     };
     let bins = (x.high / step).ceil() as usize;
     let panels = rows.into_iter().map(|row| {
-        let Errors { what, errors, summary, color } = row;
+        let Errors { items, errors, summary, color } = row;
         let mut counts = vec![0_u32; bins];
         for error in &errors {
             counts[((error / step) as usize).min(bins - 1)] += 1;
@@ -69,8 +70,8 @@ fn histogram(subject: &Subject<'_>) -> Figure {
         }
         let Summary { mean, median, p90, max } = summary;
         let panel = Panel::new(x.clone(), y, marks)
-            .titled(format!("{} {what}: median {median:.2}, largest {max:.2}", errors.len()))
-            .with_key(Sign::Dashes, INK, format!("mean {mean:.2}, 90 % below {p90:.2}"));
+            .with_title(format!("{} {items}: median {median:.2}, largest {max:.2}", errors.len()))
+            .with_key(KeySymbol::Dashes, INK, format!("mean {mean:.2}, 90 % below {p90:.2}"));
         (panel, 150.0)
     });
     let panels = panels.collect();
@@ -88,14 +89,14 @@ fn histogram(subject: &Subject<'_>) -> Figure {
 
 fn table(subject: &Subject<'_>) -> Table {
     let mut table = Table::new([
-        Column::words("Sample"),
-        Column::words("Measured"),
-        Column::words("Fitted"),
+        Column::text("Sample"),
+        Column::text("Measured"),
+        Column::text("Fitted"),
         Column::quantity("Fitted", "CIEDE2000", 2),
         Column::quantity("Left out", "CIEDE2000", 2),
         Column::quantity("Residual", "rms of reflectance", 4),
-        Column::words("Recipe"),
-        Column::words("Remarks"),
+        Column::text("Recipe"),
+        Column::text("Remarks"),
     ]);
     let left_out = |sample: &str| -> Option<f64> {
         let validation = subject.validation.as_ref()?;

@@ -1,4 +1,4 @@
-//! A figure: a drawing, its words and its numbers.
+//! A figure: drawing, title, caption and the data behind it.
 
 use crate::panel::Chart;
 use crate::style::Color;
@@ -8,60 +8,65 @@ use crate::table::Table;
 /// A figure of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// The stem of its files and its anchor on the page: lower case, digits and
+    /// Stem of the figure's files and its anchor on the page: lower-case letters, digits and
     /// hyphens.
     pub name: String,
-    /// What it shows, in a few words.
+    /// Title, a few words without a full stop.
     pub title: String,
-    /// How to read it, in a sentence or two.
+    /// Caption: one or two sentences on how to read the figure.
     pub caption: String,
-    /// What can be seen, for those who cannot see it.
+    /// Alternative text for readers who cannot see the figure.
     pub alt: String,
-    /// The command line that made it.
+    /// The command line that made the figure.
     pub command: String,
-    /// The drawing.
+    /// The drawing as an SVG document.
     pub svg: String,
-    /// Its numbers, so that others can draw them.
+    /// The plotted numbers, so that others can draw them.
     pub data: Table,
 }
 
-/// What is drawn: axes with curves, or patches and words.
+/// The drawing of a figure.
 #[derive(Debug, Clone)]
 pub enum Drawing {
-    /// Panels.
+    /// Panels with axes and marks.
     Chart(Chart),
-    /// Patches.
+    /// Free drawing of patches and text.
     Canvas(Canvas),
 }
 
-/// The words of a figure.
+/// The texts of a figure; see the fields of [`Figure`].
 #[derive(Debug, Clone, Copy)]
 pub struct Words<'a> {
-    /// See [`Figure::name`].
+    /// File stem and anchor ([`Figure::name`]).
     pub name: &'a str,
-    /// See [`Figure::title`].
+    /// Title, a few words.
     pub title: &'a str,
-    /// See [`Figure::caption`].
+    /// Caption, one or two sentences.
     pub caption: &'a str,
-    /// See [`Figure::alt`].
+    /// Alternative text for readers who cannot see the figure.
     pub alt: &'a str,
 }
 
 impl Figure {
-    /// A figure made by `command`.
+    /// Renders `drawing` and joins it with its texts and data. `command` is the command line
+    /// that made the figure; the SVG names it in its description.
     ///
     /// # Panics
-    /// If the name is none for a file.
+    /// If the name is empty or has other characters than lower-case letters, digits and hyphens.
     #[must_use]
     pub fn new(words: Words<'_>, command: &str, drawing: Drawing, data: Table) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let named = !words.name.is_empty() && words.name.chars().all(plain);
-        assert!(named, "a figure's name is lower case, found `{}`", words.name);
-        let drawn = match drawing {
+        assert!(
+            named,
+            "a figure's name has lower-case letters, digits and hyphens only, found `{}`",
+            words.name
+        );
+        let svg = match drawing {
             Drawing::Chart(chart) => chart.svg(),
-            Drawing::Canvas(canvas) => canvas.finished(),
+            Drawing::Canvas(canvas) => canvas.into_svg(),
         };
-        let told = format!(
+        let description = format!(
             " role=\"img\" aria-label=\"{}\">\n<desc>{}. {} Made by: {}</desc>",
             escaped(words.alt),
             escaped(words.title),
@@ -74,13 +79,13 @@ impl Figure {
             caption: words.caption.to_owned(),
             alt: words.alt.to_owned(),
             command: command.to_owned(),
-            svg: drawn.replacen('>', &told, 1),
+            svg: svg.replacen('>', &description, 1),
             data,
         }
     }
 
-    /// The colours of its strokes, dots, areas and words; not those of patches,
-    /// which are `rect` elements and mean just the colour they have.
+    /// The colours of lines, dots, areas and text, sorted and without repeats. The colours of
+    /// patches (`rect` elements) are left out: a dark page must not change them.
     #[must_use]
     pub fn line_colors(&self) -> Vec<Color> {
         let mut found = Vec::new();

@@ -1,18 +1,18 @@
-//! Mixtures predicted without their own measurement, against their error in the
-//! fit.
+//! Section on validation: the error of each mixture when predicted without its own measurement,
+//! against its error in the fit.
 
 use calibrate::comparison::ComparedFilm;
 
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, Mark, Panel, Sign};
+use crate::panel::{Chart, KeySymbol, Mark, Panel};
 use crate::style::{FAINT, HAIR, INK};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
-/// How many of the largest errors are named with their recipe, and how many more
-/// by their sample only.
+/// Number of the largest errors that are labelled with sample and recipe.
 const NAMED: usize = 6;
+/// Number of the next largest errors that are labelled with the sample only.
 const NAMED_SHORTLY: usize = 14;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -33,22 +33,22 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
         section
     } else {
         let needed = validation.needed.join(", ");
-        section.saying(format!(
+        section.with_paragraph(format!(
             "Not left out, since a pigment would not be identified without them: {needed}."
         ))
     };
-    section.with(figure(subject, &pairs))
+    section.with_figure(figure(subject, &pairs))
 }
 
-/// `pairs` by falling error of the mixture left out.
+/// Draws films with their error when left out; `pairs` is sorted by that error, largest first.
 fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
     let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
     let (low, high) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
     let axis = |what: &str| Axis::log_close(what, "CIEDE2000", low.max(0.05), high);
     let (x, y) = (axis("Colour error in the fit"), axis("Colour error when left out"));
     let mut data = Table::new([
-        Column::words("sample"),
-        Column::words("recipe"),
+        Column::text("sample"),
+        Column::text("recipe"),
         Column::quantity("fitted", "CIEDE2000", 2),
         Column::quantity("left out", "CIEDE2000", 2),
     ]);
@@ -76,7 +76,7 @@ fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
     let along = (0..=100).map(|i| x.low * (x.high / x.low).powf(f64::from(i) / 100.0));
     let dots = dots.chain(along.map(|error| (error, error)));
     marks.push(Mark::Names { names: names.collect(), around: dots.collect(), color: INK });
-    let panel = Panel::new(x, y, marks).with_key(Sign::Line, FAINT, "both alike");
+    let panel = Panel::new(x, y, marks).with_key(KeySymbol::Line, FAINT, "both alike");
     let words = Words {
         name: "left-out",
         title: "Error of mixtures left out, against their error in the fit",

@@ -1,24 +1,59 @@
 //! Charts and one-page reports of a pigment library.
 //!
-//! In scope: figures as SVG, PNG and CSV, and the page that holds them. Out of
-//! scope: anything that is computed rather than shown (see `calibrate`).
+//! ```text
+//! PigmentLibrary, Viewing --+
+//! Comparison, Validation ---+--> Subject --> Report::draw --> report.html
+//! (only with measurements)  |                                 figures/*.svg, *.png, *.csv
+//! QuadratureTrial ----------+
+//! ```
+//!
+//! ```no_run
+//! use calibrate::library::PigmentLibrary;
+//! use reports::{Report, Subject};
+//!
+//! let library = PigmentLibrary::van_gogh_oils();
+//! let viewing = spectra::Viewing::default();
+//! let subject = Subject::of_library(&library, &viewing, "my program")?;
+//! let report = Report::draw(&subject, &|| ())?;
+//! for (path, content) in report.files() {
+//!     spectra::file::write_whole(std::path::Path::new(&path), &content)?;
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A single chart needs no library:
+//!
+//! ```
+//! use reports::axis::Axis;
+//! use reports::panel::{Chart, Mark, Panel};
+//! use reports::style::{CURVE, SERIES};
+//!
+//! let x = Axis::linear("Wavelength", "nm", 400.0, 700.0, 4);
+//! let y = Axis::reflectance(1.0, 4);
+//! let points = vec![(400.0, 0.1), (550.0, 0.2), (700.0, 0.8)];
+//! let curve = Mark::Line { points, color: SERIES[0], width: CURVE };
+//! let svg = Chart::single(Panel::new(x, y, vec![curve]).with_title("Red paint"), 200.0).svg();
+//! assert!(svg.starts_with("<svg") && svg.contains("Red paint"));
+//! ```
+//!
+//! In scope: figures as SVG, PNG and CSV, and the page that shows them. Out of scope: computing
+//! their numbers (see `calibrate`).
 //!
 //! To add a figure:
 //!
 //! 1. compute its numbers in `calibrate`;
-//! 2. write a module here with one `pub(crate) fn section(&Subject) -> Section`:
-//!    describe panels as data ([`panel::Panel`], [`panel::Mark`]), arrange them
-//!    ([`panel::Chart`]) or draw patches and words ([`svg::Canvas`]), and hand
-//!    drawing, words and numbers to [`subject::Subject::figure`];
-//! 3. name that function in the list `SECTIONS` of `report`, where the page shall
-//!    have it.
+//! 2. write a module here with one `pub(crate) fn section(&Subject) -> Section`: describe panels
+//!    as data ([`panel::Panel`], [`panel::Mark`]) and arrange them ([`panel::Chart`]), or draw
+//!    patches and text ([`svg::Canvas`]); then pass drawing, texts and data to
+//!    [`Subject::figure`];
+//! 3. add that function to the list `SECTIONS` in `report`, at its place on the page.
 //!
-//! SVG, PNG, CSV, page, contents, dark screen and files follow by themselves.
-//! A section without figures and words is left out. Patches that mean just their
-//! colour are rectangles ([`panel::Mark::Bar`], [`svg::Canvas::rectangle`]): on a
-//! dark screen all else is made lighter.
+//! SVG, PNG, CSV, page, contents and dark colours follow from these. A section without figures
+//! and text is left out. Patches that show the colour of a paint must be rectangles
+//! ([`panel::Mark::Bar`], [`svg::Canvas::rectangle`]): on a dark screen all other elements
+//! become lighter.
 //!
-//! Files stand in an order of dependence; each uses only what stands above it.
+//! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod style;
 
@@ -56,4 +91,8 @@ mod light;
 
 mod palette;
 
-pub mod report;
+mod report;
+
+pub use picture::PictureError;
+pub use report::{Report, STEPS, absences};
+pub use subject::Subject;

@@ -1,18 +1,18 @@
-//! The light, the observer, and the few wavelengths that stand for both, as in
-//! figure 9 of Baxter, Wendt and Lin (2004).
+//! Section on light, observer and the quadrature of a few wavelengths, after figure 9 of Baxter,
+//! Wendt and Lin (2004).
 
 use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
 
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, Mark, Panel, Point, Sign};
+use crate::panel::{Chart, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, Color, DOT, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
-/// As many wavelengths as `impasto quadrature` takes.
+/// Number of wavelengths of the quadrature shown; the default of `calibrate::quadrature`.
 const NODES: usize = 8;
-/// X, Y and Z.
+/// Name and colour of the channels X, Y and Z.
 const CHANNELS: [(&str, Color); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -22,11 +22,11 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     });
     let section = match chosen {
         Some(chosen) => section
-            .with(light(subject, chosen))
+            .with_figure(light(subject, chosen))
             .with_table("Eight wavelengths for this library and light", nodes(chosen)),
         None => section,
     };
-    if subject.quadratures.is_empty() { section } else { section.with(errors(subject)) }
+    if subject.quadratures.is_empty() { section } else { section.with_figure(errors(subject)) }
 }
 
 fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
@@ -69,15 +69,15 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
     let strong = Axis::linear("Power", "largest = 1", 0.0, 1.0, 4);
     let line = Mark::Line { points: relative, color: INK, width: CURVE };
     let illuminant = format!("Illuminant {}", subject.viewing.illuminant.name());
-    let lamp = Panel::new(x.clone(), strong, vec![line]).titled(illuminant);
+    let lamp = Panel::new(x.clone(), strong, vec![line]).with_title(illuminant);
 
     let highest = functions.iter().flatten().map(|p| p.1).fold(0.0, f64::max);
     let response = Axis::around("Response", "peak of y = 1", 0.0, highest, 4);
     let mut observer = Panel::new(x.clone(), response, Vec::new())
-        .titled(format!("Observer {}", subject.viewing.observer));
+        .with_title(format!("Observer {}", subject.viewing.observer));
     for (points, (name, color)) in functions.into_iter().zip(CHANNELS) {
         observer.marks.push(Mark::Line { points, color, width: CURVE });
-        observer = observer.with_key(Sign::Line, color, name.to_lowercase());
+        observer = observer.with_key(KeySymbol::Line, color, name.to_lowercase());
     }
 
     let values = || chosen.rule.weights.iter().flatten().copied();
@@ -92,9 +92,9 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
             marks.push(Mark::Bar { from, to, color });
         }
     }
-    let mut stems = Panel::new(x, weight, marks).titled("Eight chosen wavelengths");
+    let mut stems = Panel::new(x, weight, marks).with_title("Eight chosen wavelengths");
     for (name, color) in CHANNELS {
-        stems = stems.with_key(Sign::Patch, color, name);
+        stems = stems.with_key(KeySymbol::Patch, color, name);
     }
 
     let words = Words {
@@ -122,7 +122,7 @@ fn nodes(chosen: &QuadratureTrial) -> Table {
 
 fn errors(subject: &Subject<'_>) -> Figure {
     let mut data = Table::new([
-        Column::words("method"),
+        Column::text("method"),
         Column::quantity("wavelengths", "1", 0),
         Column::quantity("mean", "CIEDE2000", 3),
         Column::quantity("95 % below", "CIEDE2000", 3),
@@ -153,9 +153,9 @@ fn errors(subject: &Subject<'_>) -> Figure {
         panel.marks.push(Mark::Dashes { points: of(|trial| trial.error.p95), color });
         panel.marks.push(Mark::Dots { points: mean.clone(), color, radius: 2.0 * DOT });
         panel.marks.push(Mark::Line { points: mean, color, width: CURVE });
-        panel = panel.with_key(Sign::Line, color, format!("{}, mean", method.name()));
+        panel = panel.with_key(KeySymbol::Line, color, format!("{}, mean", method.name()));
     }
-    let panel = panel.with_key(Sign::Dashes, INK, "95 % below");
+    let panel = panel.with_key(KeySymbol::Dashes, INK, "95 % below");
     let words = Words {
         name: "wavelengths",
         title: "What few wavelengths cost in colour",

@@ -1,9 +1,9 @@
-//! Names beside points, set so that they do not cover each other.
+//! Placement of labels next to points without overlap.
 
 use crate::panel::Frame;
 use crate::svg::{Anchor, estimated_width};
 
-/// A name with its place in px.
+/// A label with its position in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placed<'a> {
     pub(crate) at: (f64, f64),
@@ -11,29 +11,29 @@ pub(crate) struct Placed<'a> {
     pub(crate) text: &'a str,
 }
 
-/// Half the side of what a dot takes, in px.
+/// Half the side of the square kept free for a dot, in px.
 const DOT: f64 = 3.5;
 
-/// Left, top, right and bottom in px.
+/// Left, top, right and bottom of a box in px.
 type Edges = [f64; 4];
 
-/// Each name to the right, left, above or below its point, where it covers
-/// no dot and no former name and stays in the frame; without such a place it is cut at its
-/// colon, and else left out.
-pub(crate) fn placed<'a>(
+/// Places each label to the right, left, above or below its point, where it covers no dot and no
+/// earlier label and stays in the frame. Where that fails, only the part before a colon is tried;
+/// where that fails too, the label is left out.
+pub(crate) fn place_labels<'a>(
     names: &[((f64, f64), &'a str)],
     dots: &[(f64, f64)],
     size: f64,
     frame: Frame,
 ) -> Vec<Placed<'a>> {
-    let mut taken: Vec<Edges> =
+    let mut occupied: Vec<Edges> =
         dots.iter().map(|&(x, y)| [x - DOT, y - DOT, x + DOT, y + DOT]).collect();
     let mut placed = Vec::new();
     for &(at, text) in names {
         let short = text.split(": ").next().unwrap_or(text);
-        let place = |text| free_place(at, text, size, frame, &taken);
+        let place = |text| free_place(at, text, size, frame, &occupied);
         if let Some((edges, name)) = place(text).or_else(|| place(short)) {
-            taken.push(edges);
+            occupied.push(edges);
             placed.push(name);
         }
     }
@@ -45,7 +45,7 @@ fn free_place<'a>(
     text: &'a str,
     size: f64,
     frame: Frame,
-    taken: &[Edges],
+    occupied: &[Edges],
 ) -> Option<(Edges, Placed<'a>)> {
     let width = estimated_width(text, size);
     let tries = [
@@ -71,7 +71,7 @@ fn free_place<'a>(
             && top >= frame.y - 4.0
             && bottom <= frame.y + frame.height;
         let covers = |[l, t, r, b]: &Edges| left < *r && *l < right && top < *b && *t < bottom;
-        let free = inside && !taken.iter().any(covers);
+        let free = inside && !occupied.iter().any(covers);
         free.then_some((edges, Placed { at: (x, y), anchor, text }))
     })
 }
@@ -81,18 +81,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_stand_apart_and_inside() {
+    fn labels_do_not_overlap_and_stay_in_the_frame() {
         let frame = Frame { x: 0.0, y: 0.0, width: 100.0, height: 50.0 };
         let points = [((50.0, 25.0), "one"), ((51.0, 25.0), "two"), ((99.0, 5.0), "edge")];
-        let placed = placed(&points, &[], 10.0, frame);
+        let placed = place_labels(&points, &[], 10.0, frame);
         assert_eq!(placed.len(), 3);
         assert_eq!(placed[0].anchor, Anchor::Start);
         assert_eq!(placed[1].anchor, Anchor::End);
         assert_eq!(placed[2].anchor, Anchor::End);
         let narrow = Frame { width: 50.0, ..frame };
-        let cut = super::placed(&[((40.0, 25.0), "17F: a long recipe")], &[], 10.0, narrow);
+        let cut = place_labels(&[((40.0, 25.0), "17F: a long recipe")], &[], 10.0, narrow);
         assert_eq!((cut[0].text, cut.len()), ("17F", 1));
-        let beside_a_dot = super::placed(&points[..1], &[(60.0, 25.0)], 10.0, frame);
-        assert_eq!(beside_a_dot[0].anchor, Anchor::End);
+        let next_to_dot = place_labels(&points[..1], &[(60.0, 25.0)], 10.0, frame);
+        assert_eq!(next_to_dot[0].anchor, Anchor::End);
     }
 }

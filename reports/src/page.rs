@@ -1,4 +1,4 @@
-//! The page: one HTML file that loads nothing.
+//! The page: one HTML file that needs no other file.
 
 use std::fmt::Write;
 
@@ -8,18 +8,18 @@ use crate::subject::{Part, Section};
 use crate::svg::escaped;
 use crate::table::{Cell, Column, Table};
 
-/// What stands above the sections.
+/// Title, facts and warnings above the sections.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Head {
-    /// The title.
+    /// Title of the page.
     pub title: String,
-    /// Facts, each with its name.
+    /// Name and value of each fact.
     pub facts: Vec<(String, String)>,
-    /// What a reader must know before trusting the rest.
+    /// Warnings that a reader should know before trusting the figures.
     pub warnings: Vec<String>,
 }
 
-/// The page. Links to `figures/NAME.svg` and so on lead to the figures' files.
+/// Renders the page. Its links to `figures/NAME.svg`, `.png` and `.csv` are relative.
 #[must_use]
 pub fn html(head: &Head, sections: &[Section]) -> String {
     let title = escaped(&head.title);
@@ -37,7 +37,7 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
     }
     out += "</dl>\n";
     if !head.warnings.is_empty() {
-        out += "<details open class=\"warnings\"><summary>What the data cannot tell, or tell against themselves</summary>\n<ul>\n";
+        out += "<details open class=\"warnings\"><summary>Not identified by the data, or inconsistent with it</summary>\n<ul>\n";
         for warning in &head.warnings {
             out += &format!("<li>{}</li>\n", escaped(warning));
         }
@@ -47,8 +47,8 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
     let mut number = 0;
     for (index, section) in sections.iter().enumerate() {
         out += &format!("<section id=\"s{}\">\n<h2>{}</h2>\n", index + 1, escaped(&section.title));
-        for words in &section.words {
-            out += &format!("<p>{}</p>\n", escaped(words));
+        for paragraph in &section.paragraphs {
+            out += &format!("<p>{}</p>\n", escaped(paragraph));
         }
         for part in &section.parts {
             match part {
@@ -97,7 +97,7 @@ fn table_html(title: &str, table: &Table) -> String {
         format!("<div class=\"table\"><table>\n<caption>{}</caption>\n<thead><tr>", escaped(title));
     let class = |column: &Column| if column.unit.is_some() { " class=\"n\"" } else { "" };
     for column in &table.columns {
-        // A ratio needs no unit to be read.
+        // The unit `1` of a ratio is not written.
         let unit = column.unit.as_deref().filter(|unit| *unit != "1");
         let unit = unit.map(|unit| format!(" <small>{}</small>", escaped(unit)));
         let (class, name) = (class(column), escaped(&column.name));
@@ -109,7 +109,7 @@ fn table_html(title: &str, table: &Table) -> String {
         for (cell, column) in row.iter().zip(&table.columns) {
             let class = class(column);
             let _ = match cell {
-                Cell::Words(words) => write!(out, "<td{class}>{}</td>", escaped(words)),
+                Cell::Text(text) => write!(out, "<td{class}>{}</td>", escaped(text)),
                 Cell::Number(number) => write!(out, "<td{class}>{number:.*}</td>", column.digits),
                 Cell::Patch(color) => write!(
                     out,
@@ -124,21 +124,20 @@ fn table_html(title: &str, table: &Table) -> String {
     out + "</tbody>\n</table></div>\n"
 }
 
-/// The style sheet; in the dark, strokes and words of figures are exchanged for
-/// lighter ones.
+/// The style sheet. On a dark screen, lines and text of figures get lighter colours.
 fn style(sections: &[Section]) -> String {
     let mut colors: Vec<Color> =
         sections.iter().flat_map(Section::figures).flat_map(Figure::line_colors).collect();
     colors.sort_unstable();
     colors.dedup();
     let mut dark = String::new();
-    for (reserved, instead) in RESERVED {
-        let (from, to) = (reserved.hex(), instead.hex());
+    for (reserved, replacement) in RESERVED {
+        let (from, to) = (reserved.hex(), replacement.hex());
         dark +=
             &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
     }
     for color in colors.into_iter().filter(|c| RESERVED.iter().all(|(r, _)| r != c)) {
-        let (from, to) = (color.hex(), color.for_line_in_the_dark().hex());
+        let (from, to) = (color.hex(), color.for_dark_screen().hex());
         dark += &format!(
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
         );

@@ -1,71 +1,71 @@
-//! What a chart shows, as data: panels with axes and marks, and how several
-//! panels are arranged.
+//! Charts as data: panels with axes and marks, and arrangements of several panels.
 
 use crate::axis::Axis;
 use crate::style::{Color, WIDTH};
 
-/// A point in the units of a panel's axes.
+/// A point (x, y) in the units of a panel's axes.
 pub type Point = (f64, f64);
 
-/// One thing drawn in a panel. What lies beyond an axis stands at its end.
+/// One mark in a panel. Points beyond the end of an axis are drawn at that end.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
-    /// A curve.
+    /// A solid curve.
     Line {
-        /// Its points, from left to right.
+        /// Points from left to right.
         points: Vec<Point>,
-        /// Its colour.
+        /// Colour of the line.
         color: Color,
-        /// Its width in px.
+        /// Line width in px.
         width: f64,
     },
-    /// A broken line.
+    /// A dashed line.
     Dashes {
-        /// Its points.
+        /// Points from left to right.
         points: Vec<Point>,
-        /// Its colour.
+        /// Colour of the line.
         color: Color,
     },
-    /// Readings.
+    /// Dots, such as readings.
     Dots {
-        /// Where they are.
+        /// Centres of the dots.
         points: Vec<Point>,
-        /// Their colour.
+        /// Colour of the dots.
         color: Color,
-        /// Their radius in px.
+        /// Radius in px.
         radius: f64,
     },
-    /// A closed area, translucent.
+    /// A translucent polygon.
     Area {
-        /// Its outline.
+        /// Corners in order; the last joins the first.
         points: Vec<Point>,
-        /// Its colour.
+        /// Fill colour of the shape.
         color: Color,
-        /// From 0 to 1.
+        /// Opacity from 0 to 1.
         opacity: f64,
     },
-    /// A rectangle from one corner to the other.
+    /// A filled rectangle.
     Bar {
-        /// One corner.
+        /// One corner of the rectangle.
         from: Point,
-        /// The other.
+        /// The opposite corner.
         to: Point,
-        /// Its colour.
+        /// Fill colour of the shape.
         color: Color,
     },
-    /// Names beside points, set so that they do not cover each other.
+    /// Labels next to points, placed so that they do not overlap. Labels without space are
+    /// left out.
     Names {
-        /// Points and names, the most important first.
+        /// Points and labels, the most important first.
         names: Vec<(Point, String)>,
-        /// Dots that no name may cover.
+        /// Centres of dots that no label may cover.
         around: Vec<Point>,
-        /// Their colour.
+        /// Colour of the text.
         color: Color,
     },
 }
 
 impl Mark {
-    /// The band between two curves, `(x, low, high)` from left to right.
+    /// The band between two curves, given as `(x, low, high)` from left to right.
     #[must_use]
     pub fn band(edges: &[(f64, f64, f64)], color: Color) -> Self {
         let upper = edges.iter().map(|&(x, _, high)| (x, high));
@@ -74,64 +74,64 @@ impl Mark {
     }
 }
 
-/// How a key shows what it names.
+/// Symbol of an entry in the key (legend).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sign {
-    /// A stroke.
+pub enum KeySymbol {
+    /// A short solid line.
     Line,
-    /// A broken stroke.
+    /// A short dashed line.
     Dashes,
-    /// A row of dots.
+    /// Three dots in a row.
     Dots,
-    /// A patch.
+    /// A filled square.
     Patch,
 }
 
-/// What of an axis is written.
+/// Labels that are written along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shown {
-    /// Grid lines only; a neighbour's labels hold for this panel too.
-    Nothing,
-    /// The labels of the ticks.
-    Labels,
-    /// Labels and name.
+pub enum AxisLabels {
+    /// None, because the labels of a neighbouring panel hold for this one too.
+    None,
+    /// Tick labels only.
+    Ticks,
+    /// Tick labels and the name of the axis.
     All,
 }
 
-/// A rectangle in px.
+/// A rectangle in px; y points down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Frame {
-    /// Left edge.
+    /// Left edge in px.
     pub x: f64,
-    /// Upper edge.
+    /// Upper edge in px.
     pub y: f64,
-    /// Width.
+    /// Width in px.
     pub width: f64,
-    /// Height.
+    /// Height in px.
     pub height: f64,
 }
 
-/// A pair of axes with what is drawn in them.
+/// A pair of axes and the marks drawn in them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// Where the axes stand; set by the arrangement.
+    /// The rectangle between the axes; set by the arrangement ([`Chart::stacked`] and others).
     pub frame: Frame,
-    /// Above the frame, on its left.
+    /// Title above the frame, on the left; empty for none.
     pub title: String,
-    /// Above the frame, before the patches.
+    /// Note above the frame, left of the patches; empty for none.
     pub note: String,
     /// Patches of colour above the frame, on its right.
     pub patches: Vec<Color>,
-    /// The axis below.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis on the left.
+    /// The vertical axis.
     pub y: Axis,
-    /// What of them is written; set by the arrangement.
-    pub shown: (Shown, Shown),
-    /// From back to front.
+    /// Labels of the horizontal and vertical axis; set by the arrangement.
+    pub labels: (AxisLabels, AxisLabels),
+    /// Marks in the order of drawing, back to front.
     pub marks: Vec<Mark>,
-    /// What the marks are, above the frame behind the title.
-    pub key: Vec<(Sign, Color, String)>,
+    /// Entries of the key, above the frame to the right of the title.
+    pub key: Vec<(KeySymbol, Color, String)>,
 }
 
 impl Panel {
@@ -145,51 +145,52 @@ impl Panel {
             patches: Vec::new(),
             x,
             y,
-            shown: (Shown::All, Shown::All),
+            labels: (AxisLabels::All, AxisLabels::All),
             marks,
             key: Vec::new(),
         }
     }
 
-    /// The same with a title.
+    /// Sets the title.
     #[must_use]
-    pub fn titled(mut self, title: impl Into<String>) -> Self {
+    pub fn with_title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// The same with a note before its patches.
+    /// Sets the note left of the patches.
     #[must_use]
     pub fn with_note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
         self
     }
 
-    /// The same with patches of colour behind the title.
+    /// Sets the patches of colour above the frame.
     #[must_use]
     pub fn with_patches(mut self, patches: impl Into<Vec<Color>>) -> Self {
         self.patches = patches.into();
         self
     }
 
-    /// The same with one more entry of its key.
+    /// Adds an entry to the key.
     #[must_use]
-    pub fn with_key(mut self, sign: Sign, color: Color, name: impl Into<String>) -> Self {
-        self.key.push((sign, color, name.into()));
+    pub fn with_key(mut self, symbol: KeySymbol, color: Color, name: impl Into<String>) -> Self {
+        self.key.push((symbol, color, name.into()));
         self
     }
 }
 
-/// A figure of panels.
+/// A drawing that consists of panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     /// Width in px.
     pub width: u32,
     /// Height in px.
     pub height: u32,
-    /// Its panels.
+    /// The panels, each with its frame in the chart.
     pub panels: Vec<Panel>,
-    /// Names of axes that hold for all panels: below, and on the left.
+    /// Names of a horizontal and a vertical axis that hold for all panels; `None` where each
+    /// panel names its own.
     pub names: Option<(String, String)>,
 }
 
@@ -199,13 +200,13 @@ const TOP: f64 = 26.0;
 const BOTTOM: f64 = 44.0;
 
 impl Chart {
-    /// One panel, its frame `height` px high.
+    /// A chart with one panel, whose frame is `height` px high.
     #[must_use]
     pub fn single(panel: Panel, height: f64) -> Self {
         Self::stacked(vec![(panel, height)])
     }
 
-    /// Panels one below the other, each with the height of its frame in px.
+    /// Panels below each other, each with the height of its frame in px.
     #[must_use]
     pub fn stacked(panels: Vec<(Panel, f64)>) -> Self {
         let mut y = 0.0;
@@ -219,7 +220,7 @@ impl Chart {
         Self { width: WIDTH, height: y.ceil() as u32, panels, names: None }
     }
 
-    /// Panels side by side, of one width, each with its own axes.
+    /// Panels of equal width side by side, each with its own axes; frames are `height` px high.
     #[must_use]
     pub fn row(panels: Vec<Panel>, height: f64) -> Self {
         let count = panels.len().max(1) as f64;
@@ -233,15 +234,16 @@ impl Chart {
         Self { width: WIDTH, height: (TOP + height + BOTTOM).ceil() as u32, panels, names: None }
     }
 
-    /// Small multiples in `columns`, row by row, all on the axes of the first:
-    /// labels stand on the left and below the last of each column, names once.
+    /// Small multiples in `columns`, filled row by row, with frames `height` px high. All share
+    /// the axes of the first panel: tick labels are written on the left and below the last
+    /// panel of each column, axis names once.
     #[must_use]
     pub fn small_multiples(panels: Vec<Panel>, columns: usize, height: f64) -> Self {
         let names = panels.first().map(|panel| (panel.x.name.clone(), panel.y.name.clone()));
         let (gap, title) = (10.0, 18.0);
         let columns = columns.clamp(1, panels.len().max(1));
-        let room = f64::from(WIDTH) - LEFT - RIGHT - gap * (columns - 1) as f64;
-        let width = room / columns as f64;
+        let free_width = f64::from(WIDTH) - LEFT - RIGHT - gap * (columns - 1) as f64;
+        let width = free_width / columns as f64;
         let count = panels.len();
         let placed = panels.into_iter().enumerate().map(|(index, mut panel)| {
             let (row, column) = (index / columns, index % columns);
@@ -251,8 +253,8 @@ impl Chart {
                 width,
                 height,
             };
-            let shown = |some: bool| if some { Shown::Labels } else { Shown::Nothing };
-            panel.shown = (shown(index + columns >= count), shown(column == 0));
+            let labels = |ticks: bool| if ticks { AxisLabels::Ticks } else { AxisLabels::None };
+            panel.labels = (labels(index + columns >= count), labels(column == 0));
             panel
         });
         let panels = placed.collect();
@@ -267,12 +269,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_multiples_are_labelled_on_the_left_and_at_each_foot() {
+    fn small_multiples_have_tick_labels_on_the_left_and_below_each_column() {
         let axis = Axis::linear("x", "1", 0.0, 1.0, 2);
         let panel = Panel::new(axis.clone(), axis, Vec::new());
         let chart = Chart::small_multiples(vec![panel; 5], 3, 80.0);
-        let x: Vec<bool> = chart.panels.iter().map(|p| p.shown.0 == Shown::Labels).collect();
-        let y: Vec<bool> = chart.panels.iter().map(|p| p.shown.1 == Shown::Labels).collect();
+        let x: Vec<bool> = chart.panels.iter().map(|p| p.labels.0 == AxisLabels::Ticks).collect();
+        let y: Vec<bool> = chart.panels.iter().map(|p| p.labels.1 == AxisLabels::Ticks).collect();
         assert_eq!(x, [false, false, true, true, true]);
         assert_eq!(y, [true, false, false, true, false]);
         for panel in &chart.panels {

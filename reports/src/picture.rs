@@ -1,30 +1,30 @@
-//! Figures as PNG, twice as fine as on the screen; the only file that names
-//! resvg.
+//! Figures as PNG, with two pixels per px of the figure. The only file that uses the crate resvg.
 //!
-//! The fonts are those of this crate, none of the machine's, so that the same
-//! figure gives the same bytes everywhere.
+//! Fonts are built in rather than taken from the machine, so that a figure gives the same bytes
+//! everywhere.
 
 use std::sync::{Arc, OnceLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
 
+/// Pixels per px of the figure.
 const SCALE: f32 = 2.0;
 
-/// `svg` as the bytes of a PNG.
+/// Renders `svg` and returns the bytes of a PNG file.
 ///
 /// # Errors
-/// [`PictureError`] if `svg` is no SVG, or is empty or too large to paint.
+/// [`PictureError`] if `svg` is not an SVG document, or is empty or too large to render.
 pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
-    let wrong = |what: String| PictureError { what };
+    let error = |reason: String| PictureError { reason };
     let options = Options { fontdb: fonts(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(|error| wrong(error.to_string()))?;
+    let tree = Tree::from_str(svg, &options).map_err(|cause| error(cause.to_string()))?;
     let size = tree.size().to_int_size().scale_by(SCALE);
-    let size = size.ok_or_else(|| wrong("an empty drawing".to_owned()))?;
+    let size = size.ok_or_else(|| error("an empty drawing".to_owned()))?;
     let mut pixmap = Pixmap::new(size.width(), size.height())
-        .ok_or_else(|| wrong(format!("{} x {} px", size.width(), size.height())))?;
+        .ok_or_else(|| error(format!("{} x {} px", size.width(), size.height())))?;
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| wrong(error.to_string()))
+    pixmap.encode_png().map_err(|cause| error(cause.to_string()))
 }
 
 fn fonts() -> Arc<Database> {
@@ -43,12 +43,12 @@ fn fonts() -> Arc<Database> {
     Arc::clone(FONTS.get_or_init(load))
 }
 
-/// A drawing that cannot be painted.
+/// A drawing that cannot be rendered.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("a figure cannot be painted: {what}")]
+#[error("a figure cannot be rendered: {reason}")]
 pub struct PictureError {
-    /// Why.
-    pub what: String,
+    /// Reason, as text.
+    pub reason: String,
 }
 
 #[cfg(test)]
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_is_painted_with_the_fonts_at_hand() {
+    fn text_is_rendered_with_the_built_in_fonts() {
         let svg = |text: &str| {
             format!(
                 r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20" font-family="Nowhere,sans-serif"><text x="2" y="15" font-size="14" fill="#000000">{text}</text></svg>"##
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_drawing_is_refused() {
-        assert!(png("<b>no</b>").is_err(), "it is no SVG");
+    fn a_document_that_is_not_svg_is_an_error() {
+        assert!(png("<b>no</b>").is_err(), "it is not SVG");
     }
 }

@@ -1,4 +1,4 @@
-//! The report: sections in order, drawn side by side, and the files they make.
+//! The report: its sections, drawn in parallel, and the files made of them.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,7 +12,7 @@ use crate::page::{self, Head};
 use crate::picture::{PictureError, png};
 use crate::subject::{Section, Subject};
 
-/// What draws a section.
+/// A function that draws a section.
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
@@ -30,46 +30,21 @@ const SECTIONS: [Drawer; 11] = [
     crate::light::section,
 ];
 
-/// How many steps [`drawn`] reports.
+/// Number of times that [`Report::draw`] calls `step`.
 pub const STEPS: usize = SECTIONS.len();
 
-/// A report, drawn.
+/// A finished report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// What stands above the sections.
+    /// Title, facts and warnings above the sections.
     pub head: Head,
-    /// The sections that have something to show.
+    /// The sections that are not empty.
     pub sections: Vec<Section>,
     pictures: Vec<Vec<u8>>,
 }
 
-/// Draws every section of `subject` on all cores, calling `step` after each.
-///
-/// # Errors
-/// [`PictureError`] if a figure cannot be painted.
-///
-/// # Panics
-/// If drawing a section does.
-pub fn drawn(
-    subject: &Subject<'_>,
-    head: Head,
-    step: &(dyn Fn() + Sync),
-) -> Result<Report, PictureError> {
-    let mut sections = on_all_cores(&SECTIONS, |section| {
-        let section = section(subject);
-        step();
-        section
-    });
-    sections.retain(|section| !section.is_empty());
-    let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();
-    let pictures = on_all_cores(&figures, |figure| png(&figure.svg));
-    let pictures = pictures.into_iter().collect::<Result<_, _>>()?;
-    Ok(Report { head, sections, pictures })
-}
-
-/// What stands above the sections of a report on `subject`.
-#[must_use]
-pub fn head(subject: &Subject<'_>) -> Head {
+/// The head of a report on `subject`: title, facts and warnings.
+fn head(subject: &Subject<'_>) -> Head {
     let library = subject.library;
     let fact = |name: &str, fact: String| (name.to_owned(), fact);
     let mut facts = vec![
@@ -97,7 +72,7 @@ pub fn head(subject: &Subject<'_>) -> Head {
     facts.push(fact("Made by", subject.command.clone()));
     let mut warnings = Vec::new();
     for pigment in &library.pigments {
-        // A fit tells the same among its warnings.
+        // A fit repeats these notes among its warnings.
         if library.evidence.is_none() {
             warnings.extend(pigment.notes.iter().map(|note| format!("{}: {note}", pigment.name)));
         }
@@ -111,17 +86,17 @@ pub fn head(subject: &Subject<'_>) -> Head {
     Head { title: title.to_owned(), facts, warnings }
 }
 
-fn errors(count: usize, what: &str, errors: &Summary) -> String {
+fn errors(count: usize, items: &str, errors: &Summary) -> String {
     format!(
-        "{count} {what}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
+        "{count} {items}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
         errors.mean, errors.median, errors.p90, errors.max
     )
 }
 
-/// How many samples a warning names.
+/// Maximum number of samples that a warning names.
 const NAMED: usize = 20;
 
-/// What of the measurements is not shown, or not as it was measured.
+/// Warnings about measurements that the report leaves out or has resampled.
 #[must_use]
 pub fn absences(comparison: &Comparison) -> Vec<String> {
     let resampled = comparison
@@ -146,13 +121,34 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
 }
 
 impl Report {
-    /// Its figures, in the order of the page.
+    /// Draws all sections of `subject` on all cores. `step` is called [`STEPS`] times, after each
+    /// section, for a display of progress.
+    ///
+    /// # Errors
+    /// [`PictureError`] if a figure cannot be rendered as PNG.
+    ///
+    /// # Panics
+    /// If a drawing thread panics.
+    pub fn draw(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Result<Self, PictureError> {
+        let mut sections = on_all_cores(&SECTIONS, |section| {
+            let section = section(subject);
+            step();
+            section
+        });
+        sections.retain(|section| !section.is_empty());
+        let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();
+        let pictures = on_all_cores(&figures, |figure| png(&figure.svg));
+        let pictures = pictures.into_iter().collect::<Result<_, _>>()?;
+        Ok(Self { head: head(subject), sections, pictures })
+    }
+
+    /// All figures in the order of the page.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.sections.iter().flat_map(Section::figures)
     }
 
-    /// Its files with their contents, by path below the report's folder; the
-    /// page comes last, when all it links to is there.
+    /// The files of the report: path relative to its folder, and content. The page comes last,
+    /// so that all files it links to exist when it is written.
     #[must_use]
     pub fn files(&self) -> Vec<(String, Vec<u8>)> {
         let mut files = Vec::new();
@@ -168,7 +164,7 @@ impl Report {
     }
 }
 
-/// What `work` makes of each item, in their order.
+/// Applies `work` to each item on all cores. Results are in the order of the items.
 fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let made = Mutex::new(Vec::new());
@@ -195,7 +191,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_on_all_cores_keeps_its_order() {
+    fn results_from_all_cores_keep_the_order_of_the_items() {
         let items: Vec<u64> = (0..40).collect();
         let squares: Vec<u64> = items.iter().map(|i| i * i).collect();
         assert_eq!(on_all_cores(&items, |i| i * i), squares);

@@ -1,21 +1,22 @@
-//! What the fit leaves over, by wavelength.
+//! Section on the residuals of the fit by wavelength.
 
 use calibrate::comparison::ComparedFilm;
 use calibrate::evaluate::percentile;
 
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, Mark, Panel, Point, Sign};
+use crate::panel::{Chart, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
+/// Percentiles of the residuals; bands join the outer and the inner pair.
 const PERCENTS: [f64; 5] = [5.0, 25.0, 50.0, 75.0, 95.0];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("Residuals");
     match &subject.comparison {
-        Some(comparison) => section.with(figure(subject, &comparison.films)),
+        Some(comparison) => section.with_figure(figure(subject, &comparison.films)),
         None => section,
     }
 }
@@ -34,7 +35,7 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     let x = Axis::wavelength(grid, 50);
     let zero = Mark::Line { points: vec![(x.low, 0.0), (x.high, 0.0)], color: FAINT, width: HAIR };
     let mut columns =
-        vec![Column::words("sample or percentile"), Column::quantity("wavelength", "nm", 0)];
+        vec![Column::text("sample or percentile"), Column::quantity("wavelength", "nm", 0)];
     columns.push(Column::quantity("fitted - measured reflectance", "1", 4));
     let mut data = Table::new(columns);
     let mut marks = vec![zero.clone()];
@@ -47,7 +48,8 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
         marks.push(Mark::Line { points, color, width: 0.8 });
     }
     let all = bounds(&mut residuals.iter().flatten().copied());
-    let curves = Panel::new(x.clone(), all, marks).titled("Every sample, in its measured colour");
+    let curves =
+        Panel::new(x.clone(), all, marks).with_title("Every sample, in its measured colour");
 
     let at = |wavelength: usize| -> Vec<f64> { residuals.iter().map(|r| r[wavelength]).collect() };
     let percentiles: Vec<[f64; 5]> =
@@ -67,9 +69,9 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
         vec![zero, band(0, 4), band(1, 3), Mark::Line { points: median, color: INK, width: CURVE }];
     let y = bounds(&mut percentiles.iter().flatten().copied());
     let spread = Panel::new(x, y, marks)
-        .with_key(Sign::Line, INK, "median")
-        .with_key(Sign::Patch, SERIES[0].over_paper(0.44), "half of the samples")
-        .with_key(Sign::Patch, SERIES[0].over_paper(0.25), "nine tenths of the samples");
+        .with_key(KeySymbol::Line, INK, "median")
+        .with_key(KeySymbol::Patch, SERIES[0].over_paper(0.44), "half of the samples")
+        .with_key(KeySymbol::Patch, SERIES[0].over_paper(0.25), "nine tenths of the samples");
 
     let words = Words {
         name: "residuals",

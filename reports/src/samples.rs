@@ -1,5 +1,5 @@
-//! Every sample, measured and fitted, as in figure 8 of Baxter, Wendt and Lin
-//! (2004).
+//! Section with measured and fitted reflectance of each sample, after figure 8 of Baxter, Wendt
+//! and Lin (2004).
 
 use calibrate::comparison::{ComparedFilm, Comparison};
 
@@ -11,7 +11,7 @@ use crate::subject::{Section, Subject};
 use crate::table::{Column, Table};
 
 const COLUMNS: usize = 7;
-/// What a printed page holds.
+/// Rows of panels that fit on a printed page.
 const ROWS: usize = 12;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -22,10 +22,10 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let numbered = |index| (pages.len() > 1).then_some((index + 1, pages.len()));
     let figures = pages.iter().enumerate();
     let figures = figures.map(|(index, films)| figure(subject, films, numbered(index)));
-    figures.fold(section, Section::with)
+    figures.fold(section, Section::with_figure)
 }
 
-/// The films, by falling colour error.
+/// The films sorted by colour error, largest first.
 pub(crate) fn worst_first(comparison: &Comparison) -> Vec<&ComparedFilm> {
     let mut films: Vec<&ComparedFilm> = comparison.films.iter().collect();
     films.sort_by(|a, b| b.delta_e.total_cmp(&a.delta_e));
@@ -42,7 +42,7 @@ fn figure(
     let values = films.iter().flat_map(|film| film.measured.iter().chain(&film.predicted));
     let y = Axis::reflectance(values.copied().fold(0.0, f64::max), 2);
     let mut data = Table::new([
-        Column::words("sample"),
+        Column::text("sample"),
         Column::quantity("wavelength", "nm", 0),
         Column::quantity("measured reflectance", "1", 4),
         Column::quantity("fitted reflectance", "1", 4),
@@ -59,10 +59,10 @@ fn figure(
         let color = patches[0].for_line();
         let marks = vec![
             Mark::Line { points: points(&film.predicted), color, width: CURVE },
-            Mark::Dots { points: points(&film.measured), color: color.beside(), radius: DOT },
+            Mark::Dots { points: points(&film.measured), color: color.contrasting(), radius: DOT },
         ];
         let panel = Panel::new(x.clone(), y.clone(), marks)
-            .titled(subject.sample(film))
+            .with_title(subject.sample(film))
             .with_note(format!("{:.2}", film.delta_e))
             .with_patches(patches);
         panels.push(panel);

@@ -1,4 +1,4 @@
-//! What a report is about, and what its sections are made of.
+//! The subject of a report (library, viewing, measurements), and the sections drawn from it.
 
 use calibrate::comparison::{ComparedFilm, Comparison};
 use calibrate::evaluate::Viewing;
@@ -6,84 +6,85 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
 use calibrate::validation::Validation;
-use spectra::TristimulusWeights;
+use spectra::{InterpolateError, TristimulusWeights};
 
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::Color;
 use crate::table::Table;
 
-/// A library, how it is looked at, and what its measurements say of it.
+/// The input of a report: a library, the viewing condition, and its comparison with
+/// measurements.
 #[derive(Debug)]
 pub struct Subject<'a> {
-    /// The library.
+    /// The library to be drawn.
     pub library: &'a PigmentLibrary,
-    /// Light and observer of all colours and colour errors.
+    /// Light and observer for all colours and colour errors.
     pub viewing: &'a Viewing,
-    /// Weights of that light on the library's grid.
+    /// Tristimulus weights of `viewing` on the library's grid.
     pub weights: TristimulusWeights,
-    /// The command line that makes this report.
+    /// The command line that makes the report, printed with each figure.
     pub command: String,
-    /// Measured against predicted films; none without measurements.
+    /// Measured and predicted films; `None` without measurements.
     pub comparison: Option<Comparison>,
-    /// Mixtures predicted unseen; none if not asked for, or not possible.
+    /// Leave-one-out validation of mixtures; `None` if not requested or not possible.
     pub validation: Option<Validation>,
-    /// The black and the white card that films lie on.
+    /// Black and white card under the films.
     pub cards: Cards,
-    /// Ways to choose a few wavelengths for that light, by method and number.
+    /// Quadratures of a few wavelengths for `viewing`, by method and number of wavelengths.
     pub quadratures: Vec<QuadratureTrial>,
-    /// The two pigments of figures about a pair, chosen by the user.
+    /// The pigments of the graded mixture; `None` to choose pairs from the library.
     pub pair: Option<(usize, usize)>,
 }
 
-/// A part of the page under one heading.
+/// One section of the page.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Section {
-    /// Its heading.
+    /// Heading of the section.
     pub title: String,
-    /// Words before the figures, a paragraph each.
-    pub words: Vec<String>,
-    /// Figures and tables in order.
+    /// Paragraphs before the figures.
+    pub paragraphs: Vec<String>,
+    /// Figures and tables in the order of the page.
     pub parts: Vec<Part>,
 }
 
-/// A figure or a table.
+/// One figure or table of a section.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Part {
-    /// A figure.
+    /// A figure with its caption.
     Figure(Box<Figure>),
-    /// A table, with its title.
+    /// A table and its title.
     Table(String, Table),
 }
 
 impl Section {
-    /// A section without words and parts.
+    /// A section with only a heading.
     #[must_use]
     pub fn new(title: &str) -> Self {
         Self { title: title.to_owned(), ..Self::default() }
     }
 
-    /// The same with one more paragraph.
+    /// Adds a paragraph.
     #[must_use]
-    pub fn saying(mut self, words: impl Into<String>) -> Self {
-        self.words.push(words.into());
+    pub fn with_paragraph(mut self, text: impl Into<String>) -> Self {
+        self.paragraphs.push(text.into());
         self
     }
 
-    /// The same with one more figure.
+    /// Adds a figure.
     #[must_use]
-    pub fn with(mut self, figure: Figure) -> Self {
+    pub fn with_figure(mut self, figure: Figure) -> Self {
         self.parts.push(Part::Figure(Box::new(figure)));
         self
     }
 
-    /// The same with one more table.
+    /// Adds a table.
     #[must_use]
     pub fn with_table(mut self, title: &str, table: Table) -> Self {
         self.parts.push(Part::Table(title.to_owned(), table));
         self
     }
 
-    /// Its figures.
+    /// The figures of the section, in order.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.parts.iter().filter_map(|part| match part {
             Part::Figure(figure) => Some(figure.as_ref()),
@@ -91,47 +92,72 @@ impl Section {
         })
     }
 
-    /// Whether there is nothing to show.
+    /// Returns whether the section has neither paragraphs nor figures nor tables.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.parts.is_empty()
+        self.paragraphs.is_empty() && self.parts.is_empty()
+    }
+}
+
+impl<'a> Subject<'a> {
+    /// A report on a library alone, without measurements. `command` is printed with each figure.
+    ///
+    /// # Errors
+    /// Never in practice: the interpolation of the weights is chosen to suit the grid.
+    pub fn of_library(
+        library: &'a PigmentLibrary,
+        viewing: &'a Viewing,
+        command: impl Into<String>,
+    ) -> Result<Self, InterpolateError> {
+        Ok(Self {
+            library,
+            viewing,
+            weights: viewing.weights(library.grid)?,
+            command: command.into(),
+            comparison: None,
+            validation: None,
+            cards: Cards::standard(library.grid),
+            quadratures: Vec::new(),
+            pair: None,
+        })
     }
 }
 
 impl Subject<'_> {
-    /// A figure of this report.
+    /// Makes a figure with the command line of this report.
     ///
     /// # Panics
-    /// As [`Figure::new`].
+    /// If the name is not fit for a file (see [`Figure::new`]).
     #[must_use]
     pub fn figure(&self, words: Words<'_>, drawing: Drawing, data: Table) -> Figure {
         Figure::new(words, &self.command, drawing, data)
     }
 
-    /// The colour of a reflectance on the library's grid, as a patch.
+    /// The colour of a reflectance on the library's grid, for a patch.
     #[must_use]
     pub fn color(&self, reflectance: &[f64]) -> Color {
-        Color::of(self.weights.xyz(reflectance), self.weights.white())
+        Color::from_xyz(self.weights.xyz(reflectance), self.weights.white())
     }
 
-    /// The masstone of a pigment in a film that hides, as a patch.
+    /// The masstone of a pigment (an opaque film), for a patch.
     ///
     /// # Panics
-    /// If the library has no such pigment.
+    /// If the library has no pigment of this index.
     #[must_use]
     pub fn masstone(&self, pigment: usize) -> Color {
         let mixture = self.library.mix(&[(pigment, 1.0)]).expect("one part makes a mixture");
         self.color(&mixture.hiding(self.library.saunderson))
     }
 
-    /// A pigment's name, marked where its K and S are no measurement.
+    /// A pigment's name, followed by its mark ([`Subject::mark`]) in brackets if it has one.
     #[must_use]
     pub fn label(&self, pigment: usize) -> String {
         let name = &self.library.pigments[pigment].name;
         self.mark(pigment).map_or_else(|| name.clone(), |mark| format!("{name} ({mark})"))
     }
 
-    /// Why a pigment's K and S are no measurement; nothing if they are one.
+    /// Why a pigment's K and S are not measured: `guessed` from a colour, or `S unknown`. `None`
+    /// if both are measured.
     #[must_use]
     pub fn mark(&self, pigment: usize) -> Option<&'static str> {
         let pigment = &self.library.pigments[pigment];
@@ -142,14 +168,13 @@ impl Subject<'_> {
         }
     }
 
-    /// A sample's name, with a star where its recipe holds a pigment whose K and
-    /// S are no measurement.
+    /// A sample's name, with a star if its recipe has a pigment whose K and S are not measured.
     #[must_use]
     pub fn sample(&self, film: &ComparedFilm) -> String {
         format!("{}{}", film.sample, if film.unsure { "*" } else { "" })
     }
 
-    /// A recipe in words: percent of shares, or amounts as they are.
+    /// A recipe as text: percentages for a library of relative amounts, else the amounts.
     #[must_use]
     pub fn recipe(&self, recipe: &[(usize, f64)]) -> String {
         let absolute = self.library.amounts == AmountKind::Absolute;
@@ -164,7 +189,7 @@ impl Subject<'_> {
         recipe.iter().map(part).collect::<Vec<_>>().join(" + ")
     }
 
-    /// The unit of K and S.
+    /// The unit of K and S, as text.
     #[must_use]
     pub fn unit(&self) -> String {
         match (&self.library.reference, self.library.amounts) {
@@ -174,14 +199,14 @@ impl Subject<'_> {
         }
     }
 
-    /// Light and observer in words.
+    /// Light and observer as text.
     #[must_use]
     pub fn light(&self) -> String {
         format!("{}, observer {}", self.viewing.illuminant.name(), self.viewing.observer)
     }
 }
 
-/// A number to three significant digits.
+/// `value` rounded to three significant digits.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -1,10 +1,10 @@
-//! Elements of SVG, escaped.
+//! SVG elements, with escaped text.
 
 use std::fmt::Write;
 
 use crate::style::{Color, FONTS};
 
-/// `text` as the content or an attribute of an element.
+/// Escapes `text` for the content or an attribute of an XML element.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -15,7 +15,7 @@ pub fn escaped(text: &str) -> String {
             '&' => out.push_str("&amp;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&apos;"),
-            // No document may hold other control characters.
+            // XML allows no control characters.
             c if c.is_control() => out.push(' '),
             c => out.push(c),
         }
@@ -23,25 +23,25 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// Where a text stands from its point.
+/// Horizontal position of a text relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// To the right of it.
+    /// The text starts at the point.
     Start,
-    /// On it.
+    /// The text is centred on the point.
     Middle,
-    /// To the left of it.
+    /// The text ends at the point.
     End,
 }
 
-/// A picture drawn element by element: patches and words, for what is no chart.
+/// An SVG drawing of rectangles, lines and text, for figures that are not charts.
 #[derive(Debug, Clone)]
 pub struct Canvas {
     text: String,
 }
 
 impl Canvas {
-    /// An empty paper of `width` x `height` px.
+    /// An empty drawing of `width` x `height` px in the colour of paper.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         let mut canvas = Self { text: opening(width, height, 1) };
@@ -50,7 +50,7 @@ impl Canvas {
         canvas
     }
 
-    /// A filled rectangle, `at` its upper left corner, in px.
+    /// Draws a filled rectangle with its upper left corner `at`, in px.
     pub fn rectangle(&mut self, at: (f64, f64), size: (f64, f64), fill: Color) {
         let ((x, y), (width, height)) = (at, size);
         let fill = fill.hex();
@@ -59,7 +59,7 @@ impl Canvas {
         ));
     }
 
-    /// A straight line.
+    /// Draws a straight line of `width` px.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), width: f64, color: Color) {
         let ((x1, y1), (x2, y2)) = (from, to);
         let color = color.hex();
@@ -68,7 +68,7 @@ impl Canvas {
         ));
     }
 
-    /// A line of text, `at` its middle height.
+    /// Draws a line of text, vertically centred at `at`; `size` is the font size in px.
     pub fn text(&mut self, at: (f64, f64), size: f64, anchor: Anchor, color: Color, text: &str) {
         let (x, y) = (at.0, at.1 + 0.35 * size);
         let anchor = match anchor {
@@ -82,7 +82,7 @@ impl Canvas {
         ));
     }
 
-    /// A line of text that reads upwards, `at` its foot and middle height.
+    /// Draws a line of text that reads upwards and starts at `at`.
     pub fn text_upwards(&mut self, at: (f64, f64), size: f64, color: Color, text: &str) {
         let (x, y) = (at.0 + 0.35 * size, at.1);
         let (color, text) = (color.hex(), escaped(text));
@@ -91,21 +91,21 @@ impl Canvas {
         ));
     }
 
-    /// The document.
+    /// Closes the document and returns it.
     #[must_use]
-    pub fn finished(mut self) -> String {
+    pub fn into_svg(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
 
     fn element(&mut self, element: std::fmt::Arguments<'_>) {
-        self.text.write_fmt(element).expect("memory takes any text");
+        self.text.write_fmt(element).expect("writing to memory does not fail");
         self.text.push('\n');
     }
 }
 
-/// The opening of a document of `width` x `height` px, drawn in `fine` units to
-/// a px.
+/// The opening tag of a document of `width` x `height` px, whose view box has `fine` units per
+/// px.
 #[must_use]
 pub fn opening(width: u32, height: u32, fine: u32) -> String {
     let (w, h) = (width * fine, height * fine);
@@ -115,8 +115,8 @@ pub fn opening(width: u32, height: u32, fine: u32) -> String {
     )
 }
 
-/// The width of `text` in px, roughly, for one of the wider fonts: there is none
-/// that a page is sure to find.
+/// Approximate width of `text` in px at font size `size`, for a wide sans-serif font. The font
+/// that a page will find is not known.
 #[must_use]
 pub fn estimated_width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
@@ -130,7 +130,7 @@ pub fn estimated_width(text: &str, size: f64) -> f64 {
     size * text.chars().map(em).sum::<f64>()
 }
 
-/// `text` cut to a width in px, three points where something is missing.
+/// `text` cut to `width` px, with an ellipsis where something is missing.
 #[must_use]
 pub fn shortened(text: &str, size: f64, width: f64) -> String {
     if estimated_width(text, size) <= width {
@@ -146,16 +146,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn markup_in_names_stays_text() {
+    fn markup_in_text_is_escaped() {
         assert_eq!(escaped("<b>&\"'\u{7}"), "&lt;b&gt;&amp;&quot;&apos; ");
         let mut canvas = Canvas::new(10, 10);
         canvas.text((1.0, 1.0), 10.0, Anchor::Start, crate::style::INK, "</text><b>");
-        let drawn = canvas.finished();
-        assert!(drawn.contains("&lt;/text&gt;&lt;b&gt;</text>"), "{drawn}");
+        let svg = canvas.into_svg();
+        assert!(svg.contains("&lt;/text&gt;&lt;b&gt;</text>"), "{svg}");
     }
 
     #[test]
-    fn long_names_are_cut_to_their_room() {
+    fn long_names_are_cut_to_their_width() {
         assert_eq!(shortened("short", 10.0, 100.0), "short");
         let cut = shortened("a very long name of a pigment", 10.0, 60.0);
         assert!(cut.ends_with('\u{2026}') && cut.starts_with("a very"), "{cut}");

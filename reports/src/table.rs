@@ -1,34 +1,34 @@
-//! Tables: the numbers beside a figure as CSV, and tables of the page.
+//! Tables: the data of a figure as CSV, and tables of the page.
 
 use calibrate::digits::rounded;
 
 use crate::style::Color;
 
-/// A column.
+/// Heading and format of a column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
-    /// What it holds.
+    /// Name of the column.
     pub name: String,
-    /// The unit of a quantity; none for words. A ratio has the unit `1`.
+    /// Unit of a quantity, `1` for a ratio; `None` for text.
     pub unit: Option<String>,
-    /// Digits behind the point on a page.
+    /// Number of decimals on the page.
     pub digits: usize,
 }
 
 impl Column {
-    /// A column of words.
+    /// A column of text.
     #[must_use]
-    pub fn words(name: &str) -> Self {
+    pub fn text(name: &str) -> Self {
         Self { name: name.to_owned(), unit: None, digits: 0 }
     }
 
-    /// A column of quantities.
+    /// A column of numbers with `digits` decimals on the page.
     #[must_use]
     pub fn quantity(name: &str, unit: &str, digits: usize) -> Self {
         Self { name: name.to_owned(), unit: Some(unit.to_owned()), digits }
     }
 
-    /// `name [unit]`, or the name alone.
+    /// The heading in a CSV file: `name [unit]`, or the name of a column of text.
     #[must_use]
     pub fn header(&self) -> String {
         match &self.unit {
@@ -38,28 +38,28 @@ impl Column {
     }
 }
 
-/// A cell.
+/// The content of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
-    /// Words.
-    Words(String),
+    /// Plain text, escaped when written.
+    Text(String),
     /// A number in its column's unit.
     Number(f64),
     /// A colour: a patch on a page, `#RRGGBB` in a file.
     Patch(Color),
-    /// Nothing known.
+    /// Empty: the value is not known or does not apply.
     Empty,
 }
 
 impl From<&str> for Cell {
-    fn from(words: &str) -> Self {
-        Self::Words(words.to_owned())
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
     }
 }
 
 impl From<String> for Cell {
-    fn from(words: String) -> Self {
-        Self::Words(words)
+    fn from(text: String) -> Self {
+        Self::Text(text)
     }
 }
 
@@ -84,7 +84,7 @@ impl From<Option<f64>> for Cell {
 /// Rows of cells under named columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// The columns.
+    /// Headings of the columns.
     pub columns: Vec<Column>,
     /// The rows, each with a cell for every column.
     pub rows: Vec<Vec<Cell>>,
@@ -97,36 +97,36 @@ impl Table {
         Self { columns: columns.into(), rows: Vec::new() }
     }
 
-    /// Adds a row.
+    /// Appends a row.
     ///
     /// # Panics
-    /// If it has not one cell for each column.
+    /// If the number of cells differs from the number of columns.
     pub fn push(&mut self, row: impl Into<Vec<Cell>>) {
         let row = row.into();
         assert_eq!(row.len(), self.columns.len(), "one cell for each column");
         self.rows.push(row);
     }
 
-    /// As CSV, numbers to six significant digits.
+    /// The table as CSV, with numbers rounded to six significant digits.
     ///
     /// # Panics
-    /// Never: memory takes any text.
+    /// Never: the CSV is written to memory.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = self.columns.iter().map(Column::header);
-        writer.write_record(header).expect("memory takes any text");
+        writer.write_record(header).expect("writing to memory does not fail");
         for row in &self.rows {
             let cells = row.iter().map(|cell| match cell {
-                Cell::Words(words) => words.clone(),
+                Cell::Text(text) => text.clone(),
                 Cell::Number(number) => format!("{}", rounded(*number)),
                 Cell::Patch(color) => color.hex(),
                 Cell::Empty => String::new(),
             });
-            writer.write_record(cells).expect("each row has every column");
+            writer.write_record(cells).expect("all rows have the same number of cells");
         }
-        let bytes = writer.into_inner().expect("memory takes any text");
-        String::from_utf8(bytes).expect("text was written")
+        let bytes = writer.into_inner().expect("writing to memory does not fail");
+        String::from_utf8(bytes).expect("only valid UTF-8 was written")
     }
 }
 
@@ -135,9 +135,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn csv_names_units_and_quotes_what_needs_it() {
+    fn csv_headings_have_units_and_special_characters_are_quoted() {
         let mut table =
-            Table::new([Column::words("pigment"), Column::quantity("wavelength", "nm", 0)]);
+            Table::new([Column::text("pigment"), Column::quantity("wavelength", "nm", 0)]);
         table.push([Cell::from("a, \"b\""), Cell::from(400.000_000_1)]);
         table.push([Cell::from("c"), Cell::Empty]);
         assert_eq!(table.csv(), "pigment,wavelength [nm]\n\"a, \"\"b\"\"\",400\nc,\n");

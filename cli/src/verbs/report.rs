@@ -11,8 +11,7 @@ use calibrate::quadrature::QuadratureTrial;
 use calibrate::swatch::SwatchSet;
 use calibrate::validation::Validation;
 use clap::Args;
-use reports::report::{STEPS, drawn, head};
-use reports::subject::Subject;
+use reports::{STEPS, Subject};
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -76,7 +75,7 @@ impl Report {
         let measured = self.comparable(&library, console)?;
         let comparison = measured.as_ref().map(|set| set.with(&library, &viewing)).transpose()?;
         if let Some(comparison) = &comparison {
-            console.warnings(&reports::report::absences(comparison))?;
+            console.warnings(&reports::absences(comparison))?;
         }
         let cards = measured.as_ref().map(|measured| measured.set.cards(&weights));
         let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
@@ -104,7 +103,7 @@ impl Report {
             quadratures,
             pair,
         };
-        let report = drawn(&subject, head(&subject), &step)?;
+        let report = reports::Report::draw(&subject, &step)?;
         progress.done();
         self.write(&report, page)?;
         self.tell(&report, &subject, console)
@@ -137,7 +136,7 @@ impl Report {
     }
 
     /// Writes the figures, and last the page that shows them.
-    fn write(&self, report: &reports::report::Report, page: Output) -> anyhow::Result<()> {
+    fn write(&self, report: &reports::Report, page: Output) -> anyhow::Result<()> {
         let inputs = self.inputs();
         let mut outputs = Vec::new();
         let mut page = Some(page);
@@ -154,7 +153,7 @@ impl Report {
 
     fn tell(
         &self,
-        report: &reports::report::Report,
+        report: &reports::Report,
         subject: &Subject<'_>,
         console: &mut Console<'_>,
     ) -> anyhow::Result<()> {

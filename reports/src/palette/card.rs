@@ -1,30 +1,36 @@
-//! Drawdowns as they lie on the bench: stripes over a black-and-white card.
+//! Drawdowns: stripes of paint over a black-and-white card.
 
 use calibrate::palette::{Drawdown, Palette, drawdowns};
 
 use super::cells::{columns, row};
+use super::context::{NOTCH, thickness_unit};
 use super::patch::{notched_below, patch, rim};
-use super::{NOTCH, strength::unit};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::Subject;
 use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Column, Table};
 
-/// Thin to thick.
+/// Thicknesses of the stripes, in the unit of [`thickness_unit`]; chosen by eye.
 const THICKNESSES: [f64; 5] = [0.3, 1.0, 3.0, 10.0, 30.0];
+/// Cards in a row.
 const COLUMNS: usize = 6;
+/// Width and height of a card, in px.
 const CARD: (f64, f64) = (140.0, 84.0);
+/// Width of a stripe, in px.
 const STRIPE: f64 = 20.0;
+/// Space between cards, in px.
 const GAP: f64 = 18.0;
+/// Height for the name above a card, in px.
 const HEAD: f64 = 22.0;
+/// Height for the thicknesses below a card, in px.
 const FOOT: f64 = 20.0;
 
 pub(super) fn figure(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let drawn = drawdowns(palette, &THICKNESSES);
-    let unit = unit(palette);
+    let unit = thickness_unit(palette);
     let own =
-        [Column::words("pigment"), Column::quantity("thickness", &unit, 1), Column::words("card")];
+        [Column::text("pigment"), Column::quantity("thickness", &unit, 1), Column::text("card")];
     let mut data = Table::new(columns(own));
     for drawdown in &drawn {
         let name = subject.label(drawdown.paint);
@@ -66,7 +72,7 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
         rim(&mut canvas, (x, y), CARD);
         patch(&mut canvas, (x, y), (CARD.0, half), &white);
         patch(&mut canvas, (x, y + half), (CARD.0, half), &black);
-        // The film stops short of the card's edges, as a drawdown does.
+        // A drawdown leaves the edge of the card free.
         let (top, length) = (y + 8.0, half - 8.0);
         let step_width = CARD.0 / (THICKNESSES.len() + 1) as f64;
         for (place, step) in drawdown.steps.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a palette can mix, drawn.
+//! Section on the gamut of a palette.
 
 use std::collections::BTreeMap;
 
@@ -7,43 +7,46 @@ use calibrate::palette::{
 };
 
 use super::cells::{columns, row};
-use super::{films, palette, thinner};
+use super::context::{films, palette, thinner};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, Mark, Panel, Sign};
+use crate::panel::{Chart, KeySymbol, Mark, Panel};
 use crate::style::{Color, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 use crate::table::{Cell, Column, Table};
 
-/// Sectors of an outline.
+/// Number of sectors of an outline.
 const SECTORS: usize = 72;
-/// Side of a cell of a*, b*, and of x, y.
+/// Side of a cell in units of a*, b*, and in units of x, y.
 const CELLS: [f64; 2] = [4.0, 0.015];
-/// Sectors of the outline of a band, of which fewer samples tell.
+/// Number of sectors in the outline of a band of lightness, which has fewer samples.
 const BAND_SECTORS: usize = 36;
-/// Chroma from which a masstone is named.
+/// Minimum chroma of masstones that are labelled.
 const NAMED: f64 = 12.0;
+/// Bands of L*.
 const BANDS: [[f64; 2]; 5] = [[0.0, 20.0], [20.0, 40.0], [40.0, 60.0], [60.0, 80.0], [80.0, 100.0]];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("The colours within reach");
     let Some(palette) = palette(subject) else { return section };
     let gamut = sampled_gamut(&palette);
-    section.with(planes(subject, &palette, &gamut)).with(bands(subject, &palette, &gamut))
+    section
+        .with_figure(planes(subject, &palette, &gamut))
+        .with_figure(bands(subject, &palette, &gamut))
 }
 
 fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure {
     let (lab, xy) = (gamut.in_lab([0.0, 100.0], SECTORS), gamut.in_xy(SECTORS));
     let mut data = Table::new(columns(outline_columns("plane", "u", "v")));
-    tell(&mut data, palette, gamut, &lab, "a*, b*");
-    tell(&mut data, palette, gamut, &xy, "x, y");
+    push_outline(&mut data, palette, gamut, &lab, "a*, b*");
+    push_outline(&mut data, palette, gamut, &xy, "x, y");
 
     let [a, b] = axes(&lab);
     let mut marks = field(gamut, CELLS[0], |sample| Some(lab_place(sample)));
     marks.push(outline(&lab, 1.2));
     marks.extend(masstones(subject, palette, gamut, lab_place));
     let title = format!("a*, b* (area {:.0})", lab.area());
-    let plane = Panel::new(a, b, marks).titled(title);
+    let plane = Panel::new(a, b, marks).with_title(title);
 
     let chromaticity = |sample: &GamutSample| {
         let white = palette.weights().white();
@@ -65,8 +68,8 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     marks.push(Mark::Names { names, around: Vec::new(), color: FAINT });
     let axis = |name: &str| Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) };
     let chart = Panel::new(axis("Chromaticity x"), axis("Chromaticity y"), marks)
-        .with_key(Sign::Line, FAINT, "spectrum (nm)")
-        .with_key(Sign::Dashes, SERIES[0], "sRGB");
+        .with_key(KeySymbol::Line, FAINT, "spectrum (nm)")
+        .with_key(KeySymbol::Dashes, SERIES[0], "sRGB");
 
     let caption = format!(
         "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, random mixtures of three and four, and mixtures of neighbours where there were gaps. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
@@ -98,7 +101,7 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
         let [low, high] = band;
         let title = format!("L* {low} to {high}");
         let edge = gamut.in_lab(band, BAND_SECTORS);
-        tell(&mut data, palette, gamut, &edge, &title);
+        push_outline(&mut data, palette, gamut, &edge, &title);
         let inside = |sample: &GamutSample| {
             (low..=high).contains(&lightness(sample)).then(|| lab_place(sample))
         };
@@ -107,7 +110,7 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
         marks.push(outline(&edge, 1.0));
         let few = |axis: &Axis| Axis::linear("", "", axis.low, axis.high, 3).ticks;
         let with = |axis: &Axis| Axis { ticks: few(axis), ..axis.clone() };
-        Panel::new(with(&a), with(&b), marks).titled(title)
+        Panel::new(with(&a), with(&b), marks).with_title(title)
     });
     let caption = "The mixtures of the last figure by lightness, their outline dark, that of all of them thin.";
     let words = Words {
@@ -125,7 +128,7 @@ fn lab_place(sample: &GamutSample) -> [f64; 2] {
     [sample.color.lab.a, sample.color.lab.b]
 }
 
-/// Two axes of one range, that a circle stays round.
+/// Axes of a* and b* with one range, so that a circle stays round.
 fn axes(whole: &Boundary) -> [Axis; 2] {
     let all = || whole.polygon().into_iter().flatten();
     let low = (all().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
@@ -133,7 +136,7 @@ fn axes(whole: &Boundary) -> [Axis; 2] {
     ["a*", "b*"].map(|name| Axis { name: name.to_owned(), ..Axis::linear("", "", low, high, 8) })
 }
 
-/// Square cells in the colour of the lightest sample in each.
+/// Square cells of side `cell`, each in the colour of its lightest sample.
 fn field(gamut: &Gamut, cell: f64, place: impl Fn(&GamutSample) -> Option<[f64; 2]>) -> Vec<Mark> {
     let mut lightest: BTreeMap<(i64, i64), &GamutSample> = BTreeMap::new();
     for sample in &gamut.samples {
@@ -146,7 +149,7 @@ fn field(gamut: &Gamut, cell: f64, place: impl Fn(&GamutSample) -> Option<[f64; 
     }
     let mark = |((x, y), sample): ((i64, i64), &GamutSample)| {
         let from = (x as f64 * cell, y as f64 * cell);
-        let color = Color::shown(sample.color.srgb);
+        let color = Color::from_rgb(sample.color.srgb);
         Mark::Bar { from, to: (from.0 + cell, from.1 + cell), color }
     };
     lightest.into_iter().map(mark).collect()
@@ -162,7 +165,7 @@ fn outline(boundary: &Boundary, width: f64) -> Mark {
     Mark::Line { points: closed(boundary), color: INK, width }
 }
 
-/// A dot and a name for each masstone.
+/// A dot for each masstone, and a label if its chroma is at least [`NAMED`].
 fn masstones(
     subject: &Subject<'_>,
     palette: &Palette<'_>,
@@ -178,30 +181,37 @@ fn masstones(
     let mut names: Vec<((f64, f64), String)> = named.collect();
     let points: Vec<(f64, f64)> = names.iter().map(|(at, _)| *at).collect();
     let around = points.clone();
-    // Greys would cover each other; the vivid come first.
+    // Labels of greys would overlap; chromatic pigments come first.
     let far = |((x, y), _): &((f64, f64), String)| x.hypot(*y);
     names.retain(|name| far(name) >= NAMED);
     names.sort_by(|a, b| far(b).total_cmp(&far(a)));
     [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
 }
 
-fn outline_columns(what: &str, first: &str, second: &str) -> [Column; 5] {
+fn outline_columns(group: &str, first: &str, second: &str) -> [Column; 5] {
     [
-        Column::words(what),
+        Column::text(group),
         Column::quantity("angle from", "degrees", 0),
         Column::quantity(first, "1", 4),
         Column::quantity(second, "1", 4),
-        Column::words("mixture"),
+        Column::text("mixture"),
     ]
 }
 
-fn tell(data: &mut Table, palette: &Palette<'_>, gamut: &Gamut, boundary: &Boundary, what: &str) {
+/// Appends the outermost sample of each sector to `data`; `group` goes into the first column.
+fn push_outline(
+    data: &mut Table,
+    palette: &Palette<'_>,
+    gamut: &Gamut,
+    boundary: &Boundary,
+    group: &str,
+) {
     let width = 360.0 / boundary.sectors.len() as f64;
     for (sector, outer) in boundary.sectors.iter().enumerate() {
         let Some(([x, y], index)) = *outer else { continue };
         let sample = &gamut.samples[index];
         let own: [Cell; 5] = [
-            what.into(),
+            group.into(),
             (sector as f64 * width).into(),
             x.into(),
             y.into(),

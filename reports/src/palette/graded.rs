@@ -1,4 +1,4 @@
-//! Mixtures from one paint to another in several ways, drawn.
+//! Section on graded mixtures from one paint to another, computed in several ways.
 
 use calibrate::palette::{
     GradedMixture, MeasuredSample, MixingRow, PainterRules, Palette, default_pairs, graded,
@@ -6,18 +6,23 @@ use calibrate::palette::{
 use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
 
 use super::cells::{columns, row};
+use super::context::{NOTCH, films, measured, palette};
 use super::patch::rimmed;
-use super::{NOTCH, films, measured, palette};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
 use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Cell, Column, Table};
 
+/// Width for the names, in px.
 const NAME: f64 = 112.0;
+/// Width for the mean errors, in px.
 const MEAN: f64 = 84.0;
+/// Height of a patch, in px.
 const PATCH: f64 = 40.0;
+/// Height of a row, in px.
 const ROW: f64 = 60.0;
+/// Height above the first row, in px.
 const HEAD: f64 = 40.0;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -30,7 +35,7 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     };
     let unknown = |p: &usize| !palette.paints().contains(p);
     if let Some(left_out) = pairs.iter().flat_map(|(a, b)| [*a, *b]).find(unknown) {
-        return section.saying(format!(
+        return section.with_paragraph(format!(
             "{} takes no part in mixtures: its scattering is not known.",
             subject.label(left_out)
         ));
@@ -40,11 +45,11 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     }
     let rules = rules(subject, &palette);
     pairs.into_iter().enumerate().fold(section, |section, (index, pair)| {
-        section.with(figure(subject, &palette, (index + 1, pair), &measured, &rules))
+        section.with_figure(figure(subject, &palette, (index + 1, pair), &measured, &rules))
     })
 }
 
-/// The rules that the report has tried, else made now.
+/// Quadratures of three and eight wavelengths: those of the report if it has them, else new ones.
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
     let tried = |count: usize| {
         let mut trials = subject.quadratures.iter();
@@ -70,10 +75,10 @@ fn figure(
     let (first, second) = (subject.label(pair.0), subject.label(pair.1));
     let own = [
         Column::quantity(&format!("share of {second}"), "%", 2),
-        Column::words("way"),
-        Column::words("sample"),
+        Column::text("way"),
+        Column::text("sample"),
         Column::quantity("CIEDE2000", "1", 2),
-        Column::words("from"),
+        Column::text("from"),
     ];
     let mut data = Table::new(columns(own));
     for step in &mixture.steps {
@@ -147,8 +152,8 @@ fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
         }
         for (measured, dy, color) in [(true, 12.0, INK), (false, 28.0, FAINT)] {
             let Some((mean, count)) = mixture.mean_error(way, measured) else { continue };
-            let told = format!("{mean:.2} of {count}");
-            canvas.text((right + 8.0, y + dy), SMALL_TEXT, Anchor::Start, color, &told);
+            let label = format!("{mean:.2} of {count}");
+            canvas.text((right + 8.0, y + dy), SMALL_TEXT, Anchor::Start, color, &label);
         }
     }
     canvas

@@ -1,37 +1,38 @@
-//! Colours under other lights, drawn.
+//! Section on colours under other lights: colour shifts and metameric pairs.
 
 use calibrate::palette::{
     ColorShift, Metamers, Palette, Recipe, TestLight, color_shifts, metamers, test_lights,
 };
 
 use super::cells::{columns, row};
+use super::context::{NOTCH, films, measured, palette, thinner};
 use super::patch::{patch, rim};
-use super::{NOTCH, films, measured, palette, thinner};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
 use crate::svg::{Anchor, Canvas, shortened};
 use crate::table::{Cell, Column, Table};
 
-/// Parts of white to one in the tint that is shown beside the masstone.
+/// Parts of white to one part of pigment in the tint next to the masstone.
 const TINT: f64 = 3.0;
-/// Pairs nearer than this, in CIEDE2000, are nearly alike.
+/// Maximum CIEDE2000 difference of a metameric pair under the first light; chosen by eye.
 const ALIKE: f64 = 2.0;
+/// Maximum number of metameric pairs shown.
 const PAIRS: usize = 8;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("Under other lights");
     let Some(palette) = palette(subject) else { return section };
     let lights = test_lights(&palette);
-    let section = section.with(shifts(subject, &palette, &lights));
+    let section = section.with_figure(shifts(subject, &palette, &lights));
     let pairs = metamers(&palette, &lights, &measured(subject, &palette), ALIKE, PAIRS);
     if pairs.is_empty() {
-        return section.saying(format!(
+        return section.with_paragraph(format!(
             "No two mixtures that were tried come within {ALIKE} CIEDE2000 of each other under {}.",
             lights[0].name
         ));
     }
-    section.with(parting(subject, &palette, &lights, &pairs))
+    section.with_figure(metameric_pairs(subject, &palette, &lights, &pairs))
 }
 
 fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) -> Figure {
@@ -41,8 +42,8 @@ fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) ->
     let shifts = color_shifts(palette, lights, &recipes);
     let first = &lights[0].name;
     let own = [
-        Column::words("mixture"),
-        Column::words("light"),
+        Column::text("mixture"),
+        Column::text("light"),
         Column::quantity(&format!("CIEDE2000 from {first}"), "1", 2),
     ];
     let mut data = Table::new(columns(own));
@@ -69,7 +70,8 @@ fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) ->
     subject.figure(words, Drawing::Canvas(shift_rows(lights, &names, &shifts)), data)
 }
 
-/// Masstone and tint of each pigment, in two blocks side by side.
+/// Draws masstone and tint of each pigment under each light, in two columns of pigments if there
+/// are more than six.
 fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColorShift]) -> Canvas {
     const NAME: f64 = 160.0;
     const ROW: f64 = 40.0;
@@ -114,7 +116,7 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColorShift]) -> 
     canvas
 }
 
-fn parting(
+fn metameric_pairs(
     subject: &Subject<'_>,
     palette: &Palette<'_>,
     lights: &[TestLight],
@@ -122,8 +124,8 @@ fn parting(
 ) -> Figure {
     let own = [
         Column::quantity("pair", "1", 0),
-        Column::words("mixture"),
-        Column::words("light"),
+        Column::text("mixture"),
+        Column::text("light"),
         Column::quantity("CIEDE2000 of the pair", "1", 2),
         Column::quantity("metamerism index", "1", 2),
     ];
@@ -179,13 +181,13 @@ fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
             rim(&mut canvas, (x, y), (2.0 * half, 36.0));
             patch(&mut canvas, (x, y), (half, 36.0), &looks[0]);
             patch(&mut canvas, (x + half, y), (half, 36.0), &looks[1]);
-            let told = if place == 0 {
+            let label = if place == 0 {
                 format!("{:.1}", pair.differences[0])
             } else {
                 format!("{:.1}, index {:.1}", pair.differences[place], pair.indices[place])
             };
             let at = (x + half, y + 46.0);
-            canvas.text(at, SMALL_TEXT, Anchor::Middle, FAINT, &told);
+            canvas.text(at, SMALL_TEXT, Anchor::Middle, FAINT, &label);
         }
     }
     canvas

@@ -1,16 +1,18 @@
-//! Mixing charts, tints and drawdowns, drawn.
+//! Section with mixing chart, tints and drawdowns.
 
 use calibrate::palette::{CHART_TINT, Palette, TINTS, mixing_chart, tint_ladders};
 
+use super::card;
 use super::cells::{columns, row};
+use super::context::{NOTCH, films, palette, thinner};
 use super::patch::{patch, rim, rimmed};
-use super::{NOTCH, card, films, palette, thinner};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
 use crate::svg::{Anchor, Canvas, estimated_width, shortened};
 use crate::table::{Column, Table};
 
+/// Width for the names, in px.
 const NAME: f64 = 170.0;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -20,15 +22,15 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = if left_out.is_empty() {
         section
     } else {
-        section.saying(format!(
+        section.with_paragraph(format!(
             "Left out of all mixtures, since their scattering is not known: {}.",
             left_out.join(", ")
         ))
     };
     section
-        .with(chart(subject, &palette))
-        .with(tints(subject, &palette))
-        .with(card::figure(subject, &palette))
+        .with_figure(chart(subject, &palette))
+        .with_figure(tints(subject, &palette))
+        .with_figure(card::figure(subject, &palette))
 }
 
 fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
@@ -36,8 +38,8 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let count = chart.paints.len();
     let names: Vec<String> = chart.paints.iter().map(|&p| subject.label(p)).collect();
     let own = [
-        Column::words("first"),
-        Column::words("second"),
+        Column::text("first"),
+        Column::text("second"),
         Column::quantity("parts of white or water to one", "1", 0),
     ];
     let mut data = Table::new(columns(own));
@@ -89,8 +91,7 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     const ROW: f64 = 30.0;
     const HEAD: f64 = 22.0;
     let ladders = tint_ladders(palette);
-    let own =
-        [Column::words("pigment"), Column::quantity("parts of white or water to one", "1", 0)];
+    let own = [Column::text("pigment"), Column::quantity("parts of white or water to one", "1", 0)];
     let mut data = Table::new(columns(own));
     let blocks = if ladders.len() > 6 { 2 } else { 1 };
     let rows = ladders.len().div_ceil(blocks);

@@ -1,42 +1,53 @@
-//! Patches of colour with their rims and marks.
+//! Patches of colour with rim and gamut mark.
 
 use calibrate::palette::Appearance;
 
 use crate::style::{Color, GRID, PAPER};
 use crate::svg::Canvas;
 
+/// Side of the notch in a patch, in px.
 const NOTCH: f64 = 6.0;
 
-/// A patch of a colour, `at` its upper left corner, in px; a corner is cut out
-/// where sRGB cannot show the colour.
-pub(super) fn patch(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look: &Appearance) {
-    canvas.rectangle(at, size, Color::shown(look.srgb));
-    if !look.srgb.in_gamut() {
+/// Draws a patch of colour with its upper left corner `at`, in px. The upper right corner is cut
+/// out if the colour is outside sRGB.
+pub(super) fn patch(
+    canvas: &mut Canvas,
+    at: (f64, f64),
+    size: (f64, f64),
+    appearance: &Appearance,
+) {
+    canvas.rectangle(at, size, Color::from_rgb(appearance.srgb));
+    if !appearance.srgb.in_gamut() {
         canvas.rectangle((at.0 + size.0 - NOTCH, at.1), (NOTCH, NOTCH), PAPER);
     }
 }
 
-/// The same, the lower corner cut out.
+/// Draws a patch like [`patch`], but cuts out the lower right corner.
 pub(super) fn notched_below(
     canvas: &mut Canvas,
     at: (f64, f64),
     size: (f64, f64),
-    look: &Appearance,
+    appearance: &Appearance,
 ) {
-    canvas.rectangle(at, size, Color::shown(look.srgb));
-    if !look.srgb.in_gamut() {
+    canvas.rectangle(at, size, Color::from_rgb(appearance.srgb));
+    if !appearance.srgb.in_gamut() {
         let corner = (at.0 + size.0 - NOTCH, at.1 + size.1 - NOTCH);
         canvas.rectangle(corner, (NOTCH, NOTCH), PAPER);
     }
 }
 
-/// A patch with a rim, so that white stands out from the paper.
-pub(super) fn rimmed(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64), look: &Appearance) {
+/// Draws a patch with a rim, so that white is visible on the paper.
+pub(super) fn rimmed(
+    canvas: &mut Canvas,
+    at: (f64, f64),
+    size: (f64, f64),
+    appearance: &Appearance,
+) {
     rim(canvas, at, size);
-    patch(canvas, at, size, look);
+    patch(canvas, at, size, appearance);
 }
 
-/// The rim of a patch that is drawn next.
+/// Draws the rim of a patch; the patch is then drawn over it.
 pub(super) fn rim(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64)) {
     canvas.rectangle((at.0 - 1.0, at.1 - 1.0), (size.0 + 2.0, size.1 + 2.0), GRID);
 }

@@ -1,4 +1,4 @@
-//! Hiding power and tinting strength, drawn.
+//! Section on hiding power and tinting strength.
 
 use calibrate::library::AmountKind;
 use calibrate::palette::{
@@ -6,7 +6,7 @@ use calibrate::palette::{
 };
 
 use super::bars::{Bar, bars};
-use super::{NOTCH, palette, thinner};
+use super::context::{NOTCH, palette, thickness_unit, thinner};
 use crate::axis::Axis;
 use crate::figure::{Drawing, Figure, Words};
 use crate::subject::{Section, Subject};
@@ -15,7 +15,7 @@ use crate::table::{Cell, Column, Table};
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("Hiding power and tinting strength");
     let Some(palette) = palette(subject) else { return section };
-    section.with(hiding(subject, &palette)).with(tinting(subject, &palette))
+    section.with_figure(hiding(subject, &palette)).with_figure(tinting(subject, &palette))
 }
 
 fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
@@ -23,7 +23,7 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let (quantity, unit) = if absolute {
         ("Amount that hides", "as in the library".to_owned())
     } else {
-        ("Thickness that hides", unit(palette))
+        ("Thickness that hides", thickness_unit(palette))
     };
     let mut powers = hiding_powers(palette);
     let sort = |hides: Hides| hides.thickness().unwrap_or(f64::INFINITY);
@@ -32,19 +32,19 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let low = known().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
     let axis = Axis::log(quantity, &unit, low, known().fold(0.0, f64::max), 6);
     let mut data = Table::new([
-        Column::words("pigment"),
+        Column::text("pigment"),
         Column::quantity(&quantity.to_lowercase(), &unit, 3),
         Column::quantity("contrast ratio of the thickest film", "1", 3),
     ]);
     let all = powers.iter().map(|power| {
         let name = subject.label(power.paint);
-        let (told, contrast) = match power.hides {
+        let (label, contrast) = match power.hides {
             Hides::From(thickness) => (digits(thickness, 4), None),
             Hides::Never { contrast } => (format!("never hides ({contrast:.2})"), Some(contrast)),
         };
         let thickness = power.hides.thickness();
         data.push([name.as_str().into(), Cell::from(thickness), Cell::from(contrast)]);
-        Bar { name, value: thickness, told, look: palette.look(&[(power.paint, 1.0)]) }
+        Bar { name, value: thickness, label, appearance: palette.look(&[(power.paint, 1.0)]) }
     });
     let all: Vec<Bar> = all.collect();
     let caption = format!(
@@ -68,7 +68,7 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let axis = Axis::linear("Tinting strength", "strongest = 100 %", 0.0, 100.0, 5);
     let measure = if relative { "K/S added to the white" } else { "K per unit of amount" };
     let mut data = Table::new([
-        Column::words("pigment"),
+        Column::text("pigment"),
         Column::quantity("tinting strength", "%", 1),
         Column::quantity("wavelength", "nm", 0),
         Column::quantity(measure, "1", 4),
@@ -84,9 +84,9 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
             Cell::from(strength.white_parts),
         ]);
         let parts = strength.white_parts.map(|parts| format!("; 1 : {}", digits(parts, 1)));
-        let told = format!("{} %{}", digits(strength.percent, 1), parts.unwrap_or_default());
-        let look = palette.look(&palette.tint(strength.paint, 3.0));
-        Bar { name, value: Some(strength.percent), told, look }
+        let label = format!("{} %{}", digits(strength.percent, 1), parts.unwrap_or_default());
+        let appearance = palette.look(&palette.tint(strength.paint, 3.0));
+        Bar { name, value: Some(strength.percent), label, appearance }
     });
     let all: Vec<Bar> = all.collect();
     let caption = if relative {
@@ -106,14 +106,6 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     subject.figure(words, Drawing::Canvas(bars(&axis, &all)), data)
 }
 
-/// The unit of thickness.
-pub(super) fn unit(palette: &Palette<'_>) -> String {
-    match palette.white() {
-        Some(white) => format!("S d of {} = 1", palette.label(white)),
-        None => "washes".to_owned(),
-    }
-}
-
 fn cards(palette: &Palette<'_>) -> String {
     let cards = palette.cards();
     let card = |name: &str, measured: bool, values: &[f64]| {
@@ -127,7 +119,7 @@ fn cards(palette: &Palette<'_>) -> String {
     )
 }
 
-/// Three significant digits, `most` behind the point.
+/// `value` to three significant digits, with at most `most` decimals.
 fn digits(value: f64, most: i32) -> String {
     let whole = if value > 0.0 { value.log10().floor() as i32 } else { 0 };
     let behind = (2 - whole).clamp(0, most) as usize;

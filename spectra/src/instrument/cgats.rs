@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn wavelengths_beside_their_values_are_read() {
+    fn wavelengths_in_the_field_before_their_values_are_read() {
         let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\n\
             END_DATA_FORMAT\nBEGIN_DATA\nA 400 10,5 410 20\nEND_DATA\n";
         let found = &read("f", text).unwrap()[0];

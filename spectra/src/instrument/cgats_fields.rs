@@ -39,7 +39,7 @@ impl Fields {
         let mut values: Vec<(usize, WavelengthSource)> = Vec::new();
         let mut unit = Unit::Unstated;
         for (column, name) in upper.iter().enumerate() {
-            let beside = column > 0 && upper[column - 1] == "SPECTRAL_NM";
+            let follows_nm = column > 0 && upper[column - 1] == "SPECTRAL_NM";
             match wavelength(name) {
                 Some(nm) => {
                     let same =
@@ -51,7 +51,7 @@ impl Fields {
                     }
                     values.push((column, WavelengthSource::Nm(nm)));
                 }
-                None if beside => values.push((column, WavelengthSource::FieldBefore)),
+                None if follows_nm => values.push((column, WavelengthSource::FieldBefore)),
                 None => continue,
             }
             if name.starts_with("SPECTRAL_PCT") {

@@ -5,10 +5,9 @@ use calibrate::palette::{
     Cards, MixingRow, PainterRules, Palette, graded, hiding_powers, mixing_chart,
 };
 use reports::figure::Figure;
-use reports::report::{Report, drawn, head};
 use reports::style::{Color, PAPER};
-use reports::subject::Subject;
 use reports::table::Cell;
+use reports::{Report, Subject};
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
@@ -32,18 +31,9 @@ const NAMES: [&str; 12] = [
 
 fn report_of(library: &PigmentLibrary, pair: Option<(usize, usize)>) -> Report {
     let viewing = Viewing::default();
-    let subject = Subject {
-        library,
-        viewing: &viewing,
-        weights: viewing.weights(library.grid).unwrap(),
-        command: "impasto report".to_owned(),
-        comparison: None,
-        validation: None,
-        quadratures: Vec::new(),
-        cards: Cards::standard(library.grid),
-        pair,
-    };
-    drawn(&subject, head(&subject), &|| ()).unwrap()
+    let subject = Subject::of_library(library, &viewing, "impasto report").unwrap();
+    let subject = Subject { pair, ..subject };
+    Report::draw(&subject, &|| ()).unwrap()
 }
 
 fn report_of_oils(oils: &Oils) -> Report {
@@ -58,7 +48,7 @@ fn report_of_oils(oils: &Oils) -> Report {
         cards: oils.palette().cards().clone(),
         pair: None,
     };
-    drawn(&subject, head(&subject), &|| ()).unwrap()
+    Report::draw(&subject, &|| ()).unwrap()
 }
 
 fn figure<'a>(report: &'a Report, name: &str) -> &'a Figure {
@@ -99,7 +89,7 @@ fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
         for column in 0..count {
             let looks = if row < column { &chart.tinted } else { &chart.colors };
             let look = looks[row][column];
-            let patch = format!("fill=\"{}\"", Color::shown(look.srgb).hex());
+            let patch = format!("fill=\"{}\"", Color::from_rgb(look.srgb).hex());
             assert!(drawn.svg.contains(&patch), "row {row}, column {column}: {patch}");
             outside += usize::from(!look.srgb.in_gamut());
         }
@@ -123,7 +113,7 @@ fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
     let made = mixture.steps.iter().flat_map(|step| step.colors.iter().flatten());
     assert_eq!(rows.len(), made.clone().count());
     for look in made {
-        assert!(drawn.svg.contains(&Color::shown(look.srgb).hex()), "{look:?}");
+        assert!(drawn.svg.contains(&Color::from_rgb(look.srgb).hex()), "{look:?}");
     }
     let (mean, mixed) = mixture.mean_error(MixingRow::LinearRgb, true).unwrap();
     assert!(drawn.svg.contains(&format!(">{mean:.2} of {mixed}<")), "{mean} of {mixed}");
@@ -146,7 +136,7 @@ fn a_pair_that_cannot_be_mixed_and_what_is_left_out_are_said() {
     let report = report_of(&five, Some((3, 1)));
     let said = |title: &str| {
         let mut sections = report.sections.iter();
-        sections.find(|section| section.title == title).unwrap().words.join(" ")
+        sections.find(|section| section.title == title).unwrap().paragraphs.join(" ")
     };
     assert!(said("Graded mixtures").starts_with("blue"), "{}", said("Graded mixtures"));
     assert!(said("What the paints mix").contains("blue"), "{}", said("What the paints mix"));
