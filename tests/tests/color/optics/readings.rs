@@ -7,7 +7,7 @@ use spectra::optics::{
     film_over_two_backings, infinite_film, infinite_film_from_ratio, infinite_film_slope,
 };
 
-use crate::{Film, ROUNDING, random_films};
+use super::{Film, ROUNDING, random_films};
 
 fn over_two_backings(film: &Film, black: f64, white: f64) -> [OverBacking; 2] {
     [black, white].map(|backing| OverBacking { film: film.layer().over(backing), backing })

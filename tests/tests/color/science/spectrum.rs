@@ -7,7 +7,7 @@ use spectra::{Extrapolation, Grid, Illuminant, Observer, Response, Spectrum, Tri
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
-use crate::{Regular, interpolation, observer};
+use super::{Regular, interpolation, observer};
 
 #[derive(Deserialize)]
 struct Sum {

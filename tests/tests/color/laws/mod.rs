@@ -1,7 +1,5 @@
 //! What colours, lights and spectra obey, whatever the values.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 mod colors;
 mod inputs;
 mod sums;

@@ -1,7 +1,5 @@
 //! What Kubelka-Munk films and surfaces obey, whatever the paint.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 mod layers;
 mod readings;
 

@@ -1,7 +1,5 @@
 //! Every golden file against `spectra`, within the tolerance that the file names.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 mod adaptation;
 mod difference;
 mod films;

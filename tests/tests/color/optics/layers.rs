@@ -2,7 +2,7 @@
 
 use spectra::optics::{Layer, infinite_film};
 
-use crate::{Film, ROUNDING, random_films};
+use super::{Film, ROUNDING, random_films};
 
 #[test]
 fn a_film_never_gives_back_more_than_it_gets() {

@@ -9,7 +9,7 @@ use spectra::color::{
 };
 use suite::near::assert_near;
 
-use crate::{ROUNDING, random_pairs};
+use super::{ROUNDING, random_pairs};
 
 /// Whites of D65, A and F11, far apart.
 const WHITES: [[f64; 3]; 3] =

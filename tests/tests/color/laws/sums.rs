@@ -6,7 +6,7 @@ use spectra::{
 };
 use suite::near::assert_near;
 
-use crate::ROUNDING;
+use super::ROUNDING;
 
 fn grids() -> [Grid; 4] {
     [(380.0, 10.0, 36), (400.0, 10.0, 31), (400.0, 20.0, 16), (360.0, 1.0, 471)]

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use spectra::instrument::{CxfHead, Format, MeasuredQuantity, Unit, read, write_cxf};
 use spectra::{Grid, Reflectance, Spectrum};
 
-use crate::{fixture, records};
+use super::{fixture, records};
 
 const HEAD: CxfHead<'_> = CxfHead {
     creator: "impasto",

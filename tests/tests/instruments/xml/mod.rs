@@ -1,7 +1,5 @@
 //! CxF3, lamps and references: files in, spectra out.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 mod counts;
 mod cxf;
 mod fuzz;

@@ -10,7 +10,7 @@ use spectra::{Grid, Illuminant, Interpolation, TristimulusWeights};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
-use crate::observer;
+use super::observer;
 
 #[derive(Deserialize)]
 struct Case {

@@ -7,7 +7,7 @@ use spectra::instrument::ChoiceError;
 use spectra::{Illuminant, LampError, LightError, lamp_from_bytes, light_from_text};
 use suite::program::impasto;
 
-use crate::{fixture, records};
+use super::{fixture, records};
 
 fn at(light: &Illuminant, nm: usize) -> f64 {
     light.power().values()[nm - 360]

@@ -8,7 +8,7 @@ use render::amount::{MAX_COLUMN, mm_from_quanta};
 use render::layer::SLOTS;
 use render::paint::file::{read, write};
 
-use crate::made_up::{painting, small};
+use super::made_up::{painting, small};
 
 fn config(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }

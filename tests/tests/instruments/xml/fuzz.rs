@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use spectra::instrument::{Format, read};
 use spectra::lamp_from_bytes;
 
-use crate::fixture;
+use super::fixture;
 
 const FILE: &str = "some/file.dat";
 const FORMATS: [Format; 3] = [Format::Cxf, Format::Tm27, Format::Sekonic];

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use render::paint::file::{PaintingFileError, read, read_within, write};
 use spectra::hint::Explain;
 
-use crate::made_up::{painting, small};
+use super::made_up::{painting, small};
 
 fn image(bytes: &[u8]) -> FlatImage {
     exr::prelude::read()

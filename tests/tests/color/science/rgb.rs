@@ -7,7 +7,7 @@ use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
-use crate::adaptation::transform;
+use super::adaptation::transform;
 
 #[derive(Deserialize)]
 struct Cases {
