@@ -1,4 +1,4 @@
-//! The command line of `impasto-studio`, and all that the window starts with.
+//! Command line of `impasto-studio` and the start settings that result from it.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -20,89 +20,91 @@ struct Arguments {
     /// strokes (.json) to play, a picture (.png, .jpg) to pin beside the canvas, or a lamp's
     /// spectrum to paint under; told apart by content
     file: Option<PathBuf>,
-    /// What computes [default: as preferred, else auto]
+    /// Processor or graphics adapter for the paint [default: from the preferences, else
+    /// auto]
     #[arg(long, value_enum)]
     backend: Option<BackendName>,
-    /// Memory that undo may keep, in MiB; what does not fit is forgotten, oldest first
-    /// [default: as preferred, else 512]
+    /// Memory limit of the undo history, in MiB; the oldest actions are dropped beyond
+    /// it [default: from the preferences, else 512]
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(0..=1 << 20))]
     undo_memory: Option<u64>,
-    /// Keep preferences and autosaves in this folder, not in the platform's own
+    /// Keep preferences and autosaves in this folder instead of the platform's
     #[arg(long, value_name = "FOLDER")]
     home: Option<PathBuf>,
-    /// How a recording is played [default: as preferred, else fast]
+    /// Playback speed of a recording [default: from the preferences, else fast]
     #[arg(long, value_enum, value_name = "PACE")]
     play: Option<PaceName>,
-    /// Append a line of JSON a second: frames, latency, sub-steps, steps behind, and where the
-    /// canvas is in the window, in pixels
+    /// Append one line of JSON a second: frames, latency, sub-steps, steps behind, and
+    /// the position of the canvas in the window, in pixels
     #[arg(long, value_name = "FILE")]
     figures: Option<PathBuf>,
-    /// Size of the window in points, such as 1280x800 [default: as it was last]
+    /// Size of the window in points, such as 1280x800 [default: as last used]
     #[arg(long, value_name = "WxH", value_parser = window_size)]
     window: Option<[f32; 2]>,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum BackendName {
-    /// Hardware where there is some (see `impasto gpu`), else the processor
+    /// A hardware graphics adapter if there is one (see `impasto gpu`), else the
+    /// processor
     Auto,
-    /// The processor
+    /// The processor, on all cores
     Cpu,
-    /// A graphics adapter, even one in software
+    /// A graphics adapter, including software ones
     Gpu,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PaceName {
-    /// As fast as the machine can
+    /// As fast as the machine allows
     Fast,
-    /// As it was painted
+    /// At the speed it was painted
     Painted,
 }
 
 fn window_size(text: &str) -> Result<[f32; 2], String> {
-    let wrong = || "two lengths such as 1280x800 are wanted, 200 to 16384 each".to_owned();
+    let wrong = || "expected two lengths from 200 to 16384, such as 1280x800".to_owned();
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
     let length = |text: &str| text.parse().ok().filter(|l| (200.0..=16_384.0).contains(l));
     Ok([length(width).ok_or_else(wrong)?, length(height).ok_or_else(wrong)?])
 }
 
-/// All that the window starts with.
+/// Settings that the window starts with.
 #[derive(Debug)]
 pub struct Start {
-    /// What is opened first.
+    /// File to open first.
     pub file: Option<PathBuf>,
-    /// The program's own folders.
+    /// Folders for preferences and autosaves.
     pub home: Home,
-    /// What the painter prefers.
+    /// Preferences read from the file, or defaults.
     pub preferences: Preferences,
-    /// What is to be said of the preferences.
+    /// Problems found in the preferences file, to be shown in the window.
     pub problems: Vec<Problem>,
-    /// What the worker is told.
+    /// Backend and undo memory of the worker.
     pub worker: WorkerOptions,
-    /// How recordings are played, if the command line says.
+    /// Playback speed of recordings, if given on the command line.
     pub pace: Option<Pace>,
-    /// Where figures go.
+    /// Performance log, if asked for.
     pub figures: Option<FiguresLog>,
     /// Width and height of the window in points.
     pub window: [f32; 2],
 }
 
-/// What is printed in place of a start.
+/// Text printed instead of starting: help or an error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stop {
-    /// The text.
+    /// Text to print, with its final newline.
     pub text: String,
-    /// 0 for help that was asked for, 2 if the program cannot run.
+    /// Exit status: 0 for help that was asked for, 2 if the program cannot start.
     pub status: u8,
 }
 
 impl Start {
-    /// From the command line; the first argument is the program's name.
+    /// Parses the command line; the first argument is the program's name.
     ///
     /// # Errors
-    /// [`Stop`] for help, for arguments that cannot be, and for a system that does
-    /// not tell where the user is at home.
+    /// [`Stop`] for `--help` and `--version`, invalid arguments, a log file that cannot
+    /// be opened, and a system without a home folder.
     pub fn from_arguments(
         arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     ) -> Result<Self, Stop> {
@@ -115,8 +117,8 @@ impl Start {
             None => Home::for_platform(),
         };
         let home = home.ok_or_else(|| {
-            let what = "the system does not tell where your files are kept";
-            Problem::new(what, "try impasto-studio --home FOLDER")
+            let what = "the system reports no home folder";
+            Problem::new(what, "give one with impasto-studio --home FOLDER")
         })?;
         let (preferences, problems) = Preferences::read(&home.preferences());
         let backend = match (parsed.backend, preferences.backend) {

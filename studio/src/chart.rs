@@ -1,4 +1,4 @@
-//! Small curves over wavelength, 380 to 730 nm.
+//! Small line charts over wavelength, 380 to 730 nm.
 
 use std::ops::RangeInclusive;
 
@@ -10,30 +10,30 @@ use spectra::Grid;
 
 use crate::theme;
 
-/// The band that every chart shows, in nm.
+/// Wavelength range of every chart, in nm.
 pub const BAND_NM: RangeInclusive<f64> = 380.0..=730.0;
 
-/// A curve.
+/// A named curve of values over wavelength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// What it is of; told when the pointer is over the chart.
+    /// Name shown in the tooltip of the chart.
     pub name: String,
-    /// Wavelength in nm, rising, and the value there.
+    /// Pairs of wavelength in nm (increasing) and value.
     pub points: Vec<(f64, f64)>,
-    /// As it is drawn: of a pigment, its own colour.
+    /// Line colour; for a pigment its own colour.
     pub color: Color32,
 }
 
 impl Curve {
-    /// Values on a grid, in light grey.
+    /// Creates a light grey curve from values on a wavelength grid.
     #[must_use]
     pub fn new(name: &str, grid: Grid, values: &[f64]) -> Self {
         let points = grid.wavelengths_nm().zip(values.iter().copied()).collect();
         Self { name: name.to_owned(), points, color: theme::TEXT }
     }
 
-    /// The same curve in a colour. Those too dark to be seen on the chart are
-    /// lifted.
+    /// Returns the curve with a line colour in sRGB. Dark colours are brightened so
+    /// that they stand out from the background.
     #[must_use]
     pub fn colored(mut self, [red, green, blue]: [u8; 3]) -> Self {
         let seen = red.max(green).max(blue) >= 96;
@@ -42,7 +42,7 @@ impl Curve {
         self
     }
 
-    /// The value at a wavelength, on the straight line between its neighbours.
+    /// Interpolates the value at a wavelength linearly; `None` outside the curve.
     #[must_use]
     pub fn at(&self, nm: f64) -> Option<f64> {
         let after = self.points.partition_point(|point| point.0 < nm);
@@ -55,23 +55,22 @@ impl Curve {
     }
 }
 
-/// Curves on common axes.
+/// A chart of curves on common axes.
 #[derive(Debug, Clone, Copy)]
 pub struct Chart<'a> {
-    /// What is drawn.
+    /// Curves to draw, first at the back.
     pub curves: &'a [Curve],
-    /// Wavelengths marked by upright lines, in nm.
+    /// Wavelengths marked with vertical lines, in nm.
     pub marks: &'a [f64],
-    /// Quantity and unit of the values: `reflectance`, `relative power`.
+    /// Label of the vertical axis, such as `reflectance` or `relative power`.
     pub quantity: &'a str,
-    /// The greatest value on the axis, which begins at 0; the greatest of the
-    /// curves if none is given.
+    /// Upper end of the vertical axis, which starts at 0; `None` fits it to the curves.
     pub most: Option<f64>,
 }
 
 impl Chart<'_> {
-    /// Draws it. A narrow panel gives all its width: `vec2(ui.available_width(),
-    /// 120.0)`.
+    /// Draws the chart at a size in points, with a tooltip of the values under the
+    /// pointer.
     pub fn show(&self, ui: &mut Ui, size: Vec2) -> Response {
         let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
         let label = format!("{} over wavelength", self.quantity);
@@ -95,7 +94,7 @@ impl Chart<'_> {
         let Some(pointer) = response.hover_pos() else { return response };
         let nm = axes.wavelength(pointer.x);
         painter.vline(pointer.x, axes.inner.y_range(), Stroke::new(1.0, theme::FAINT));
-        response.on_hover_text_at_pointer(self.told(nm))
+        response.on_hover_text_at_pointer(self.tooltip(nm))
     }
 
     fn most(&self) -> f64 {
@@ -105,8 +104,8 @@ impl Chart<'_> {
         if most.is_finite() && most > 0.0 { most } else { 1.0 }
     }
 
-    /// The values at a wavelength, a line each.
-    fn told(&self, nm: f64) -> String {
+    /// Tooltip text: the wavelength and one line for each curve with a value there.
+    fn tooltip(&self, nm: f64) -> String {
         let mut lines = vec![format!("{nm:.0} nm")];
         for curve in self.curves {
             if let Some(value) = curve.at(nm) {
@@ -117,7 +116,7 @@ impl Chart<'_> {
     }
 }
 
-/// From values to places on the screen.
+/// Conversion between wavelength and value and screen position.
 struct Axes {
     inner: Rect,
     most: f64,
@@ -165,7 +164,7 @@ impl Axes {
     }
 }
 
-/// A number in at most five characters.
+/// Formats a number in at most five characters.
 fn short(value: f64) -> String {
     let digits = match value.abs() {
         0.0 => 0,
@@ -218,8 +217,8 @@ mod tests {
     fn the_pointer_tells_each_curve_that_has_a_value_there() {
         let curves = [ramp()];
         let chart = Chart { curves: &curves, marks: &[], quantity: "power", most: None };
-        assert_eq!(chart.told(450.0), "450 nm\nramp 0.500");
-        assert_eq!(chart.told(390.0), "390 nm");
+        assert_eq!(chart.tooltip(450.0), "450 nm\nramp 0.500");
+        assert_eq!(chart.tooltip(390.0), "390 nm");
     }
 
     #[test]

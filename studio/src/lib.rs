@@ -1,9 +1,9 @@
-//! The interactive program: paint by hand with calibrated pigments.
+//! The interactive painting program: paint by hand with calibrated pigments.
 //!
-//! The window thread draws and listens; all paint is moved on the thread of
-//! the crate `session`, which takes [`session::Command`]s and answers with
-//! [`session::Event`]s. Panels are functions from what the worker last told to
-//! commands.
+//! The window thread draws and handles input. All paint is moved on the worker thread
+//! of the crate `session`, which takes [`session::Command`]s and answers with
+//! [`session::Event`]s. A panel shows the state that the worker last reported and
+//! returns commands.
 //!
 //! Out of scope: measuring and fitting pigments (the program `impasto`).
 
@@ -11,7 +11,7 @@ pub mod theme;
 
 pub mod chart;
 
-pub mod matching;
+pub mod recipe_search;
 
 pub mod pen;
 

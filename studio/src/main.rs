@@ -14,7 +14,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Help that was asked for is a result; all else is told beside it.
+/// Prints help to standard output and errors to standard error.
 fn tell(stop: &Stop) -> ExitCode {
     let _ = match stop.status {
         0 => stdout().write_all(stop.text.as_bytes()),

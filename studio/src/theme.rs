@@ -1,5 +1,5 @@
-//! Colours and sizes of the window: exactly neutral greys only, as colour is judged
-//! here, and around the canvas the grey of 18 % reflectance.
+//! Colours and sizes of the window. All colours are exactly neutral greys, because
+//! colour is judged here; the surround of the canvas has 18 % reflectance.
 
 use eframe::egui::style::{ScrollStyle, Selection, WidgetVisuals, Widgets};
 use eframe::egui::{
@@ -7,43 +7,43 @@ use eframe::egui::{
     Visuals, vec2,
 };
 
-/// Around canvas and palette: 18 % of the light, which is 118 in sRGB.
+/// Surround of canvas and palette: 18 % reflectance, which is 118 in sRGB.
 pub const SURROUND: Color32 = Color32::from_gray(118);
 
-/// Behind panels.
+/// Background of panels.
 pub const PANEL: Color32 = Color32::from_gray(46);
 
-/// Behind the menu bar, the tools and the line below.
+/// Background of menu bar, toolbar and status line.
 pub const BAR: Color32 = Color32::from_gray(38);
 
-/// Behind text being edited, charts and lists.
+/// Background of text fields, charts and lists.
 pub const WELL: Color32 = Color32::from_gray(30);
 
-/// Lines between things.
+/// Separator lines and edges.
 pub const LINE: Color32 = Color32::from_gray(66);
 
-/// Buttons at rest.
+/// Fill of buttons that are neither hovered nor pressed.
 pub const BUTTON: Color32 = Color32::from_gray(64);
 
-/// What is chosen.
+/// Fill of selected items.
 pub const CHOSEN: Color32 = Color32::from_gray(104);
 
-/// Text and marks that stand back.
+/// Secondary text and marks.
 pub const FAINT: Color32 = Color32::from_gray(150);
 
-/// Text.
+/// Normal text and marks.
 pub const TEXT: Color32 = Color32::from_gray(214);
 
-/// Text and marks that stand out.
+/// Emphasized text and marks.
 pub const STRONG: Color32 = Color32::from_gray(245);
 
-/// Corners of buttons, in points.
+/// Corner radius of buttons, in points.
 pub const ROUND: u8 = 4;
 
-/// Width of the panels at the right, in points.
+/// Width of the side panel at the right, in points.
 pub const PANEL_WIDTH: f32 = 284.0;
 
-/// Makes the window look so, from the next frame on.
+/// Applies the theme to the window from the next frame on.
 pub fn apply(context: &Context) {
     context.set_theme(Theme::Dark);
     context.set_style_of(Theme::Dark, style());
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn no_color_of_the_window_has_a_hue() {
-        // Every colour of the visuals, whichever field it stands in.
+        // Find every colour in the debug output of the visuals.
         let written = format!("{:?}", visuals());
         let colors: Vec<[u8; 4]> = written
             .match_indices("#")

@@ -1,4 +1,4 @@
-//! The program in a window of the system.
+//! Opens the studio in a window of the operating system.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,24 +8,24 @@ use eframe::egui_wgpu::{SurfaceConfig, WgpuConfiguration, WgpuSetup, WgpuSetupCr
 use eframe::{App, NativeOptions};
 use wgpu::{Adapter, Backends, DeviceType, PresentMode, Surface};
 
-use crate::app::{Begun, Parts, Studio};
+use crate::app::{Parts, StartedWorker, Studio};
 use crate::arguments::Start;
 use crate::files::{Files, Problem};
 use crate::pen::{Pen, PenSettings};
 use crate::view;
 use session::initial_commands;
 
-/// The smallest window in which everything is within reach, in points.
+/// Minimum window size in points: all controls stay reachable.
 const SMALLEST: [f32; 2] = [900.0, 600.0];
 
-/// Opens the window, and comes back when it is closed.
+/// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// [`Problem`] with the way out where there is no display or nothing to draw
-/// with.
+/// [`Problem`] with a hint if there is no display or no graphics adapter that can draw
+/// in the window.
 pub fn run(start: Start) -> Result<(), Problem> {
-    // Both at once: the canvas is made while the window opens.
-    let begun = Begun::new(start.worker, initial_commands());
+    // The worker prepares the canvas while the window opens.
+    let worker = StartedWorker::new(start.worker, initial_commands());
     let options = options(start.window);
     let made = eframe::run_native(
         "impasto-studio",
@@ -39,14 +39,14 @@ pub fn run(start: Start) -> Result<(), Problem> {
             files.pace = start.pace;
             start.problems.into_iter().for_each(|problem| files.report(problem));
             let pen = Pen::for_window(creation, PenSettings::default());
-            let parts = Parts { begun, pen, files, open: start.file, log: start.figures };
+            let parts = Parts { worker, pen, files, open: start.file, log: start.figures };
             Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
         }),
     );
     made.map_err(|error| failure(&error))
 }
 
-/// The window's contents in eframe's frame.
+/// Adapter from eframe's application trait to [`Studio`].
 struct Framed {
     studio: Studio,
 }
@@ -86,8 +86,8 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
     setup.instance_descriptor.backends = Backends::VULKAN;
     setup.native_adapter_selector = Some(Arc::new(choose));
     let wgpu_options = WgpuConfiguration {
-        // The newest picture, at once: what is painted is seen a frame earlier
-        // than if frames queued up. Mailbox does not tear where it is there.
+        // At most one frame in the queue: paint appears one frame earlier. AutoVsync
+        // picks Mailbox where available, which does not tear.
         surface: SurfaceConfig {
             present_mode: PresentMode::AutoVsync,
             desired_maximum_frame_latency: Some(1),
@@ -98,14 +98,14 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
     NativeOptions {
         viewport,
         wgpu_options,
-        // A cell's colour is told as it is.
+        // Dithering would change the colour of cells.
         dithering: false,
         persist_window: false,
         ..NativeOptions::default()
     }
 }
 
-/// Hardware before software, of those that can draw in the window.
+/// Chooses an adapter that can draw in the window, hardware before software.
 fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
     let draws =
         |adapter: &&Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
@@ -120,7 +120,7 @@ fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter
     best.cloned().ok_or_else(|| "no Vulkan adapter can draw in this window".to_owned())
 }
 
-/// What went wrong, and the way out.
+/// Converts an error of eframe to a message with a hint.
 fn failure(error: &eframe::Error) -> Problem {
     let (what, hint) = match error {
         eframe::Error::Wgpu(error) => (
@@ -128,7 +128,7 @@ fn failure(error: &eframe::Error) -> Problem {
             "install a Vulkan driver: that of your graphics card, or the one in software, \
              mesa-vulkan-drivers on Debian and Ubuntu; `impasto gpu` lists what is found",
         ),
-        // Its own words name files of another machine.
+        // The error's own text names source files of the library.
         eframe::Error::WinitEventLoop(_) => {
             ("there is no display".to_owned(), "DISPLAY or WAYLAND_DISPLAY names one")
         }
@@ -137,14 +137,14 @@ fn failure(error: &eframe::Error) -> Problem {
     Problem::new(format!("the window cannot be opened: {what}"), hint)
 }
 
-/// A stroke of light paint on grey.
+/// Draws the window icon: a light paint stroke on a grey disc.
 fn icon() -> IconData {
     const SIDE: u32 = 64;
     let mut rgba = Vec::with_capacity((4 * SIDE * SIDE) as usize);
     for y in 0..SIDE {
         for x in 0..SIDE {
             let (x, y) = (x as f32 / SIDE as f32 - 0.5, y as f32 / SIDE as f32 - 0.5);
-            // A disc, and across it a stroke that bends and thins out.
+            // A disc, and across it a curved, tapering stroke.
             let inside = x.hypot(y) < 0.48;
             let middle = 0.16 * (3.2 * x).sin() - 0.35 * x;
             let half = 0.13 - 0.09 * (x + 0.5);

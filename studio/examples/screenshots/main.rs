@@ -95,7 +95,7 @@ fn carry_out(window: &mut Window, hand: Hand) {
 fn two_lights(window: &mut Window) {
     let lamp = Lighting { illuminant: "A".to_owned(), ..study::light() };
     window.studio_mut().ask(Command::SetSecondLight(Some(lamp)));
-    window.studio_mut().panels.bring(Tab::Light);
+    window.studio_mut().panels.select(Tab::Light);
     window.studio_mut().tools.split = 0.5;
     window.settle();
 }
@@ -129,8 +129,8 @@ fn layers(window: &mut Window) {
     hand.actions.push(Action::Dry { fraction: 1.0 });
     study::glazes(&mut hand);
     carry_out(window, hand);
-    window.studio_mut().panels.bring(Tab::Layers);
-    window.studio_mut().panels.bring(Tab::History);
+    window.studio_mut().panels.select(Tab::Layers);
+    window.studio_mut().panels.select(Tab::History);
     window.studio_mut().tools.brush = "mop".to_owned();
     window.settle();
 }

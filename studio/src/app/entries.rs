@@ -1,31 +1,31 @@
-//! Everything that can be asked for, as data: its menu, its words, its keys.
+//! Table of all menu entries: menu, name, description and shortcuts.
 
 use eframe::egui::{Key, Modifiers};
 
-use super::intent::{Entry, Intent, Menu, Stroke};
+use super::intent::{Entry, Intent, Menu, Shortcut};
 use crate::panels::Mode;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
-const fn key(modifiers: Modifiers, key: Key) -> Stroke {
-    Stroke { modifiers, key }
+const fn key(modifiers: Modifiers, key: Key) -> Shortcut {
+    Shortcut { modifiers, key }
 }
 
 const fn entry(
     intent: Intent,
     menu: Menu,
     name: &'static str,
-    told: &'static str,
-    keys: &'static [Stroke],
+    description: &'static str,
+    shortcuts: &'static [Shortcut],
 ) -> Entry {
-    Entry { intent, menu, name, told, keys }
+    Entry { intent, menu, name, description, shortcuts }
 }
 
-/// Everything, in the order of the menus.
+/// All entries in menu order.
 pub const ENTRIES: &[Entry] = &[
-    entry(Intent::New, Menu::File, "New", "Begins a new painting", &[key(CTRL, Key::N)]),
+    entry(Intent::New, Menu::File, "New", "Starts a new painting", &[key(CTRL, Key::N)]),
     entry(
         Intent::Open,
         Menu::File,
@@ -59,14 +59,14 @@ pub const ENTRIES: &[Entry] = &[
         Intent::SaveRecording,
         Menu::File,
         "Save recording...",
-        "Saves all strokes since the painting was taken up, to be played again",
+        "Saves all strokes since the painting was opened, for playback",
         &[],
     ),
     entry(
         Intent::OpenReference,
         Menu::File,
         "Pin a picture...",
-        "Pins a picture beside the canvas, to look at and to match colours of",
+        "Shows a reference picture beside the canvas, to match colours of",
         &[],
     ),
     entry(
@@ -76,118 +76,118 @@ pub const ENTRIES: &[Entry] = &[
         "Lights the painting with a lamp measured in a file",
         &[],
     ),
-    entry(Intent::Quit, Menu::File, "Quit", "Ends the program", &[key(CTRL, Key::Q)]),
-    entry(Intent::Undo, Menu::Edit, "Undo", "Takes the last action back", &[key(CTRL, Key::Z)]),
+    entry(Intent::Quit, Menu::File, "Quit", "Closes the program", &[key(CTRL, Key::Q)]),
+    entry(Intent::Undo, Menu::Edit, "Undo", "Undoes the last action", &[key(CTRL, Key::Z)]),
     entry(
         Intent::Redo,
         Menu::Edit,
         "Redo",
-        "Does again what was taken back",
+        "Redoes the last undone action",
         &[key(CTRL_SHIFT, Key::Z), key(CTRL, Key::Y)],
     ),
     entry(
         Intent::Dry,
         Menu::Edit,
         "Dry",
-        "Dries the share of the wet paint that the panel of the layers says",
+        "Dries the share of the wet paint that is set in the layer panel",
         &[key(NONE, Key::D)],
     ),
     entry(
         Intent::Wash,
         Menu::Edit,
         "Wash the brush",
-        "Takes all paint off the brush",
+        "Removes all paint from the brush",
         &[key(NONE, Key::W)],
     ),
     entry(
         Intent::Wipe,
         Menu::Edit,
         "Wipe the brush",
-        "Takes most of the paint off the brush",
+        "Removes most of the paint from the brush",
         &[key(NONE, Key::X)],
     ),
     entry(
         Intent::ScrapePalette,
         Menu::Edit,
         "Scrape the palette",
-        "Takes all paint off the palette",
+        "Removes all paint from the palette",
         &[],
     ),
     entry(
         Intent::OtherLight,
         Menu::Edit,
         "Other light",
-        "Exchanges the light for the one before, at first for a bulb, and back",
+        "Switches between the current and the previous light, at first a tungsten bulb",
         &[key(NONE, Key::L)],
     ),
     entry(
         Intent::Larger,
         Menu::Edit,
         "Larger brush",
-        "Makes the brush in hand larger",
+        "Makes the selected brush larger",
         &[key(NONE, Key::CloseBracket)],
     ),
     entry(
         Intent::Smaller,
         Menu::Edit,
         "Smaller brush",
-        "Makes the brush in hand smaller",
+        "Makes the selected brush smaller",
         &[key(NONE, Key::OpenBracket)],
     ),
     entry(
         Intent::TwistLeft,
         Menu::Edit,
         "Twist left",
-        "Turns a brush that the mouse leads about its handle, to the left",
+        "Rotates a brush moved by the mouse about its handle to the left",
         &[key(NONE, Key::Comma)],
     ),
     entry(
         Intent::TwistRight,
         Menu::Edit,
         "Twist right",
-        "Turns a brush that the mouse leads about its handle, to the right",
+        "Rotates a brush moved by the mouse about its handle to the right",
         &[key(NONE, Key::Period)],
     ),
     entry(
         Intent::Preferences,
         Menu::Edit,
         "Preferences...",
-        "Autosave, undo memory, what computes, sizes, and how pens and mice lead a brush",
+        "Autosave, undo memory, backend, sizes, and settings of pens and mice",
         &[key(CTRL, Key::Comma)],
     ),
     entry(
         Intent::ZoomIn,
         Menu::View,
         "Zoom in",
-        "Makes the view larger",
+        "Enlarges the view",
         &[key(CTRL, Key::Plus), key(CTRL, Key::Equals), key(NONE, Key::Plus)],
     ),
     entry(
         Intent::ZoomOut,
         Menu::View,
         "Zoom out",
-        "Makes the view smaller",
+        "Reduces the view",
         &[key(CTRL, Key::Minus), key(NONE, Key::Minus)],
     ),
     entry(
         Intent::Fit,
         Menu::View,
         "Whole canvas",
-        "Shows all of the canvas, as it is turned",
+        "Fits the whole canvas into the view, keeping its rotation",
         &[key(CTRL, Key::Num0), key(NONE, Key::Num0)],
     ),
     entry(
         Intent::ActualSize,
         Menu::View,
         "Actual cells",
-        "One cell of the canvas is one pixel of the screen",
+        "Shows one canvas cell as one screen pixel",
         &[key(CTRL, Key::Num1)],
     ),
     entry(
         Intent::Upright,
         Menu::View,
         "Upright",
-        "Shows all of the canvas, upright and not mirrored",
+        "Fits the whole canvas into the view, upright and not mirrored",
         &[key(NONE, Key::Home)],
     ),
     entry(
@@ -208,7 +208,7 @@ pub const ENTRIES: &[Entry] = &[
         Intent::Mirror,
         Menu::View,
         "Mirror",
-        "Exchanges left and right of the view; the painting stays as it is",
+        "Mirrors the view; the painting does not change",
         &[key(NONE, Key::M)],
     ),
     entry(
@@ -229,35 +229,35 @@ pub const ENTRIES: &[Entry] = &[
         Intent::Figures,
         Menu::View,
         "Figures",
-        "Shows frames a second, latency and how the engine keeps up",
+        "Shows frame rate, latency and speed of the paint engine",
         &[key(NONE, Key::F12), key(NONE, Key::F3)],
     ),
     entry(
         Intent::FullScreen,
         Menu::View,
         "Full screen",
-        "Fills the screen, or no longer",
+        "Toggles full screen",
         &[key(NONE, Key::F11)],
     ),
     entry(
         Intent::Tool(Mode::Paint),
         Menu::Tools,
         "Paint",
-        "The pen leads the brush",
+        "The pen paints with the brush",
         &[key(NONE, Key::B)],
     ),
     entry(
         Intent::Tool(Mode::Squeeze),
         Menu::Tools,
         "Squeeze",
-        "The pen squeezes paint of the chosen tube",
+        "The pen squeezes paint from the selected tube",
         &[key(NONE, Key::Q)],
     ),
     entry(
         Intent::Tool(Mode::Pick),
         Menu::Tools,
         "Eyedropper",
-        "The pen asks what paint lies there; also while Alt is held",
+        "The pen picks colour and paint; also while Alt is held",
         &[key(NONE, Key::I)],
     ),
     entry(
@@ -281,20 +281,20 @@ pub const ENTRIES: &[Entry] = &[
         "The pen zooms, upwards in; so does the wheel",
         &[key(NONE, Key::Z)],
     ),
-    entry(Intent::Keys, Menu::Help, "Keys", "Shows what the keys do", &[key(NONE, Key::F1)]),
+    entry(Intent::Keys, Menu::Help, "Keys", "Shows the table of keys", &[key(NONE, Key::F1)]),
 ];
 
 impl Entry {
-    /// The entry of an intent, if it stands in a menu.
+    /// Returns the entry of an intent, if it has one.
     #[must_use]
     pub fn of(intent: Intent) -> Option<&'static Self> {
         ENTRIES.iter().find(|entry| entry.intent == intent)
     }
 
-    /// Its first keys, as they are written: `Ctrl+Shift+S`.
+    /// Text of the first shortcut, such as `Ctrl+Shift+S`; empty without one.
     #[must_use]
-    pub fn keys_written(&self) -> String {
-        self.keys.first().map_or_else(String::new, Stroke::written)
+    pub fn shortcut_text(&self) -> String {
+        self.shortcuts.first().map_or_else(String::new, Shortcut::text)
     }
 }
 
@@ -306,10 +306,10 @@ mod tests {
     fn no_key_asks_for_two_things() {
         let mut seen: Vec<String> = Vec::new();
         for entry in ENTRIES {
-            for stroke in entry.keys {
-                let written = stroke.written();
-                assert!(!seen.contains(&written), "{written} of {} is taken", entry.name);
-                seen.push(written);
+            for shortcut in entry.shortcuts {
+                let text = shortcut.text();
+                assert!(!seen.contains(&text), "{text} of {} is taken", entry.name);
+                seen.push(text);
             }
         }
         assert!(seen.len() > 30, "{seen:?}");
@@ -317,14 +317,14 @@ mod tests {
 
     #[test]
     fn keys_are_told_apart_by_what_is_held() {
-        let undo = Entry::of(Intent::Undo).unwrap().keys[0];
-        assert!(undo.is(Key::Z, CTRL) && !undo.is(Key::Z, CTRL_SHIFT), "{undo:?}");
-        assert!(!undo.is(Key::Z, NONE), "{undo:?}");
+        let undo = Entry::of(Intent::Undo).unwrap().shortcuts[0];
+        assert!(undo.matches(Key::Z, CTRL) && !undo.matches(Key::Z, CTRL_SHIFT), "{undo:?}");
+        assert!(!undo.matches(Key::Z, NONE), "{undo:?}");
         let redo = Entry::of(Intent::Redo).unwrap();
-        assert_eq!(redo.keys_written(), "Ctrl+Shift+Z");
-        // Plus is shift and something else on many keyboards.
+        assert_eq!(redo.shortcut_text(), "Ctrl+Shift+Z");
+        // On many keyboards plus needs shift.
         let held = Modifiers { shift: true, ..NONE };
-        let plus = Entry::of(Intent::ZoomIn).unwrap().keys[2];
-        assert!(plus.is(Key::Plus, held), "{plus:?}");
+        let plus = Entry::of(Intent::ZoomIn).unwrap().shortcuts[2];
+        assert!(plus.matches(Key::Plus, held), "{plus:?}");
     }
 }

@@ -1,31 +1,32 @@
-//! What the worker told since the last frame.
+//! Handles the events of the worker.
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use render::paint::strokes::SurfaceId;
 
-use super::Studio;
 use super::side::Tab;
 use super::status::Message;
+use super::studio::Studio;
 use session::{Event, PaintingState};
 
 impl Studio {
-    /// Takes in what the worker told.
-    pub(super) fn listen(&mut self) {
+    /// Handles all events that arrived since the last call.
+    pub(super) fn handle_events(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
-            self.hear(event);
+            self.handle_event(event);
         }
     }
 
-    /// Takes in one thing, as if the worker had told it.
-    pub fn hear(&mut self, event: Event) {
-        self.heard += 1;
+    /// Handles one event as if it came from the worker. Tests use this to inject
+    /// events.
+    pub fn handle_event(&mut self, event: Event) {
+        self.event_count += 1;
         self.files.handle_event(&event);
         match event {
-            Event::Opened(state) => self.take_up(state),
-            Event::State(state) => self.know(state),
+            Event::Opened(state) => self.open_painting(state),
+            Event::State(state) => self.set_painting(state),
             Event::Tiles { surface, second, tiles, newest } => {
                 let view = match surface {
                     SurfaceId::Canvas => &mut self.canvas,
@@ -42,38 +43,38 @@ impl Studio {
             Event::Performance(figures) => self.figures = figures,
             Event::Picked(picked) => {
                 self.tools.picked = Some(picked);
-                self.panels.bring(Tab::Color);
+                self.panels.select(Tab::Color);
             }
-            Event::Recording { number, .. } => self.answered = Some(number),
-            // Of the files.
+            Event::Recording { number, .. } => self.last_recording = Some(number),
+            // Handled by the files above.
             Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::Message { text, hint, failed } => {
-                self.say(text, hint.map(|hint| hint.to_string()), failed)
+                self.show_message(text, hint.map(|hint| hint.to_string()), failed)
             }
         }
     }
 
-    /// Another painting is there.
-    fn take_up(&mut self, state: Arc<PaintingState>) {
+    /// Shows another painting and resets what belongs to the previous one.
+    fn open_painting(&mut self, state: Arc<PaintingState>) {
         self.canvas.open(state.canvas_cells);
         self.palette.open(state.palette_cells);
         self.head = None;
         self.hover = None;
-        self.know(state);
-        let Some(easel) = &self.easel else { return };
-        let there = easel.brushes.iter().any(|brush| brush.name == self.tools.brush);
-        if let Some(first) = easel.brushes.first().filter(|_| !there) {
+        self.set_painting(state);
+        let Some(painting) = &self.painting else { return };
+        let there = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);
+        if let Some(first) = painting.brushes.first().filter(|_| !there) {
             self.tools.brush = first.name.clone();
         }
     }
 
-    fn know(&mut self, state: Arc<PaintingState>) {
+    fn set_painting(&mut self, state: Arc<PaintingState>) {
         self.canvas.set_second(state.second_lighting.is_some());
-        self.easel = Some(state);
+        self.painting = Some(state);
     }
 
-    /// Tells the painter something.
-    pub(super) fn say(&mut self, text: String, hint: Option<String>, failed: bool) {
-        self.message = Some(Message { text, hint, failed, said: Instant::now() });
+    /// Shows a message in the status line.
+    pub(super) fn show_message(&mut self, text: String, hint: Option<String>, failed: bool) {
+        self.message = Some(Message { text, hint, failed, shown_at: Instant::now() });
     }
 }

@@ -1,14 +1,14 @@
-//! Frames a second, and how long a sample takes to the screen.
+//! Measures the frame rate and the latency from pen sample to screen.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use crate::panels::figures::FrameRate;
 
-/// What is looked back on.
+/// Time span of the statistics.
 const WINDOW: Duration = Duration::from_secs(1);
 
-/// The clock of the window.
+/// Frame times and sample latencies of the last second.
 #[derive(Debug, Clone, Default)]
 pub struct Frames {
     drawn: VecDeque<Instant>,
@@ -18,8 +18,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// A frame begins. `busy` is how long the program worked on the one before,
-    /// drawing included, if that is known.
+    /// Records the start of a frame. `busy` is the processing time of the previous
+    /// frame including drawing, if known.
     pub fn begin(&mut self, now: Instant, busy: Option<Duration>) {
         if let (Some(began), Some(newest)) = (self.began, self.newest.take()) {
             let handed = began + busy.unwrap_or_else(|| now - began);
@@ -30,12 +30,12 @@ impl Frames {
         self.forget(now);
     }
 
-    /// This frame shows a sample that had arrived then.
+    /// Records that this frame shows a pen sample that arrived at `arrived`.
     pub fn shows(&mut self, arrived: Instant) {
         self.newest = Some(self.newest.map_or(arrived, |newest| newest.max(arrived)));
     }
 
-    /// The last second.
+    /// Statistics of the last second.
     #[must_use]
     pub fn rate(&self) -> FrameRate {
         let ms = |time: &Duration| time.as_secs_f64() * 1000.0;
@@ -77,7 +77,8 @@ mod tests {
         frames.begin(start + 30 * MS, None);
         frames.shows(start + 10 * MS);
         frames.shows(start + 5 * MS);
-        // That frame took 12 ms; the next begins later, as it waited for the screen.
+        // That frame took 12 ms; the next starts later because it waited for the
+        // screen.
         frames.begin(start + 60 * MS, Some(12 * MS));
         frames.shows(start + 50 * MS);
         frames.begin(start + 90 * MS, Some(18 * MS));

@@ -1,24 +1,24 @@
-//! The table of keys.
+//! The window with the table of keys.
 
 use eframe::egui::{Context, Grid, ScrollArea, Window, vec2};
 
 use super::entries::ENTRIES;
 use super::intent::Menu;
 
-/// What is not in a menu.
+/// Keys and gestures that are not in a menu, with descriptions.
 const POINTER: &[(&str, &str)] = &[
-    ("1 to 9", "Takes a brush of the stand in hand"),
+    ("1 to 9", "Selects a brush of the list"),
     ("Space + drag", "Moves the view; so does the middle button"),
-    ("Shift+Space + drag", "Turns the view about its middle"),
+    ("Shift+Space + drag", "Rotates the view about its centre"),
     ("Ctrl+Space + drag", "Zooms, upwards in"),
     ("Wheel", "Zooms about the pointer; two fingers on a pad move the view"),
     ("Two fingers", "Move, zoom and turn the view on a touch screen"),
-    ("Alt + click", "Asks what paint lies there"),
-    ("Shift + stroke", "Begins with a straight line from where the last stroke ended"),
-    ("Held tool key", "Gives the tool before back when it is let go"),
+    ("Alt + click", "Picks colour and paint"),
+    ("Shift + stroke", "Starts with a straight line from the end of the last stroke"),
+    ("Held tool key", "Restores the previous tool on release"),
 ];
 
-/// Shows it while `open`.
+/// Shows the window while `open` is true; its close button clears `open`.
 pub(super) fn show(context: &Context, open: &mut bool) {
     let window = Window::new("Keys").open(open).resizable(false).collapsible(false);
     window.default_pos(eframe::egui::pos2(120.0, 60.0)).show(context, |ui| {
@@ -27,18 +27,18 @@ pub(super) fn show(context: &Context, open: &mut bool) {
             Grid::new("keys").num_columns(2).spacing(vec2(18.0, 4.0)).striped(true).show(
                 ui,
                 |ui| {
-                    for (keys, told) in POINTER {
+                    for (keys, description) in POINTER {
                         ui.strong(*keys);
-                        ui.label(*told);
+                        ui.label(*description);
                         ui.end_row();
                     }
                     let tools = ENTRIES.iter().filter(|entry| entry.menu == Menu::Tools);
                     let others = ENTRIES.iter().filter(|entry| entry.menu != Menu::Tools);
-                    for entry in tools.chain(others).filter(|entry| !entry.keys.is_empty()) {
+                    for entry in tools.chain(others).filter(|entry| !entry.shortcuts.is_empty()) {
                         let keys: Vec<String> =
-                            entry.keys.iter().map(|stroke| stroke.written()).collect();
+                            entry.shortcuts.iter().map(|shortcut| shortcut.text()).collect();
                         ui.strong(keys.join(", "));
-                        ui.label(entry.told);
+                        ui.label(entry.description);
                         ui.end_row();
                     }
                 },

@@ -1,28 +1,28 @@
-//! Pictures on buttons, as lines in a square of 18.
+//! Icons of the toolbar, as lines in a square of 18 x 18 points.
 
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2};
 
 use super::intent::Intent;
 use crate::panels::Mode;
 
-/// The side of the square that icons are drawn in.
+/// Side of the square of icon coordinates, in points.
 const SQUARE: f32 = 18.0;
 
-/// One line of an icon.
+/// One element of an icon.
 #[derive(Debug, Clone, Copy)]
 enum Mark {
-    /// Straight from place to place.
+    /// Polyline through points.
     Line(&'static [(f32, f32)]),
-    /// A filled polygon without dents.
+    /// Filled convex polygon.
     Filled(&'static [(f32, f32)]),
-    /// Part of a circle: middle, radius, from and to in degrees clockwise from the
+    /// Circular arc: centre, radius, start and end angle in degrees clockwise from the
     /// right.
     Arc((f32, f32), f32, f32, f32),
 }
 
 use Mark::{Arc, Filled, Line};
 
-/// Draws the icon of an intent in the middle of a button; whether it has one.
+/// Draws the icon of an intent at the centre of a button. Returns whether it has one.
 pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, color: Color32) -> bool {
     let marks = marks(intent);
     let corner = button.center() - eframe::egui::Vec2::splat(0.5 * SQUARE);

@@ -1,19 +1,19 @@
-//! What keys and menus can ask for.
+//! Intents: everything that keys, menus and toolbar can request.
 
 use eframe::egui::{Key, Modifiers};
 
 use crate::panels::Mode;
 
-/// What is asked for.
+/// One user action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Intent {
-    /// Begins a new painting.
+    /// Starts a new painting.
     New,
     /// Opens a file.
     Open,
     /// Saves the painting.
     Save,
-    /// Saves it under another name.
+    /// Saves the painting under another name.
     SaveAs,
     /// Keeps a numbered revision.
     KeepRevision,
@@ -21,111 +21,111 @@ pub enum Intent {
     Export,
     /// Saves the recording of all strokes.
     SaveRecording,
-    /// Pins a picture beside the canvas.
+    /// Opens a reference picture beside the canvas.
     OpenReference,
-    /// Paints under a measured lamp.
+    /// Lights the painting with a measured lamp.
     OpenLamp,
     /// Shows the preferences.
     Preferences,
-    /// Ends the program.
+    /// Closes the program.
     Quit,
-    /// Takes the last action back.
+    /// Undoes the last action.
     Undo,
-    /// Does it again.
+    /// Redoes the last undone action.
     Redo,
-    /// Dries the wet paint.
+    /// Dries a share of the wet paint.
     Dry,
-    /// Washes the brush.
+    /// Removes all paint from the brush.
     Wash,
-    /// Wipes the brush.
+    /// Removes most of the paint from the brush.
     Wipe,
-    /// Scrapes the palette clean.
+    /// Removes all paint from the palette.
     ScrapePalette,
-    /// Exchanges the light for the one before.
+    /// Switches to the previous light.
     OtherLight,
-    /// Makes the brush larger.
+    /// Increases the brush size by one step.
     Larger,
-    /// Makes it smaller.
+    /// Decreases the brush size by one step.
     Smaller,
-    /// Turns a brush that nothing tells the hold of about its handle, to the left.
+    /// Rotates the brush about its handle to the left, for devices without twist.
     TwistLeft,
-    /// The same to the right.
+    /// Rotates the brush about its handle to the right, for devices without twist.
     TwistRight,
-    /// Takes a brush of the stand in hand, counted from 1.
+    /// Selects a brush of the list by its number, from 1.
     Brush(u8),
-    /// Takes up a tool.
+    /// Selects a tool.
     Tool(Mode),
-    /// Zooms in.
+    /// Enlarges the view by one step.
     ZoomIn,
-    /// Zooms out.
+    /// Reduces the view by one step.
     ZoomOut,
-    /// Shows all of the canvas.
+    /// Fits the whole canvas into the view, keeping its rotation.
     Fit,
-    /// One cell is one pixel.
+    /// Shows one canvas cell as one screen pixel.
     ActualSize,
-    /// Shows all of it, upright.
+    /// Fits the whole canvas into the view, upright and not mirrored.
     Upright,
-    /// Turns the view to the left.
+    /// Rotates the view to the left by one step.
     TurnLeft,
-    /// Turns the view to the right.
+    /// Rotates the view to the right by one step.
     TurnRight,
-    /// Exchanges left and right of the view.
+    /// Mirrors the view horizontally.
     Mirror,
     /// Shows or hides all panels.
     Panels,
     /// Shows or hides the palette.
     Palette,
-    /// Shows or hides the figures.
+    /// Shows or hides the performance figures.
     Figures,
-    /// Fills the screen, or no longer.
+    /// Toggles full screen.
     FullScreen,
-    /// Shows the table of keys.
+    /// Shows or hides the table of keys.
     Keys,
 }
 
-/// Where it stands in the menu bar.
+/// Menu of the menu bar that holds an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Menu {
-    /// Files.
+    /// Opening, saving and exporting.
     File,
-    /// The painting.
+    /// Changes to painting, brush and light.
     Edit,
-    /// The view.
+    /// Zoom, rotation and visible parts.
     View,
-    /// Tools: in the column at the left and the table of keys.
+    /// Tools, which also stand in the toolbar at the left.
     Tools,
-    /// Help.
+    /// The table of keys.
     Help,
 }
 
-/// A key with what is held beside it.
+/// A keyboard shortcut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stroke {
-    /// Held beside it: `COMMAND` is Ctrl, on a Mac the command key.
+pub struct Shortcut {
+    /// Modifier keys; `COMMAND` is Ctrl, on a Mac the command key.
     pub modifiers: Modifiers,
-    /// The key.
+    /// Key that triggers it.
     pub key: Key,
 }
 
-/// One thing that can be asked for.
+/// Menu entry of an intent.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// What.
+    /// Intent that the entry requests.
     pub intent: Intent,
-    /// Where it stands.
+    /// Menu that holds the entry.
     pub menu: Menu,
-    /// Its name.
+    /// Name shown in the menu.
     pub name: &'static str,
-    /// What it does, for the tooltip.
-    pub told: &'static str,
-    /// Its keys; the first is shown beside its name.
-    pub keys: &'static [Stroke],
+    /// Description shown in the tooltip and the table of keys.
+    pub description: &'static str,
+    /// Shortcuts; the first is shown beside the name.
+    pub shortcuts: &'static [Shortcut],
 }
 
-impl Stroke {
-    /// As it is written.
+impl Shortcut {
+    /// Text of the shortcut, such as `Ctrl+Z`.
     #[must_use]
-    pub fn written(&self) -> String {
+    pub fn text(&self) -> String {
         let mut words = Vec::new();
         if self.modifiers.command {
             words.push(if cfg!(target_os = "macos") { "Cmd" } else { "Ctrl" });
@@ -146,10 +146,10 @@ impl Stroke {
         words.join("+")
     }
 
-    /// Whether a pressed key is this one.
+    /// Whether a pressed key with these modifiers triggers the shortcut.
     #[must_use]
-    pub fn is(&self, key: Key, modifiers: Modifiers) -> bool {
-        // What shift makes of a key is told as the key.
+    pub fn matches(&self, key: Key, modifiers: Modifiers) -> bool {
+        // Plus may need shift, which is then reported as held.
         let shifted = matches!(key, Key::Plus);
         key == self.key
             && modifiers.command == self.modifiers.command

@@ -1,7 +1,7 @@
-//! What the keyboard asks for, while no text is being typed.
+//! Translates key presses to intents while no text field has the focus.
 //!
-//! A key of a tool chooses it; held while the pointer works, it gives the tool
-//! before back when it is let go, as painting programs do.
+//! A tool key selects its tool. If it is held while the pointer works, releasing it
+//! restores the previous tool, as in other painting programs.
 
 use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
 
@@ -9,27 +9,27 @@ use super::entries::ENTRIES;
 use super::intent::Intent;
 use crate::panels::Mode;
 
-/// Seconds after which a key of a tool counts as held.
-const HELD: f64 = 0.35;
+/// Time after which a tool key counts as held, in seconds.
+const HOLD_SECONDS: f64 = 0.35;
 
-/// The keyboard.
+/// State of the keyboard: held keys and temporary tools.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Keys {
-    spring: Option<Spring>,
+    temporary: Option<TemporaryTool>,
     held: Held,
     barrel: Option<Mode>,
 }
 
-/// A tool that goes back when its key is let go.
+/// A tool chosen by a held key, and the tool to restore on release.
 #[derive(Debug, Clone, Copy)]
-struct Spring {
+struct TemporaryTool {
     key: Key,
     before: Mode,
     since: f64,
     used: bool,
 }
 
-/// What is held down.
+/// Keys held down.
 #[derive(Debug, Clone, Copy, Default)]
 struct Held {
     space: bool,
@@ -37,27 +37,28 @@ struct Held {
 }
 
 impl Keys {
-    /// Takes the keys of this frame, in order.
+    /// Returns the intents of this frame's key events in order and removes those
+    /// events.
     pub fn read(&mut self, context: &Context, mode: Mode) -> Vec<Intent> {
-        let mut asked = Vec::new();
+        let mut intents = Vec::new();
         if context.text_edit_focused() {
             *self = Self { barrel: self.barrel, ..Self::default() };
-            return asked;
+            return intents;
         }
         let focused = context.memory(|memory| memory.focused().is_some());
         let mut tabbed = false;
         context.input_mut(|input| {
             self.held.modifiers = input.modifiers;
-            if let Some(spring) = &mut self.spring {
-                spring.used |= input.pointer.any_down();
+            if let Some(temporary) = &mut self.temporary {
+                temporary.used |= input.pointer.any_down();
             }
             let now = input.time;
-            let (held, spring) = (&mut self.held, &mut self.spring);
+            let (held, temporary) = (&mut self.held, &mut self.temporary);
             input.events.retain(|event| {
                 let Event::Key { key, pressed, repeat, modifiers, .. } = event else {
                     return true;
                 };
-                // A control that was reached by Tab takes these itself.
+                // A focused control handles these keys itself.
                 if focused && matches!(key, Key::Tab | Key::Space | Key::Enter) {
                     return true;
                 }
@@ -66,15 +67,15 @@ impl Keys {
                     return false;
                 }
                 if !pressed {
-                    if let Some(sprung) = spring.take_if(|spring| spring.key == *key)
-                        && (sprung.used || now - sprung.since > HELD)
+                    if let Some(released) = temporary.take_if(|temporary| temporary.key == *key)
+                        && (released.used || now - released.since > HOLD_SECONDS)
                     {
-                        asked.push(Intent::Tool(sprung.before));
+                        intents.push(Intent::Tool(released.before));
                     }
                     return true;
                 }
                 let Some(intent) = intent(*key, *modifiers) else { return true };
-                let again = matches!(
+                let repeats = matches!(
                     intent,
                     Intent::Undo
                         | Intent::Redo
@@ -87,14 +88,15 @@ impl Keys {
                         | Intent::TwistLeft
                         | Intent::TwistRight
                 );
-                if *repeat && !again {
+                if *repeat && !repeats {
                     return false;
                 }
                 if let Intent::Tool(_) = intent {
-                    *spring = Some(Spring { key: *key, before: mode, since: now, used: false });
+                    *temporary =
+                        Some(TemporaryTool { key: *key, before: mode, since: now, used: false });
                 }
                 tabbed |= *key == Key::Tab;
-                asked.push(intent);
+                intents.push(intent);
                 false
             });
             if !input.focused {
@@ -104,11 +106,10 @@ impl Keys {
         if tabbed {
             context.memory_mut(|memory| memory.move_focus(FocusDirection::None));
         }
-        asked
+        intents
     }
 
-    /// What the pen does while keys are held: the tool that was chosen, unless one
-    /// says otherwise.
+    /// Tool in use: the chosen one unless held keys or a pen button select another.
     #[must_use]
     pub fn mode(&self, chosen: Mode) -> Mode {
         let Held { space, modifiers } = self.held;
@@ -121,13 +122,13 @@ impl Keys {
         }
     }
 
-    /// A button on the barrel of a pen gives a tool while it is held.
+    /// Sets the tool of the pen's barrel button, `None` when it is released.
     pub fn barrel(&mut self, mode: Option<Mode>) {
         self.barrel = mode;
     }
 }
 
-/// What a key asks for.
+/// Intent of a key press, if any.
 fn intent(key: Key, modifiers: Modifiers) -> Option<Intent> {
     const NUMBERS: [Key; 9] = [
         Key::Num1,
@@ -145,7 +146,8 @@ fn intent(key: Key, modifiers: Modifiers) -> Option<Intent> {
     {
         return Some(Intent::Brush(number as u8 + 1));
     }
-    let entry =
-        ENTRIES.iter().find(|entry| entry.keys.iter().any(|stroke| stroke.is(key, modifiers)));
+    let entry = ENTRIES
+        .iter()
+        .find(|entry| entry.shortcuts.iter().any(|shortcut| shortcut.matches(key, modifiers)));
     entry.map(|entry| entry.intent)
 }

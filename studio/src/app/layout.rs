@@ -1,39 +1,39 @@
-//! What is where in the window.
+//! Lays out the window: menu bar, status line, toolbar, side panel and surfaces.
 
 use std::time::Instant;
 
 use eframe::egui::{CentralPanel, Frame, Margin, Panel, Ui};
 
-use super::Studio;
+use super::studio::Studio;
 use super::{menus, status, toolbar};
-use crate::panels::Desk;
+use crate::panels::PanelContext;
 use crate::theme;
 use crate::view::fill_rect;
 
 impl Studio {
-    /// The window from its edges inwards.
-    pub(super) fn layout(&mut self, ui: &mut Ui) {
+    /// Draws all parts of the window, from its edges inwards.
+    pub(super) fn draw(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
-        let easel = self.easel.clone();
-        let history = easel.as_ref().map_or((false, false), |easel| {
-            (easel.history_done > 0, easel.history_done < easel.history.len())
+        let painting = self.painting.clone();
+        let history = painting.as_ref().map_or((false, false), |painting| {
+            (painting.history_done > 0, painting.history_done < painting.history.len())
         });
         let mirror = self.canvas.view.mirror;
-        let mut asked = None;
-        if self.shown.panels {
-            let shown = (self.shown.panels, self.shown.palette, self.tools.figures);
-            let state = menus::State { open: easel.is_some(), history, shown, mirror };
+        let mut intent = None;
+        if self.visible.panels {
+            let shown = (self.visible.panels, self.visible.palette, self.tools.figures);
+            let state = menus::State { open: painting.is_some(), history, shown, mirror };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
-                asked = menus::show(ui, state, &title);
+                intent = menus::show(ui, state, &title);
             });
             Panel::bottom("line").frame(bar).exact_size(24.0).show_separator_line(false).show(
                 ui,
                 |ui| {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
-                    self.line(ui);
+                    self.status_line(ui);
                 },
             );
             let column = bar.inner_margin(Margin::symmetric(4, 6));
@@ -46,7 +46,7 @@ impl Studio {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
                     let mode = self.keys.mode(self.tools.mode);
                     let state = toolbar::State { mode, mirror, history };
-                    asked = asked.or(toolbar::show(ui, state));
+                    intent = intent.or(toolbar::show(ui, state));
                 });
             let side = Frame::new().inner_margin(Margin::symmetric(8, 6));
             Panel::right("side")
@@ -56,40 +56,40 @@ impl Studio {
                 .show_separator_line(false)
                 .show(ui, |ui| {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
-                    let Some(easel) = &easel else { return };
-                    let asked = &mut self.asked;
-                    let mut desk = Desk { easel, tools: &mut self.tools, asked };
-                    self.panels.show(ui, &mut desk, &self.files);
+                    let Some(painting) = &painting else { return };
+                    let requests = &mut self.requests;
+                    let mut cx = PanelContext { painting, tools: &mut self.tools, requests };
+                    self.panels.show(ui, &mut cx, &self.files);
                 });
         }
-        if let Some(intent) = asked {
-            self.act(intent, &context);
+        if let Some(intent) = intent {
+            self.perform(intent, &context);
         }
-        CentralPanel::no_frame().show(ui, |ui| self.surfaces(ui));
+        CentralPanel::no_frame().show(ui, |ui| self.draw_surfaces(ui));
     }
 
-    /// The line below.
-    fn line(&mut self, ui: &mut Ui) {
+    /// Draws the status line.
+    fn status_line(&mut self, ui: &mut Ui) {
         let now = Instant::now();
-        let Some(easel) = self.easel.clone() else {
-            ui.weak("taking up the canvas");
+        let Some(painting) = self.painting.clone() else {
+            ui.weak("preparing the canvas");
             return;
         };
-        let (width, height) = easel.canvas_cells;
-        let mm = |cells: usize| cells as f64 * easel.cell_mm;
+        let (width, height) = painting.canvas_cells;
+        let mm = |cells: usize| cells as f64 * painting.cell_mm;
         let view = self.canvas.view;
         let turn = (view.snapped_turn().to_degrees().round() as i64).rem_euclid(360);
         let turn = if turn == 0 { String::new() } else { format!(", {turn} degrees") };
         let mirrored = if view.mirror { ", mirrored" } else { "" };
         let second =
-            easel.second_lighting.as_ref().map(|second| format!(" | {}", second.illuminant));
-        let light = &easel.lighting;
+            painting.second_lighting.as_ref().map(|second| format!(" | {}", second.illuminant));
+        let light = &painting.lighting;
         let state = status::State {
-            message: self.message.as_ref().filter(|message| message.stays(now)),
+            message: self.message.as_ref().filter(|message| message.is_displayed(now)),
             view: format!("{:.0} %{turn}{mirrored}", view.zoom * 100.0),
             size: format!("{width} x {height}, {:.0} x {:.0} mm", mm(width), mm(height)),
             light: format!("{}{}", light.illuminant, second.unwrap_or_default()),
-            backend: &easel.backend,
+            backend: &painting.backend,
         };
         if status::show(ui, &state) {
             self.message = None;

@@ -1,4 +1,4 @@
-//! The bar at the top: menus with their keys.
+//! The menu bar with its shortcuts.
 
 use eframe::egui::{Button, MenuBar, Ui};
 
@@ -6,29 +6,29 @@ use super::entries::ENTRIES;
 use super::intent::{Intent, Menu};
 use super::toolbar::tip;
 
-/// What of the entries can be asked for now, and what is shown.
+/// Program state that enables and checks menu entries.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State {
-    /// Whether there is a painting.
+    /// Whether a painting is open.
     pub(super) open: bool,
-    /// Whether there is something to take back, and to do again.
+    /// Whether undo and redo are possible.
     pub(super) history: (bool, bool),
-    /// Whether panels, palette and figures are shown.
+    /// Whether panels, palette and performance figures are shown.
     pub(super) shown: (bool, bool, bool),
     /// Whether the view is mirrored.
     pub(super) mirror: bool,
 }
 
-/// Shows the bar, with `title` at its right; what was clicked.
+/// Shows the bar with `title` at its right. Returns the entry that was clicked.
 pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
     let mut clicked = None;
     MenuBar::new().ui(ui, |ui| {
-        for (menu, name, told) in [
+        for (menu, name, description) in [
             (Menu::File, "File", "Open, save, export"),
             (Menu::Edit, "Edit", "The painting and the brush"),
-            (Menu::View, "View", "What is seen, and how"),
-            (Menu::Tools, "Tools", "What the pen does"),
-            (Menu::Help, "Help", "What the keys do"),
+            (Menu::View, "View", "Zoom, rotation and visible parts"),
+            (Menu::Tools, "Tools", "Tools of the pen"),
+            (Menu::Help, "Help", "The table of keys"),
         ] {
             let opened = ui.menu_button(name, |ui| {
                 ui.set_min_width(190.0);
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
                         Some(false) => format!("    {}", entry.name),
                         None => entry.name.to_owned(),
                     };
-                    let button = Button::new(name).shortcut_text(entry.keys_written());
+                    let button = Button::new(name).shortcut_text(entry.shortcut_text());
                     let response = ui.add_enabled(enabled(entry.intent, state), button);
                     let response = response.on_hover_ui(|ui| tip(ui, entry));
                     if response.clicked() {
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
                     }
                 }
             });
-            opened.response.on_hover_text(told);
+            opened.response.on_hover_text(description);
         }
         ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
             ui.add_space(4.0);

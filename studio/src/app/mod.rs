@@ -1,4 +1,4 @@
-//! The window: what is where, and what keys do.
+//! The studio window: layout, menus, keyboard, pen and worker events.
 
 mod intent;
 
@@ -16,33 +16,37 @@ mod toolbar;
 
 mod menus;
 
-mod surfaces;
-
-mod pen;
-
-mod cursor;
+mod help;
 
 mod side;
 
 mod parts;
 
-mod help;
+mod hover;
 
-mod acts;
+mod studio;
 
 mod events;
 
+mod perform;
+
+mod pen;
+
+mod cursor;
+
+mod surfaces;
+
 mod layout;
 
-mod outside;
+mod system;
 
-mod studio;
+mod frame;
 
 pub use entries::ENTRIES;
 pub use frames::Frames;
 pub use intent::{Entry, Intent, Menu};
 pub use keys::Keys;
-pub use parts::{Begun, Parts};
+pub use parts::{Parts, StartedWorker};
 pub use side::{Panels, Tab};
 pub use status::Message;
-pub use studio::{Shown, Studio};
+pub use studio::{Studio, VisibleParts};

@@ -1,4 +1,4 @@
-//! What a window is made of; the worker begins before there is a window.
+//! Parts that a window is created from. The worker starts before the window exists.
 
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -9,15 +9,15 @@ use crate::files::{FiguresLog, Files};
 use crate::pen::Pen;
 use session::{Command, Worker, WorkerOptions};
 
-/// A worker that has begun, and what wakes the window when there is one.
+/// A started worker, and the slot for the window that it wakes.
 #[derive(Debug)]
-pub struct Begun {
+pub struct StartedWorker {
     pub(super) worker: Worker,
     pub(super) window: Arc<OnceLock<Context>>,
 }
 
-impl Begun {
-    /// Starts the worker and asks it for `commands`.
+impl StartedWorker {
+    /// Starts the worker and sends it `commands`.
     #[must_use]
     pub fn new(options: WorkerOptions, commands: Vec<Command>) -> Self {
         let window: Arc<OnceLock<Context>> = Arc::default();
@@ -32,17 +32,17 @@ impl Begun {
     }
 }
 
-/// What a window is made of.
+/// Parts that a [`Studio`](super::Studio) is created from.
 #[derive(Debug)]
 pub struct Parts {
-    /// The worker.
-    pub begun: Begun,
-    /// What leads the brush.
+    /// Worker thread, already started.
+    pub worker: StartedWorker,
+    /// Input of pen, mouse and touch.
     pub pen: Pen,
-    /// All about files.
+    /// File dialogs, tasks and preferences.
     pub files: Files,
-    /// What is opened first.
+    /// File to open first.
     pub open: Option<PathBuf>,
-    /// Where figures go.
+    /// Performance log, if asked for.
     pub log: Option<FiguresLog>,
 }

@@ -1,39 +1,38 @@
-//! What the pen does, handed on to the worker.
+//! Passes the input of pen, mouse and touch on to the worker.
 
 use std::time::Instant;
 
 use eframe::egui::{Context, Order, Popup, RawInput, Ui};
-use render::paint::strokes::SurfaceId;
 
-use super::Studio;
-use super::surfaces::Hover;
+use super::hover::Hover;
+use super::studio::Studio;
 use crate::panels::Mode;
 use crate::pen::{Device, PenEvent, PenTargets, SurfaceTransform};
 use session::Command;
 
-/// The brush that the other end of a pen is, if the stand has it: it scrapes.
+/// Brush used for the eraser end of a pen, if the painting has it.
 const ERASER: &str = "knife";
 
 impl Studio {
-    /// Hears the pens of the system, before the window's library sees the input.
+    /// Reads the system's pen devices. Call before egui processes the input.
     pub fn raw_input(&mut self, context: &Context, input: &mut RawInput) {
         self.pen.read_systems(context, input);
     }
 
-    /// Takes in what pen, mouse and fingers did since the last frame, over the
-    /// surfaces as they are shown now.
-    pub(super) fn lead(&mut self, ui: &Ui, mode: Mode) {
+    /// Processes the pointer events since the last frame, with the current placement of
+    /// the surfaces.
+    pub(super) fn update_pen(&mut self, ui: &Ui, mode: Mode) {
         let now = Instant::now();
-        let Some(easel) = self.easel.clone() else { return };
+        let Some(painting) = self.painting.clone() else { return };
         let transforms: Vec<SurfaceTransform> = self
-            .surfaces_shown()
+            .visible_surfaces()
             .into_iter()
             .map(|surface| {
                 let view = self.view(surface);
                 let placement = view.placement();
                 SurfaceTransform::new(surface, view.rect(), |point| {
                     let [x, y] = placement.cell(point);
-                    (x * easel.cell_mm, y * easel.cell_mm)
+                    (x * painting.cell_mm, y * painting.cell_mm)
                 })
             })
             .collect();
@@ -46,25 +45,25 @@ impl Studio {
             other
                 || above.is_some_and(|layer| layer.order != Order::Background)
                 || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
-                || self.shown.palette
+                || self.visible.palette
                     && self.palette.rect().contains(point)
                     && self.palette.position(point).is_none()
         };
         let view = PenTargets { surfaces: &transforms, covered: &covered };
-        // Copied: the context is asked for what covers a place meanwhile.
+        // Copied, because `covered` queries the context while the events are processed.
         let (heard, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
         let events = self.pen.process_frame(&heard, modifiers, now, &view);
-        events.into_iter().for_each(|event| self.led(event));
+        events.into_iter().for_each(|event| self.handle_pen_event(event));
         if let Some(soon) = self.pen.repaint_after(Instant::now()) {
             context.request_repaint_after(soon);
         }
     }
 
-    fn led(&mut self, event: PenEvent) {
+    fn handle_pen_event(&mut self, event: PenEvent) {
         match event {
             PenEvent::Down { surface, device } => {
                 self.hover = None;
-                let brush = self.brush_of(device);
+                let brush = self.brush_for(device);
                 self.ask(Command::PenDown { surface, brush });
             }
             PenEvent::Move(samples) => self.ask(Command::PenMove(samples)),
@@ -73,11 +72,11 @@ impl Studio {
                 self.ask(Command::PenUp);
             }
             PenEvent::Hover { surface, sample, device } => {
-                let brush = self.brush_of(device);
+                let brush = self.brush_for(device);
                 self.hover = Some(Hover { surface, sample, brush });
             }
             PenEvent::Leave => self.hover = None,
-            // The button nearer to the tip picks, the other moves the view.
+            // The button nearer to the tip picks a colour, the other one pans the view.
             PenEvent::Barrel { button, pressed } => {
                 let mode = if button == 0 { Mode::Pick } else { Mode::Pan };
                 self.keys.barrel(pressed.then_some(mode));
@@ -85,15 +84,9 @@ impl Studio {
         }
     }
 
-    fn brush_of(&self, device: Device) -> String {
-        let stand = self.easel.iter().flat_map(|easel| &easel.brushes);
+    fn brush_for(&self, device: Device) -> String {
+        let stand = self.painting.iter().flat_map(|painting| &painting.brushes);
         let eraser = device == Device::Eraser && stand.into_iter().any(|is| is.name == ERASER);
         if eraser { ERASER.to_owned() } else { self.tools.brush.clone() }
-    }
-
-    /// The surfaces in the window, those on top first.
-    pub(super) fn surfaces_shown(&self) -> Vec<SurfaceId> {
-        let palette = self.shown.palette && self.shown.panels;
-        if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
 }

@@ -1,4 +1,4 @@
-//! The panels at the right: one group of tabs, or two where there is room.
+//! The side panel at the right: one group of tabs, or two in a tall window.
 
 use eframe::egui::{Button, CornerRadius, Panel, RichText, ScrollArea, Ui, vec2};
 
@@ -10,37 +10,37 @@ use crate::panels::layers::Layers;
 use crate::panels::light::LightPanel;
 use crate::panels::reference::Reference;
 use crate::panels::tubes::Tubes;
-use crate::panels::{Desk, revisions};
+use crate::panels::{PanelContext, revisions};
 use crate::theme;
 
-/// From this height on there is room for two groups, in points.
-const TALL: f32 = 860.0;
+/// Minimum height for two groups of tabs, in points.
+const TWO_GROUPS_HEIGHT: f32 = 860.0;
 
-/// What can be shown at the right.
+/// Tabs of the side panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tab {
-    /// The brushes.
+    /// List of brushes, head and paint of the selected brush.
     Brush,
     /// Wet and dry paint.
     Layers,
-    /// The light.
+    /// Illuminant, direction, gloss and second light.
     Light,
-    /// What was picked, and recipes for a colour.
+    /// Picked colour and recipes for it.
     Color,
-    /// What was done.
+    /// List of actions.
     History,
-    /// Revisions.
+    /// Numbered revisions of the painting.
     Files,
 }
 
 impl Tab {
-    /// What painting itself needs.
+    /// Tabs of the upper group: needed while painting.
     const UPPER: [Self; 2] = [Self::Brush, Self::Layers];
 
-    /// What is looked at now and then.
+    /// Tabs of the lower group: looked at occasionally.
     const LOWER: [Self; 4] = [Self::Light, Self::Color, Self::History, Self::Files];
 
-    /// Its name.
+    /// Name of the tab.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -53,35 +53,35 @@ impl Tab {
         }
     }
 
-    fn told(self) -> &'static str {
+    fn description(self) -> &'static str {
         match self {
-            Self::Brush => "The stand, the head of the brush, its paint",
+            Self::Brush => "List of brushes, head and paint of the selected brush",
             Self::Layers => "Wet and dry paint",
             Self::Light => "The light, the gloss, and a second light to compare",
-            Self::Color => "What lies where the eyedropper asked, and recipes for a colour",
-            Self::History => "What was done, to go back to",
+            Self::Color => "Colour and paint picked by the eyedropper, and recipes for a colour",
+            Self::History => "List of actions, to undo and redo",
             Self::Files => "Numbered revisions of the painting",
         }
     }
 }
 
-/// The panels and which of them are shown.
+/// State of all panels, and which tabs are selected.
 #[derive(Debug)]
 pub struct Panels {
-    /// The brushes.
+    /// Brush panel.
     pub brushes: Brushes,
-    /// The tubes, beside the palette.
+    /// Tube panel beside the palette.
     pub tubes: Tubes,
-    /// What was picked, and recipes for a colour.
+    /// Eyedropper panel with recipe search.
     pub eyedropper: Eyedropper,
-    /// The picture beside the canvas.
+    /// Reference picture beside the canvas.
     pub reference: Reference,
     layers: Layers,
     pub(super) light: LightPanel,
     history: History,
     upper: Tab,
     lower: Tab,
-    /// The tab chosen last, where there is one group.
+    /// Selected tab while there is only one group.
     only: Tab,
 }
 
@@ -103,8 +103,8 @@ impl Default for Panels {
 }
 
 impl Panels {
-    /// Brings a tab to the front.
-    pub fn bring(&mut self, tab: Tab) {
+    /// Selects a tab in its group.
+    pub fn select(&mut self, tab: Tab) {
         self.only = tab;
         if Tab::UPPER.contains(&tab) {
             self.upper = tab;
@@ -113,13 +113,13 @@ impl Panels {
         }
     }
 
-    /// Shows them in a column.
-    pub(super) fn show(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, files: &Files) {
-        if ui.available_height() < TALL {
+    /// Draws the side panel.
+    pub(super) fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, files: &Files) {
+        if ui.available_height() < TWO_GROUPS_HEIGHT {
             let all: Vec<Tab> = Tab::UPPER.into_iter().chain(Tab::LOWER).collect();
             let only = tabs(ui, &all, self.only);
-            self.bring(only);
-            self.body(ui, only, desk, files);
+            self.select(only);
+            self.body(ui, only, cx, files);
             return;
         }
         let half = (0.5 * ui.available_height()).round();
@@ -130,27 +130,27 @@ impl Panels {
             .resizable(true)
             .show(ui, |ui| {
                 self.upper = tabs(ui, &Tab::UPPER, self.upper);
-                self.body(ui, self.upper, desk, files);
+                self.body(ui, self.upper, cx, files);
             });
         ui.add_space(6.0);
         self.lower = tabs(ui, &Tab::LOWER, self.lower);
-        self.body(ui, self.lower, desk, files);
+        self.body(ui, self.lower, cx, files);
     }
 
-    fn body(&mut self, ui: &mut Ui, tab: Tab, desk: &mut Desk<'_>, files: &Files) {
+    fn body(&mut self, ui: &mut Ui, tab: Tab, cx: &mut PanelContext<'_>, files: &Files) {
         ui.add_space(4.0);
         ScrollArea::vertical().id_salt(tab.name()).auto_shrink(false).show(ui, |ui| match tab {
-            Tab::Brush => self.brushes.show(ui, desk),
-            Tab::Layers => self.layers.show(ui, desk),
-            Tab::Light => self.light.show(ui, desk),
-            Tab::Color => self.eyedropper.show(ui, desk),
-            Tab::History => self.history.show(ui, desk),
-            Tab::Files => revisions::show(ui, desk, &files.revisions),
+            Tab::Brush => self.brushes.show(ui, cx),
+            Tab::Layers => self.layers.show(ui, cx),
+            Tab::Light => self.light.show(ui, cx),
+            Tab::Color => self.eyedropper.show(ui, cx),
+            Tab::History => self.history.show(ui, cx),
+            Tab::Files => revisions::show(ui, cx, &files.revisions),
         });
     }
 }
 
-/// A row of tabs; the one that is chosen now.
+/// Draws a row of tabs. Returns the selected one.
 fn tabs(ui: &mut Ui, all: &[Tab], mut chosen: Tab) -> Tab {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
@@ -163,7 +163,7 @@ fn tabs(ui: &mut Ui, all: &[Tab], mut chosen: Tab) -> Tab {
                 .fill(fill)
                 .selected(here)
                 .corner_radius(CornerRadius { sw: 0, se: 0, ..CornerRadius::same(theme::ROUND) });
-            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(tab.told()).clicked() {
+            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(tab.description()).clicked() {
                 chosen = tab;
             }
         }

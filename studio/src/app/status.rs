@@ -1,4 +1,4 @@
-//! The line below: what was said, the view, the light.
+//! The status line: message, view, canvas size, light and backend.
 
 use std::time::{Duration, Instant};
 
@@ -6,61 +6,63 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 
 use crate::theme;
 
-/// How long something that did not fail stays.
-const STAYS: Duration = Duration::from_secs(10);
+/// Display time of a message that is not an error.
+const DISPLAY_TIME: Duration = Duration::from_secs(10);
 
-/// Something that was said to the painter.
+/// A message in the status line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Message {
-    /// One sentence.
+    /// Message text, one sentence.
     pub text: String,
-    /// What to try.
+    /// Suggested remedy.
     pub hint: Option<String>,
-    /// Whether something failed; such stays until it is put away.
+    /// Whether it is an error, which stays until it is dismissed.
     pub failed: bool,
-    /// When it was said.
-    pub said: Instant,
+    /// Time at which it was shown first.
+    pub shown_at: Instant,
 }
 
 impl Message {
-    /// Whether it is still to be seen.
+    /// Whether the message is still displayed at `now`.
     #[must_use]
-    pub fn stays(&self, now: Instant) -> bool {
-        self.failed || now.saturating_duration_since(self.said) < STAYS
+    pub fn is_displayed(&self, now: Instant) -> bool {
+        self.failed || now.saturating_duration_since(self.shown_at) < DISPLAY_TIME
     }
 }
 
-/// What the line shows.
+/// Contents of the status line.
 #[derive(Debug, Clone)]
 pub(super) struct State<'a> {
-    /// What was said last.
+    /// Last message, if still displayed.
     pub(super) message: Option<&'a Message>,
-    /// Zoom and turn: `42 %`, `15 degrees`.
+    /// Zoom and rotation, such as `42 %, 15 degrees`.
     pub(super) view: String,
-    /// The canvas in cells and mm.
+    /// Canvas size in cells and mm.
     pub(super) size: String,
-    /// The light.
+    /// Name of the illuminant, or of both.
     pub(super) light: String,
-    /// What computes.
+    /// Name of the compute backend.
     pub(super) backend: &'a str,
 }
 
-/// Shows it; whether the message is to be put away.
+/// Draws the status line. Returns whether the message was dismissed.
 pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
-    let mut put_away = false;
+    let mut dismissed = false;
     let small = |text: &str| RichText::new(text).small().color(theme::FAINT);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
-        ui.label(small(state.backend)).on_hover_text("What moves the paint");
+        ui.label(small(state.backend))
+            .on_hover_text("Processor or graphics adapter that computes the paint");
         ui.label(small(&state.light)).on_hover_text("The light of the painting");
-        ui.label(small(&state.size)).on_hover_text("The canvas: cells, and millimetres");
-        ui.label(small(&state.view)).on_hover_text("Pixels of the screen a cell, and the turn");
+        ui.label(small(&state.size))
+            .on_hover_text("Size of the canvas in cells and in millimetres");
+        ui.label(small(&state.view)).on_hover_text("Zoom in screen pixels per cell, and rotation");
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let Some(message) = state.message else { return };
             ui.spacing_mut().item_spacing.x = 6.0;
             if message.failed {
-                let close = ui.small_button("x").on_hover_text("Puts this away");
-                put_away = close.clicked();
+                let close = ui.small_button("x").on_hover_text("Dismisses this message");
+                dismissed = close.clicked();
             }
             let words = message
                 .hint
@@ -74,5 +76,5 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
             ui.add(eframe::egui::Label::new(text).truncate()).on_hover_text(&words);
         });
     });
-    put_away
+    dismissed
 }

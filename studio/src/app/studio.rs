@@ -1,86 +1,82 @@
-//! The program's window.
+//! State of the studio window.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use eframe::egui::{Context, Ui};
+use eframe::egui::Context;
 use render::paint::strokes::SurfaceId;
 
-use super::cursor::Hovering;
 use super::frames::Frames;
-use super::help;
+use super::hover::{Hover, HoveringHead};
 use super::keys::Keys;
-use super::parts::{Begun, Parts};
+use super::parts::{Parts, StartedWorker};
 use super::side::Panels;
 use super::status::Message;
-use super::surfaces::Hover;
-use crate::files::{FiguresLog, Files, ReferenceChange};
-use crate::panels::figures::FrameRate;
+use crate::files::{FiguresLog, Files};
 use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
 use session::{Command, HeadOnCanvas, PaintingState, Performance, Worker};
 
-/// The program's window: everything but the window system.
+/// The studio window, independent of the window system.
 #[derive(Debug)]
 pub struct Studio {
-    /// What the painter has in hand.
+    /// Selected tool, brush and tool settings.
     pub tools: Tools,
-    /// The canvas in the window.
+    /// View of the canvas.
     pub canvas: SurfaceView,
-    /// The palette in the window.
+    /// View of the palette.
     pub palette: SurfaceView,
-    /// What is shown.
-    pub shown: Shown,
-    /// What leads the brush.
+    /// Visible parts of the window.
+    pub visible: VisibleParts,
+    /// Input of pen, mouse and touch.
     pub pen: Pen,
-    /// The panels at the right, and the tubes.
+    /// Panels at the right and beside the palette.
     pub panels: Panels,
-    /// All about files.
+    /// File dialogs, tasks and preferences.
     pub files: Files,
     pub(super) worker: Worker,
-    pub(super) easel: Option<Arc<PaintingState>>,
+    pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
     pub(super) frames: Frames,
     pub(super) figures: Performance,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
     pub(super) hover: Option<Hover>,
-    pub(super) hovering: Option<Hovering>,
+    pub(super) hovering: Option<HoveringHead>,
     pub(super) message: Option<Message>,
-    pub(super) asked: Vec<Request>,
-    pub(super) heard: u64,
-    pub(super) answered: Option<u64>,
-    /// Where the eyedropper last asked, so that it asks once.
-    pub(super) asked_at: Option<(SurfaceId, u64, u64)>,
+    pub(super) requests: Vec<Request>,
+    pub(super) event_count: u64,
+    pub(super) last_recording: Option<u64>,
+    /// Position of the last pick request (mm as bits), so that each is sent once.
+    pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
 }
 
-/// What of the window is shown.
+/// Which parts of the window are visible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shown {
-    /// All panels.
+pub struct VisibleParts {
+    /// Menu bar, toolbar and panels.
     pub panels: bool,
-    /// The palette and the tubes.
+    /// Palette and tubes.
     pub palette: bool,
-    /// The table of keys.
+    /// Table of keys.
     pub keys: bool,
 }
 
 impl Studio {
-    /// A window of these parts.
+    /// Creates the window's state from its parts.
     #[must_use]
     pub fn new(context: &Context, parts: Parts) -> Self {
-        let Parts { begun, pen, files, open, log } = parts;
+        let Parts { worker, pen, files, open, log } = parts;
         theme::apply(context);
         context.options_mut(|options| {
-            // Ctrl and plus zoom the canvas, not the controls.
+            // Ctrl and plus zoom the canvas, not the user interface.
             options.zoom_with_keyboard = false;
         });
         context.set_zoom_factor(files.preferences.interface_scale);
-        let Begun { worker, window } = begun;
-        // One worker, one window: it was empty.
+        let StartedWorker { worker, window } = worker;
+        // The slot is empty: a worker has only one window.
         let _ = window.set(context.clone());
         let kept = &files.preferences.tools;
         let tools = Tools {
@@ -96,12 +92,12 @@ impl Studio {
             tools,
             canvas: SurfaceView::new("Canvas", Outline::Rectangle, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
-            shown: Shown { panels: true, palette: true, keys: false },
+            visible: VisibleParts { panels: true, palette: true, keys: false },
             pen,
             panels: Panels::default(),
             files,
             worker,
-            easel: None,
+            painting: None,
             keys: Keys::default(),
             frames: Frames::default(),
             figures: Performance::default(),
@@ -109,108 +105,62 @@ impl Studio {
             hover: None,
             hovering: None,
             message: None,
-            asked: open.into_iter().collect(),
-            heard: 0,
-            answered: None,
-            asked_at: None,
+            requests: open.into_iter().collect(),
+            event_count: 0,
+            last_recording: None,
+            last_pick: None,
             log,
             title: String::new(),
         }
     }
 
-    /// What the worker last told of the painting.
+    /// State of the painting as last reported by the worker; `None` before the first.
     #[must_use]
-    pub fn easel(&self) -> Option<&PaintingState> {
-        self.easel.as_deref()
+    pub fn painting(&self) -> Option<&PaintingState> {
+        self.painting.as_deref()
     }
 
-    /// How the worker keeps up.
+    /// Performance figures of the worker.
     #[must_use]
     pub fn figures(&self) -> Performance {
         self.figures
     }
 
-    /// How the window keeps up.
-    #[must_use]
-    pub fn frame_rate(&self) -> FrameRate {
-        self.frames.rate()
-    }
-
-    /// What was said to the painter last.
+    /// Last message shown to the user.
     #[must_use]
     pub fn message(&self) -> Option<&Message> {
         self.message.as_ref()
     }
 
-    /// Events of the worker taken in so far.
+    /// Number of worker events handled so far.
     #[must_use]
-    pub fn heard(&self) -> u64 {
-        self.heard
+    pub fn event_count(&self) -> u64 {
+        self.event_count
     }
 
-    /// The number of the recording that was answered last.
+    /// Number of the recording request that the worker answered last.
     #[must_use]
-    pub fn answered(&self) -> Option<u64> {
-        self.answered
+    pub fn last_recording(&self) -> Option<u64> {
+        self.last_recording
     }
 
-    /// Asks the worker for something, after all that panels have asked for.
+    /// Queues a command for the worker, after the requests of the panels.
     pub fn ask(&mut self, command: Command) {
-        self.asked.push(Request::Worker(command));
+        self.requests.push(Request::Worker(command));
     }
 
-    /// What goes on also while the window is hidden: to be called before each frame.
-    pub fn logic(&mut self, context: &Context) {
-        self.listen();
-        for command in self.files.update(context) {
-            self.worker.ask(command);
-        }
-        match self.files.take_reference() {
-            Some(ReferenceChange::Open(path)) => self.panels.reference.open(context, &path),
-            Some(ReferenceChange::Close) => self.panels.reference.close(),
-            None => {}
-        }
-        self.pen.settings = self.files.preferences.pen;
-        let scale = self.files.preferences.interface_scale;
-        if context.zoom_factor() != scale {
-            context.set_zoom_factor(scale);
+    /// View of a surface.
+    pub(super) fn view(&self, surface: SurfaceId) -> &SurfaceView {
+        match surface {
+            SurfaceId::Canvas => &self.canvas,
+            SurfaceId::Palette => &self.palette,
         }
     }
 
-    /// One frame. `busy` is how long the one before took, drawing included, if that
-    /// is known.
-    pub fn ui(&mut self, ui: &mut Ui, busy: Option<Duration>) {
-        let context = ui.ctx().clone();
-        let now = Instant::now();
-        self.frames.begin(now, busy);
-        self.listen();
-        if !self.files.has_dialog() {
-            for intent in self.keys.read(&context, self.tools.mode) {
-                self.act(intent, &context);
-            }
-        }
-        self.layout(ui);
-        help::show(&context, &mut self.shown.keys);
-        self.dropped(&context);
-        self.files.show(ui);
-        self.carry_out();
-        self.name_window(&context);
-        self.measure(&context, now);
-        if self.message.as_ref().is_some_and(|message| !message.failed) {
-            context.request_repaint_after(Duration::from_secs(1));
-        }
-    }
-
-    /// Hands on what was asked for, in order.
-    fn carry_out(&mut self) {
-        for request in std::mem::take(&mut self.asked) {
-            match (request, &self.easel) {
-                (Request::Worker(command), _) => self.worker.ask(command),
-                (Request::File(request), Some(easel)) => self.files.request(request, easel),
-                // Until there is a painting.
-                (request, None) => self.asked.push(request),
-            }
-        }
+    /// Surfaces visible in the window, topmost first.
+    pub(super) fn visible_surfaces(&self) -> Vec<SurfaceId> {
+        let palette = self.visible.palette && self.visible.panels;
+        if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Canvas and palette, and what the pen does on them.
+//! Draws canvas, palette and reference picture, and handles tools other than the brush.
 
 use std::time::Duration;
 
@@ -6,34 +6,22 @@ use eframe::egui::{
     Frame, Margin, Panel, PointerButton, Rect, Response, ScrollArea, Stroke, StrokeKind, Ui,
     UiBuilder, pos2, vec2,
 };
-use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
-use super::Studio;
 use super::side::Tab;
+use super::studio::Studio;
 use crate::panels::tubes::{DraggedTube, squeeze};
-use crate::panels::{Desk, Mode, figures};
+use crate::panels::{Mode, PanelContext, figures};
 use crate::theme;
 use crate::view::{DragMode, Split, fill_rect};
 use session::Command;
 
-/// The most that the tubes take beside the palette, in points.
-const SHELF: f32 = 640.0;
-
-/// Where the brush hovers.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Hover {
-    /// Over which surface.
-    pub(super) surface: SurfaceId,
-    /// How it is held.
-    pub(super) sample: Sample,
-    /// Which brush.
-    pub(super) brush: String,
-}
+/// Maximum width of the tubes beside the palette, in points.
+const TUBES_WIDTH: f32 = 640.0;
 
 impl Studio {
-    /// Shows both surfaces in what is left of the window.
-    pub(super) fn surfaces(&mut self, ui: &mut Ui) {
+    /// Draws both surfaces in the remaining part of the window.
+    pub(super) fn draw_surfaces(&mut self, ui: &mut Ui) {
         let mode = self.keys.mode(self.tools.mode);
         let drag = match mode {
             Mode::Pan => DragMode::Pan,
@@ -42,7 +30,7 @@ impl Studio {
             Mode::Paint | Mode::Pick | Mode::Squeeze => DragMode::None,
         };
         fill_rect(ui.painter(), ui.max_rect(), theme::SURROUND);
-        if self.shown.palette && self.shown.panels {
+        if self.visible.palette && self.visible.panels {
             let height = (0.3 * ui.available_height()).clamp(150.0, 236.0);
             Panel::bottom("palette")
                 .frame(Frame::NONE)
@@ -50,9 +38,9 @@ impl Studio {
                 .show_separator_line(false)
                 .default_size(height)
                 .size_range(110.0..=520.0)
-                .show(ui, |ui| self.table(ui, drag, mode));
+                .show(ui, |ui| self.draw_palette(ui, drag, mode));
         }
-        if self.panels.reference.is_open() && self.shown.panels {
+        if self.panels.reference.is_open() && self.visible.panels {
             Panel::left("reference")
                 .frame(Frame::new().inner_margin(Margin::same(6)))
                 .show_separator_line(false)
@@ -60,46 +48,47 @@ impl Studio {
                 .size_range(160.0..=0.6 * ui.available_width())
                 .show(ui, |ui| {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
-                    let before = self.tools.wanted;
-                    self.with_desk(|panels, desk| panels.reference.show(ui, desk));
-                    if self.tools.wanted != before {
-                        self.panels.bring(Tab::Color);
+                    let before = self.tools.reference_color;
+                    self.with_panels(|panels, cx| panels.reference.show(ui, cx));
+                    if self.tools.reference_color != before {
+                        self.panels.select(Tab::Color);
                     }
                 });
         }
         let room = ui.available_rect_before_wrap();
-        let easel = self.easel.clone();
-        let lights = easel.as_ref().and_then(|easel| {
-            let second = easel.second_lighting.as_ref()?;
-            Some([easel.lighting.illuminant.as_str(), second.illuminant.as_str()])
+        let painting = self.painting.clone();
+        let lights = painting.as_ref().and_then(|painting| {
+            let second = painting.second_lighting.as_ref()?;
+            Some([painting.lighting.illuminant.as_str(), second.illuminant.as_str()])
         });
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
         let response = self.canvas.show(ui, room, drag, split);
-        self.used(ui, SurfaceId::Canvas, &response, mode);
-        self.lead(ui, mode);
-        self.cursor(ui, mode);
+        self.handle_tool(ui, SurfaceId::Canvas, &response, mode);
+        self.update_pen(ui, mode);
+        self.draw_cursor(ui, mode);
         if self.tools.figures {
-            let backend = easel.as_ref().map_or("", |easel| easel.backend.as_str());
+            let backend = painting.as_ref().map_or("", |painting| painting.backend.as_str());
             figures::overlay(ui, room, self.frames.rate(), self.figures, backend);
             ui.ctx().request_repaint_after(Duration::from_millis(250));
         }
     }
 
-    /// The palette with the tubes beside it.
-    fn table(&mut self, ui: &mut Ui, drag: DragMode, mode: Mode) {
+    /// Draws the palette with the tubes beside it.
+    fn draw_palette(&mut self, ui: &mut Ui, drag: DragMode, mode: Mode) {
         let whole = ui.available_rect_before_wrap();
-        // The table keeps its height, whatever lies on it.
+        // The panel keeps its height, whatever its contents.
         ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
         let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
         let response = self.palette.show(ui, room, drag, None);
-        self.used(ui, SurfaceId::Palette, &response, mode);
-        let right = whole.right().min(room.right() + SHELF);
+        self.handle_tool(ui, SurfaceId::Palette, &response, mode);
+        let right = whole.right().min(room.right() + TUBES_WIDTH);
         let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
         let beside = beside.shrink2(vec2(6.0, 8.0));
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
-        // The middle at little cost; the rest is a line with round corners.
+        // A plain rectangle, which is cheap, and a thick outline for the rounded
+        // corners.
         fill_rect(ui.painter(), beside.shrink(1.0), theme::PANEL);
         let edge = Stroke::new(3.0, theme::PANEL);
         ui.painter().rect_stroke(beside, 6, edge, StrokeKind::Inside);
@@ -107,45 +96,37 @@ impl Studio {
         shelf.show(&mut ui, |ui| {
             ui.set_min_size(ui.available_size());
             ScrollArea::vertical().show(ui, |ui| {
-                let Some(easel) = &self.easel.clone() else { return };
-                let asked = &mut self.asked;
-                let mut desk = Desk { easel, tools: &mut self.tools, asked };
-                self.panels.tubes.show(ui, &mut desk);
+                let Some(painting) = &self.painting.clone() else { return };
+                let requests = &mut self.requests;
+                let mut cx = PanelContext { painting, tools: &mut self.tools, requests };
+                self.panels.tubes.show(ui, &mut cx);
             });
         });
     }
 
-    /// What tools other than the brush do on a surface.
-    fn used(&mut self, ui: &Ui, surface: SurfaceId, response: &Response, mode: Mode) {
-        let Some(cell_mm) = self.easel.as_ref().map(|easel| easel.cell_mm) else { return };
+    /// Handles eyedropper, squeezing and dropped tubes on a surface.
+    fn handle_tool(&mut self, ui: &Ui, surface: SurfaceId, response: &Response, mode: Mode) {
+        let Some(cell_mm) = self.painting.as_ref().map(|painting| painting.cell_mm) else { return };
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let Some(place) = pointer.and_then(|point| self.view(surface).position(point)) else {
             return;
         };
         let [x_mm, y_mm] = place.map(|cells| cells * cell_mm);
         if let Some(tube) = response.dnd_release_payload::<DraggedTube>() {
-            self.with_desk(|_, desk| squeeze(desk, tube.slot, surface, x_mm, y_mm));
+            self.with_panels(|_, cx| squeeze(cx, tube.slot, surface, x_mm, y_mm));
         }
         let primary = ui.input(|input| input.pointer.button_down(PointerButton::Primary));
         if mode == Mode::Pick && primary && response.is_pointer_button_down_on() {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
-            if self.asked_at != Some(place) {
-                self.asked_at = Some(place);
+            if self.last_pick != Some(place) {
+                self.last_pick = Some(place);
                 let radius_mm = self.tools.pick_radius_mm;
                 self.ask(Command::Pick { surface, x_mm, y_mm, radius_mm });
             }
         }
         if mode == Mode::Squeeze && response.clicked() {
             let slot = self.tools.tube;
-            self.with_desk(|_, desk| squeeze(desk, slot, surface, x_mm, y_mm));
-        }
-    }
-
-    /// Where a surface is in the window.
-    pub(super) fn view(&self, surface: SurfaceId) -> &crate::view::SurfaceView {
-        match surface {
-            SurfaceId::Canvas => &self.canvas,
-            SurfaceId::Palette => &self.palette,
+            self.with_panels(|_, cx| squeeze(cx, slot, surface, x_mm, y_mm));
         }
     }
 }

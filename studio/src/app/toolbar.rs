@@ -1,4 +1,4 @@
-//! The column of tools at the left.
+//! The toolbar at the left.
 
 use eframe::egui::{Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
@@ -7,7 +7,7 @@ use super::intent::{Entry, Intent};
 use crate::panels::Mode;
 use crate::theme;
 
-/// The tools, and what is done most, in groups.
+/// Buttons of the toolbar in groups.
 const GROUPS: [&[Intent]; 4] = [
     &[
         Intent::Tool(Mode::Paint),
@@ -22,18 +22,18 @@ const GROUPS: [&[Intent]; 4] = [
     &[Intent::Mirror, Intent::Fit],
 ];
 
-/// What the buttons show.
+/// Program state shown by the buttons.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State {
-    /// What the pen does now.
+    /// Tool in use.
     pub(super) mode: Mode,
-    /// Whether left and right are exchanged.
+    /// Whether the view is mirrored.
     pub(super) mirror: bool,
-    /// Whether there is something to take back, and to do again.
+    /// Whether undo and redo are possible.
     pub(super) history: (bool, bool),
 }
 
-/// Shows it; what was clicked.
+/// Draws the toolbar. Returns the intent of the button that was clicked.
 pub(super) fn show(ui: &mut Ui, state: State) -> Option<Intent> {
     let mut clicked = None;
     ui.spacing_mut().item_spacing = vec2(0.0, 2.0);
@@ -85,11 +85,11 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
     clicked.inner
 }
 
-/// The words of an entry: its name, its key, what it does.
+/// Tooltip of an entry: name, shortcut and description.
 pub(super) fn tip(ui: &mut Ui, entry: &Entry) {
     ui.horizontal(|ui| {
         ui.strong(entry.name);
-        ui.weak(entry.keys_written());
+        ui.weak(entry.shortcut_text());
     });
-    ui.label(entry.told);
+    ui.label(entry.description);
 }

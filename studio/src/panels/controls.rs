@@ -1,4 +1,4 @@
-//! Controls as the panels show them: each with a name, and a word on what it does.
+//! Shared controls of the panels, each with an accessible name and a tooltip.
 
 use std::ops::RangeInclusive;
 
@@ -9,13 +9,13 @@ use eframe::egui::{
 
 use crate::theme;
 
-/// Width of the names left of sliders, in points.
+/// Width of the label at the left of a slider, in points.
 pub(super) const NAME_WIDTH: f32 = 58.0;
 
-/// Width of the numbers right of them, in points.
+/// Width of the number at the right of a slider, in points.
 const NUMBER_WIDTH: f32 = 82.0;
 
-/// A slider between its name and its number, as wide as the panel.
+/// Adds a slider with its label and number, as wide as the panel.
 pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> Response {
     let line = ui.horizontal(|ui| {
         let size = vec2(NAME_WIDTH, ui.spacing().interact_size.y);
@@ -30,7 +30,7 @@ pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> 
     line.inner.on_hover_text(tip)
 }
 
-/// A slider over a share of 0..1, shown in percent.
+/// Adds a slider for a share of 0 to 1, shown in percent.
 pub(super) fn percent(
     ui: &mut Ui,
     name: &str,
@@ -47,12 +47,14 @@ pub(super) fn percent(
     slider(ui, name, tip, shown.fixed_decimals(0).suffix(" %"))
 }
 
-/// A button; if something hinders, it is grey and says what. Whether it was clicked.
+/// Adds a button. `hindered` disables it and gives the reason for the tooltip. Returns
+/// whether it was clicked.
 pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
     named_button(ui, name, name, tip, hindered)
 }
 
-/// The same for one of several alike, with a name of its own beside what it shows.
+/// Adds a button whose accessible name differs from its text, for one of several equal
+/// buttons.
 pub(super) fn named_button(
     ui: &mut Ui,
     shown: &str,
@@ -64,7 +66,7 @@ pub(super) fn named_button(
     response.on_hover_text(tip).on_disabled_hover_text(hindered.unwrap_or_default()).clicked()
 }
 
-/// The same in a menu, which closes.
+/// Adds a button to a menu, which closes on a click.
 pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
     let clicked = button(ui, name, tip, hindered);
     if clicked {
@@ -73,7 +75,7 @@ pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -
     clicked
 }
 
-/// A row of a list: its ground, to be drawn upon within the rectangle of the
+/// Adds an empty, clickable row of a list. The caller draws into the rectangle of the
 /// response.
 pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
     let size = vec2(ui.available_width(), height);
@@ -82,7 +84,8 @@ pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Respons
     response
 }
 
-/// What makes a place that senses clicks a button: its name, and its ground.
+/// Draws the background of a clickable area and gives it the accessible name of a
+/// button.
 pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, name));
@@ -96,7 +99,7 @@ pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
     ui.painter().rect(response.rect, theme::ROUND, fill, edge, StrokeKind::Inside);
 }
 
-/// A patch of colour; crossed out if there is none.
+/// Draws a patch of colour in sRGB; `None` is crossed out.
 pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
     let line = Stroke::new(1.0, theme::WELL);
     let corners = CornerRadius::same(2);
@@ -113,7 +116,7 @@ pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
     }
 }
 
-/// Text within a rectangle, on one line, cut off with an ellipsis.
+/// Draws text on one line within a rectangle, truncated with an ellipsis.
 pub(super) fn text(
     ui: &Ui,
     rect: Rect,
@@ -138,7 +141,7 @@ pub(super) fn text(
     ui.painter_at(rect.expand(2.0)).galley(at, laid, color);
 }
 
-/// A height in mm, to two digits.
+/// Formats a height in mm with two significant digits.
 pub(super) fn millimetres(mm: f64) -> String {
     match mm {
         mm if mm >= 9.95 => format!("{mm:.0} mm"),
@@ -155,9 +158,9 @@ mod tests {
 
     #[test]
     fn millimetres_have_two_digits() {
-        let told = [0.0, 0.0002, 0.0123, 0.123, 1.23, 12.3, 99.7].map(millimetres);
+        let found = [0.0, 0.0002, 0.0123, 0.123, 1.23, 12.3, 99.7].map(millimetres);
         let wanted =
             ["0.00 mm", "below 0.001 mm", "0.012 mm", "0.12 mm", "1.2 mm", "12 mm", "100 mm"];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
     }
 }

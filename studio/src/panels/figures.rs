@@ -1,23 +1,23 @@
-//! Latency and speed, on demand.
+//! Overlay with performance figures.
 
 use eframe::egui::{Align2, Color32, FontId, Rect, Ui, vec2};
 
 use crate::theme;
 use session::Performance;
 
-/// How the window kept up in the last second.
+/// Frame rate and latency of the window over the last second.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameRate {
-    /// Frames drawn.
+    /// Frames drawn per second.
     pub frames_a_second: f64,
-    /// From the arrival of a sample to the frame that shows it being handed over,
-    /// in ms: the mean; 0 if none was shown.
+    /// Mean time from the arrival of a pen sample to the end of the frame that shows
+    /// it, in ms; 0 if no sample was shown.
     pub latency_ms: f64,
-    /// The longest, in ms.
+    /// Longest such time, in ms.
     pub worst_ms: f64,
 }
 
-/// What is told of window and worker, as name and value.
+/// Figures of window and worker as pairs of label and value.
 #[must_use]
 pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'static str, String)> {
     let ms = |mean: f64, worst: f64| match worst {
@@ -34,7 +34,7 @@ pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'stat
     ]
 }
 
-/// Draws them over the upper left corner of `over`.
+/// Draws the figures over the upper left corner of `over`.
 pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backend: &str) {
     let (size, row, value_at) = (12.0, 16.0, 128.0);
     let font = FontId::proportional(size);
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_figure_is_told_with_its_unit() {
+    fn each_figure_has_its_unit() {
         let rate = FrameRate { frames_a_second: 59.6, latency_ms: 21.44, worst_ms: 33.0 };
         let worker = Performance {
             substeps_per_second: 1012.4,
@@ -66,8 +66,8 @@ mod tests {
             mean_latency_ms: 8.04,
             max_latency_ms: 12.26,
         };
-        let told = lines(rate, worker, "CPU, 2 threads");
-        let values: Vec<&str> = told.iter().map(|(_, value)| value.as_str()).collect();
+        let figures = lines(rate, worker, "CPU, 2 threads");
+        let values: Vec<&str> = figures.iter().map(|(_, value)| value.as_str()).collect();
         let wanted =
             ["60", "21.4 ms, worst 33.0", "8.0 ms, worst 12.3", "1012", "17", "CPU, 2 threads"];
         assert_eq!(values, wanted);
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn without_a_sample_there_is_no_latency() {
-        let told = lines(FrameRate::default(), Performance::default(), "CPU");
-        assert_eq!((told[1].1.as_str(), told[2].1.as_str()), ("-", "-"));
+        let figures = lines(FrameRate::default(), Performance::default(), "CPU");
+        assert_eq!((figures[1].1.as_str(), figures[2].1.as_str()), ("-", "-"));
     }
 }

@@ -1,16 +1,14 @@
-//! The panels: each shows what the worker last told, and asks for changes.
-
-mod desk;
+//! The panels. Each shows the state that the worker last reported and queues requests.
 
 mod tools;
 
-mod draft;
+mod context;
+
+mod pending_value;
 
 mod controls;
 
 mod pigments;
-
-pub mod brushes;
 
 pub mod eyedropper;
 
@@ -24,10 +22,12 @@ pub mod reference;
 
 pub mod tubes;
 
+pub mod brushes;
+
 pub mod figures;
 
 pub mod revisions;
 
 pub use crate::files::FileRequest;
-pub use desk::{Desk, Request};
+pub use context::{PanelContext, Request};
 pub use tools::{Mode, Tools};

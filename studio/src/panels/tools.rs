@@ -1,56 +1,56 @@
-//! What the painter has in hand; no part of the painting.
+//! Selected tool and tool settings, which are not part of the painting.
 
 use std::sync::Arc;
 
 use session::Picked;
 
-/// What the pen does on a surface.
+/// Tool: the effect of the pen on a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Mode {
-    /// It leads the brush.
+    /// Paints with the brush.
     #[default]
     Paint,
-    /// It asks what lies there.
+    /// Picks colour and paint (eyedropper).
     Pick,
-    /// It moves the view.
+    /// Moves the view.
     Pan,
-    /// It turns the view.
+    /// Rotates the view.
     Rotate,
-    /// It zooms.
+    /// Zooms the view.
     Zoom,
-    /// It squeezes paint of the chosen tube.
+    /// Squeezes paint from the selected tube.
     Squeeze,
 }
 
-/// What the painter has in hand.
+/// Selected tool, brush and tube, and their settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tools {
-    /// What the pen does.
+    /// Selected tool.
     pub mode: Mode,
-    /// The name of the brush in hand.
+    /// Name of the selected brush.
     pub brush: String,
-    /// The slot of the tube last chosen.
+    /// Slot of the selected tube.
     pub tube: usize,
-    /// Share of clear medium in what the brush takes up, 0..1.
+    /// Share of clear medium in a load of the brush, 0 to 1.
     pub vehicle: f64,
-    /// How high paint lies on the head after loading, in mm.
+    /// Height of the paint that one load adds to the brush head, in mm.
     pub load_mm: f64,
-    /// The share of its paint that wiping leaves on a brush, 0..1.
+    /// Share of its paint that wiping leaves on the brush, 0 to 1.
     pub wipe_keep: f64,
-    /// Cubic millimetres that one squeeze gives.
+    /// Volume of one squeeze, in cubic mm.
     pub squeeze_mm3: f64,
-    /// The share that `dry` dries, 0..1.
+    /// Share of the wet paint that one drying action dries, 0 to 1.
     pub dry_share: f64,
-    /// The eyedropper tells the mean over cells this near, in mm; 0 is one cell.
+    /// Radius of the disc that the eyedropper averages, in mm; 0 is one cell.
     pub pick_radius_mm: f64,
-    /// What was last picked.
+    /// Last result of the eyedropper.
     pub picked: Option<Arc<Picked>>,
-    /// A colour from the reference picture or a dropped swatch, linear sRGB.
-    pub wanted: Option<[f64; 3]>,
-    /// Where the two lights of the split view meet, as a share of the canvas's
-    /// width.
+    /// Colour picked from the reference picture, linear sRGB.
+    pub reference_color: Option<[f64; 3]>,
+    /// Position of the boundary between the two lights of the split view, as a share of
+    /// the canvas width.
     pub split: f32,
-    /// Whether the figures are shown over the canvas.
+    /// Whether the performance figures are shown over the canvas.
     pub figures: bool,
 }
 
@@ -67,7 +67,7 @@ impl Default for Tools {
             dry_share: 1.0,
             pick_radius_mm: 0.5,
             picked: None,
-            wanted: None,
+            reference_color: None,
             split: 0.5,
             figures: false,
         }

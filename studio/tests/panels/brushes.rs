@@ -9,10 +9,10 @@ use session::{BrushState, Command};
 use studio::panels::brushes::Brushes;
 use studio::panels::{Mode, Request};
 
-use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
+use super::made::{Table, asks, click, is_disabled, painting, picture, shown};
 
 fn brushes() -> Harness<'static, Table<Brushes>> {
-    shown(Brushes::default(), easel(), Brushes::show)
+    shown(Brushes::default(), painting(), Brushes::show)
 }
 
 fn act(action: Action) -> Request {
@@ -38,10 +38,10 @@ fn a_click_or_a_number_takes_a_brush_in_hand() {
     click(&mut harness, "knife");
     assert_eq!(harness.state().tools.brush, "knife");
     assert_eq!(harness.state().tools.mode, Mode::Paint);
-    let there = harness.state_mut().with_desk(|panel, desk| panel.choose(2, desk));
+    let there = harness.state_mut().with_desk(|panel, cx| panel.choose(2, cx));
     assert_eq!((there, harness.state().tools.brush.as_str()), (true, "flat"));
     for none in [0, 4, 9] {
-        let there = harness.state_mut().with_desk(|panel, desk| panel.choose(none, desk));
+        let there = harness.state_mut().with_desk(|panel, cx| panel.choose(none, cx));
         assert_eq!((there, harness.state().tools.brush.as_str()), (false, "flat"));
     }
     asks(&mut harness, &[]);
@@ -52,8 +52,8 @@ fn another_shape_or_size_is_another_head_with_the_same_paint() {
     let mut harness = brushes();
     click(&mut harness, "shape filbert");
     asks(&mut harness, &[take("round", HeadShape::Filbert, 6.0), its_paint()]);
-    // The worker has not told yet: what was asked counts.
-    harness.state_mut().with_desk(|panel, desk| panel.resize(1.5, desk));
+    // The worker has not told yet: what was requests counts.
+    harness.state_mut().with_desk(|panel, cx| panel.resize(1.5, cx));
     asks(&mut harness, &[take("round", HeadShape::Filbert, 9.0), its_paint()]);
     click(&mut harness, "shape filbert");
     asks(&mut harness, &[]);
@@ -62,7 +62,7 @@ fn another_shape_or_size_is_another_head_with_the_same_paint() {
     harness.get_by_role_and_label(Role::Slider, "Size").set_value_accesskit(0.5);
     harness.run();
     asks(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
-    harness.state_mut().with_desk(|panel, desk| panel.resize(0.1, desk));
+    harness.state_mut().with_desk(|panel, cx| panel.resize(0.1, cx));
     asks(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
 }
 
@@ -81,29 +81,29 @@ fn dragging_the_size_asks_once_at_the_end() {
     asks(&mut harness, &[]);
     harness.drop_at(rail.center() + eframe::egui::vec2(16.0, 0.0));
     harness.run();
-    let asked = format!("{:?}", harness.state().asked);
-    assert_eq!(harness.state().asked.len(), 1, "{asked}");
-    assert!(asked.contains("TakeBrush { name: \"knife\""), "{asked}");
+    let requests = format!("{:?}", harness.state().requests);
+    assert_eq!(harness.state().requests.len(), 1, "{requests}");
+    assert!(requests.contains("SetBrush { name: \"knife\""), "{requests}");
 }
 
 #[test]
 fn a_head_that_was_told_of_is_no_more_asked_for() {
     let mut harness = brushes();
     click(&mut harness, "shape mop");
-    harness.state_mut().asked.clear();
+    harness.state_mut().requests.clear();
     // First the head alone, as the load comes after it.
-    let round = &mut harness.state_mut().easel.brushes[0];
+    let round = &mut harness.state_mut().painting.brushes[0];
     round.spec.shape = HeadShape::Mop;
     let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
     harness.run();
     click(&mut harness, "shape bright");
     asks(&mut harness, &[take("round", HeadShape::Bright, 6.0), its_paint()]);
-    let round = &mut harness.state_mut().easel.brushes[0];
+    let round = &mut harness.state_mut().painting.brushes[0];
     round.spec.shape = HeadShape::Bright;
     round.amount_mm = loaded;
     harness.run();
     // Washed elsewhere: now the brush has no paint to take along.
-    harness.state_mut().easel.brushes[0].amount_mm = 0.0;
+    harness.state_mut().painting.brushes[0].amount_mm = 0.0;
     harness.run();
     click(&mut harness, "shape fan");
     asks(&mut harness, &[take("round", HeadShape::Fan, 6.0)]);
@@ -187,8 +187,8 @@ fn wiping_and_washing_need_paint() {
     click(&mut harness, "flat");
     assert!(is_disabled(&harness, "Wipe") && is_disabled(&harness, "Wash"), "it is clean");
     let table = harness.state_mut();
-    table.with_desk(|_, desk| studio::panels::brushes::wash(desk));
-    table.with_desk(|_, desk| studio::panels::brushes::wipe(desk));
+    table.with_desk(|_, cx| studio::panels::brushes::wash(cx));
+    table.with_desk(|_, cx| studio::panels::brushes::wipe(cx));
     asks(&mut harness, &[]);
 }
 
@@ -196,22 +196,22 @@ fn wiping_and_washing_need_paint() {
 fn the_stand_follows_the_painting() {
     let mut harness = brushes();
     click(&mut harness, "knife");
-    let state = &mut harness.state_mut().easel.brushes;
+    let state = &mut harness.state_mut().painting.brushes;
     let spec = BrushSpec { shape: HeadShape::Mop, size_mm: 20.0 };
     let mop = BrushState { name: "sky".to_owned(), spec, ..state[1].clone() };
     *state = vec![mop];
     harness.run();
     assert_eq!(harness.state().tools.brush, "sky", "the knife is gone");
     assert!(harness.query_by_label("knife").is_none(), "the knife is gone");
-    assert!(is_disabled(&harness, "Remove"), "the last brush stays");
-    harness.state_mut().easel.brushes.clear();
+    assert!(is_disabled(&harness, "Remove"), "the last brush cannot be removed");
+    harness.state_mut().painting.brushes.clear();
     harness.run();
     assert!(is_disabled(&harness, "Keep") && is_disabled(&harness, "Medium only"), "no brush");
 }
 
 #[test]
 fn new_brushes_stand_in_the_order_of_their_shapes() {
-    let mut told = easel();
+    let mut told = painting();
     told.brushes.reverse();
     let harness = shown(Brushes::default(), told, Brushes::show);
     let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
@@ -220,7 +220,7 @@ fn new_brushes_stand_in_the_order_of_their_shapes() {
 
 #[test]
 fn a_size_between_the_slider_s_steps_is_left_alone() {
-    let mut odd = easel();
+    let mut odd = painting();
     odd.brushes[0].spec.size_mm = 6.123_456;
     let mut harness = shown(Brushes::default(), odd, Brushes::show);
     harness.run_steps(3);
@@ -233,7 +233,7 @@ fn brushes_are_drawn() {
     let Some(drawn) = picture(&mut harness, "brushes") else { return };
     // The head of the round brush is in the colour of its paint.
     let row = harness.get_by_label("round").rect();
-    let [red, green, blue] = harness.state().easel.brushes[0].color.unwrap();
+    let [red, green, blue] = harness.state().painting.brushes[0].color.unwrap();
     let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;
     assert_eq!(at, [red, green, blue, 255]);
 }

@@ -20,15 +20,15 @@ use studio::panels::Mode;
 use studio::panels::eyedropper::{Color, Eyedropper};
 use studio::view::Outline;
 
-use super::stage::{Stage, made_easel};
+use super::stage::{Stage, made_painting};
 
-fn stage(easel: PaintingState) -> Stage<Eyedropper> {
-    Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), easel, Eyedropper::show)
+fn stage(painting: PaintingState) -> Stage<Eyedropper> {
+    Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), painting, Eyedropper::show)
 }
 
 /// Three parts of white and one of ultramarine, wet, over a dry yellow.
-fn picked(easel: &PaintingState) -> Picked {
-    let library = &easel.library;
+fn picked(painting: &PaintingState) -> Picked {
+    let library = &painting.library;
     let find = |name: &str| library.find(name).unwrap();
     let layer = |paint: &[(usize, f64)], vehicle: f64| {
         let mut layer =
@@ -54,9 +54,9 @@ fn picked(easel: &PaintingState) -> Picked {
 }
 
 fn with_picked() -> Stage<Eyedropper> {
-    let easel = made_easel();
-    let found = picked(&easel);
-    let mut stage = stage(easel);
+    let painting = made_painting();
+    let found = picked(&painting);
+    let mut stage = stage(painting);
     stage.scene().tools.picked = Some(Arc::new(found));
     stage.run();
     stage
@@ -66,9 +66,9 @@ fn with_picked() -> Stage<Eyedropper> {
 fn what_lies_there_is_told_in_the_numbers_of_spectra() {
     let mut stage = with_picked();
     stage.save("eyedropper");
-    let easel = &stage.scene().easel;
-    let (light, picked) = (Arc::clone(&easel.light), picked(easel));
-    let weights = light.viewing.weights(easel.library.grid).unwrap();
+    let painting = &stage.scene().painting;
+    let (light, picked) = (Arc::clone(&painting.light), picked(painting));
+    let weights = light.viewing.weights(painting.library.grid).unwrap();
     let xyz = weights.xyz(&picked.reflectance);
     let lab = Lab::from_xyz(xyz, weights.white());
     let srgb = RgbSpace::Srgb.encoded_from_xyz(xyz, weights.white(), Adaptation::Bradford).to_hex();
@@ -86,7 +86,7 @@ fn what_lies_there_is_told_in_the_numbers_of_spectra() {
 fn the_wet_paint_is_loaded_and_its_recipe_copied() {
     let mut stage = with_picked();
     stage.click("Load the brush");
-    let wanted = picked(&stage.scene().easel);
+    let wanted = picked(&stage.scene().painting);
     let commands = stage.commands();
     let [Command::LoadPicked { brush, picked, amount_mm }] = &commands[..] else {
         panic!("{commands:?}");
@@ -104,7 +104,7 @@ fn the_wet_paint_is_loaded_and_its_recipe_copied() {
 #[test]
 fn dry_paint_cannot_be_loaded() {
     let mut stage = with_picked();
-    let mut found = picked(&stage.scene().easel);
+    let mut found = picked(&stage.scene().painting);
     found.layers[1].amounts_mm = [0.0; SLOTS + 1];
     stage.scene().tools.picked = Some(Arc::new(found));
     stage.run();
@@ -114,25 +114,25 @@ fn dry_paint_cannot_be_loaded() {
 
 #[test]
 fn the_eyedropper_is_taken_up_and_put_back() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.click("Eyedropper");
     assert_eq!(stage.scene().tools.mode, Mode::Pick);
     stage.click("Eyedropper");
     assert_eq!(stage.scene().tools.mode, Mode::Paint);
 }
 
-/// What calibrate itself finds with the palette of `easel` in up to 40 parts.
-fn by_calibrate(easel: &PaintingState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
-    let mut request = MatchRequest::new(&easel.library, sights, FilmKind::Hiding);
-    request.allowed = easel.slots.iter().copied().flatten().collect();
+/// What calibrate itself finds with the palette of `painting` in up to 40 parts.
+fn by_calibrate(painting: &PaintingState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
+    let mut request = MatchRequest::new(&painting.library, sights, FilmKind::Hiding);
+    request.allowed = painting.slots.iter().copied().flatten().collect();
     request.allowed.sort_unstable();
     request.whole_parts = Some(40);
     request.count = 3;
-    recipes(&easel.library, target, &request).unwrap()
+    recipes(&painting.library, target, &request).unwrap()
 }
 
-fn sights(easel: &PaintingState) -> Vec<Sight> {
-    vec![Sight { viewing: easel.light.viewing.clone(), weight: 1.0 }]
+fn sights(painting: &PaintingState) -> Vec<Sight> {
+    vec![Sight { viewing: painting.light.viewing.clone(), weight: 1.0 }]
 }
 
 fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
@@ -158,21 +158,21 @@ fn answered(stage: &mut Stage<Eyedropper>) {
 
 #[test]
 fn a_typed_color_is_matched_as_calibrate_matches_it() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     ask(&mut stage, "48,-4,-22");
     answered(&mut stage);
     stage.save("eyedropper-match");
-    let easel = stage.scene().easel.clone();
-    let sights = sights(&easel);
+    let painting = stage.scene().painting.clone();
+    let sights = sights(&painting);
     let lab = Lab { lightness: 48.0, a: -4.0, b: -22.0 };
-    let wanted = by_calibrate(&easel, &Target::from_lab("", lab, &sights), sights);
+    let wanted = by_calibrate(&painting, &Target::from_lab("", lab, &sights), sights);
     assert_eq!(wanted.len(), 3);
     for recipe in &wanted {
         let told = format!("\u{2206}E {:.2}", recipe.delta_e[0]);
         assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
     }
     for (index, recipe) in wanted.iter().enumerate() {
-        let name = |at: usize| easel.library.pigments[recipe.shares[at].0].name.clone();
+        let name = |at: usize| painting.library.pigments[recipe.shares[at].0].name.clone();
         let parts = recipe.parts.as_ref().unwrap();
         let all = parts.iter().enumerate().map(|(at, part)| (name(at), f64::from(*part)));
         let all = all.collect();
@@ -201,9 +201,9 @@ fn a_typed_color_is_matched_as_calibrate_matches_it() {
 
 #[test]
 fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
-    let mut easel = made_easel();
-    easel.brushes[0].amount_mm = 0.2;
-    let mut stage = stage(easel);
+    let mut painting = made_painting();
+    painting.brushes[0].amount_mm = 0.2;
+    let mut stage = stage(painting);
     ask(&mut stage, "#808080");
     answered(&mut stage);
     stage.click("Load recipe 1");
@@ -218,11 +218,11 @@ fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
 
 #[test]
 fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
-    let mut easel = made_easel();
+    let mut painting = made_painting();
     // Greens need a pigment that is not there.
-    easel.slots = [None; SLOTS];
-    easel.slots[0] = Some(easel.library.find("Zinc White").unwrap());
-    let mut stage = stage(easel);
+    painting.slots = [None; SLOTS];
+    painting.slots[0] = Some(painting.library.find("Zinc White").unwrap());
+    let mut stage = stage(painting);
     stage.click("Library");
     assert!(stage.commands().is_empty(), "nothing is wanted yet");
     ask(&mut stage, "50,-30,5");
@@ -238,8 +238,8 @@ fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
     let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     assert_eq!(names, ["Zinc White", &name]);
-    let slots = [0, 1].map(|at| stage.scene().easel.library.find(names[at]).ok());
-    stage.scene().easel.slots[..2].copy_from_slice(&slots);
+    let slots = [0, 1].map(|at| stage.scene().painting.library.find(names[at]).ok());
+    stage.scene().painting.slots[..2].copy_from_slice(&slots);
     stage.run();
     let gone = stage.harness.query_by_label(&format!("Add {name}")).is_none();
     assert!(gone, "{name} is on the palette now");
@@ -247,20 +247,20 @@ fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
 
 #[test]
 fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_use() {
-    let mut easel = made_easel();
-    let library = Arc::clone(&easel.library);
+    let mut painting = made_painting();
+    let library = Arc::clone(&painting.library);
     let green = library.find("Viridian").unwrap();
     let others: Vec<usize> =
         (0..library.pigments.len()).filter(|&pigment| pigment != green).collect();
-    for (slot, pigment) in easel.slots.iter_mut().zip(&others) {
+    for (slot, pigment) in painting.slots.iter_mut().zip(&others) {
         *slot = Some(*pigment);
     }
-    let full = easel.slots;
-    let mut stage = stage(easel);
+    let full = painting.slots;
+    let mut stage = stage(painting);
     stage.click("Library");
     // Viridian itself: nothing is nearer.
     let mixture = library.mix(&[(green, 1.0)]).unwrap().hiding(library.saunderson);
-    let light = Arc::clone(&stage.scene().easel.light);
+    let light = Arc::clone(&stage.scene().painting.light);
     let weights = light.viewing.weights(library.grid).unwrap();
     let [l, a, b] = Lab::from_xyz(weights.xyz(&mixture), weights.white()).to_array();
     ask(&mut stage, &format!("{l},{a},{b}"));
@@ -282,38 +282,40 @@ fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_u
 
 #[test]
 fn a_color_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
-    let mut stage = stage(made_easel());
-    stage.scene().tools.wanted = Some([0.9, 0.05, 0.02]);
+    let mut stage = stage(made_painting());
+    stage.scene().tools.reference_color = Some([0.9, 0.05, 0.02]);
     stage.harness.step();
-    stage.scene().tools.wanted = Some([0.18, 0.18, 0.18]);
+    stage.scene().tools.reference_color = Some([0.18, 0.18, 0.18]);
     answered(&mut stage);
-    let wanted = stage.scene().panel.wanted().unwrap().clone();
+    let wanted = stage.scene().panel.target().unwrap().clone();
     assert_eq!(wanted.color, Color::Screen([0.18; 3]));
-    let easel = stage.scene().easel.clone();
-    let sights = sights(&easel);
-    let target = wanted.target(easel.library.grid, &sights);
-    let best = by_calibrate(&easel, &target, sights);
+    let painting = stage.scene().painting.clone();
+    let sights = sights(&painting);
+    let target = wanted.match_target(painting.library.grid, &sights);
+    let best = by_calibrate(&painting, &target, sights);
     let told = format!("\u{2206}E {:.2}", best[0].delta_e[0]);
     assert!(stage.harness.query_by_label(&told).is_some(), "{told}, of the newer colour");
 }
 
 #[test]
 fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
-    let mut easel = made_easel();
-    easel.second_lighting = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
-    let found = picked(&easel);
-    let mut stage = stage(easel);
+    let mut painting = made_painting();
+    painting.second_lighting =
+        Some(Lighting { illuminant: "A".to_owned(), ..painting.lighting.clone() });
+    let found = picked(&painting);
+    let mut stage = stage(painting);
     stage.scene().tools.picked = Some(Arc::new(found));
     stage.run();
     stage.click("Find recipes");
     answered(&mut stage);
-    let easel = stage.scene().easel.clone();
-    let mut sights = sights(&easel);
+    let painting = stage.scene().painting.clone();
+    let mut sights = sights(&painting);
     let illuminant = Illuminant::named("A").unwrap();
     let viewing = Viewing { illuminant, observer: Observer::default() };
     sights.push(Sight { viewing, weight: 1.0 });
-    let wanted = stage.scene().panel.wanted().unwrap().clone();
-    let best = by_calibrate(&easel, &wanted.target(easel.library.grid, &sights), sights);
+    let wanted = stage.scene().panel.target().unwrap().clone();
+    let best =
+        by_calibrate(&painting, &wanted.match_target(painting.library.grid, &sights), sights);
     // The mixture itself is found: three parts of white and one of blue.
     assert_eq!(best[0].parts, Some(vec![3, 1]));
     assert!(best[0].delta_e.iter().all(|difference| *difference < 0.01), "{best:?}");
@@ -322,18 +324,18 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
 
 #[test]
 fn a_search_can_be_cancelled() {
-    let mut easel = made_easel();
+    let mut painting = made_painting();
     // A library so large that the search takes its time.
-    let mut library = (*easel.library).clone();
+    let mut library = (*painting.library).clone();
     for copy in 0..3 {
-        let others = easel.library.pigments.iter().cloned();
+        let others = painting.library.pigments.iter().cloned();
         library.pigments.extend(others.map(|mut pigment| {
             pigment.name = format!("{} {copy}", pigment.name);
             pigment
         }));
     }
-    easel.library = Arc::new(library);
-    let mut stage = stage(easel);
+    painting.library = Arc::new(library);
+    let mut stage = stage(painting);
     stage.click("Library");
     stage.harness.get_by_role(Role::TextInput).focus();
     stage.run();
@@ -351,11 +353,11 @@ fn a_search_can_be_cancelled() {
 
 #[test]
 fn a_text_that_is_no_color_is_told_with_what_to_try() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     ask(&mut stage, "blue");
     let told = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
     assert!(stage.harness.query_by_label(told).is_some(), "the fault is told");
-    assert_eq!(stage.scene().panel.wanted(), None);
+    assert_eq!(stage.scene().panel.target(), None);
 }
 
 #[test]
@@ -364,11 +366,11 @@ fn colors_of_other_programs_are_wanted_by_a_click() {
     std::fs::write(&path, "GIMP Palette\nName: two\n#\n 20 60 120 Sea\n200 180 90\tSand\n")
         .unwrap();
     assert!(Eyedropper::takes(&path), "GIMP's are taken");
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.scene().panel.open_swatches(&path);
     stage.run();
     stage.click("Sand");
-    let wanted = stage.scene().panel.wanted().unwrap();
+    let wanted = stage.scene().panel.target().unwrap();
     assert_eq!(wanted.name, "Sand");
     stage.scene().panel.open_swatches(&path.with_file_name("gone.gpl"));
     stage.run();

@@ -12,7 +12,7 @@ use pigment::library::PigmentLibrary;
 use render::gpu::{BackendChoice, choose};
 use render::paint::strokes::SurfaceId;
 use session::{Command, WorkerOptions, blank_canvas};
-use studio::app::{Begun, Parts, Studio};
+use studio::app::{Parts, StartedWorker, Studio};
 use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
 use studio::theme;
@@ -50,7 +50,7 @@ impl Window {
     pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
         let mut window = Self::made(name, size, density, begin);
         let start = Instant::now();
-        while window.studio().easel().is_none() {
+        while window.studio().painting().is_none() {
             assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
             std::thread::sleep(Duration::from_millis(5));
             window.harness.step();
@@ -75,11 +75,11 @@ impl Window {
                     let options =
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
-                        let begun = Begun::new(options, begin.take().unwrap_or_default());
+                        let begun = StartedWorker::new(options, begin.take().unwrap_or_default());
                         let preferences = Preferences::default();
                         let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
                         let pen = Pen::new(PenSettings::default());
-                        let parts = Parts { begun, pen, files, open: None, log: None };
+                        let parts = Parts { worker: begun, pen, files, open: None, log: None };
                         Studio::new(ui.ctx(), parts)
                     });
                     studio.logic(ui.ctx());
@@ -118,12 +118,12 @@ impl Window {
         self.studio_mut().ask(Command::Recording(fence));
         let start = Instant::now();
         let mut quiet = Instant::now();
-        let mut heard = self.studio().heard();
+        let mut heard = self.studio().event_count();
         loop {
             self.harness.step();
-            let answered = self.studio().answered() == Some(fence);
-            if self.studio().heard() != heard {
-                heard = self.studio().heard();
+            let answered = self.studio().last_recording() == Some(fence);
+            if self.studio().event_count() != heard {
+                heard = self.studio().event_count();
                 quiet = Instant::now();
             } else if answered && quiet.elapsed() > QUIET {
                 break;
@@ -175,7 +175,7 @@ impl Window {
             SurfaceId::Canvas => &studio.canvas,
             SurfaceId::Palette => &studio.palette,
         };
-        let cell_mm = studio.easel().map_or(1.0, |easel| easel.cell_mm);
+        let cell_mm = studio.painting().map_or(1.0, |painting| painting.cell_mm);
         view.placement().point([x_mm / cell_mm, y_mm / cell_mm])
     }
 

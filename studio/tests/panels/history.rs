@@ -8,10 +8,10 @@ use session::{Command, PaintingState};
 use studio::panels::Request;
 use studio::panels::history::History;
 
-use super::made::{Table, asks, click, easel, is_disabled, picture, shown};
+use super::made::{Table, asks, click, is_disabled, painting, picture, shown};
 
-fn history(easel: PaintingState) -> Harness<'static, Table<History>> {
-    shown(History::default(), easel, History::show)
+fn history(painting: PaintingState) -> Harness<'static, Table<History>> {
+    shown(History::default(), painting, History::show)
 }
 
 fn travel(place: usize) -> Request {
@@ -20,7 +20,7 @@ fn travel(place: usize) -> Request {
 
 #[test]
 fn a_click_travels_to_a_place_and_the_present_one_asks_nothing() {
-    let mut harness = history(easel());
+    let mut harness = history(painting());
     click(&mut harness, "1 load round");
     click(&mut harness, "0 beginning");
     click(&mut harness, "4 stroke, flat");
@@ -33,26 +33,26 @@ fn a_click_travels_to_a_place_and_the_present_one_asks_nothing() {
 
 #[test]
 fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
-    let mut harness = history(easel());
+    let mut harness = history(painting());
     click(&mut harness, "Undo");
     click(&mut harness, "Redo");
     let step = |action| Request::Worker(Command::Apply(action));
     asks(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
 
-    harness.state_mut().easel.history_done = 4;
+    harness.state_mut().painting.history_done = 4;
     harness.run();
     assert!(is_disabled(&harness, "Redo") && !is_disabled(&harness, "Undo"), "all is done");
-    harness.state_mut().easel.history_done = 0;
+    harness.state_mut().painting.history_done = 0;
     harness.run();
     assert!(is_disabled(&harness, "Undo") && !is_disabled(&harness, "Redo"), "nothing is done");
-    harness.state_mut().easel.history.clear();
+    harness.state_mut().painting.history.clear();
     harness.run();
     assert!(is_disabled(&harness, "Undo") && is_disabled(&harness, "Redo"), "nothing is there");
 }
 
 #[test]
 fn a_long_list_shows_where_the_painting_is() {
-    let mut long = easel();
+    let mut long = painting();
     long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
     long.history_done = 1500;
     let mut harness = history(long);
@@ -61,14 +61,14 @@ fn a_long_list_shows_where_the_painting_is() {
     };
     assert!(there(&harness, 1500), "the present place is in sight");
     assert!(!there(&harness, 1), "rows out of sight are not laid out");
-    harness.state_mut().easel.history_done = 40;
+    harness.state_mut().painting.history_done = 40;
     harness.run();
     assert!(there(&harness, 40) && !there(&harness, 1500), "the list follows");
 }
 
 #[test]
 fn memory_is_told_in_mebibytes_and_can_be_changed() {
-    let mut harness = history(easel());
+    let mut harness = history(painting());
     let bar = harness.get_by_label("Memory of undo");
     assert_eq!(bar.accesskit_node().numeric_value(), Some(18.0), "96 of 512 MiB, in percent");
     harness.get_by_label("Memory allowed").set_value_accesskit(1024.0);
@@ -78,7 +78,7 @@ fn memory_is_told_in_mebibytes_and_can_be_changed() {
 
 #[test]
 fn an_odd_amount_of_memory_is_left_alone() {
-    let mut odd = easel();
+    let mut odd = painting();
     odd.undo_bytes = (3, 7_654_321);
     let mut harness = history(odd);
     harness.run_steps(3);
@@ -87,7 +87,7 @@ fn an_odd_amount_of_memory_is_left_alone() {
 
 #[test]
 fn history_is_drawn() {
-    let mut harness = history(easel());
+    let mut harness = history(painting());
     let Some(drawn) = picture(&mut harness, "history") else { return };
     let row = harness.get_by_label("3 dry 50 %").rect();
     let at = drawn.get_pixel(row.right() as u32 - 8, row.center().y as u32).0;

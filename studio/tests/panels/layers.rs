@@ -8,10 +8,10 @@ use session::Command;
 use studio::panels::Request;
 use studio::panels::layers::Layers;
 
-use super::made::{Table, asks, click, easel, is_disabled, pick, picture, shown};
+use super::made::{Table, asks, click, is_disabled, painting, pick, picture, shown};
 
 fn layers() -> Harness<'static, Table<Layers>> {
-    shown(Layers::default(), easel(), Layers::show)
+    shown(Layers::default(), painting(), Layers::show)
 }
 
 fn act(action: Action) -> Request {
@@ -48,12 +48,12 @@ fn the_eye_hides_a_layer_and_gives_it_back_its_opacity() {
     let mut harness = layers();
     click(&mut harness, "visibility of dry layer 2");
     asks(&mut harness, &[act(opacity(1, 0.0))]);
-    harness.state_mut().easel.layers[1].opacity = 0.0;
+    harness.state_mut().painting.layers[1].opacity = 0.0;
     harness.run();
     click(&mut harness, "visibility of dry layer 2");
     asks(&mut harness, &[act(opacity(1, 0.5))]);
     // One that was hidden before it was seen here.
-    harness.state_mut().easel.layers[0].opacity = 0.0;
+    harness.state_mut().painting.layers[0].opacity = 0.0;
     harness.run();
     click(&mut harness, "visibility of dry layer 1");
     asks(&mut harness, &[act(opacity(0, 1.0))]);
@@ -71,7 +71,7 @@ fn a_drag_of_the_opacity_adjusts_and_settles_once() {
     harness.run();
     harness.hover_at(start + vec2(30.0, 0.0));
     harness.run();
-    let adjusted = std::mem::take(&mut harness.state_mut().asked);
+    let adjusted = std::mem::take(&mut harness.state_mut().requests);
     assert_eq!(adjusted.len(), 3, "{adjusted:?}");
     let mut values = Vec::new();
     for request in &adjusted {
@@ -109,7 +109,7 @@ fn a_typed_opacity_is_one_action() {
 
 #[test]
 fn an_opacity_beyond_the_slider_is_left_alone() {
-    let mut odd = easel();
+    let mut odd = painting();
     odd.layers[0].opacity = 17.123_456;
     odd.layers[1].opacity = 0.123_456;
     let mut harness = shown(Layers::default(), odd, Layers::show);
@@ -122,7 +122,7 @@ fn layers_of_like_opacity_merge_downwards() {
     let mut harness = layers();
     assert!(is_disabled(&harness, "merge dry layer 1 down"), "there is none below");
     assert!(is_disabled(&harness, "merge dry layer 2 down"), "their opacities differ");
-    harness.state_mut().easel.layers[1].opacity = 1.0;
+    harness.state_mut().painting.layers[1].opacity = 1.0;
     harness.run();
     click(&mut harness, "merge dry layer 2 down");
     asks(&mut harness, &[act(Action::Merge { layer: 1 })]);
@@ -131,17 +131,17 @@ fn layers_of_like_opacity_merge_downwards() {
 #[test]
 fn a_hidden_layer_above_a_merge_keeps_what_it_had() {
     let mut harness = layers();
-    let lowest = harness.state().easel.layers[0].clone();
-    harness.state_mut().easel.layers.insert(0, lowest);
+    let lowest = harness.state().painting.layers[0].clone();
+    harness.state_mut().painting.layers.insert(0, lowest);
     harness.run();
     click(&mut harness, "visibility of dry layer 3");
     asks(&mut harness, &[act(opacity(2, 0.0))]);
-    harness.state_mut().easel.layers[2].opacity = 0.0;
+    harness.state_mut().painting.layers[2].opacity = 0.0;
     harness.run();
     click(&mut harness, "merge dry layer 2 down");
-    harness.state_mut().easel.layers.remove(0);
+    harness.state_mut().painting.layers.remove(0);
     harness.run();
-    harness.state_mut().asked.clear();
+    harness.state_mut().requests.clear();
     click(&mut harness, "visibility of dry layer 2");
     asks(&mut harness, &[act(opacity(1, 0.5))]);
 }
@@ -165,7 +165,7 @@ fn a_pigment_of_one_layer_is_exchanged() {
 fn the_window_of_an_exchange_closes_with_its_layer() {
     let mut harness = layers();
     click(&mut harness, "exchange in dry layer 2");
-    harness.state_mut().easel.layers.pop();
+    harness.state_mut().painting.layers.pop();
     harness.run();
     assert!(harness.query_by_label("Search").is_none(), "the layer is gone");
     asks(&mut harness, &[]);

@@ -20,11 +20,11 @@ use studio::panels::Mode;
 /// on the palette.
 fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
     let mut window = Window::made(name, size, density, Vec::new());
-    let mut easel = crate::made::easel();
-    easel.canvas_cells = (1920, 1080);
-    easel.palette_cells = (640, 420);
+    let mut painting = crate::made::painting();
+    painting.canvas_cells = (1920, 1080);
+    painting.palette_cells = (640, 420);
     let studio = window.studio_mut();
-    studio.hear(Event::Opened(Arc::new(easel)));
+    studio.handle_event(Event::Opened(Arc::new(painting)));
     for (surface, width, height) in
         [(SurfaceId::Canvas, 1920, 1080), (SurfaceId::Palette, 640, 420)]
     {
@@ -35,7 +35,7 @@ fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
         };
         let pixels = (0..width * height).map(|at| grey(at % width)).collect();
         let tiles = vec![TilePixels { rect, pixels }];
-        studio.hear(Event::Tiles { surface, second: false, tiles, newest: None });
+        studio.handle_event(Event::Tiles { surface, second: false, tiles, newest: None });
     }
     window.harness().run_ok();
     window
@@ -249,12 +249,12 @@ fn keys_take_back_dry_and_choose_brushes() {
     let mut window = loaded("history");
     let bare = seen(&window, false, 16.0, 10.0);
     stroke(&mut window);
-    let done = window.studio().easel().unwrap().history_done;
+    let done = window.studio().painting().unwrap().history_done;
     let painted = seen(&window, false, 16.0, 10.0);
     assert_ne!(bare, painted);
     window.key(Modifiers::COMMAND, Key::Z);
     window.settle();
-    assert_eq!(window.studio().easel().unwrap().history_done, done - 1);
+    assert_eq!(window.studio().painting().unwrap().history_done, done - 1);
     assert_eq!(seen(&window, false, 16.0, 10.0), bare, "taken back");
     let held = Modifiers { shift: true, ..Modifiers::COMMAND };
     window.key(held, Key::Z);
@@ -262,7 +262,7 @@ fn keys_take_back_dry_and_choose_brushes() {
     assert_eq!(seen(&window, false, 16.0, 10.0), painted, "done again");
     window.key(Modifiers::NONE, Key::D);
     window.settle();
-    assert_eq!(window.studio().easel().unwrap().layers.len(), 1, "D dries");
+    assert_eq!(window.studio().painting().unwrap().layers.len(), 1, "D dries");
     let brush = window.studio().tools.brush.clone();
     window.key(Modifiers::NONE, Key::Num1);
     assert_ne!(window.studio().tools.brush, brush, "1 takes another brush");
@@ -277,11 +277,11 @@ fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
     window.settle();
     assert_ne!(seen(&window, false, 20.0, 10.0), seen(&window, true, 20.0, 10.0));
     let knob = window.studio().canvas.split_handle().unwrap().center();
-    let done = window.studio().easel().unwrap().history_done;
+    let done = window.studio().painting().unwrap().history_done;
     let to = knob + vec2(120.0, 0.0);
     window.pen_stroke(&[knob, knob + vec2(60.0, 0.0), to, to]);
     window.settle();
-    assert_eq!(window.studio().easel().unwrap().history_done, done, "the line is no paint");
+    assert_eq!(window.studio().painting().unwrap().history_done, done, "the line is no paint");
     let wanted = window.studio().canvas.placement().cell(to)[0] / 320.0;
     assert!((f64::from(window.studio().tools.split) - wanted).abs() < 0.02, "{wanted}");
     window.save("split");

@@ -10,10 +10,10 @@ use spectra::ColorTemperature;
 use studio::panels::FileRequest;
 use studio::panels::light::LightPanel;
 
-use super::stage::{Stage, made_easel};
+use super::stage::{Stage, made_painting};
 
-fn stage(easel: PaintingState) -> Stage<LightPanel> {
-    Stage::new(LightPanel::default(), vec2(300.0, 660.0), easel, LightPanel::show)
+fn stage(painting: PaintingState) -> Stage<LightPanel> {
+    Stage::new(LightPanel::default(), vec2(300.0, 660.0), painting, LightPanel::show)
 }
 
 /// The light of the only command, which is one action.
@@ -27,7 +27,7 @@ fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
 
 #[test]
 fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.save("light");
     stage.click("Illuminant: D65");
     stage.save("light-list");
@@ -40,7 +40,7 @@ fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
     assert!(stage.commands().is_empty(), "hovering asks for nothing");
     stage.click("LED-V2");
     let wanted =
-        Lighting { illuminant: "LED-V2".to_owned(), ..stage.scene().easel.lighting.clone() };
+        Lighting { illuminant: "LED-V2".to_owned(), ..stage.scene().painting.lighting.clone() };
     assert_eq!(acted(&mut stage), wanted);
     assert!(stage.harness.query_by_label("LED-V2").is_none(), "the list is closed");
     assert!(stage.harness.query_by_label("Illuminant: LED-V2").is_some(), "shown at once");
@@ -49,7 +49,7 @@ fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
 #[test]
 fn enter_takes_the_first_light_found_and_a_typed_temperature() {
     for (typed, wanted) in [("north sky", "D75"), ("3200K", "3200K"), ("D7450K", "D7450K")] {
-        let mut stage = stage(made_easel());
+        let mut stage = stage(made_painting());
         stage.click("Illuminant: D65");
         stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text(typed);
         stage.run();
@@ -61,7 +61,7 @@ fn enter_takes_the_first_light_found_and_a_typed_temperature() {
 
 #[test]
 fn the_temperature_is_asked_for_once_when_the_slider_is_let_go() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     let slider = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature");
     let rect = slider.rect();
     let at = |share: f32| rect.left_center() + vec2(share * rect.width(), 0.0);
@@ -77,7 +77,7 @@ fn the_temperature_is_asked_for_once_when_the_slider_is_let_go() {
 
 #[test]
 fn a_temperature_set_by_keys_is_asked_for_once_they_rest() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature").focus();
     stage.harness.step();
     for _ in 0..3 {
@@ -91,7 +91,7 @@ fn a_temperature_set_by_keys_is_asked_for_once_they_rest() {
 
 #[test]
 fn observers_are_chosen_and_a_lamp_is_asked_of_the_files() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.click("Observer");
     stage.click("2015-10");
     assert_eq!(acted(&mut stage).observer, "2015-10");
@@ -101,7 +101,7 @@ fn observers_are_chosen_and_a_lamp_is_asked_of_the_files() {
 
 #[test]
 fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     let rect = stage.harness.get_by_label("Light direction").rect();
     let centre = rect.center();
     stage.drag(&[centre, centre + vec2(20.0, 0.0), centre + vec2(0.0, 30.0)]);
@@ -122,7 +122,7 @@ fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
     // The radius of the drawn half sphere is 48 points.
     assert!((last.elevation_deg - (30.0_f64 / 48.0).acos().to_degrees()).abs() < 0.1, "{last:?}");
     let told = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
-    let before = &stage.scene().easel.lighting;
+    let before = &stage.scene().painting.lighting;
     assert_eq!(told, Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..before.clone() });
     assert!(
         stage.harness.query_by_label_contains("180\u{b0}, ").is_some(),
@@ -132,7 +132,7 @@ fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
 
 #[test]
 fn arrow_keys_turn_the_light_one_action_each() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.harness.get_by_label("Light direction").focus();
     stage.run();
     stage.harness.key_press(Key::ArrowRight);
@@ -148,7 +148,7 @@ fn arrow_keys_turn_the_light_one_action_each() {
 #[test]
 fn sliders_of_ambient_and_relief_adjust_and_settle() {
     for (name, most) in [("Ambient", 1.0), ("Relief", 3.0)] {
-        let mut stage = stage(made_easel());
+        let mut stage = stage(made_painting());
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
         stage.drag(&[rect.center(), rect.right_center() + vec2(30.0, 0.0)]);
         let commands = stage.commands();
@@ -167,8 +167,8 @@ fn sliders_of_ambient_and_relief_adjust_and_settle() {
 
 #[test]
 fn gloss_is_dragged_for_wet_and_for_dry() {
-    let mut stage = stage(made_easel());
-    let medium = stage.scene().easel.medium.clone();
+    let mut stage = stage(made_painting());
+    let medium = stage.scene().painting.medium.clone();
     for (name, is_wet) in [("Wet gloss", true), ("Dry gloss", false)] {
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
         stage.drag(&[rect.center(), rect.right_top() + vec2(9.0, -9.0)]);
@@ -188,14 +188,14 @@ fn gloss_is_dragged_for_wet_and_for_dry() {
 
 #[test]
 fn the_second_light_goes_on_and_off_and_changes_places() {
-    let mut stage = stage(made_easel());
+    let mut stage = stage(made_painting());
     stage.click("Second light");
-    let first = stage.scene().easel.lighting.clone();
+    let first = stage.scene().painting.lighting.clone();
     let second = Lighting { illuminant: "A".to_owned(), ..first.clone() };
     let commands = stage.commands();
-    let [Command::SetSecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
-    assert_eq!(*asked, second);
-    stage.scene().easel.second_lighting = Some(second.clone());
+    let [Command::SetSecondLight(Some(requests))] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(*requests, second);
+    stage.scene().painting.second_lighting = Some(second.clone());
     stage.run();
     stage.save("light-split");
     stage.click("Second illuminant: A");
@@ -203,8 +203,8 @@ fn the_second_light_goes_on_and_off_and_changes_places() {
     stage.run();
     stage.click("FL11");
     let commands = stage.commands();
-    let [Command::SetSecondLight(Some(asked))] = &commands[..] else { panic!("{commands:?}") };
-    assert_eq!(*asked, Lighting { illuminant: "FL11".to_owned(), ..first.clone() });
+    let [Command::SetSecondLight(Some(requests))] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(*requests, Lighting { illuminant: "FL11".to_owned(), ..first.clone() });
     stage.click("Swap");
     let commands = stage.commands();
     let [Command::SetSecondLight(Some(to_second)), Command::Apply(Action::Light(to_first))] =
@@ -219,9 +219,10 @@ fn the_second_light_goes_on_and_off_and_changes_places() {
 
 #[test]
 fn the_second_light_stands_where_the_first_is_moved_to() {
-    let mut easel = made_easel();
-    easel.second_lighting = Some(Lighting { illuminant: "A".to_owned(), ..easel.lighting.clone() });
-    let mut stage = stage(easel);
+    let mut painting = made_painting();
+    painting.second_lighting =
+        Some(Lighting { illuminant: "A".to_owned(), ..painting.lighting.clone() });
+    let mut stage = stage(painting);
     stage.harness.get_by_label("Light direction").focus();
     stage.run();
     stage.harness.key_press_modifiers(Modifiers::NONE, Key::ArrowLeft);
@@ -238,14 +239,14 @@ fn the_second_light_stands_where_the_first_is_moved_to() {
 
 #[test]
 fn without_a_second_light_there_is_nothing_to_swap() {
-    let stage = stage(made_easel());
+    let stage = stage(made_painting());
     assert!(stage.harness.get_by_label("Swap").accesskit_node().is_disabled());
 }
 
 #[test]
 fn numbers_of_the_white_are_those_of_spectra() {
-    let mut stage = stage(made_easel());
-    let light = stage.scene().easel.light.clone();
+    let mut stage = stage(made_painting());
+    let light = stage.scene().painting.light.clone();
     let xyz = light.quadrature.white;
     let sum = xyz.x + xyz.y + xyz.z;
     let temperature = ColorTemperature::of(&light.viewing.illuminant).unwrap();

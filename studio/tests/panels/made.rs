@@ -15,7 +15,7 @@ use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium, Slots};
 use render::paint::strokes::BrushSpec;
 use session::{BrushState, LayerState, PaintingState, Thumbnail};
-use studio::panels::{Desk, Request, Tools};
+use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
 use super::harness::has_adapter;
@@ -32,7 +32,7 @@ pub(crate) const PIGMENTS: [&str; 7] = [
 ];
 
 /// A painting with seven tubes, three brushes, two dry layers and a history.
-pub(crate) fn easel() -> PaintingState {
+pub(crate) fn painting() -> PaintingState {
     static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
     let (library, light) = LIBRARY.get_or_init(|| {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
@@ -105,26 +105,29 @@ fn layer(slots: Slots, opacity: f64) -> LayerState {
 /// A panel, what it sees, and what it has asked for.
 pub(crate) struct Table<P> {
     pub(crate) panel: P,
-    pub(crate) easel: PaintingState,
+    pub(crate) painting: PaintingState,
     pub(crate) tools: Tools,
-    pub(crate) asked: Vec<Request>,
+    pub(crate) requests: Vec<Request>,
 }
 
 impl<P> Table<P> {
     /// Does something that a key would do.
-    pub(crate) fn with_desk<T>(&mut self, act: impl FnOnce(&mut P, &mut Desk<'_>) -> T) -> T {
-        let Self { panel, easel, tools, asked } = self;
-        act(panel, &mut Desk { easel, tools, asked })
+    pub(crate) fn with_desk<T>(
+        &mut self,
+        act: impl FnOnce(&mut P, &mut PanelContext<'_>) -> T,
+    ) -> T {
+        let Self { panel, painting, tools, requests } = self;
+        act(panel, &mut PanelContext { painting, tools, requests })
     }
 }
 
 /// The panel alone in a window as wide as panels are.
 pub(crate) fn shown<P: 'static>(
     panel: P,
-    easel: PaintingState,
-    show: impl Fn(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
+    painting: PaintingState,
+    show: impl Fn(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
 ) -> Harness<'static, Table<P>> {
-    let table = Table { panel, easel, tools: Tools::default(), asked: Vec::new() };
+    let table = Table { panel, painting, tools: Tools::default(), requests: Vec::new() };
     let builder = Harness::builder()
         .with_size(Vec2::new(760.0, 700.0))
         .with_step_dt(1.0 / 60.0)
@@ -137,8 +140,8 @@ pub(crate) fn shown<P: 'static>(
                 Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),
             );
             ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
-                let Table { panel, easel, tools, asked } = table;
-                show(panel, ui, &mut Desk { easel, tools, asked });
+                let Table { panel, painting, tools, requests } = table;
+                show(panel, ui, &mut PanelContext { painting, tools, requests });
             });
         },
         table,
@@ -164,11 +167,11 @@ pub(crate) fn is_disabled<P>(harness: &Harness<'_, Table<P>>, label: &str) -> bo
     harness.get_by_label(label).accesskit_node().is_disabled()
 }
 
-/// What was asked since the last call is `wanted`, and nothing else.
+/// What was requests since the last call is `wanted`, and nothing else.
 #[track_caller]
 pub(crate) fn asks<P>(harness: &mut Harness<'_, Table<P>>, wanted: &[Request]) {
-    let asked = std::mem::take(&mut harness.state_mut().asked);
-    assert_eq!(format!("{asked:#?}"), format!("{wanted:#?}"), "what was asked, and wanted");
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "what was requests, and wanted");
 }
 
 /// The window as it looks, also written to the folder for temporary files; none,

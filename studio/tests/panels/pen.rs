@@ -72,7 +72,8 @@ fn what_the_system_also_tells_as_a_mouse_makes_no_second_stroke() {
     assert!(!window.studio().pen.is_down(), "the pen is near");
     window.frame(vec![button(end, false)]);
     window.settle();
-    let strokes = window.studio().easel().map(|easel| easel.history.clone()).unwrap_or_default();
+    let strokes =
+        window.studio().painting().map(|painting| painting.history.clone()).unwrap_or_default();
     assert_eq!(strokes.iter().filter(|kind| kind.contains("stroke")).count(), 1, "{strokes:?}");
 }
 

@@ -13,7 +13,7 @@ use spectra::color::Rgb;
 use studio::panels::FileRequest;
 use studio::panels::reference::Reference;
 
-use super::stage::{Stage, made_easel};
+use super::stage::{Stage, made_painting};
 
 /// Four fields of colour, 400 x 200 pixels.
 const FIELDS: [[u8; 3]; 4] = [[200, 30, 20], [240, 220, 40], [20, 60, 160], [90, 90, 90]];
@@ -29,7 +29,7 @@ fn stage(name: &str) -> Stage<Reference> {
     });
     picture.save(&path).unwrap();
     let mut stage =
-        Stage::new(Reference::default(), vec2(460.0, 360.0), made_easel(), Reference::show);
+        Stage::new(Reference::default(), vec2(460.0, 360.0), made_painting(), Reference::show);
     let context = stage.harness.ctx.clone();
     stage.scene().panel.open(&context, &path);
     assert!(stage.scene().panel.is_open(), "it is being read");
@@ -61,7 +61,7 @@ fn click(stage: &mut Stage<Reference>, place: Pos2) {
 
 /// The colour wanted, in 8 bits.
 fn wanted(stage: &mut Stage<Reference>) -> Option<[u8; 3]> {
-    stage.scene().tools.wanted.take().map(|linear| Rgb(linear).encoded().to_bytes())
+    stage.scene().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn the_mean_is_of_the_radius_in_linear_light() {
     let mut stage = stage("mean.png");
     let middle = at(&stage, 0.5, 0.25);
     click(&mut stage, middle);
-    let found = stage.scene().tools.wanted.take().unwrap();
+    let found = stage.scene().tools.reference_color.take().unwrap();
     let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
     let (left, right) = (linear(FIELDS[0]), linear(FIELDS[1]));
     for ((found, left), right) in found.iter().zip(left).zip(right) {
@@ -166,7 +166,7 @@ fn drag_middle(stage: &mut Stage<Reference>, from: Pos2, by: Vec2) {
     stage.harness.hover_at(from + by);
     stage.harness.event(button(from + by, false));
     stage.run();
-    assert_eq!(stage.scene().tools.wanted, None, "the middle button takes no colour");
+    assert_eq!(stage.scene().tools.reference_color, None, "the middle button takes no colour");
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_file_that_is_no_picture_is_told_with_its_name() {
     let path = file("broken.png");
     std::fs::write(&path, "no picture").unwrap();
     let mut stage =
-        Stage::new(Reference::default(), vec2(460.0, 360.0), made_easel(), Reference::show);
+        Stage::new(Reference::default(), vec2(460.0, 360.0), made_painting(), Reference::show);
     let context = stage.harness.ctx.clone();
     stage.scene().panel.open(&context, &path);
     for _ in 0..2000 {

@@ -8,18 +8,18 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::layer::SLOTS;
 use session::{BrushState, Command, PaintingState};
-use studio::panels::{Desk, FileRequest, Request, Tools};
+use studio::panels::{FileRequest, PanelContext, Request, Tools};
 use studio::theme;
 
 use super::harness::has_adapter;
-use super::made::easel;
+use super::made::painting;
 
 /// A panel with what it sees and asks for.
 pub(crate) struct Scene<P> {
     pub(crate) panel: P,
-    pub(crate) easel: PaintingState,
+    pub(crate) painting: PaintingState,
     pub(crate) tools: Tools,
-    pub(crate) asked: Vec<Request>,
+    pub(crate) requests: Vec<Request>,
 }
 
 /// A panel under test.
@@ -32,10 +32,10 @@ impl<P> Stage<P> {
     pub(crate) fn new(
         panel: P,
         size: Vec2,
-        easel: PaintingState,
-        mut show: impl FnMut(&mut P, &mut Ui, &mut Desk<'_>) + 'static,
+        painting: PaintingState,
+        mut show: impl FnMut(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
     ) -> Self {
-        let scene = Scene { panel, easel, tools: Tools::default(), asked: Vec::new() };
+        let scene = Scene { panel, painting, tools: Tools::default(), requests: Vec::new() };
         let mut harness = Harness::builder()
             .with_size(size)
             .with_pixels_per_point(2.0)
@@ -45,12 +45,12 @@ impl<P> Stage<P> {
             .with_context_setup(theme::apply)
             .build_ui_state(
                 move |ui, scene: &mut Scene<P>| {
-                    let Scene { panel, easel, tools, asked } = scene;
-                    let mut desk = Desk { easel, tools, asked };
+                    let Scene { panel, painting, tools, requests } = scene;
+                    let mut cx = PanelContext { painting, tools, requests };
                     let frame = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(10));
                     frame.show(ui, |ui| {
                         ui.take_available_space();
-                        show(panel, ui, &mut desk);
+                        show(panel, ui, &mut cx);
                         let (used, given) = (ui.min_rect().width(), ui.max_rect().width());
                         assert!(used <= given + 0.5, "{used} points wide, of {given}");
                     });
@@ -97,8 +97,8 @@ impl<P> Stage<P> {
 
     /// What was asked for since the last call, of the worker.
     pub(crate) fn commands(&mut self) -> Vec<Command> {
-        let asked = std::mem::take(&mut self.scene().asked);
-        let commands = asked.into_iter().map(|request| match request {
+        let requests = std::mem::take(&mut self.scene().requests);
+        let commands = requests.into_iter().map(|request| match request {
             Request::Worker(command) => command,
             Request::File(request) => panic!("asked of the files: {request:?}"),
         });
@@ -107,8 +107,8 @@ impl<P> Stage<P> {
 
     /// What was asked for since the last call, of the files.
     pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
-        let asked = std::mem::take(&mut self.scene().asked);
-        let requests = asked.into_iter().map(|request| match request {
+        let requests = std::mem::take(&mut self.scene().requests);
+        let requests = requests.into_iter().map(|request| match request {
             Request::File(request) => request,
             Request::Worker(command) => panic!("asked of the worker: {command:?}"),
         });
@@ -128,8 +128,8 @@ impl<P> Stage<P> {
 }
 
 /// Van Gogh's oils on a bare canvas of 1920 x 1080 cells, a clean round brush.
-pub(crate) fn made_easel() -> PaintingState {
-    let made = easel();
+pub(crate) fn made_painting() -> PaintingState {
+    let made = painting();
     let mut slots = [None; SLOTS];
     for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
         *slot = Some(made.library.find(pigment).expect("one of Van Gogh's"));

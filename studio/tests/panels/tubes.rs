@@ -9,10 +9,10 @@ use session::Command;
 use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
 use studio::panels::{FileRequest, Mode, Request};
 
-use super::made::{PIGMENTS, Table, asks, click, easel, is_disabled, pick, picture, shown};
+use super::made::{PIGMENTS, Table, asks, click, is_disabled, painting, pick, picture, shown};
 
 fn tubes() -> Harness<'static, Table<Tubes>> {
-    shown(Tubes::default(), easel(), Tubes::show)
+    shown(Tubes::default(), painting(), Tubes::show)
 }
 
 fn act(action: Action) -> Request {
@@ -58,8 +58,8 @@ fn squeezing_gives_the_amount_of_the_slider_where_it_was_asked() {
     slider.set_value_accesskit(125.0);
     harness.run();
     let table = harness.state_mut();
-    table.with_desk(|_, desk| squeeze(desk, 3, SurfaceId::Palette, 4.5, 7.25));
-    table.with_desk(|_, desk| squeeze(desk, 7, SurfaceId::Palette, 4.5, 7.25));
+    table.with_desk(|_, cx| squeeze(cx, 3, SurfaceId::Palette, 4.5, 7.25));
+    table.with_desk(|_, cx| squeeze(cx, 7, SurfaceId::Palette, 4.5, 7.25));
     let heap = Squeeze {
         on: SurfaceId::Palette,
         recipe: pure("Eosin Lake"),
@@ -129,9 +129,9 @@ fn searching_leaves_the_pigments_that_have_the_words() {
 #[test]
 fn a_tube_is_exchanged_in_every_layer_that_has_it_and_can() {
     let mut harness = tubes();
-    let blue = harness.state().easel.library.find("Cobalt Blue").unwrap();
+    let blue = harness.state().painting.library.find("Cobalt Blue").unwrap();
     // The upper dry layer has the new pigment already, and stays.
-    harness.state_mut().easel.layers[1].slots[7] = Some(blue);
+    harness.state_mut().painting.layers[1].slots[7] = Some(blue);
     harness.get_by_label("tube of Ultramarine").click_secondary();
     harness.run();
     click(&mut harness, "Exchange in the painting...");
@@ -151,10 +151,10 @@ fn the_menu_of_a_tube_loads_squeezes_and_puts_another_there() {
         harness.get_by_label("tube of Viridian").click_button(PointerButton::Secondary);
         harness.run();
         click(&mut harness, item);
-        std::mem::take(&mut harness.state_mut().asked)
+        std::mem::take(&mut harness.state_mut().requests)
     };
-    let asked = choose("Load the brush");
-    assert_eq!(format!("{asked:?}"), format!("{:?}", [load("Viridian")]));
+    let requests = choose("Load the brush");
+    assert_eq!(format!("{requests:?}"), format!("{:?}", [load("Viridian")]));
     choose("Put another here...");
     assert!(harness.query_by_label("slot 6").is_some(), "the chooser is open");
     assert!(harness.query_by_label("Slot 6: Viridian").is_some(), "for this slot");
@@ -162,11 +162,11 @@ fn the_menu_of_a_tube_loads_squeezes_and_puts_another_there() {
 
 #[test]
 fn without_a_brush_or_a_pigment_nothing_can_be_loaded() {
-    let mut bare = easel();
+    let mut bare = painting();
     bare.brushes.clear();
     let mut harness = shown(Tubes::default(), bare, Tubes::show);
     assert!(is_disabled(&harness, "Load brush"), "there is no brush");
-    harness.state_mut().easel = easel();
+    harness.state_mut().painting = painting();
     harness.state_mut().tools.tube = 7;
     harness.run();
     assert!(is_disabled(&harness, "Load brush"), "slot 8 is empty");
@@ -179,13 +179,13 @@ fn the_card_of_a_tube_tells_its_figures() {
     harness.get_by_label("tube of Zinc White").hover();
     // A card shows after half a second.
     harness.run_steps(40);
-    let easel = easel();
-    let cards = Cards::standard(easel.library.grid);
-    let palette = Mixable::new(&easel.library, &easel.light.viewing, cards).unwrap();
-    let white = easel.slots[0].unwrap();
+    let painting = painting();
+    let cards = Cards::standard(painting.library.grid);
+    let palette = Mixable::new(&painting.library, &painting.light.viewing, cards).unwrap();
+    let white = painting.slots[0].unwrap();
     let powers = pigment::palette::hiding_powers(&palette);
     let power = powers.iter().find(|power| power.paint == white).unwrap();
-    let mm = power.hides.thickness().unwrap() / easel.medium.scattering_per_mm;
+    let mm = power.hides.thickness().unwrap() / painting.medium.scattering_per_mm;
     assert!((0.1..0.9).contains(&mm), "{mm} mm, told with two decimals");
     let told = format!("hides from {mm:.2} mm");
     assert!(harness.query_by_label(&told).is_some(), "{told}: {harness:?}");
@@ -206,9 +206,9 @@ fn tubes_show_the_colors_as_they_are() {
             drawn.get_pixel(rect.center().x as u32, y as u32).0
         };
         let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, 255];
-        let easel = &harness.state().easel;
-        assert_eq!(at(0.28), opaque(easel.masstones[slot].unwrap()), "{name}");
-        assert_eq!(at(0.49), opaque(easel.tints[slot].unwrap()), "{name} with white");
+        let painting = &harness.state().painting;
+        assert_eq!(at(0.28), opaque(painting.masstones[slot].unwrap()), "{name}");
+        assert_eq!(at(0.49), opaque(painting.tints[slot].unwrap()), "{name} with white");
     }
     click(&mut harness, "Tubes...");
     picture(&mut harness, "tubes-chooser");

@@ -78,23 +78,27 @@ fn a_place_of_the_palette_is_picked_matched_loaded_and_laid_out() {
     assert!(answer, "the mixture itself is found");
     window.click("Load recipe 1");
     window.settle();
-    let easel = window.studio().easel().unwrap().clone();
-    let brush = easel.brushes.iter().find(|brush| brush.name == "round").unwrap();
+    let painting = window.studio().painting().unwrap().clone();
+    let brush = painting.brushes.iter().find(|brush| brush.name == "round").unwrap();
     let slot = |name: &str| {
-        let pigment = easel.library.find(name).unwrap();
-        easel.slots.iter().position(|slot| *slot == Some(pigment)).unwrap()
+        let pigment = painting.library.find(name).unwrap();
+        painting.slots.iter().position(|slot| *slot == Some(pigment)).unwrap()
     };
     for (name, share) in [("Zinc White", 0.75), ("Ultramarine", 0.25)] {
         let found = brush.parts[slot(name)];
         assert!((found - share).abs() < 1e-3, "{found} of {name}");
     }
-    let before = easel.history.len();
-    let revision = easel.revision;
+    let before = painting.history.len();
+    let revision = painting.revision;
     window.click("Lay recipe 1");
     window.settle();
-    let easel = window.studio().easel().unwrap();
-    assert!(easel.history.len() > before && easel.revision > revision, "{:?}", easel.history);
-    assert!(easel.history.last().unwrap().contains("squeeze"), "{:?}", easel.history);
+    let painting = window.studio().painting().unwrap();
+    assert!(
+        painting.history.len() > before && painting.revision > revision,
+        "{:?}",
+        painting.history
+    );
+    assert!(painting.history.last().unwrap().contains("squeeze"), "{:?}", painting.history);
 }
 
 #[test]
@@ -107,10 +111,10 @@ fn another_illuminant_is_chosen_and_the_brush_shows_it() {
         amount_mm: 0.3,
     };
     window.studio_mut().ask(Command::Apply(Action::Load(load)));
-    window.studio_mut().panels.bring(Tab::Light);
+    window.studio_mut().panels.select(Tab::Light);
     window.settle();
     let color = |window: &Window| {
-        let brushes = &window.studio().easel().unwrap().brushes;
+        let brushes = &window.studio().painting().unwrap().brushes;
         brushes.iter().find(|brush| brush.name == "round").unwrap().color
     };
     let before = color(&window);
@@ -120,9 +124,9 @@ fn another_illuminant_is_chosen_and_the_brush_shows_it() {
     window.settle();
     window.click("LED-RGB1");
     window.settle();
-    let easel = window.studio().easel().unwrap();
-    assert_eq!(easel.lighting.illuminant, "LED-RGB1");
-    assert_eq!(easel.light.viewing.illuminant.name(), "LED-RGB1");
+    let painting = window.studio().painting().unwrap();
+    assert_eq!(painting.lighting.illuminant, "LED-RGB1");
+    assert_eq!(painting.light.viewing.illuminant.name(), "LED-RGB1");
     assert_ne!(color(&window), before, "red paint looks otherwise under it");
 }
 
@@ -150,15 +154,15 @@ fn a_color_of_the_reference_picture_finds_recipes() {
     window.pen_stroke(&[place.center() - eframe::egui::vec2(0.0, 20.0); 2]);
     wait_for(&mut window, "Load recipe 1");
     window.save("reference-window");
-    let wanted = window.studio().panels.eyedropper.wanted().unwrap().clone();
-    let easel = window.studio().easel().unwrap();
-    let shown = wanted.shown(easel.library.grid, &easel.light.viewing);
+    let wanted = window.studio().panels.eyedropper.target().unwrap().clone();
+    let painting = window.studio().painting().unwrap();
+    let shown = wanted.shown(painting.library.grid, &painting.light.viewing);
     assert_eq!(shown.to_bytes(), [196, 140, 70]);
-    let done = easel.history_done;
+    let done = painting.history_done;
     window.click("Close picture");
     window.settle();
     assert!(window.harness().query_by_label("Reference picture").is_none(), "it is gone");
-    assert_eq!(window.studio().easel().unwrap().history_done, done, "nothing was painted by it");
+    assert_eq!(window.studio().painting().unwrap().history_done, done, "nothing was painted by it");
 }
 
 #[test]
@@ -170,5 +174,5 @@ fn a_dropped_file_of_colors_is_shown_to_be_matched() {
     wait_for(&mut window, "Umber");
     window.click("Umber");
     wait_for(&mut window, "Load recipe 1");
-    assert_eq!(window.studio().panels.eyedropper.wanted().unwrap().name, "Umber");
+    assert_eq!(window.studio().panels.eyedropper.target().unwrap().name, "Umber");
 }

@@ -1,17 +1,17 @@
-//! The head of a brush, drawn from its broad side.
+//! Icon of a brush head, seen from its broad side.
 
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use render::paint::brush::HeadShape;
 
 use crate::theme;
 
-/// Draws a head that points up, with its ferrule and a bit of the handle, in paint
-/// of `color` or the brown grey of hair.
+/// Draws a head that points up, with ferrule and part of the handle. The hair has the
+/// sRGB colour of its paint, or grey if clean.
 pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, color: Option<[u8; 3]>) {
     let contour = shape.contour();
     let (length, _) = contour[contour.len() - 1];
     let metal = room.height() * 0.28;
-    // Long heads fill the height, wide ones the width.
+    // Fit to the height for long heads, to the width for wide ones.
     let scale = (room.width() * 0.78).min((room.height() - metal) / length);
     let foot = pos2(room.center().x, room.top() + room.height() - metal);
     let tip = foot.y - length * scale;
@@ -36,7 +36,7 @@ pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, color: Optio
     painter.add(Shape::convex_polygon(outline(&contour, foot, scale), hair, edge));
 }
 
-/// The contour around the head, the tip up.
+/// Outline of the head as a closed polygon, tip up.
 fn outline(contour: &[(f32, f32)], foot: Pos2, scale: f32) -> Vec<Pos2> {
     let at = |side: f32, (along, half): (f32, f32)| {
         pos2(foot.x + side * half * scale, foot.y - along * scale)

@@ -1,14 +1,14 @@
-//! Brushes: shape, size, what is on them.
+//! The brush panel: list of brushes, head shape and size, paint.
 
-mod stand;
+mod paint;
 
-mod care;
+mod list;
 
 mod head;
 
-mod place;
+mod row;
 
 mod panel;
 
-pub use care::{load_medium, wash, wipe};
+pub use paint::{load_medium, wash, wipe};
 pub use panel::Brushes;

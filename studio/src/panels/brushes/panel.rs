@@ -1,145 +1,146 @@
-//! The panel of the brushes.
+//! Draws the brush panel.
 
 use eframe::egui::{Key, Sense, Slider, TextEdit, Ui, vec2};
 use render::paint::brush::HeadShape;
 use render::paint::strokes::BrushSpec;
 
-use super::care::{is_loaded, load_medium, wash, wipe};
 use super::head;
-use super::place::Row;
-use super::stand::{SIZES_MM, Stand};
+use super::list::{BrushList, SIZES_MM};
+use super::paint::{is_loaded, load_medium, wash, wipe};
+use super::row::Row;
 use crate::panels::controls::{NAME_WIDTH, back, button, item, percent, slider};
-use crate::panels::{Desk, tubes};
+use crate::panels::{PanelContext, tubes};
 
-/// The panel of the brushes: the stand, the head of the brush in hand, its paint.
+/// State of the brush panel: the brush list, and the head and paint of the selected
+/// brush.
 #[derive(Debug, Clone, Default)]
 pub struct Brushes {
-    stand: Stand,
-    /// The size while its slider is dragged, in mm.
+    list: BrushList,
+    /// Size while its slider is dragged, in mm.
     dragged_mm: Option<f64>,
-    /// The brush that is being renamed, and what was typed.
+    /// Name of the brush being renamed, and the text typed so far.
     renaming: Option<(String, String)>,
 }
 
-/// What was asked of a row.
-enum Asked {
-    Take(usize),
-    Keep,
+/// Request of a row or of the buttons below the list.
+enum ListRequest {
+    Select(usize),
+    Duplicate,
     Rename(usize),
-    PutAway(usize),
+    Remove(usize),
 }
 
 impl Brushes {
-    /// Shows it.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        self.stand.follow(desk);
-        self.stand(ui, desk);
+    /// Draws the panel.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        self.list.synchronize(cx);
+        self.brush_list(ui, cx);
         ui.separator();
-        self.head(ui, desk);
+        self.head(ui, cx);
         ui.separator();
-        self.paint(ui, desk);
+        self.paint(ui, cx);
     }
 
-    /// Takes the brush of a number key in hand, from 1; whether there is one.
-    pub fn choose(&mut self, number: usize, desk: &mut Desk<'_>) -> bool {
-        self.stand.follow(desk);
-        let there = (1..=self.stand.places.len()).contains(&number);
-        if there {
-            self.stand.take(number - 1, desk);
+    /// Selects the brush of a number key, from 1. Returns whether it exists.
+    pub fn choose(&mut self, number: usize, cx: &mut PanelContext<'_>) -> bool {
+        self.list.synchronize(cx);
+        let exists = (1..=self.list.brushes.len()).contains(&number);
+        if exists {
+            self.list.select(number - 1, cx);
         }
-        there
+        exists
     }
 
-    /// Makes the brush in hand larger or smaller by a factor. The mean of its paint
-    /// goes along.
-    pub fn resize(&mut self, factor: f64, desk: &mut Desk<'_>) {
-        self.stand.follow(desk);
-        let Some(spec) = self.stand.spec(desk.easel, &desk.tools.brush) else { return };
+    /// Scales the selected brush by a factor. It keeps the mean of its paint.
+    pub fn resize(&mut self, factor: f64, cx: &mut PanelContext<'_>) {
+        self.list.synchronize(cx);
+        let Some(spec) = self.list.spec(cx.painting, &cx.tools.brush) else { return };
         let size_mm = rounded(spec.size_mm * factor).clamp(*SIZES_MM.start(), *SIZES_MM.end());
-        self.stand.exchange(BrushSpec { size_mm, ..spec }, desk);
+        self.list.replace_head(BrushSpec { size_mm, ..spec }, cx);
     }
 
-    /// The head of the brush in hand, as it was last asked for.
+    /// Head of the selected brush, including a requested change that is not confirmed
+    /// yet.
     #[must_use]
-    pub fn in_hand(&self, desk: &Desk<'_>) -> Option<BrushSpec> {
-        self.stand.spec(desk.easel, &desk.tools.brush)
+    pub fn in_hand(&self, cx: &PanelContext<'_>) -> Option<BrushSpec> {
+        self.list.spec(cx.painting, &cx.tools.brush)
     }
 
-    fn stand(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        let mut asked = None;
+    fn brush_list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let mut request = None;
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
-            for place in 0..self.stand.places.len() {
-                let name = self.stand.places[place].name.clone();
+            for index in 0..self.list.brushes.len() {
+                let name = self.list.brushes[index].name.clone();
                 if self.renaming.as_ref().is_some_and(|(renamed, _)| *renamed == name) {
-                    self.rename(ui, place);
-                } else if let Some(done) = self.place(ui, desk, place) {
-                    asked = Some(done);
+                    self.rename(ui, index);
+                } else if let Some(done) = self.row(ui, cx, index) {
+                    request = Some(done);
                 }
             }
         });
-        let hand = self.stand.find(&desk.tools.brush);
-        let none = hand.is_none().then_some("there is no brush in hand");
+        let selected = self.list.position(&cx.tools.brush);
+        let none = selected.is_none().then_some("no brush is selected");
         ui.horizontal(|ui| {
-            let add = ui.menu_button("Add", |ui| self.add(ui, desk));
-            add.response.on_hover_text("Takes another brush, clean, into the stand");
-            let tip = "Keeps this brush as it is loaded, and takes a clean twin in hand";
+            let add = ui.menu_button("Add", |ui| self.add(ui, cx));
+            add.response.on_hover_text("Adds a clean brush to the list");
+            let tip = "Keeps this brush with its paint and selects a clean copy";
             if button(ui, "Keep", tip, none) {
-                asked = Some(Asked::Keep);
+                request = Some(ListRequest::Duplicate);
             }
-            if button(ui, "Rename", "Gives this brush another name in the stand", none) {
-                asked = hand.map(Asked::Rename);
+            if button(ui, "Rename", "Renames this brush in the list", none) {
+                request = selected.map(ListRequest::Rename);
             }
-            let last = (self.stand.places.len() < 2).then_some("the last brush stays");
-            let tip = "Takes this brush out of the stand";
+            let last = (self.list.brushes.len() < 2).then_some("the last brush cannot be removed");
+            let tip = "Removes this brush from the list";
             if button(ui, "Remove", tip, none.or(last)) {
-                asked = hand.map(Asked::PutAway);
+                request = selected.map(ListRequest::Remove);
             }
         });
-        match asked {
-            Some(Asked::Take(place)) => self.stand.take(place, desk),
-            Some(Asked::Keep) => self.stand.keep(desk),
-            Some(Asked::PutAway(place)) => self.stand.put_away(place, desk),
-            Some(Asked::Rename(place)) => {
-                let place = &self.stand.places[place];
-                self.renaming = Some((place.name.clone(), place.label.clone()));
+        match request {
+            Some(ListRequest::Select(index)) => self.list.select(index, cx),
+            Some(ListRequest::Duplicate) => self.list.duplicate(cx),
+            Some(ListRequest::Remove(index)) => self.list.remove(index, cx),
+            Some(ListRequest::Rename(index)) => {
+                let brush = &self.list.brushes[index];
+                self.renaming = Some((brush.name.clone(), brush.label.clone()));
             }
             None => {}
         }
     }
 
-    fn place(&self, ui: &mut Ui, desk: &Desk<'_>, place: usize) -> Option<Asked> {
-        let at = &self.stand.places[place];
-        let spec = self.stand.spec(desk.easel, &at.name)?;
-        let state = desk.easel.brushes.iter().find(|brush| brush.name == at.name);
-        let in_hand = desk.tools.brush == at.name;
-        let shown = Row { number: place + 1, label: &at.label, spec: &spec, state, in_hand };
-        let response = shown.show(ui, desk.easel);
-        let mut asked = response.clicked().then_some(Asked::Take(place));
+    fn row(&self, ui: &mut Ui, cx: &PanelContext<'_>, index: usize) -> Option<ListRequest> {
+        let brush = &self.list.brushes[index];
+        let spec = self.list.spec(cx.painting, &brush.name)?;
+        let state = cx.painting.brushes.iter().find(|state| state.name == brush.name);
+        let in_hand = cx.tools.brush == brush.name;
+        let shown = Row { number: index + 1, label: &brush.label, spec: &spec, state, in_hand };
+        let response = shown.show(ui, cx.painting);
+        let mut request = response.clicked().then_some(ListRequest::Select(index));
         response.context_menu(|ui| {
-            if item(ui, "Rename", "Gives this brush another name in the stand", None) {
-                asked = Some(Asked::Rename(place));
+            if item(ui, "Rename", "Renames this brush in the list", None) {
+                request = Some(ListRequest::Rename(index));
             }
-            let last = (self.stand.places.len() < 2).then_some("the last brush stays");
-            if item(ui, "Remove", "Takes this brush out of the stand", last) {
-                asked = Some(Asked::PutAway(place));
+            let last = (self.list.brushes.len() < 2).then_some("the last brush cannot be removed");
+            if item(ui, "Remove", "Removes this brush from the list", last) {
+                request = Some(ListRequest::Remove(index));
             }
         });
-        asked
+        request
     }
 
-    fn rename(&mut self, ui: &mut Ui, place: usize) {
+    fn rename(&mut self, ui: &mut Ui, index: usize) {
         let Some((_, typed)) = &mut self.renaming else { return };
         let response = ui
             .add(TextEdit::singleline(typed).desired_width(f32::INFINITY).char_limit(40))
             .accessible_name("Name of the brush")
-            .on_hover_text("Enter takes the name, Escape leaves it as it was");
+            .on_hover_text("Enter accepts the name, Escape cancels");
         let (enter, escape) =
             ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
         if response.lost_focus() {
             let typed = typed.trim().to_owned();
             if !escape && !typed.is_empty() {
-                self.stand.places[place].label = typed;
+                self.list.brushes[index].label = typed;
             }
             self.renaming = None;
         } else if !response.has_focus() && !enter {
@@ -147,18 +148,18 @@ impl Brushes {
         }
     }
 
-    fn add(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        let size_mm = self.in_hand(desk).map_or(6.0, |spec| spec.size_mm);
+    fn add(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let size_mm = self.in_hand(cx).map_or(6.0, |spec| spec.size_mm);
         for shape in HeadShape::ALL {
-            if item(ui, shape.name(), "As large as the brush in hand", None) {
-                self.stand.add(shape.name(), BrushSpec { shape, size_mm }, desk);
+            if item(ui, shape.name(), "With the size of the selected brush", None) {
+                self.list.add(shape.name(), BrushSpec { shape, size_mm }, cx);
             }
         }
     }
 
-    fn head(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        let Some(spec) = self.in_hand(desk) else {
-            ui.weak("no brush in hand");
+    fn head(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let Some(spec) = self.in_hand(cx) else {
+            ui.weak("no brush is selected");
             return;
         };
         ui.horizontal(|ui| {
@@ -170,19 +171,19 @@ impl Brushes {
                 back(ui, &response, &format!("shape {shape}"), shape == spec.shape);
                 head::draw(ui.painter(), rect.shrink(3.0), shape, None);
                 if response.clicked() {
-                    self.stand.exchange(BrushSpec { shape, ..spec.clone() }, desk);
+                    self.list.replace_head(BrushSpec { shape, ..spec.clone() }, cx);
                 }
-                response.on_hover_text(format!("{shape}; the mean of the paint goes along"));
+                response.on_hover_text(format!("{shape}; the brush keeps the mean of its paint"));
             }
         });
         let mut size_mm = self.dragged_mm.unwrap_or_else(|| rounded(spec.size_mm));
         let control = Slider::new(&mut size_mm, SIZES_MM).logarithmic(true).suffix(" mm");
         let control = control.max_decimals(2).update_while_editing(false);
-        let tip = "Width of the head; the mean of the paint goes along (keys [ and ])";
+        let tip = "Width of the head; the brush keeps the mean of its paint (keys [ and ])";
         let response = slider(ui, "Size", tip, control);
         ui.horizontal(|ui| {
             ui.add_space(NAME_WIDTH + ui.spacing().item_spacing.x);
-            ui.weak(format!("{:.0} cells of the canvas", size_mm / desk.easel.cell_mm));
+            ui.weak(format!("{:.0} cells of the canvas", size_mm / cx.painting.cell_mm));
         });
         if response.changed() {
             self.dragged_mm = Some(rounded(size_mm));
@@ -190,48 +191,49 @@ impl Brushes {
         if let Some(size_mm) = self.dragged_mm
             && !response.dragged()
         {
-            self.stand.exchange(BrushSpec { size_mm, ..spec }, desk);
+            self.list.replace_head(BrushSpec { size_mm, ..spec }, cx);
             self.dragged_mm = None;
         }
     }
 
-    fn paint(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        let none = self.in_hand(desk).is_none().then_some("there is no brush in hand");
-        let height = Slider::new(&mut desk.tools.load_mm, 0.02..=2.0).logarithmic(true);
-        let tip = "How high one load lies on the head";
+    fn paint(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let none = self.in_hand(cx).is_none().then_some("no brush is selected");
+        let height = Slider::new(&mut cx.tools.load_mm, 0.02..=2.0).logarithmic(true);
+        let tip = "Height of paint that one load adds to the head";
         slider(ui, "Load", tip, height.fixed_decimals(2).suffix(" mm"));
-        let tip = "Share of clear medium in a load: more of it is thinner and more transparent";
-        percent(ui, "Medium", tip, &mut desk.tools.vehicle, 0.0..=100.0);
+        let tip =
+            "Share of clear medium in a load: more makes the paint thinner and more transparent";
+        percent(ui, "Medium", tip, &mut cx.tools.vehicle, 0.0..=100.0);
         ui.horizontal(|ui| {
-            let slot = desk.tools.tube;
-            let held = desk.easel.slots.get(slot).copied().flatten();
-            let empty = held.is_none().then_some("no tube is chosen");
+            let slot = cx.tools.tube;
+            let held = cx.painting.slots.get(slot).copied().flatten();
+            let empty = held.is_none().then_some("no tube is selected");
             let name =
-                held.map_or("", |pigment| desk.easel.library.pigments[pigment].name.as_str());
-            let tip = format!("Adds paint of the chosen tube to the brush: {name}");
+                held.map_or("", |pigment| cx.painting.library.pigments[pigment].name.as_str());
+            let tip = format!("Adds paint of the selected tube to the brush: {name}");
             if button(ui, "Load from tube", &tip, none.or(empty)) {
-                tubes::load(desk, slot);
+                tubes::load(cx, slot);
             }
-            let tip = "Adds clear medium to the brush, and no pigment";
+            let tip = "Adds clear medium without pigment to the brush";
             if button(ui, "Medium only", tip, none) {
-                load_medium(desk);
+                load_medium(cx);
             }
         });
-        let tip = "The share of its paint that wiping leaves on the brush";
-        percent(ui, "Wipe to", tip, &mut desk.tools.wipe_keep, 0.0..=100.0);
+        let tip = "Share of its paint that wiping leaves on the brush";
+        percent(ui, "Wipe to", tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
         ui.horizontal(|ui| {
-            let clean = (!is_loaded(desk)).then_some("the brush is clean");
-            if button(ui, "Wipe", "Takes paint off with a rag (key X)", none.or(clean)) {
-                wipe(desk);
+            let clean = (!is_loaded(cx)).then_some("the brush is clean");
+            if button(ui, "Wipe", "Removes paint with a rag (key X)", none.or(clean)) {
+                wipe(cx);
             }
-            if button(ui, "Wash", "Takes all paint off (key W)", none.or(clean)) {
-                wash(desk);
+            if button(ui, "Wash", "Removes all paint (key W)", none.or(clean)) {
+                wash(cx);
             }
         });
     }
 }
 
-/// A size to a tenth of a millimetre, below 1 mm to a hundredth.
+/// Rounds a size in mm to 0.1 mm, below 1 mm to 0.01 mm.
 fn rounded(size_mm: f64) -> f64 {
     let steps = if size_mm < 1.0 { 100.0 } else { 10.0 };
     (size_mm * steps).round() / steps

@@ -1,4 +1,4 @@
-//! The paint of a layer at a place, told as a recipe.
+//! The paint of a picked layer, described as a recipe.
 
 use std::collections::BTreeMap;
 
@@ -9,34 +9,35 @@ use render::paint::document::Medium;
 
 use session::PickedLayer;
 
-/// Less than this share of the pigments is a trace.
+/// Share of all pigment below which a pigment counts as a trace; chosen by eye.
 const TRACE: f64 = 0.005;
 
-/// Parts are whole numbers, together at most so many ..
+/// Maximum sum of the whole parts of a recipe.
 const MOST_PARTS: u32 = 20;
 
-/// .. if none is off by more than this share of the whole.
+/// Maximum error of whole parts, as a share of all pigment; otherwise percentages are
+/// shown.
 const NEAR: f64 = 0.005;
 
-/// Paint of one layer.
+/// Paint of one layer at a picked place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LayerPaint {
-    /// Pigments of the library with their shares, sum 1, the greatest first.
+    /// Pairs of pigment index and share, largest first; the shares sum to 1.
     pub(super) shares: Vec<(usize, f64)>,
-    /// The same in small whole numbers, where those come near.
+    /// Shares as small whole numbers, if these are close enough.
     pub(super) parts: Option<Vec<u32>>,
-    /// Pigments of which there is a trace.
+    /// Indices of pigments present only as traces.
     pub(super) traces: Vec<usize>,
-    /// Height of all of it, in mm.
+    /// Total height of the paint, in mm.
     pub(super) thickness_mm: f64,
-    /// The share of it that is clear vehicle, 0..1.
+    /// Share of the height that is clear vehicle, 0 to 1.
     pub(super) vehicle: f64,
-    /// What its optical thickness is multiplied with.
+    /// Factor of the layer's optical thickness, 1 as painted.
     pub(super) opacity: f64,
 }
 
 impl LayerPaint {
-    /// The paint of a layer; `None` where there is none.
+    /// Describes the paint of a picked layer; `None` if it has none there.
     pub(super) fn of(layer: &PickedLayer) -> Option<Self> {
         let mut amounts: BTreeMap<usize, f64> = BTreeMap::new();
         for (slot, amount) in layer.slots.iter().zip(layer.amounts_mm) {
@@ -67,7 +68,7 @@ impl LayerPaint {
         })
     }
 
-    /// Amount and name of each pigment, a line each: `6 parts` or `61.3 %`.
+    /// Returns amount (`6` or `61.3 %`) and name of each pigment.
     pub(super) fn lines(&self, library: &PigmentLibrary) -> Vec<(String, String)> {
         let line = |(at, (pigment, share)): (usize, &(usize, f64))| {
             let amount = match &self.parts {
@@ -79,8 +80,8 @@ impl LayerPaint {
         self.shares.iter().enumerate().map(line).collect()
     }
 
-    /// The recipe as `impasto mix LIBRARY` takes it, with the film's thickness;
-    /// `None` for clear vehicle.
+    /// Formats the recipe with the film's thickness as arguments of `impasto mix
+    /// LIBRARY`; `None` for clear vehicle.
     pub(super) fn mix_text(&self, library: &PigmentLibrary, medium: &Medium) -> Option<String> {
         if self.shares.is_empty() {
             return None;
@@ -104,7 +105,7 @@ impl LayerPaint {
     }
 }
 
-/// A number to four significant digits, without an exponent.
+/// Formats a number with four significant digits and no exponent.
 fn significant(value: f64) -> String {
     let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
     let text = format!("{value:.*}", digits.clamp(0, 12) as usize);
@@ -114,7 +115,7 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// A word for a shell.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let mut quoted = String::from('"');
     for letter in word.chars() {
@@ -181,7 +182,7 @@ mod tests {
         let paint = LayerPaint::of(&layer(&[(0, 0.06), (3, 0.02)], 0.02)).unwrap();
         let names = [0, 3].map(|pigment| library.pigments[pigment].name.clone());
         let text = paint.mix_text(&library, &Medium::default()).unwrap();
-        // 0.08 mm of pigment, 50 per mm.
+        // 0.08 mm of pigment at 50 per mm.
         assert_eq!(text, format!("\"{}=3\" \"{}=1\" --thickness 4", names[0], names[1]));
         library.amounts = AmountKind::Absolute;
         let text = paint.mix_text(&library, &Medium::default()).unwrap();

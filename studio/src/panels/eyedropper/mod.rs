@@ -1,18 +1,19 @@
-//! The eyedropper: spectrum, Lab, recipe, thickness, and recipes for a colour.
+//! The eyedropper panel: spectrum, colour and paint at a picked place, and recipes for
+//! a colour.
 
 mod layer_paint;
 
-mod wanted;
+mod target;
 
 mod swatch;
 
-mod picked_place;
+mod picked;
 
-mod offers;
+mod found_recipe;
 
 mod search;
 
 mod panel;
 
 pub use panel::Eyedropper;
-pub use wanted::{Color, Wanted};
+pub use target::{Color, TargetColor};

@@ -1,4 +1,4 @@
-//! The panel of the eyedropper.
+//! Draws the eyedropper panel.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -6,34 +6,34 @@ use std::sync::Arc;
 use eframe::egui::{Align2, DragValue, Key, TextEdit, Ui, vec2};
 use spectra::swatch_file::{SwatchFile, SwatchFileError, read_aco, read_ase, read_gpl};
 
-use super::super::desk::Desk;
+use super::super::context::PanelContext;
 use super::super::tools::Mode;
-use super::picked_place::picked_place;
-use super::search::Search;
+use super::picked::show_picked;
+use super::search::SearchPanel;
 use super::swatch::swatch;
-use super::wanted::{Color, Wanted};
+use super::target::{Color, TargetColor};
 
-/// What was picked, what is wanted, and recipes for it.
+/// State of the eyedropper panel: target colour, swatches and recipe search.
 #[derive(Debug, Default)]
 pub struct Eyedropper {
-    wanted: Option<Wanted>,
-    /// The colour from the reference picture that was taken up last.
-    taken: Option<[f64; 3]>,
+    target: Option<TargetColor>,
+    /// Colour of the reference picture that was last made the target.
+    last_reference_color: Option<[f64; 3]>,
     text: String,
     fault: Option<String>,
-    swatches: Vec<Wanted>,
-    search: Search,
+    swatches: Vec<TargetColor>,
+    search: SearchPanel,
 }
 
 impl Eyedropper {
-    /// Whether a file is one of colours, by its ending: `.gpl`, `.ase`, `.aco`.
+    /// Whether a file holds colour swatches, by its extension: `.gpl`, `.ase`, `.aco`.
     #[must_use]
     pub fn takes(path: &Path) -> bool {
         reader(path).is_some()
     }
 
-    /// Shows the colours of a palette of another painting program, to be wanted
-    /// by a click. A fault is told in the panel.
+    /// Loads the swatches of another painting program's palette. An error is shown in
+    /// the panel.
     pub fn open_swatches(&mut self, path: &Path) {
         self.fault = None;
         match colors(path) {
@@ -42,65 +42,65 @@ impl Eyedropper {
         }
     }
 
-    /// The colour that recipes are for.
+    /// Target colour of the recipe search.
     #[must_use]
-    pub fn wanted(&self) -> Option<&Wanted> {
-        self.wanted.as_ref()
+    pub fn target(&self) -> Option<&TargetColor> {
+        self.target.as_ref()
     }
 
-    /// Makes a colour the wanted one and searches recipes for it.
-    pub fn want(&mut self, ui: &Ui, desk: &Desk<'_>, wanted: Wanted) {
-        self.search.begin(ui, desk.easel, &wanted);
-        self.wanted = Some(wanted);
+    /// Makes a colour the target and searches recipes for it.
+    pub fn set_target(&mut self, ui: &Ui, cx: &PanelContext<'_>, wanted: TargetColor) {
+        self.search.begin(ui, cx.painting, &wanted);
+        self.target = Some(wanted);
         self.fault = None;
     }
 
-    /// Shows the panel, and asks for what is changed.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        if desk.tools.wanted != self.taken {
-            self.taken = desk.tools.wanted;
-            if let Some(linear) = self.taken {
-                self.want(ui, desk, Wanted::screen("From the reference picture", linear));
+    /// Draws the panel.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        if cx.tools.reference_color != self.last_reference_color {
+            self.last_reference_color = cx.tools.reference_color;
+            if let Some(linear) = self.last_reference_color {
+                self.set_target(ui, cx, TargetColor::screen("From the reference picture", linear));
             }
         }
-        pick_controls(ui, desk);
-        match desk.tools.picked.clone() {
+        pick_controls(ui, cx);
+        match cx.tools.picked.clone() {
             None => {
-                ui.weak("Click with the eyedropper, or with Alt held, to see what lies there.");
+                ui.weak("Click with the eyedropper, or with Alt held, to pick colour and paint.");
             }
             Some(picked) => {
-                if picked_place(ui, desk, &picked) {
+                if show_picked(ui, cx, &picked) {
                     let name = format!("Picked at {:.1}, {:.1} mm", picked.x_mm, picked.y_mm);
                     let color = Color::Reflectance(Arc::new(picked.reflectance.clone()));
-                    self.want(ui, desk, Wanted { name, color });
+                    self.set_target(ui, cx, TargetColor { name, color });
                 }
             }
         }
         ui.separator();
-        self.wanted_color(ui, desk);
-        self.search.show(ui, desk, self.wanted.as_ref());
+        self.target_row(ui, cx);
+        self.search.show(ui, cx, self.target.as_ref());
     }
 
-    fn wanted_color(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
-        let (grid, viewing) = (desk.easel.library.grid, &desk.easel.light.viewing);
+    fn target_row(&mut self, ui: &mut Ui, cx: &PanelContext<'_>) {
+        let (grid, viewing) = (cx.painting.library.grid, &cx.painting.light.viewing);
         ui.horizontal(|ui| {
-            if let Some(wanted) = &self.wanted {
+            if let Some(wanted) = &self.target {
                 let color = wanted.shown(grid, viewing);
-                let patch = swatch(ui, "Wanted colour", vec2(40.0, 22.0), &[color]);
+                let patch = swatch(ui, "Target colour", vec2(40.0, 22.0), &[color]);
                 let [l, a, b] = wanted.lab(grid, viewing).to_array();
                 patch.on_hover_text(format!("{}: Lab {l:.2} {a:.2} {b:.2}", wanted.name));
             }
             let field = TextEdit::singleline(&mut self.text)
-                .hint_text("Wanted: #rrggbb or L,a,b")
+                .hint_text("Target: #rrggbb or L,a,b")
                 .desired_width(f32::INFINITY)
                 .align(Align2::LEFT_CENTER);
             let field = ui.add(field).on_hover_text(
-                "A wanted colour: sRGB as #rrggbb, or CIELAB as L,a,b under the light of the \
+                "Target colour: sRGB as #rrggbb, or CIELAB as L,a,b under the light of the \
                  painting. Enter searches recipes for it",
             );
             if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
-                match Wanted::from_text(&self.text) {
-                    Some(wanted) => self.want(ui, desk, wanted),
+                match TargetColor::from_text(&self.text) {
+                    Some(wanted) => self.set_target(ui, cx, wanted),
                     None => {
                         let found = self.text.trim();
                         self.fault = Some(format!(
@@ -110,20 +110,20 @@ impl Eyedropper {
                 }
             }
         });
-        if let Some(wanted) = &self.wanted {
-            ui.weak(&wanted.name).on_hover_text("Where the wanted colour comes from");
+        if let Some(wanted) = &self.target {
+            ui.weak(&wanted.name).on_hover_text("Origin of the target colour");
         }
         if let Some(fault) = &self.fault {
             ui.label(fault);
         }
-        self.swatch_rows(ui, desk);
+        self.swatch_rows(ui, cx);
     }
 
-    fn swatch_rows(&mut self, ui: &mut Ui, desk: &Desk<'_>) {
+    fn swatch_rows(&mut self, ui: &mut Ui, cx: &PanelContext<'_>) {
         if self.swatches.is_empty() {
             return;
         }
-        let (grid, viewing) = (desk.easel.library.grid, &desk.easel.light.viewing);
+        let (grid, viewing) = (cx.painting.library.grid, &cx.painting.light.viewing);
         let mut clicked = None;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
@@ -137,26 +137,26 @@ impl Eyedropper {
             }
         });
         if let Some(wanted) = clicked {
-            self.want(ui, desk, wanted);
+            self.set_target(ui, cx, wanted);
         }
     }
 }
 
-fn pick_controls(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn pick_controls(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     ui.horizontal(|ui| {
-        let picking = desk.tools.mode == Mode::Pick;
+        let picking = cx.tools.mode == Mode::Pick;
         let pick = ui.selectable_label(picking, "Eyedropper");
-        if pick.on_hover_text("Clicks tell what lies there; also with Alt held").clicked() {
-            desk.tools.mode = if picking { Mode::Paint } else { Mode::Pick };
+        if pick.on_hover_text("A click picks colour and paint; also with Alt held").clicked() {
+            cx.tools.mode = if picking { Mode::Paint } else { Mode::Pick };
         }
-        let radius = DragValue::new(&mut desk.tools.pick_radius_mm)
+        let radius = DragValue::new(&mut cx.tools.pick_radius_mm)
             .range(0.0..=10.0)
             .speed(0.02)
             .fixed_decimals(1)
             .prefix("radius ")
             .suffix(" mm");
         let radius = ui.add(radius).accessible_name("Radius of the eyedropper");
-        radius.on_hover_text("The mean over cells this near is told; 0 is one cell");
+        radius.on_hover_text("Radius of the averaged disc; 0 is one cell");
     });
 }
 
@@ -174,19 +174,19 @@ fn reader(path: &Path) -> Option<Reader> {
 
 fn colors(path: &Path) -> Result<SwatchFile, String> {
     let name = path.display().to_string();
-    let reader = reader(path)
-        .ok_or_else(|| format!("{name}: a palette of colours is a .gpl, .ase or .aco file"))?;
+    let reader =
+        reader(path).ok_or_else(|| format!("{name}: expected a .gpl, .ase or .aco file"))?;
     let bytes = std::fs::read(path).map_err(|error| format!("{name}: {error}"))?;
     reader(&name, &bytes).map_err(|error| error.to_string())
 }
 
-/// Inks, which have no colour of their own, are left out.
-fn wanted_of(palette: &SwatchFile) -> Vec<Wanted> {
+/// Converts swatches to target colours. Spot inks without a colour are skipped.
+fn wanted_of(palette: &SwatchFile) -> Vec<TargetColor> {
     let swatches = palette.swatches.iter();
     let wanted = swatches.filter_map(|one| {
         let rgb = one.color.srgb()?;
         let name = if one.name.is_empty() { rgb.to_hex() } else { one.name.clone() };
-        Some(Wanted::screen(&name, rgb.linear().0))
+        Some(TargetColor::screen(&name, rgb.linear().0))
     });
     wanted.collect()
 }

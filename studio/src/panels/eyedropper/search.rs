@@ -1,4 +1,4 @@
-//! The search for recipes: from what, under which lights, and what was found.
+//! The recipe search of the eyedropper panel: limits, progress and results.
 
 use std::sync::Arc;
 
@@ -7,65 +7,71 @@ use pigment::evaluate::Viewing;
 use pigment::matching::{MatchRequest, Sight};
 use spectra::{Observer, light_from_text};
 
-use super::super::desk::Desk;
-use super::offers::Offer;
-use super::wanted::{Wanted, shown, weights};
-use crate::matching::{Matcher, Question};
+use super::super::context::PanelContext;
+use super::found_recipe::FoundRecipe;
+use super::target::{TargetColor, screen_rgb, weights};
+use crate::recipe_search::{RecipeSearch, SearchRequest};
 use session::PaintingState;
 
-/// Recipes shown.
+/// Number of recipes shown.
 const BEST: usize = 3;
 
-/// Whole parts of a recipe, together, at first: strong pigments need a small one.
+/// Default for the total of a recipe's whole parts. Large, because strong pigments need
+/// small shares.
 const PARTS: u32 = 40;
 
-/// Limits of the search, and the search.
+/// Limits of the recipe search and the running search.
 #[derive(Debug)]
-pub(super) struct Search {
-    matcher: Matcher,
-    /// Whether all pigments of the library may take part, or those of the palette.
+pub(super) struct SearchPanel {
+    search: RecipeSearch,
+    /// Whether recipes may use the whole library instead of the palette.
     whole_library: bool,
-    /// Whether both lights of the split view count.
+    /// Whether recipes must match under both lights of the split view.
     both_lights: bool,
     parts: u32,
 }
 
-impl Default for Search {
+impl Default for SearchPanel {
     fn default() -> Self {
-        Self { matcher: Matcher::default(), whole_library: false, both_lights: true, parts: PARTS }
+        Self {
+            search: RecipeSearch::default(),
+            whole_library: false,
+            both_lights: true,
+            parts: PARTS,
+        }
     }
 }
 
-impl Search {
-    /// Begins to search recipes for `wanted`.
-    pub(super) fn begin(&mut self, ui: &Ui, easel: &PaintingState, wanted: &Wanted) {
-        let question = self.question(easel, wanted);
+impl SearchPanel {
+    /// Starts a search for recipes that match `target_color`.
+    pub(super) fn begin(&mut self, ui: &Ui, painting: &PaintingState, target_color: &TargetColor) {
+        let request = self.request(painting, target_color);
         let context = ui.ctx().clone();
-        self.matcher.ask(question, move || context.request_repaint());
+        self.search.start(request, move || context.request_repaint());
     }
 
-    /// What is asked for `wanted`.
-    fn question(&self, easel: &PaintingState, wanted: &Wanted) -> Question {
-        let library = &easel.library;
-        let sights = self.sights(easel);
-        let target = wanted.target(library.grid, &sights);
-        let film = MatchRequest::usual_film(library, easel.ground_reflectance.to_vec());
-        let mut request = MatchRequest::new(library, sights, film);
+    /// Builds the search request for `target_color` from the limits and the painting.
+    fn request(&self, painting: &PaintingState, target_color: &TargetColor) -> SearchRequest {
+        let library = &painting.library;
+        let sights = self.sights(painting);
+        let target = target_color.match_target(library.grid, &sights);
+        let film = MatchRequest::usual_film(library, painting.ground_reflectance.to_vec());
+        let mut limits = MatchRequest::new(library, sights, film);
         if !self.whole_library {
-            request.allowed = easel.slots.iter().copied().flatten().collect();
-            request.allowed.sort_unstable();
-            request.allowed.dedup();
+            limits.allowed = painting.slots.iter().copied().flatten().collect();
+            limits.allowed.sort_unstable();
+            limits.allowed.dedup();
         }
-        request.whole_parts = Some(self.parts);
-        // One part of the most is allowed, however many those are.
-        request.least_share = request.least_share.min(1.0 / f64::from(self.parts));
-        request.count = BEST;
-        Question { library: Arc::clone(library), target, request }
+        limits.whole_parts = Some(self.parts);
+        // A single part must be allowed whatever the total.
+        limits.least_share = limits.least_share.min(1.0 / f64::from(self.parts));
+        limits.count = BEST;
+        SearchRequest { library: Arc::clone(library), target, limits }
     }
 
-    fn sights(&self, easel: &PaintingState) -> Vec<Sight> {
-        let mut sights = vec![Sight { viewing: easel.light.viewing.clone(), weight: 1.0 }];
-        if let Some(second) = easel.second_lighting.as_ref().filter(|_| self.both_lights) {
+    fn sights(&self, painting: &PaintingState) -> Vec<Sight> {
+        let mut sights = vec![Sight { viewing: painting.light.viewing.clone(), weight: 1.0 }];
+        if let Some(second) = painting.second_lighting.as_ref().filter(|_| self.both_lights) {
             let illuminant = light_from_text(&second.illuminant).ok();
             let viewing = illuminant.zip(Observer::named(&second.observer).ok());
             sights.extend(viewing.map(|(illuminant, observer)| Sight {
@@ -76,34 +82,39 @@ impl Search {
         sights
     }
 
-    /// Shows limits, progress and what was found for `wanted`.
-    pub(super) fn show(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, wanted: Option<&Wanted>) {
-        self.matcher.update();
-        let mut again = self.limits(ui, desk.easel);
-        if let Some(share) = self.matcher.progress() {
+    /// Draws limits, progress and the recipes found.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        cx: &mut PanelContext<'_>,
+        target_color: Option<&TargetColor>,
+    ) {
+        self.search.update();
+        let mut restart = self.limits(ui, cx.painting);
+        if let Some(share) = self.search.progress() {
             ui.horizontal(|ui| {
                 let cancel = ui.button("Cancel").on_hover_text("Ends the search for recipes");
                 ui.add(ProgressBar::new(share as f32).show_percentage());
                 if cancel.clicked() {
-                    self.matcher.cancel();
+                    self.search.cancel();
                 }
             });
             ui.ctx().request_repaint_after_secs(0.1);
         } else {
-            let find = ui.add_enabled(wanted.is_some(), Button::new("Find recipes for it"));
+            let find = ui.add_enabled(target_color.is_some(), Button::new("Find recipes for it"));
             let find = find
-                .on_hover_text("Searches the three best recipes for the wanted colour")
+                .on_hover_text("Searches the three best recipes for the target colour")
                 .on_disabled_hover_text("Choose a colour first");
-            again |= find.clicked();
+            restart |= find.clicked();
         }
-        if let Some(wanted) = wanted.filter(|_| again) {
-            self.begin(ui, desk.easel, wanted);
+        if let Some(target_color) = target_color.filter(|_| restart) {
+            self.begin(ui, cx.painting, target_color);
         }
-        self.found(ui, desk);
+        self.results(ui, cx);
     }
 
-    /// Shows the limits; gives whether one was changed.
-    fn limits(&mut self, ui: &mut Ui, easel: &PaintingState) -> bool {
+    /// Draws the limits. Returns whether one was changed.
+    fn limits(&mut self, ui: &mut Ui, painting: &PaintingState) -> bool {
         let before = (self.whole_library, self.both_lights, self.parts);
         ui.horizontal(|ui| {
             let palette = ui.radio_value(&mut self.whole_library, false, "Palette");
@@ -116,33 +127,31 @@ impl Search {
                 .update_while_editing(false)
                 .suffix(" parts");
             let parts = ui.add(parts).accessible_name("Parts at most");
-            parts.on_hover_text("Recipes are in whole parts, together at most so many");
+            parts.on_hover_text("Maximum sum of the whole parts of a recipe");
         });
-        if easel.second_lighting.is_some() {
+        if painting.second_lighting.is_some() {
             let both = ui.checkbox(&mut self.both_lights, "Under both lights");
-            both.on_hover_text(
-                "Recipes are to meet the colour under both lights of the split view",
-            );
+            both.on_hover_text("Recipes must match the colour under both lights of the split view");
         }
         before != (self.whole_library, self.both_lights, self.parts)
     }
 
-    fn found(&self, ui: &mut Ui, desk: &mut Desk<'_>) {
-        if self.matcher.died() {
-            ui.label("The search ended without an answer.");
+    fn results(&self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        if self.search.crashed() {
+            ui.label("The search ended without a result.");
         }
-        let easel = desk.easel;
-        let Some(answer) = self.matcher.answer() else { return };
-        let Question { library, target, request } = &answer.question;
-        if *library != easel.library {
+        let painting = cx.painting;
+        let Some(result) = self.search.result() else { return };
+        let SearchRequest { library, target, limits } = &result.request;
+        if *library != painting.library {
             return;
         }
-        let (asked, now) = (&request.sights[0].viewing, &easel.light.viewing);
-        if asked != now {
-            let told = format!("Found under {}, not the present light", asked.illuminant.name());
-            ui.weak(told);
+        let (searched, current) = (&limits.sights[0].viewing, &painting.light.viewing);
+        if searched != current {
+            let note = format!("Found under {}, not the current light", searched.illuminant.name());
+            ui.weak(note);
         }
-        let recipes = match &answer.recipes {
+        let recipes = match &result.recipes {
             Ok(recipes) => recipes,
             Err(error) => {
                 ui.label(format!("{error}."));
@@ -152,11 +161,11 @@ impl Search {
         if recipes.is_empty() {
             ui.label("No recipe fits; allow more parts.");
         }
-        let white = weights(library.grid, asked).white();
-        let goal = shown(target.lab[0], white);
+        let white = weights(library.grid, searched).white();
+        let goal = screen_rgb(target.lab[0], white);
         for (index, recipe) in recipes.iter().enumerate() {
-            let offer = Offer { number: index + 1, library, recipe, white, wanted: goal };
-            offer.show(ui, desk);
+            let offer = FoundRecipe { number: index + 1, library, recipe, white, target: goal };
+            offer.show(ui, cx);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Patches of colour.
+//! Colour swatches.
 
 use eframe::egui::{
     Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
@@ -7,14 +7,14 @@ use spectra::color::Rgb;
 
 use crate::theme;
 
-/// The nearest colour that the screen has.
+/// Rounds and clips encoded sRGB to a screen colour.
 pub(super) fn on_screen(rgb: Rgb) -> Color32 {
     let [red, green, blue] = rgb.to_bytes();
     Color32::from_rgb(red, green, blue)
 }
 
-/// A patch called `name`. Two colours lie side by side without a seam, so that
-/// they can be compared.
+/// Draws a clickable patch with an accessible name. Several colours lie side by side
+/// without a gap for comparison.
 pub(super) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colors: &[Rgb]) -> Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));

@@ -1,11 +1,11 @@
-//! The eye that shows and hides a layer.
+//! The eye icon that shows and hides a layer.
 
 use eframe::egui::{Pos2, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use crate::panels::controls::back;
 use crate::theme;
 
-/// An eye, open if the layer is `visible`, to be clicked.
+/// Adds a clickable eye icon, open if the layer is `visible`.
 pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
     back(ui, &response, name, false);
@@ -20,7 +20,7 @@ pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     response
 }
 
-/// The lower lid for 1, the upper one for -1.
+/// Curve of the lower lid for `side` 1, of the upper one for -1.
 fn lid(lens: Rect, side: f32) -> Vec<Pos2> {
     let at = |step: i16| {
         let along = f32::from(step) / 12.0;

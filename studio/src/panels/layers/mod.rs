@@ -1,4 +1,4 @@
-//! Wet and dry: drying, dry layers.
+//! The layer panel: drying, opacity and merging of layers.
 
 mod thumbnails;
 

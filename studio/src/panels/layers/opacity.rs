@@ -1,5 +1,5 @@
-//! The opacity of a dry layer: a slider that is one action, and an eye that
-//! remembers.
+//! Opacity of a dry layer: a slider whose drag is one action, and an eye icon that
+//! restores the previous opacity.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,24 @@ use eframe::egui::{Slider, SliderClamping, Ui};
 use render::paint::strokes::{Action, LayerRef};
 
 use super::eye::eye;
-use crate::panels::Desk;
+use crate::panels::PanelContext;
 use crate::panels::controls::slider;
 use session::Command;
 
-/// How long the slider shows what was asked for, until the worker tells of it, in
-/// seconds.
-const PATIENCE: f64 = 1.0;
+/// Time after which an unconfirmed opacity is dropped, in seconds.
+const TIMEOUT_SECONDS: f64 = 1.0;
 
-/// What is being done to opacities.
+/// State of the opacity controls.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Opacity {
-    held: Option<Held>,
-    /// What a hidden layer had before, by its number.
+    pending: Option<PendingOpacity>,
+    /// Opacities of hidden layers before hiding, by layer index.
     before: BTreeMap<usize, f64>,
 }
 
-/// A value that was asked for.
+/// A requested opacity that is not confirmed yet.
 #[derive(Debug, Clone, Copy)]
-struct Held {
+struct PendingOpacity {
     layer: usize,
     value: f64,
     dragged: bool,
@@ -33,9 +32,9 @@ struct Held {
 }
 
 impl Opacity {
-    /// The eye of a layer.
-    pub(super) fn eye(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, layer: usize) {
-        let now = desk.easel.layers[layer].opacity;
+    /// Draws the eye icon of a layer.
+    pub(super) fn eye(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, layer: usize) {
+        let now = cx.painting.layers[layer].opacity;
         let response = eye(ui, &format!("visibility of dry layer {}", layer + 1), now > 0.0);
         if response.clicked() {
             let value = if now > 0.0 {
@@ -44,46 +43,47 @@ impl Opacity {
             } else {
                 self.before.remove(&layer).unwrap_or(1.0)
             };
-            desk.act(Action::Opacity { layer: LayerRef::Dry(layer), value });
+            cx.act(Action::Opacity { layer: LayerRef::Dry(layer), value });
         }
         let tip = if now > 0.0 { "Hides this layer" } else { "Shows this layer again" };
-        response.on_hover_text(format!("{tip}; what lies above keeps its relief"));
+        response.on_hover_text(format!("{tip}; the layers above keep their relief"));
     }
 
-    /// The slider of a layer.
-    pub(super) fn slider(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, layer: usize) {
+    /// Draws the opacity slider of a layer.
+    pub(super) fn slider(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, layer: usize) {
         let now = ui.input(|input| input.time);
-        let told = desk.easel.layers[layer].opacity;
-        self.held = self.held.filter(|held| {
-            held.layer != layer
-                || held.dragged
-                || (held.until > now && (told - held.value).abs() > 1e-9)
+        let reported = cx.painting.layers[layer].opacity;
+        self.pending = self.pending.filter(|pending| {
+            pending.layer != layer
+                || pending.dragged
+                || (pending.until > now && (reported - pending.value).abs() > 1e-9)
         });
-        let held = self.held.filter(|held| held.layer == layer);
-        let shown = held.map_or((told * 100.0).round() / 100.0, |held| held.value);
+        let pending = self.pending.filter(|pending| pending.layer == layer);
+        let shown = pending.map_or((reported * 100.0).round() / 100.0, |pending| pending.value);
         let mut value = shown;
         let control = Slider::new(&mut value, 0.0..=4.0).logarithmic(true).smallest_positive(0.02);
         let control = control.clamping(SliderClamping::Edits).max_decimals(2);
-        let tip = "What the layer's optical thickness is multiplied with: 1 as painted, 0 hidden";
+        let tip = "Factor of the layer's optical thickness: 1 as painted, 0 hidden";
         let response = slider(ui, "Opacity", tip, control.update_while_editing(false));
         let response = response.accessible_name(format!("opacity of dry layer {}", layer + 1));
         let dragged = response.dragged();
         if value != shown {
             let action = Action::Opacity { layer: LayerRef::Dry(layer), value };
-            desk.command(if dragged { Command::Adjust(action) } else { Command::Apply(action) });
-            self.held = Some(Held { layer, value, dragged, until: now + PATIENCE });
+            cx.command(if dragged { Command::Adjust(action) } else { Command::Apply(action) });
+            self.pending =
+                Some(PendingOpacity { layer, value, dragged, until: now + TIMEOUT_SECONDS });
         }
-        if let Some(held) = self.held.as_mut().filter(|held| held.layer == layer)
-            && held.dragged
+        if let Some(pending) = self.pending.as_mut().filter(|pending| pending.layer == layer)
+            && pending.dragged
             && !dragged
         {
-            held.dragged = false;
-            held.until = now + PATIENCE;
-            desk.command(Command::EndAdjustment);
+            pending.dragged = false;
+            pending.until = now + TIMEOUT_SECONDS;
+            cx.command(Command::EndAdjustment);
         }
     }
 
-    /// After a layer became one with the one below it: those above sink by one.
+    /// Renumbers the layers above `layer` after it was merged down.
     pub(super) fn merged(&mut self, layer: usize) {
         let before = std::mem::take(&mut self.before);
         let kept = before.into_iter().filter(|(hidden, _)| *hidden != layer);

@@ -1,4 +1,4 @@
-//! Thumbnails of layers as textures, kept as long as they are shown.
+//! Cache of the textures of layer thumbnails.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use eframe::egui::{
 use crate::theme;
 use session::Thumbnail;
 
-/// Textures of the thumbnails that were shown last.
+/// Textures of the thumbnails in use.
 #[derive(Clone, Default)]
 pub(super) struct Thumbnails(Vec<(Arc<Thumbnail>, TextureHandle)>);
 
@@ -20,7 +20,7 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// Shows a thumbnail within `room` points, its sides in proportion.
+    /// Draws a thumbnail within `room` points, keeping its aspect ratio.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -40,7 +40,7 @@ impl Thumbnails {
         ui.painter().image(texture, place, whole, Color32::WHITE);
     }
 
-    /// Lets go of what is no more in `layers`.
+    /// Drops textures of thumbnails that are not in `layers`.
     pub(super) fn keep<'a>(&mut self, layers: impl Iterator<Item = &'a Arc<Thumbnail>> + Clone) {
         self.0.retain(|(kept, _)| layers.clone().any(|layer| Arc::ptr_eq(kept, layer)));
     }

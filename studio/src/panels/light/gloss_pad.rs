@@ -1,4 +1,4 @@
-//! Gloss, set by dragging: sharper to the right, stronger upwards.
+//! Two-dimensional control of gloss: exponent to the right, strength upwards.
 
 use eframe::egui::{
     Color32, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, lerp, pos2,
@@ -7,37 +7,37 @@ use eframe::egui::{
 use render::optics::Gloss;
 use spectra::color::Rgb;
 
-use super::super::draft::Touch;
+use super::super::pending_value::Edit;
 use crate::theme;
 
-/// The strongest highlight that the pad sets, as a share of a perfect white.
+/// Strength at the upper edge, as a share of a perfect white.
 const STRONGEST: f32 = 1.0;
 
-/// The exponents from its left to its right edge.
+/// Exponents at the left and right edges; the scale is logarithmic.
 const EXPONENTS: (f32, f32) = (2.0, 500.0);
 
-/// Cells of the drawn highlight, along each side.
+/// Mesh cells of the drawn highlight along each side.
 const CELLS: usize = 20;
 
-/// Shows a pad named `name` and lets the painter drag the gloss.
+/// Draws a pad with an accessible name and updates `gloss` from dragging.
 pub(super) fn gloss_pad(
     ui: &mut Ui,
     name: &str,
     size: Vec2,
     gloss: &mut Gloss,
-) -> (Response, Touch) {
+) -> (Response, Edit) {
     let (rect, mut response) = ui.allocate_exact_size(size, Sense::drag());
     let inner = rect.shrink(6.0);
     if let Some(pointer) = response.interact_pointer_pos() {
-        let wished = gloss_at(inner, pointer);
-        if wished != *gloss {
-            *gloss = wished;
+        let chosen = gloss_at(inner, pointer);
+        if chosen != *gloss {
+            *gloss = chosen;
             response.mark_changed();
         }
     }
     response.widget_info(|| {
         let mut info = WidgetInfo::slider(ui.is_enabled(), f64::from(gloss.strength), name);
-        info.current_text_value = Some(told(*gloss));
+        info.current_text_value = Some(gloss_text(*gloss));
         info
     });
     if ui.is_rect_visible(rect) {
@@ -50,12 +50,12 @@ pub(super) fn gloss_pad(
         let line = Stroke::new(1.0, edge);
         painter.rect_stroke(rect, theme::ROUND, line, eframe::egui::StrokeKind::Inside);
     }
-    let touch = Touch::of(&response);
-    (response, touch)
+    let edit = Edit::of(&response);
+    (response, edit)
 }
 
-/// `strength 0.25, exponent 60`.
-pub(super) fn told(gloss: Gloss) -> String {
+/// Formats a gloss: `strength 0.25, exponent 60`.
+pub(super) fn gloss_text(gloss: Gloss) -> String {
     format!("strength {:.2}, exponent {:.0}", gloss.strength, gloss.exponent)
 }
 
@@ -64,7 +64,7 @@ fn gloss_at(pad: Rect, place: Pos2) -> Gloss {
     let up = remap_clamp(place.y, pad.y_range(), 1.0..=0.0);
     let exponent = lerp(EXPONENTS.0.ln()..=EXPONENTS.1.ln(), along).exp();
     let strength = STRONGEST * up;
-    // As many digits as one can tell apart.
+    // Rounded to differences that are visible.
     let digits = if exponent < 10.0 { 10.0 } else { 1.0 };
     Gloss {
         strength: (strength * 100.0).round() / 100.0,
@@ -79,13 +79,13 @@ fn place_of(pad: Rect, gloss: Gloss) -> Pos2 {
     pos2(lerp(pad.left()..=pad.right(), along), lerp(pad.bottom()..=pad.top(), up))
 }
 
-/// The highlight on a grey ball, in screen greys.
+/// Mesh of the highlight on a grey ball, in screen greys.
 fn highlight(rect: Rect, gloss: Gloss) -> Shape {
     let mut mesh = Mesh::default();
     for row in 0..=CELLS {
         for column in 0..=CELLS {
             let (u, v) = (column as f32 / CELLS as f32, row as f32 / CELLS as f32);
-            // A quarter turn from the upper to the lower edge.
+            // 90 degrees from the upper to the lower edge.
             let across = (2.0 * u - 1.0) * rect.width() / rect.height();
             let away = vec2(across, 2.0 * v - 1.0).length().min(2.0);
             let shine = gloss.strength * (away * 0.785).cos().powf(gloss.exponent);

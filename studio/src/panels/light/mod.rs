@@ -1,20 +1,20 @@
-//! The light: illuminant, direction, gloss, split view.
+//! The light panel: illuminant, direction, gloss and split view.
 
-mod lamps;
+mod illuminants;
 
 mod picker;
 
-mod row;
+mod labelled_slider;
 
 mod temperature;
 
-mod choice;
+mod illuminant;
 
-mod curve;
+mod power_chart;
 
 mod white;
 
-mod dome;
+mod direction;
 
 mod gloss_pad;
 

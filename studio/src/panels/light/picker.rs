@@ -1,4 +1,4 @@
-//! Choosing an illuminant from all there are.
+//! A drop-down list of illuminants with a search field.
 
 use std::path::Path;
 
@@ -8,25 +8,25 @@ use eframe::egui::{
 };
 use spectra::{ColorTemperature, Illuminant, light_from_text};
 
-use super::lamps::{Kind, Lamp, lamps};
+use super::illuminants::{Kind, ListedIlluminant, listed_illuminants};
 use crate::theme;
 
-/// A button that opens a list with a search field.
+/// Button that opens the list.
 #[derive(Debug)]
 pub(super) struct Picker {
     name: &'static str,
-    lamps: Vec<Lamp>,
+    lamps: Vec<ListedIlluminant>,
     search: String,
 }
 
 impl Picker {
-    /// A picker called `name`.
+    /// Creates a picker with an accessible name.
     pub(super) fn new(name: &'static str) -> Self {
-        Self { name, lamps: lamps(), search: String::new() }
+        Self { name, lamps: listed_illuminants(), search: String::new() }
     }
 
-    /// Shows the button with what is chosen, and the list while it is open. Gives
-    /// the light that was clicked.
+    /// Draws the button with the chosen illuminant, and the list while it is open.
+    /// Returns the name of the illuminant that was picked.
     pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         let text = short(chosen);
         let width = ui.available_width();
@@ -64,15 +64,15 @@ impl Picker {
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER);
         let field = ui.add(field).on_hover_text(
-            "Words of a light's name or kind; a temperature, as 3200K of a black body or D5600K of \
-             daylight; or the path of a lamp's file. Enter takes the first",
+            "Words of a light's name or kind; a temperature, such as 3200K for a black body or D5600K for \
+             daylight; or the path of a lamp's file. Enter chooses the first",
         );
         if opened {
             field.request_focus();
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let found: Vec<Lamp> =
-            self.lamps.iter().copied().filter(|lamp| lamp.answers(&self.search)).collect();
+        let found: Vec<ListedIlluminant> =
+            self.lamps.iter().copied().filter(|lamp| lamp.matches(&self.search)).collect();
         let typed = self.search.trim();
         let typed = (found.is_empty() && light_from_text(typed).is_ok()).then(|| typed.to_owned());
         let mut picked = None;
@@ -108,8 +108,8 @@ impl Picker {
     }
 }
 
-/// A line of the list; gives whether it was clicked.
-fn entry(ui: &mut Ui, lamp: &Lamp, chosen: bool) -> bool {
+/// Draws a line of the list. Returns whether it was clicked.
+fn entry(ui: &mut Ui, lamp: &ListedIlluminant, chosen: bool) -> bool {
     let note = RichText::new(lamp.note).small().color(theme::FAINT);
     let line = Button::selectable(chosen, lamp.name).right_text(note);
     let response = ui.with_layout(Layout::top_down_justified(Align::Min), |ui| ui.add(line)).inner;
@@ -128,7 +128,7 @@ fn entry(ui: &mut Ui, lamp: &Lamp, chosen: bool) -> bool {
         .clicked()
 }
 
-/// What a light is called in little room: of a file its name.
+/// Short name of a light: the file name if it is a path.
 pub(super) fn short(illuminant: &str) -> String {
     let path = Path::new(illuminant);
     match path.file_name() {

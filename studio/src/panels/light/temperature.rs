@@ -1,33 +1,34 @@
-//! Light by its temperature: daylight, and below it a black body.
+//! A slider of colour temperature: CIE daylight, or a black body below 4000 K.
 
 use eframe::egui::{Slider, Ui};
 
-use super::super::draft::Touch;
-use super::row::row;
+use super::super::pending_value::Edit;
+use super::labelled_slider::labelled_slider;
 
-/// Daylight begins here, in kelvin (CIE 15:2018).
+/// Lowest temperature of CIE daylight, in kelvin (CIE 15:2018).
 const DAYLIGHT_FROM: f64 = 4000.0;
 
-/// The temperatures of the slider.
+/// Range of the slider, in kelvin.
 const KELVIN: (f64, f64) = (1500.0, 25000.0);
 
-/// Seconds without a key after which a temperature is taken.
+/// Time after the last key press at which the temperature is applied, in seconds.
 const PAUSE: f64 = 0.5;
 
-/// The slider, with a temperature that has not been asked for yet.
+/// The slider and its temperature that is not applied yet.
 #[derive(Debug, Default)]
 pub(super) struct Temperature {
     waiting: Option<(f64, Option<f64>)>,
 }
 
 impl Temperature {
-    /// The temperature being set, as `spectra` names its light.
-    pub(super) fn wished(&self) -> Option<String> {
+    /// Name in `spectra` of the light being set.
+    pub(super) fn preview(&self) -> Option<String> {
         self.waiting.map(|(kelvin, _)| light(kelvin))
     }
 
-    /// Shows the slider called `name`; `kelvin` is that of the present light. Gives the light
-    /// that is asked for: once the slider is let go, or keys rest.
+    /// Draws the slider; `kelvin` is the temperature of the current light. Returns the
+    /// name of the chosen light once the slider is released or no key was pressed for a
+    /// while.
     pub(super) fn show(&mut self, ui: &mut Ui, name: &str, kelvin: f64) -> Option<String> {
         let now = ui.input(|input| input.time);
         let mut value = self.waiting.map_or(kelvin, |(waiting, _)| waiting);
@@ -37,20 +38,20 @@ impl Temperature {
             .custom_formatter(|kelvin, _| format!("{:.0}", rounded(kelvin)))
             .suffix(" K")
             .update_while_editing(false);
-        let response = row(ui, "Temperature", slider).accessible_name(name).on_hover_text(
-            "Temperature of the light: daylight from 4000 K, a black body below. Taken when let go",
+        let response = labelled_slider(ui, "Temperature", slider).accessible_name(name).on_hover_text(
+            "Temperature of the light: daylight from 4000 K, a black body below. Applied on release",
         );
         let value = rounded(value);
-        match Touch::of(&response) {
-            Touch::Dragged => self.waiting = Some((value, None)),
-            Touch::LetGo => {
+        match Edit::of(&response) {
+            Edit::Dragged => self.waiting = Some((value, None)),
+            Edit::Released => {
                 self.waiting = None;
                 return Some(light(value));
             }
-            Touch::Set => {
+            Edit::Set => {
                 self.waiting = Some((value, Some(now)));
             }
-            Touch::None => {}
+            Edit::None => {}
         }
         let (value, since) = self.waiting?;
         let since = since?;
@@ -63,13 +64,13 @@ impl Temperature {
     }
 }
 
-/// Steps that the eye can just tell: 10 K up to 10000 K, then 100 K.
+/// Rounds to just visible steps: 10 K below 10000 K, else 100 K.
 fn rounded(kelvin: f64) -> f64 {
     let step = if kelvin < 10000.0 { 10.0 } else { 100.0 };
     (kelvin / step).round() * step
 }
 
-/// `D5600K`, `3200K`.
+/// Name of a light in `spectra`: `D5600K` for daylight, `3200K` for a black body.
 fn light(kelvin: f64) -> String {
     if kelvin < DAYLIGHT_FROM { format!("{kelvin}K") } else { format!("D{kelvin}K") }
 }

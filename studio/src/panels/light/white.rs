@@ -1,22 +1,22 @@
-//! The white of a light in numbers.
+//! The white point of a light in numbers.
 
 use std::sync::Arc;
 
 use render::light::Light;
 use spectra::ColorTemperature;
 
-/// Chromaticity and temperature of a light.
+/// Chromaticity and correlated colour temperature of a light.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct White {
     light: Arc<Light>,
-    /// Chromaticity x, y for the light's observer.
+    /// CIE x, y for the light's observer.
     pub(super) chromaticity: [f64; 2],
-    /// The correlated colour temperature, if it has one.
+    /// Correlated colour temperature, if defined.
     pub(super) temperature: Option<ColorTemperature>,
 }
 
 impl White {
-    /// The white of `light`.
+    /// Computes the white point of `light`.
     pub(super) fn of(light: &Arc<Light>) -> Self {
         let white = light.quadrature.white;
         let xyy = white.to_xyy(white);
@@ -27,19 +27,19 @@ impl White {
         }
     }
 
-    /// Whether this is the white of `light`.
+    /// Whether this was computed for the same `light` object.
     pub(super) fn is_of(&self, light: &Arc<Light>) -> bool {
         Arc::ptr_eq(&self.light, light)
     }
 
-    /// `x 0.3127  y 0.3290`.
-    pub(super) fn told_chromaticity(&self) -> String {
+    /// Formats the chromaticity: `x 0.3127  y 0.3290`.
+    pub(super) fn chromaticity_text(&self) -> String {
         let [x, y] = self.chromaticity;
         format!("x {x:.4}  y {y:.4}")
     }
 
-    /// `6504 K, Duv +0.0032`.
-    pub(super) fn told_temperature(&self) -> String {
+    /// Formats the temperature: `6504 K  Duv +0.0032`.
+    pub(super) fn temperature_text(&self) -> String {
         self.temperature.map_or_else(
             || "none: too far from any black body".to_owned(),
             |temperature| format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),

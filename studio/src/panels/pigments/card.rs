@@ -1,4 +1,4 @@
-//! What is told of a pigment while the pointer is over it.
+//! Tooltip card with the properties of a pigment.
 
 use eframe::egui::{RichText, Ui, vec2};
 
@@ -8,11 +8,11 @@ use super::catalogue::Catalogue;
 use crate::chart::{Chart, Curve};
 use crate::panels::controls::millimetres;
 
-/// Width of the card's chart, in points.
+/// Width of the card, in points.
 const WIDTH: f32 = 280.0;
 
-/// Name, colour index, reflectance of masstone and tint, hiding power, tinting
-/// strength, and what a painter must know.
+/// Draws name, colour index, reflectance of masstone and tint, hiding power, tinting
+/// strength and notes of a pigment.
 pub(in crate::panels) fn card(
     ui: &mut Ui,
     catalogue: &Catalogue,
@@ -27,9 +27,9 @@ pub(in crate::panels) fn card(
             ui.weak(index);
         }
     });
-    let (grid, look) = (catalogue.library.grid, catalogue.look(pigment));
-    let mut curves = vec![Curve::new("full", grid, &look.masstone).colored(look.masstone_srgb)];
-    if let (Some(tint), Some(srgb)) = (&look.tint, look.tint_srgb) {
+    let (grid, colors) = (catalogue.library.grid, catalogue.colors(pigment));
+    let mut curves = vec![Curve::new("full", grid, &colors.masstone).colored(colors.masstone_srgb)];
+    if let (Some(tint), Some(srgb)) = (&colors.tint, colors.tint_srgb) {
         curves.push(Curve::new("one in ten", grid, tint).colored(srgb));
     }
     let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", most: Some(1.0) };
@@ -44,7 +44,7 @@ pub(in crate::panels) fn card(
 
 fn lines(catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) -> Vec<String> {
     let known = &catalogue.library.pigments[pigment];
-    let power = catalogue.power(pigment);
+    let power = catalogue.strength(pigment);
     let mut lines = vec![match power.hides {
         Some(Hides::From(thickness)) => {
             format!("hides from {}", millimetres(thickness / scattering_per_mm))
@@ -85,8 +85,8 @@ mod tests {
 
         let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
         let white = library.find("Zinc White").unwrap();
-        let powers = hiding_powers(&palette.unwrap());
-        let own = powers.iter().find(|power| power.paint == white).unwrap();
+        let strengths = hiding_powers(&palette.unwrap());
+        let own = strengths.iter().find(|power| power.paint == white).unwrap();
         let mm = own.hides.thickness().unwrap() / 50.0;
         assert_eq!(told("Zinc White"), [format!("hides from {}", millimetres(mm))]);
         let blue = told("Prussian Blue");

@@ -1,4 +1,4 @@
-//! The pigments of a library under the light, in colours and figures.
+//! Colours, hiding power and tinting strength of a library's pigments under a light.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,69 +10,69 @@ use render::light::Light;
 
 use session::PaintingState;
 
-/// How one pigment looks.
+/// Colour of one pigment, alone and as a tint.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::panels) struct Look {
-    /// Reflectance of a film that hides, on the library's grid.
+pub(in crate::panels) struct PigmentColors {
+    /// Reflectance of a hiding film, on the library's grid.
     pub(in crate::panels) masstone: Vec<f64>,
-    /// The same of one part in nine parts of white (or water); none where the
-    /// scattering is not known.
+    /// Reflectance of one part in nine parts of white (or water); `None` if the
+    /// scattering is unknown.
     pub(in crate::panels) tint: Option<Vec<f64>>,
-    /// sRGB of the first.
+    /// 8-bit sRGB of the masstone.
     pub(in crate::panels) masstone_srgb: [u8; 3],
-    /// sRGB of the second.
+    /// 8-bit sRGB of the tint.
     pub(in crate::panels) tint_srgb: Option<[u8; 3]>,
 }
 
-/// What one pigment can do.
+/// Hiding power and tinting strength of one pigment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::panels) struct Power {
-    /// Where it hides; none where the scattering is not known.
+pub(in crate::panels) struct PaintStrength {
+    /// Hiding power; `None` if the scattering is unknown.
     pub(in crate::panels) hides: Option<Hides>,
-    /// Its tinting strength in percent of the strongest of the library; none for
-    /// the white.
+    /// Tinting strength in percent of the strongest in the library; `None` for the
+    /// white.
     pub(in crate::panels) tints_percent: Option<f64>,
 }
 
-/// A library under a light.
+/// Colours and strengths of all pigments of a library under one light.
 #[derive(Debug)]
 pub(in crate::panels) struct Catalogue {
     pub(in crate::panels) library: Arc<PigmentLibrary>,
     light: Arc<Light>,
-    looks: Vec<Look>,
-    /// Found when they are first asked for: they take longer than the colours.
-    powers: OnceLock<Vec<Power>>,
+    colors: Vec<PigmentColors>,
+    /// Computed on first use, because they take longer than the colours.
+    strengths: OnceLock<Vec<PaintStrength>>,
 }
 
 impl Catalogue {
     pub(super) fn new(library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> Self {
-        let looks = looks(library, light);
+        let colors = colors(library, light);
         let (library, light) = (Arc::clone(library), Arc::clone(light));
-        Self { library, light, looks, powers: OnceLock::new() }
+        Self { library, light, colors, strengths: OnceLock::new() }
     }
 
     fn is_of(&self, library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> bool {
         Arc::ptr_eq(&self.library, library) && Arc::ptr_eq(&self.light, light)
     }
 
-    /// The look of a pigment, by its index in the library.
-    pub(in crate::panels) fn look(&self, pigment: usize) -> &Look {
-        &self.looks[pigment]
+    /// Colour of a pigment, by its index in the library.
+    pub(in crate::panels) fn colors(&self, pigment: usize) -> &PigmentColors {
+        &self.colors[pigment]
     }
 
-    /// The name of a pigment.
+    /// Name of a pigment, by its index in the library.
     pub(in crate::panels) fn name(&self, pigment: usize) -> &str {
         &self.library.pigments[pigment].name
     }
 
-    /// What a pigment can do.
-    pub(in crate::panels) fn power(&self, pigment: usize) -> Power {
-        self.powers.get_or_init(|| powers(&self.library, &self.light))[pigment]
+    /// Strengths of a pigment, by its index in the library.
+    pub(in crate::panels) fn strength(&self, pigment: usize) -> PaintStrength {
+        self.strengths.get_or_init(|| strengths(&self.library, &self.light))[pigment]
     }
 
-    /// From which height on a film of a pigment hides, in words.
+    /// Text of the film height from which a pigment hides.
     pub(in crate::panels) fn hiding(&self, pigment: usize, scattering_per_mm: f64) -> String {
-        match self.power(pigment).hides {
+        match self.strength(pigment).hides {
             Some(Hides::From(thickness)) => {
                 super::super::controls::millimetres(thickness / scattering_per_mm)
             }
@@ -82,46 +82,49 @@ impl Catalogue {
     }
 }
 
-fn looks(library: &PigmentLibrary, light: &Light) -> Vec<Look> {
-    let weights = light.viewing.weights(library.grid).expect("the method fits the grid");
+fn colors(library: &PigmentLibrary, light: &Light) -> Vec<PigmentColors> {
+    let weights = light
+        .viewing
+        .weights(library.grid)
+        .expect("the tristimulus method fits every library grid");
     let srgb = |reflectance: &[f64]| {
         let encoded = Appearance::of(weights.xyz(reflectance), weights.white()).srgb;
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
     let palette = Palette::new(library, &light.viewing, Cards::standard(library.grid)).ok();
-    let look = |pigment: usize| {
+    let colors_of = |pigment: usize| {
         let alone = library.mix(&[(pigment, 1.0)]).expect("one part is a mixture");
         let masstone = alone.hiding(library.saunderson);
         let palette = palette.as_ref().filter(|_| library.pigments[pigment].identified);
         let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
         let (masstone_srgb, tint_srgb) = (srgb(&masstone), tint.as_deref().map(srgb));
-        Look { masstone, tint, masstone_srgb, tint_srgb }
+        PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
     };
-    (0..library.pigments.len()).map(look).collect()
+    (0..library.pigments.len()).map(colors_of).collect()
 }
 
-fn powers(library: &PigmentLibrary, light: &Light) -> Vec<Power> {
-    let mut powers = vec![Power::default(); library.pigments.len()];
+fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
+    let mut strengths = vec![PaintStrength::default(); library.pigments.len()];
     let Ok(palette) = Palette::new(library, &light.viewing, Cards::standard(library.grid)) else {
-        return powers;
+        return strengths;
     };
     for power in hiding_powers(&palette) {
-        powers[power.paint].hides = Some(power.hides);
+        strengths[power.paint].hides = Some(power.hides);
     }
     for strength in tinting_strengths(&palette, None) {
-        powers[strength.paint].tints_percent = Some(strength.percent);
+        strengths[strength.paint].tints_percent = Some(strength.percent);
     }
-    powers
+    strengths
 }
 
-/// The catalogue of the easel's library and light, made anew when they change.
+/// Cache of the catalogue for the painting's library and light.
 #[derive(Debug, Clone, Default)]
-pub(in crate::panels) struct Known(Option<Arc<Catalogue>>);
+pub(in crate::panels) struct CatalogueCache(Option<Arc<Catalogue>>);
 
-impl Known {
-    /// The catalogue as it is now.
-    pub(in crate::panels) fn of(&mut self, easel: &PaintingState) -> Arc<Catalogue> {
-        self.under(&easel.library, &easel.light)
+impl CatalogueCache {
+    /// Returns the catalogue, recomputed if library or light have changed.
+    pub(in crate::panels) fn of(&mut self, painting: &PaintingState) -> Arc<Catalogue> {
+        self.under(&painting.library, &painting.light)
     }
 
     fn under(&mut self, library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> Arc<Catalogue> {
@@ -140,7 +143,7 @@ mod tests {
     fn a_catalogue_is_made_anew_only_for_another_library_or_light() {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
-        let mut known = Known::default();
+        let mut known = CatalogueCache::default();
         let first = known.under(&library, &light);
         assert!(Arc::ptr_eq(&first, &known.under(&library, &light)), "nothing changed");
         let other = Arc::new(light.as_ref().clone());
@@ -148,8 +151,8 @@ mod tests {
 
         let [white, blue] = ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap());
         let sums = |srgb: [u8; 3]| srgb.map(u32::from).iter().sum::<u32>();
-        assert!(sums(first.look(white).masstone_srgb) > 690, "{:?}", first.look(white));
-        let blue = first.look(blue);
+        assert!(sums(first.colors(white).masstone_srgb) > 690, "{:?}", first.colors(white));
+        let blue = first.colors(blue);
         assert!(sums(blue.masstone_srgb) < sums(blue.tint_srgb.unwrap()), "a tint is lighter");
     }
 }

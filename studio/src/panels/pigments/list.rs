@@ -1,4 +1,4 @@
-//! Choosing a pigment of the library.
+//! A searchable list of the library's pigments.
 
 use eframe::egui::{Align, Rect, ScrollArea, TextEdit, TextStyle, Ui, pos2, vec2};
 
@@ -10,15 +10,15 @@ use crate::theme;
 /// Height of the list, in points.
 const LIST: f32 = 300.0;
 
-/// The pigments of a library, with a field to search them.
+/// State of the list: the search text.
 #[derive(Debug, Clone, Default)]
 pub(in crate::panels) struct PigmentList {
     search: String,
 }
 
 impl PigmentList {
-    /// Shows it; the pigment that was clicked. `hindered` says why one cannot be
-    /// chosen.
+    /// Draws the list. `hindered` gives the reason why a pigment cannot be chosen.
+    /// Returns the index of the pigment that was clicked.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &mut Ui,
@@ -31,13 +31,13 @@ impl PigmentList {
             .desired_width(f32::INFINITY);
         ui.add(field)
             .accessible_name("Search")
-            .on_hover_text("Only pigments whose name or colour index has this are listed");
+            .on_hover_text("Lists only pigments whose name or colour index contains this text");
         heads(ui, catalogue);
         let found: Vec<usize> = (0..catalogue.library.pigments.len())
             .filter(|&pigment| self.finds(catalogue, pigment))
             .collect();
         if found.is_empty() {
-            ui.weak(format!("no pigment of {} has this", catalogue.library.title));
+            ui.weak(format!("no pigment of {} matches", catalogue.library.title));
         }
         let mut chosen = None;
         let list = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST);
@@ -68,7 +68,7 @@ impl PigmentList {
     }
 }
 
-/// Where a row has its swatch, name, colour index and hiding power.
+/// Rectangles of swatch, name, colour index and hiding power in a row.
 fn places(rect: Rect) -> [Rect; 4] {
     let inner = rect.shrink2(vec2(4.0, 3.0));
     let between = |left: f32, right: f32| {
@@ -100,13 +100,13 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
 fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) {
     let [swatch, name, index, hides] = places(rect);
     let color = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
-    let look = catalogue.look(pigment);
+    let colors = catalogue.colors(pigment);
     let (full, tint) = swatch.split_left_right_at_fraction(0.55);
-    // Paint that cannot be chosen keeps its colour.
+    // A disabled row must not change the colour of its swatch.
     let mut painter = ui.painter().clone();
     painter.set_opacity(1.0);
-    patch(&painter, tint, look.tint_srgb);
-    patch(&painter, full, Some(look.masstone_srgb));
+    patch(&painter, tint, colors.tint_srgb);
+    patch(&painter, full, Some(colors.masstone_srgb));
     text(ui, name, Align::Min, TextStyle::Body, color, catalogue.name(pigment));
     let marked = mark(catalogue, pigment);
     text(ui, index, Align::Min, TextStyle::Small, theme::FAINT, marked);
@@ -114,7 +114,7 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_p
     text(ui, hides, Align::Max, TextStyle::Small, theme::FAINT, &words);
 }
 
-/// The colour index, or what a painter must know in its place.
+/// The colour index, or `guessed` for a pigment that was not measured.
 fn mark(catalogue: &Catalogue, pigment: usize) -> &str {
     let known = &catalogue.library.pigments[pigment];
     match (&known.color_index, known.guessed) {

@@ -1,4 +1,4 @@
-//! What panels tell of pigments, and how one is chosen.
+//! Pigment lists and cards that several panels share.
 
 mod catalogue;
 
@@ -9,6 +9,6 @@ mod list;
 mod exchange;
 
 pub(super) use card::card;
-pub(super) use catalogue::{Catalogue, Known};
-pub(super) use exchange::{Exchange, Place};
+pub(super) use catalogue::{Catalogue, CatalogueCache};
+pub(super) use exchange::{Exchange, ExchangeScope};
 pub(super) use list::PigmentList;

@@ -1,8 +1,8 @@
-//! A picture pinned beside the canvas.
+//! The reference picture beside the canvas.
 
 mod picture;
 
-mod placing;
+mod picture_view;
 
 mod panel;
 

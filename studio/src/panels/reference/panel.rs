@@ -1,4 +1,4 @@
-//! The panel of the reference picture.
+//! Draws the reference picture and picks colours from it.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -9,23 +9,23 @@ use eframe::egui::{
 };
 use spectra::color::Rgb;
 
-use super::super::desk::Desk;
-use super::picture::{Picture, Reading};
-use super::placing::Placing;
+use super::super::context::PanelContext;
+use super::picture::{PendingPicture, Picture};
+use super::picture_view::PictureView;
 use crate::files::FileRequest;
 use crate::theme;
 
-/// The radius of the mean at first, in pixels of the picture.
+/// Default radius of the averaged disc, in pixels of the picture.
 const RADIUS: f32 = 2.0;
 
-/// The picture that is pinned, and how it is looked at.
+/// State of the reference panel: the picture and its view.
 pub struct Reference {
     path: Option<PathBuf>,
-    reading: Option<Reading>,
+    reading: Option<PendingPicture>,
     picture: Option<Picture>,
     texture: Option<TextureHandle>,
-    placing: Option<Placing>,
-    fault: Option<String>,
+    view: Option<PictureView>,
+    error: Option<String>,
     grey: bool,
     flipped: bool,
     radius: f32,
@@ -44,8 +44,8 @@ impl Default for Reference {
             reading: None,
             picture: None,
             texture: None,
-            placing: None,
-            fault: None,
+            view: None,
+            error: None,
             grey: false,
             flipped: false,
             radius: RADIUS,
@@ -54,78 +54,78 @@ impl Default for Reference {
 }
 
 impl Reference {
-    /// Begins to read a PNG or JPEG beside the window; what was pinned goes. A
-    /// fault is told in the panel.
+    /// Starts to read a PNG or JPEG on another thread, replacing the current picture.
+    /// An error is shown in the panel.
     pub fn open(&mut self, context: &Context, path: &Path) {
         let context = context.clone();
-        let reading = Reading::begin(path, move || context.request_repaint());
+        let reading = PendingPicture::start(path, move || context.request_repaint());
         let (grey, flipped, radius) = (self.grey, false, self.radius);
         let path = Some(path.to_owned());
         *self = Self { path, reading: Some(reading), grey, flipped, radius, ..Self::default() };
     }
 
-    /// Takes the picture away.
+    /// Closes the picture.
     pub fn close(&mut self) {
         *self = Self { radius: self.radius, ..Self::default() };
     }
 
-    /// Whether a picture is pinned, being read, or could not be read.
+    /// Whether a picture is shown, being read, or failed to be read.
     #[must_use]
     pub fn is_open(&self) -> bool {
         self.path.is_some()
     }
 
-    /// Shows the panel in all the room there is, and makes a colour that is clicked
-    /// the wanted one.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
+    /// Draws the panel in the available space. A click stores the picked colour in the
+    /// tools.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.update();
-        self.controls(ui, desk);
+        self.controls(ui, cx);
         let room = ui.available_size().max(vec2(40.0, 40.0));
         let (rect, response) = ui.allocate_exact_size(room, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Reference picture"));
         ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
         if self.picture.is_none() {
-            return self.without_picture(ui, rect);
+            return self.placeholder(ui, rect);
         }
-        self.look(ui, &response);
+        self.navigate(ui, &response);
         self.draw(ui, rect);
-        self.pick(ui, &response, desk);
+        self.pick(ui, &response, cx);
         response.on_hover_cursor(CursorIcon::Crosshair);
     }
 
     fn update(&mut self) {
-        let Some(read) = self.reading.as_ref().and_then(Reading::end) else { return };
+        let Some(read) = self.reading.as_ref().and_then(PendingPicture::result) else { return };
         self.reading = None;
         match read {
             Ok(picture) => self.picture = Some(picture),
-            Err(fault) => self.fault = Some(fault),
+            Err(error) => self.error = Some(error),
         }
     }
 
-    fn controls(&mut self, ui: &mut Ui, desk: &mut Desk<'_>) {
+    fn controls(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         ui.horizontal_wrapped(|ui| {
             let open = ui.button("Open\u{2026}").accessible_name("Open picture");
-            if open.on_hover_text("Pins another picture, PNG or JPEG").clicked() {
-                desk.file(FileRequest::OpenReference(None));
+            if open.on_hover_text("Opens another picture, PNG or JPEG").clicked() {
+                cx.file(FileRequest::OpenReference(None));
             }
-            let there = self.picture.is_some();
-            let fit = ui.add_enabled(there, Button::new("Fit"));
-            if fit.on_hover_text("Shows all of the picture").clicked() {
-                self.placing = None;
+            let loaded = self.picture.is_some();
+            let fit = ui.add_enabled(loaded, Button::new("Fit"));
+            if fit.on_hover_text("Fits the whole picture into the panel").clicked() {
+                self.view = None;
             }
-            let full = ui.add_enabled(there, Button::new("100 %"));
-            if full.on_hover_text("One pixel of the picture on one of the screen").clicked()
-                && let Some(placing) = &mut self.placing
+            let full = ui.add_enabled(loaded, Button::new("100 %"));
+            if full.on_hover_text("Shows one picture pixel as one screen pixel").clicked()
+                && let Some(view) = &mut self.view
             {
-                placing.zoom = 1.0 / ui.pixels_per_point();
+                view.zoom = 1.0 / ui.pixels_per_point();
             }
-            let grey = ui.add_enabled(there, Button::selectable(self.grey, "Grey"));
+            let grey = ui.add_enabled(loaded, Button::selectable(self.grey, "Grey"));
             if grey.on_hover_text("Shows lightness only").clicked() {
                 self.grey ^= true;
                 self.texture = None;
             }
-            let flip = ui.add_enabled(there, Button::selectable(self.flipped, "Flip"));
-            if flip.on_hover_text("Exchanges left and right, as in a mirror").clicked() {
+            let flip = ui.add_enabled(loaded, Button::selectable(self.flipped, "Flip"));
+            if flip.on_hover_text("Mirrors the picture").clicked() {
                 self.flipped ^= true;
             }
             let radius = DragValue::new(&mut self.radius)
@@ -135,23 +135,23 @@ impl Reference {
                 .prefix("radius ")
                 .suffix(" px");
             let radius = ui.add(radius).accessible_name("Radius of the mean");
-            radius.on_hover_text("A click takes the mean of the pixels this near; 0 is one pixel");
+            radius.on_hover_text("A click picks the mean within this radius; 0 is one pixel");
             let close = ui.add_enabled(self.is_open(), Button::new("Close"));
             let close = close.accessible_name("Close picture");
-            if close.on_hover_text("Takes the picture away").clicked() {
+            if close.on_hover_text("Closes the picture").clicked() {
                 self.close();
-                desk.file(FileRequest::CloseReference);
+                cx.file(FileRequest::CloseReference);
             }
         });
     }
 
-    fn without_picture(&self, ui: &mut Ui, rect: Rect) {
+    fn placeholder(&self, ui: &mut Ui, rect: Rect) {
         let name = self.path.as_deref().and_then(Path::file_name);
         let name = name.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let text = match &self.fault {
-            Some(fault) => fault.clone(),
+        let text = match &self.error {
+            Some(error) => error.clone(),
             None if self.reading.is_some() => format!("Reading {name}"),
-            None => "A picture to look at, and to take colours from: open one, or drop it \
+            None => "A reference picture to pick colours from: open one, or drop it \
                      on the window"
                 .to_owned(),
         };
@@ -166,28 +166,28 @@ impl Reference {
         });
     }
 
-    /// Pans with the middle or second button or the space bar, zooms with the wheel.
-    fn look(&mut self, ui: &Ui, response: &Response) {
+    /// Pans with the center or secondary button or the space bar, zooms with the wheel.
+    fn navigate(&mut self, ui: &Ui, response: &Response) {
         let Some(size) = self.size() else { return };
         let panel = response.rect;
-        let fitted = Placing::fit(size, panel.size(), self.flipped);
-        let mut placing = self.placing.unwrap_or(fitted);
-        placing.flipped = self.flipped;
+        let fitted = PictureView::fit(size, panel.size(), self.flipped);
+        let mut view = self.view.unwrap_or(fitted);
+        view.flipped = self.flipped;
         let other = response.dragged_by(PointerButton::Middle)
             || response.dragged_by(PointerButton::Secondary);
-        if other || (response.dragged() && space(ui)) {
-            placing = placing.panned(response.drag_delta());
+        if other || (response.dragged() && space_held(ui)) {
+            view = view.panned(response.drag_delta());
         }
         if let Some(about) = response.hover_pos() {
             let (scroll, pinch) =
                 ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
             let factor = pinch * (scroll / 200.0).exp();
             if factor != 1.0 {
-                placing = placing.zoomed(panel, about, factor);
+                view = view.zoomed(panel, about, factor);
             }
         }
-        if self.placing.is_some() || placing != fitted {
-            self.placing = Some(placing);
+        if self.view.is_some() || view != fitted {
+            self.view = Some(view);
         }
     }
 
@@ -196,51 +196,52 @@ impl Reference {
         Some(vec2(width as f32, height as f32))
     }
 
-    fn placed(&self, panel: Rect) -> Option<Placing> {
-        let fitted = Placing::fit(self.size()?, panel.size(), self.flipped);
-        Some(self.placing.unwrap_or(fitted))
+    fn current_view(&self, panel: Rect) -> Option<PictureView> {
+        let fitted = PictureView::fit(self.size()?, panel.size(), self.flipped);
+        Some(self.view.unwrap_or(fitted))
     }
 
     fn draw(&mut self, ui: &Ui, panel: Rect) {
-        let (Some(placing), Some(size)) = (self.placed(panel), self.size()) else { return };
+        let (Some(view), Some(size)) = (self.current_view(panel), self.size()) else { return };
         let Some(picture) = &self.picture else { return };
         let texture = self.texture.get_or_insert_with(|| {
             let image = picture.on_screen(self.grey);
             ui.ctx().load_texture("reference picture", image, TextureOptions::LINEAR)
         });
-        let (rect, uv) = placing.drawn(panel, size);
+        let (rect, uv) = view.rects(panel, size);
         ui.painter_at(panel).image(texture.id(), rect, uv, Color32::WHITE);
     }
 
-    /// Takes the colour at the pointer once its first button is let go, and shows it
-    /// beside the pointer until then.
-    fn pick(&self, ui: &Ui, response: &Response, desk: &mut Desk<'_>) {
+    /// Picks the colour at the pointer when the primary button is released, and shows
+    /// it beside the pointer until then.
+    fn pick(&self, ui: &Ui, response: &Response, cx: &mut PanelContext<'_>) {
         let first = ui.input(|input| {
             input.pointer.button_down(PointerButton::Primary)
                 || input.pointer.button_released(PointerButton::Primary)
         });
-        let Some(pointer) = response.interact_pointer_pos().filter(|_| first && !space(ui)) else {
+        let Some(pointer) = response.interact_pointer_pos().filter(|_| first && !space_held(ui))
+        else {
             return;
         };
-        let (Some(placing), Some(picture)) = (self.placed(response.rect), &self.picture) else {
+        let (Some(view), Some(picture)) = (self.current_view(response.rect), &self.picture) else {
             return;
         };
-        let place = placing.place(response.rect, pointer);
+        let place = view.place(response.rect, pointer);
         let Some(color) = picture.mean([place.x, place.y], self.radius) else { return };
         if response.drag_stopped() || response.clicked() {
-            desk.tools.wanted = Some(color);
+            cx.tools.reference_color = Some(color);
         } else {
-            let reach = placing.zoom * self.radius.max(0.5);
+            let reach = view.zoom * self.radius.max(0.5);
             loupe(ui, response.rect, pointer, reach, Rgb(color));
         }
     }
 }
 
-fn space(ui: &Ui) -> bool {
+fn space_held(ui: &Ui) -> bool {
     ui.input(|input| input.key_down(Key::Space))
 }
 
-/// The colour beside the pointer, and what it is the mean of.
+/// Draws the colour beside the pointer, and the disc that is averaged.
 fn loupe(ui: &Ui, panel: Rect, pointer: Pos2, reach: f32, linear: Rgb) {
     let [red, green, blue] = linear.encoded().to_bytes();
     let painter = ui.painter_at(panel);

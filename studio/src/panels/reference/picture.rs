@@ -1,4 +1,4 @@
-//! A picture to look at and to take colours from.
+//! The pixels of a reference picture, read on a background thread.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -9,10 +9,10 @@ use render::photograph::{Photograph, Picture as Linear};
 use spectra::color::{Rgb, RgbSpace};
 use spectra::hint::Explain;
 
-/// Pixels of the longer side; larger pictures are reduced.
+/// Maximum of the longer side in pixels; larger pictures are reduced.
 const LONGEST: usize = 2048;
 
-/// Cells of the table from linear light to the screen.
+/// Steps of the table from linear light to sRGB.
 const SHADES: usize = 4096;
 
 /// A picture in linear sRGB.
@@ -22,7 +22,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG or JPEG, and reduces it in linear light if it is large.
+    /// Reads a PNG or JPEG, and reduces it in linear light if it is too large.
     fn open(path: &Path) -> Result<Self, String> {
         let photograph = Photograph::open(path).map_err(|error| match error.hint() {
             Some(hint) => format!("{error}; {hint}"),
@@ -37,7 +37,7 @@ impl Picture {
         [self.linear.width(), self.linear.height()]
     }
 
-    /// As the screen shows it, in colour or grey of the same luminance.
+    /// Converts to an sRGB image, in colour or in grey of the same luminance.
     pub(super) fn on_screen(&self, grey: bool) -> ColorImage {
         let luminance = RgbSpace::Srgb.xyz_from_linear().0[1].map(|share| share as f32 / 100.0);
         let shades: Vec<u8> = (0..=SHADES)
@@ -54,8 +54,9 @@ impl Picture {
         ColorImage::new(self.size(), pixels.collect())
     }
 
-    /// The mean in linear sRGB of the pixels whose middles are within `radius` of a
-    /// place in pixels, at least that of the pixel there; `None` outside.
+    /// Mean in linear sRGB of the pixels whose centres are within `radius` of a
+    /// position, all in pixels. Always includes the pixel at the position; `None`
+    /// outside the picture.
     pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
         if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
@@ -82,34 +83,34 @@ impl Picture {
     }
 }
 
-/// The size at which a picture is kept.
+/// Size after reduction to the maximum.
 fn reduced((width, height): (usize, usize)) -> (usize, usize) {
     let scale = (LONGEST as f64 / width.max(height) as f64).min(1.0);
     let side = |pixels: usize| ((pixels as f64 * scale).round() as usize).max(1);
     (side(width), side(height))
 }
 
-/// A picture being read on a thread of its own.
+/// A picture being read on its own thread.
 #[derive(Debug)]
-pub(super) struct Reading {
-    told: Receiver<Result<Picture, String>>,
+pub(super) struct PendingPicture {
+    receiver: Receiver<Result<Picture, String>>,
 }
 
-impl Reading {
-    /// Begins to read; `wake` is called when it ends.
-    pub(super) fn begin(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
-        let (tell, told) = channel();
+impl PendingPicture {
+    /// Starts to read; the thread calls `wake` when it ends.
+    pub(super) fn start(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
+        let (sender, receiver) = channel();
         let path = path.to_owned();
         std::thread::spawn(move || {
-            let _ = tell.send(Picture::open(&path));
+            let _ = sender.send(Picture::open(&path));
             wake();
         });
-        Self { told }
+        Self { receiver }
     }
 
-    /// What was read, once it is.
-    pub(super) fn end(&self) -> Option<Result<Picture, String>> {
-        match self.told.try_recv() {
+    /// Returns the picture or an error message once reading has ended.
+    pub(super) fn result(&self) -> Option<Result<Picture, String>> {
+        match self.receiver.try_recv() {
             Ok(read) => Some(read),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Err("the picture cannot be read".to_owned())),
@@ -156,7 +157,7 @@ mod tests {
         let picture = Picture { linear };
         let green = |radius: f32| picture.mean([3.5, 3.5], radius).unwrap()[1];
         assert_eq!(green(1.9), 0.0, "the white pixel is two pixels away");
-        // 13 pixels of a square grid lie within two of one of them.
+        // 13 pixel centres lie within a distance of 2 from a pixel centre.
         assert!((green(2.0) - 1.0 / 13.0).abs() < 1e-9, "{}", green(2.0));
     }
 

@@ -1,4 +1,4 @@
-//! Tubes and the palette's pigments.
+//! The tube panel beside the palette.
 
 mod tube;
 

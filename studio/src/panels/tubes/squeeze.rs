@@ -1,37 +1,36 @@
-//! Getting paint out of a tube.
+//! Squeezing a tube and loading the brush from it.
 
 use render::paint::strokes::{Action, Load, Recipe, Squeeze, SurfaceId};
 
-use crate::panels::{Desk, Mode};
+use crate::panels::{Mode, PanelContext};
 
-/// A tube that is being dragged; where it is dropped on a surface, [`squeeze`].
+/// Drag payload of a tube. A drop on a surface squeezes it there with [`squeeze`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DraggedTube {
-    /// Its slot.
+    /// Slot of the tube.
     pub slot: usize,
 }
 
-/// Squeezes paint of a slot on a surface, as much as the painter has set; nothing
-/// for an empty slot. The place is in mm from the left and the upper edge.
-pub fn squeeze(desk: &mut Desk<'_>, slot: usize, on: SurfaceId, x_mm: f64, y_mm: f64) {
-    let Some(recipe) = recipe(desk, slot) else { return };
-    let volume_mm3 = desk.tools.squeeze_mm3;
-    desk.act(Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 }));
+/// Squeezes the volume set in the tools from a slot's tube onto a surface, at a
+/// position in mm from the upper left corner. Does nothing for an empty slot.
+pub fn squeeze(cx: &mut PanelContext<'_>, slot: usize, on: SurfaceId, x_mm: f64, y_mm: f64) {
+    let Some(recipe) = recipe(cx, slot) else { return };
+    let volume_mm3 = cx.tools.squeeze_mm3;
+    cx.act(Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 }));
 }
 
-/// Loads the brush in hand with paint of a slot, with the share of medium and the
-/// height that the painter has set, and takes it up for painting; nothing for an
-/// empty slot.
-pub fn load(desk: &mut Desk<'_>, slot: usize) {
-    let Some(recipe) = recipe(desk, slot) else { return };
-    let brush = desk.tools.brush.clone();
-    let (vehicle, amount_mm) = (desk.tools.vehicle, desk.tools.load_mm);
-    desk.act(Action::Load(Load { brush, recipe, vehicle, amount_mm }));
-    desk.tools.mode = Mode::Paint;
+/// Loads the selected brush from a slot's tube, with the medium and height set in the
+/// tools, and selects the paint tool. Does nothing for an empty slot.
+pub fn load(cx: &mut PanelContext<'_>, slot: usize) {
+    let Some(recipe) = recipe(cx, slot) else { return };
+    let brush = cx.tools.brush.clone();
+    let (vehicle, amount_mm) = (cx.tools.vehicle, cx.tools.load_mm);
+    cx.act(Action::Load(Load { brush, recipe, vehicle, amount_mm }));
+    cx.tools.mode = Mode::Paint;
 }
 
-/// One part of a slot's pigment.
-fn recipe(desk: &Desk<'_>, slot: usize) -> Option<Recipe> {
-    let pigment = (*desk.easel.slots.get(slot)?)?;
-    Some(Recipe::from([(desk.easel.library.pigments[pigment].name.clone(), 1.0)]))
+/// Recipe of a slot's pigment alone.
+fn recipe(cx: &PanelContext<'_>, slot: usize) -> Option<Recipe> {
+    let pigment = (*cx.painting.slots.get(slot)?)?;
+    Some(Recipe::from([(cx.painting.library.pigments[pigment].name.clone(), 1.0)]))
 }

@@ -1,4 +1,4 @@
-//! A tube of paint, drawn.
+//! Picture of a paint tube.
 
 use eframe::egui::{
     Align, Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextStyle,
@@ -8,17 +8,17 @@ use eframe::egui::{
 use crate::panels::controls::{patch, text};
 use crate::theme;
 
-/// Room of a tube with its name, in points.
-pub(super) const ROOM: eframe::egui::Vec2 = vec2(61.0, 112.0);
+/// Size of a tube with its name, in points.
+pub(super) const TUBE_SIZE: eframe::egui::Vec2 = vec2(61.0, 112.0);
 
-/// Height of the names below.
-const NAMES: f32 = 28.0;
+/// Height of the name below the tube, in points.
+const NAME_HEIGHT: f32 = 28.0;
 
-/// Metal from the left edge to the right: place and grey.
+/// Shading of the metal: position from left (0) to right (1), and grey level.
 const METAL: [(f32, u8); 6] =
     [(0.0, 96), (0.12, 168), (0.32, 214), (0.55, 186), (0.85, 126), (1.0, 82)];
 
-/// Draws a tube, standing on its cap, with masstone and tint on its label.
+/// Draws a tube standing on its cap, with masstone and tint (sRGB) on its label.
 pub(super) fn draw(
     ui: &Ui,
     room: Rect,
@@ -50,7 +50,7 @@ pub(super) fn draw(
     names(ui, room, name);
 }
 
-/// The outline of a tube that is not there.
+/// Draws an empty slot.
 pub(super) fn draw_empty(ui: &Ui, room: Rect) {
     let body = body(room).shrink(1.0);
     let painter = ui.painter();
@@ -63,7 +63,7 @@ pub(super) fn draw_empty(ui: &Ui, room: Rect) {
     names(ui, room, "empty");
 }
 
-/// What hangs on the pointer while a tube is dragged: a drop of its paint.
+/// Draws the drop of paint that follows the pointer while a tube is dragged.
 pub(super) fn draw_drop(painter: &Painter, at: Pos2, [red, green, blue]: [u8; 3]) {
     let drop = at + vec2(14.0, 14.0);
     painter.circle(drop, 8.0, Color32::from_rgb(red, green, blue), Stroke::new(1.5, theme::STRONG));
@@ -74,11 +74,11 @@ fn body(room: Rect) -> Rect {
     let left = room.center().x - width / 2.0;
     Rect::from_min_max(
         pos2(left, room.top() + 5.0),
-        pos2(left + width, room.bottom() - NAMES - 19.0),
+        pos2(left + width, room.bottom() - NAME_HEIGHT - 19.0),
     )
 }
 
-/// The folded end.
+/// Draws the folded end.
 fn crimp(painter: &Painter, body: Rect) {
     let fold = Rect::from_min_max(
         pos2(body.left() - 1.0, body.top()),
@@ -88,7 +88,7 @@ fn crimp(painter: &Painter, body: Rect) {
     painter.hline(fold.x_range(), fold.center().y, Stroke::new(1.0, Color32::from_gray(104)));
 }
 
-/// The body, a little narrower at the cap.
+/// Draws the body, slightly narrower at the cap.
 fn tapered(painter: &Painter, body: Rect) {
     let mut mesh = Mesh::default();
     for (index, (place, grey)) in METAL.into_iter().enumerate() {
@@ -105,7 +105,7 @@ fn tapered(painter: &Painter, body: Rect) {
     painter.add(Shape::mesh(mesh));
 }
 
-/// From the body to the cap.
+/// Draws the shoulder between body and cap.
 fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
     let points = vec![
         pos2(body.left() + 1.5, body.bottom()),
@@ -116,9 +116,9 @@ fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
     painter.add(Shape::convex_polygon(points, Color32::from_gray(136), Stroke::NONE));
 }
 
-/// The name in two lines, at a blank where there is one.
+/// Draws the name in two lines, split at its first space.
 fn names(ui: &Ui, room: Rect, name: &str) {
-    let below = Rect::from_min_max(pos2(room.left() + 1.0, room.bottom() - NAMES), room.max);
+    let below = Rect::from_min_max(pos2(room.left() + 1.0, room.bottom() - NAME_HEIGHT), room.max);
     let (upper, lower) = below.split_top_bottom_at_fraction(0.5);
     let (first, second) = match name.split_once(' ') {
         Some((first, second)) => (first, second),

@@ -17,7 +17,7 @@ use render::paint::strokes::StrokeScript;
 use session::{Command, Event, Origin, PaintingState, Snapshot, blank_canvas};
 use studio::files::{FileRequest, Files, Home, Preferences};
 use studio::panels::revisions;
-use studio::panels::{Desk, Request, Tools};
+use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
 /// A painting of some strokes, by the engine.
@@ -63,7 +63,7 @@ pub(super) fn opened(document: Document) -> Painting {
 }
 
 /// What the window would know of `document`.
-fn easel(document: &Document, revision: u64) -> Arc<PaintingState> {
+fn painting(document: &Document, revision: u64) -> Arc<PaintingState> {
     let lighting = document.lighting.clone();
     let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer).unwrap();
     let cells = (document.wet.width(), document.wet.height());
@@ -100,7 +100,7 @@ pub(super) struct Bench {
     tools: Tools,
     pub(super) canvas: Arc<Document>,
     pub(super) palette: Arc<Document>,
-    pub(super) easel: Arc<PaintingState>,
+    pub(super) painting: Arc<PaintingState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
     /// What was recorded, if it is not a bare canvas.
@@ -122,16 +122,17 @@ impl Bench {
             files.handle_event(&event);
         }
         for request in self.requests.drain(..) {
-            files.request(request, &self.easel);
+            files.request(request, &self.painting);
         }
         let commands = files.update(ui.ctx());
-        let mut asked = Vec::new();
-        let easel = self.easel.clone();
-        let mut desk = Desk { easel: &easel, tools: &mut self.tools, asked: &mut asked };
+        let mut requests = Vec::new();
+        let painting = self.painting.clone();
+        let mut cx =
+            PanelContext { painting: &painting, tools: &mut self.tools, requests: &mut requests };
         ui.add_space(ui.available_height() - 340.0);
-        revisions::show(ui, &mut desk, &files.revisions);
+        revisions::show(ui, &mut cx, &files.revisions);
         files.show(ui);
-        for request in asked {
+        for request in requests {
             if let Request::File(request) = request {
                 self.requests.push(request);
             }
@@ -148,7 +149,7 @@ impl Bench {
                     number: *number,
                     canvas: self.canvas.clone(),
                     palette: self.palette.clone(),
-                    revision: self.easel.revision,
+                    revision: self.painting.revision,
                 }));
             }
             Command::Recording(number) => {
@@ -166,8 +167,8 @@ impl Bench {
             _ => {}
         }
         if let Command::Open(_) | Command::Replay { .. } = &command {
-            self.easel = easel(&self.canvas, self.easel.revision + 1);
-            self.events.push(Event::Opened(self.easel.clone()));
+            self.painting = painting(&self.canvas, self.painting.revision + 1);
+            self.events.push(Event::Opened(self.painting.clone()));
         }
         self.commands.push(command);
     }
@@ -196,7 +197,7 @@ pub(super) fn window(home: &Path, document: Document) -> Window {
         last_folder: Some(home.to_owned()),
         ..Preferences::default()
     };
-    let easel = easel(&document, 1);
+    let painting = painting(&document, 1);
     let canvas = Arc::new(document);
     let bench = Bench {
         files: None,
@@ -205,8 +206,8 @@ pub(super) fn window(home: &Path, document: Document) -> Window {
         tools: Tools::default(),
         palette: canvas.clone(),
         canvas,
-        events: vec![Event::Opened(easel.clone())],
-        easel,
+        events: vec![Event::Opened(painting.clone())],
+        painting,
         requests: Vec::new(),
         recorded: None,
         commands: Vec::new(),
@@ -244,10 +245,10 @@ pub(super) fn change(window: &mut Window) {
     let mut canvas = (*bench.canvas).clone();
     canvas.wet.vehicle.values_mut()[7] += 1;
     bench.canvas = Arc::new(canvas);
-    let mut easel = (*bench.easel).clone();
-    easel.revision += 1;
-    bench.easel = Arc::new(easel);
-    let event = Event::State(bench.easel.clone());
+    let mut painting = (*bench.painting).clone();
+    painting.revision += 1;
+    bench.painting = Arc::new(painting);
+    let event = Event::State(bench.painting.clone());
     bench.events.push(event);
     window.step();
 }

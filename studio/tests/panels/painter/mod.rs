@@ -17,7 +17,7 @@ use studio::panels::brushes::Brushes;
 use studio::panels::history::History;
 use studio::panels::layers::Layers;
 use studio::panels::tubes::{Tubes, squeeze};
-use studio::panels::{Desk, Request, Tools};
+use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
 use super::harness::has_adapter;
@@ -30,9 +30,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// The four panels side by side, and a worker.
 struct Studio {
     worker: Worker,
-    easel: Option<Arc<PaintingState>>,
+    painting: Option<Arc<PaintingState>>,
     tools: Tools,
-    asked: Vec<Request>,
+    requests: Vec<Request>,
     messages: Vec<(String, Option<String>)>,
     answered: u64,
     panels: (Tubes, Brushes, Layers, History),
@@ -45,9 +45,9 @@ impl Studio {
         worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)));
         Self {
             worker,
-            easel: None,
+            painting: None,
             tools: Tools::default(),
-            asked: Vec::new(),
+            requests: Vec::new(),
             messages: Vec::new(),
             answered: 0,
             panels: Default::default(),
@@ -57,7 +57,7 @@ impl Studio {
     fn listen(&mut self) {
         for event in self.worker.events() {
             match event {
-                Event::Opened(state) | Event::State(state) => self.easel = Some(state),
+                Event::Opened(state) | Event::State(state) => self.painting = Some(state),
                 Event::Recording { number, .. } => self.answered = number,
                 Event::Message { text, hint, .. } => {
                     self.messages.push((text, hint.map(|hint| hint.to_string())))
@@ -69,9 +69,9 @@ impl Studio {
 
     fn ui(&mut self, ui: &mut eframe::egui::Ui) {
         self.listen();
-        let Some(easel) = self.easel.clone() else { return };
-        let Self { tools, asked, panels, .. } = self;
-        let mut desk = Desk { easel: &easel, tools, asked };
+        let Some(painting) = self.painting.clone() else { return };
+        let Self { tools, requests, panels, .. } = self;
+        let mut cx = PanelContext { painting: &painting, tools, requests };
         ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
         for column in 0..4_u8 {
             let corner = pos2(8.0 + f32::from(column) * theme::PANEL_WIDTH, 8.0);
@@ -80,13 +80,13 @@ impl Studio {
                 vec2(theme::PANEL_WIDTH - 16.0, ui.max_rect().height() - 16.0),
             );
             ui.scope_builder(UiBuilder::new().max_rect(room), |ui| match column {
-                0 => panels.0.show(ui, &mut desk),
-                1 => panels.1.show(ui, &mut desk),
-                2 => panels.2.show(ui, &mut desk),
-                _ => panels.3.show(ui, &mut desk),
+                0 => panels.0.show(ui, &mut cx),
+                1 => panels.1.show(ui, &mut cx),
+                2 => panels.2.show(ui, &mut cx),
+                _ => panels.3.show(ui, &mut cx),
             });
         }
-        for request in std::mem::take(&mut self.asked) {
+        for request in std::mem::take(&mut self.requests) {
             match request {
                 Request::Worker(command) => self.worker.ask(command),
                 Request::File(request) => panic!("no file was asked for: {request:?}"),
@@ -123,7 +123,7 @@ impl Painter {
         loop {
             self.harness.step();
             let studio = self.harness.state();
-            if studio.answered == self.fences && studio.easel.is_some() {
+            if studio.answered == self.fences && studio.painting.is_some() {
                 break;
             }
             assert!(start.elapsed() < PATIENCE, "the worker does not answer");
@@ -139,12 +139,12 @@ impl Painter {
         let start = Instant::now();
         loop {
             self.harness.step();
-            let easel = self.easel();
-            if is(&easel) {
+            let painting = self.painting();
+            if is(&painting) {
                 self.harness.run();
-                return easel;
+                return painting;
             }
-            assert!(start.elapsed() < PATIENCE, "never told: {what}; but {easel:?}");
+            assert!(start.elapsed() < PATIENCE, "never told: {what}; but {painting:?}");
             std::thread::sleep(Duration::from_millis(3));
         }
     }
@@ -152,7 +152,9 @@ impl Painter {
     /// The same of a brush.
     #[track_caller]
     fn sees_brush(&mut self, name: &str, is: impl Fn(&BrushState) -> bool) -> BrushState {
-        self.sees(name, |easel| easel.brushes.iter().any(|brush| brush.name == name && is(brush)));
+        self.sees(name, |painting| {
+            painting.brushes.iter().any(|brush| brush.name == name && is(brush))
+        });
         self.brush(name)
     }
 
@@ -178,10 +180,10 @@ impl Painter {
 
     /// Squeezes the chosen tube.
     fn squeeze(&mut self, on: SurfaceId, x_mm: f64, y_mm: f64) {
-        let Studio { easel, tools, asked, .. } = self.harness.state_mut();
-        let easel = easel.clone().unwrap();
+        let Studio { painting, tools, requests, .. } = self.harness.state_mut();
+        let painting = painting.clone().unwrap();
         let slot = tools.tube;
-        squeeze(&mut Desk { easel: &easel, tools, asked }, slot, on, x_mm, y_mm);
+        squeeze(&mut PanelContext { painting: &painting, tools, requests }, slot, on, x_mm, y_mm);
         self.settle();
     }
 
@@ -211,20 +213,20 @@ impl Painter {
         self.settle();
     }
 
-    fn easel(&self) -> Arc<PaintingState> {
-        self.harness.state().easel.clone().unwrap()
+    fn painting(&self) -> Arc<PaintingState> {
+        self.harness.state().painting.clone().unwrap()
     }
 
     fn brush(&self, name: &str) -> BrushState {
-        let easel = self.easel();
-        easel.brushes.iter().find(|brush| brush.name == name).unwrap().clone()
+        let painting = self.painting();
+        painting.brushes.iter().find(|brush| brush.name == name).unwrap().clone()
     }
 
     /// The share of a pigment in what a brush holds.
     fn part(&self, brush: &str, pigment: &str) -> f64 {
-        let easel = self.easel();
-        let index = easel.library.find(pigment).unwrap();
-        let slot = easel.slots.iter().position(|slot| *slot == Some(index)).unwrap();
+        let painting = self.painting();
+        let index = painting.library.find(pigment).unwrap();
+        let slot = painting.slots.iter().position(|slot| *slot == Some(index)).unwrap();
         self.brush(brush).parts[slot]
     }
 

@@ -14,14 +14,15 @@ fn paint_is_squeezed_mixed_and_taken_up() {
     painter.squeeze(SurfaceId::Palette, 20.0, 20.0);
     painter.click("tube of Ultramarine");
     painter.squeeze(SurfaceId::Palette, 34.0, 20.0);
-    painter.sees("two heaps", |easel| easel.history.len() == 2);
+    painter.sees("two heaps", |painting| painting.history.len() == 2);
     painter.click("knife");
     assert_eq!(painter.brush("knife").amount_mm, 0.0);
     for y_mm in [18.0, 20.0, 22.0] {
         painter.stroke(SurfaceId::Palette, (14.0, y_mm), (40.0, y_mm));
         painter.stroke(SurfaceId::Palette, (40.0, y_mm), (14.0, y_mm));
     }
-    painter.sees("six strokes more", |easel| easel.history.len() == 8 && !easel.stroke_open);
+    painter
+        .sees("six strokes more", |painting| painting.history.len() == 8 && !painting.stroke_open);
     let knife = painter.sees_brush("knife", |knife| knife.amount_mm > 0.0);
     let both = [painter.part("knife", "Chrome Yellow"), painter.part("knife", "Ultramarine")];
     assert!(both[0] > 0.02 && both[1] > 0.02, "both are on the knife: {both:?}, {knife:?}");
@@ -73,17 +74,17 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
     painter.slide("Share", 50.0);
     painter.click("Dry share");
     painter.click("Dry all");
-    let easel = painter.sees("two layers, measured", |easel| {
-        easel.layers.len() == 2 && easel.layers.iter().all(|layer| layer.mean_mm > 0.0)
+    let painting = painter.sees("two layers, measured", |painting| {
+        painting.layers.len() == 2 && painting.layers.iter().all(|layer| layer.mean_mm > 0.0)
     });
-    for layer in &easel.layers {
+    for layer in &painting.layers {
         assert!(layer.mean_mm <= layer.max_mm, "{layer:?}");
         assert!((0.01..0.6).contains(&layer.coverage), "{}", layer.coverage);
     }
     painter.save("painter");
 
     // A drag is one action, and where it ends is where it stays.
-    let before = easel.history.len();
+    let before = painting.history.len();
     let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
     let start = rail.rect().left_center() + vec2(30.0, 0.0);
     painter.harness.hover_at(start);
@@ -96,36 +97,37 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
     }
     painter.harness.drop_at(start + vec2(30.0, 0.0));
     painter.settle();
-    let dimmed = painter.sees("one action", |easel| easel.history.len() == before + 1);
+    let dimmed = painter.sees("one action", |painting| painting.history.len() == before + 1);
     let opacity = dimmed.layers[0].opacity;
     assert!(opacity != 1.0 && opacity > 0.0, "{opacity}");
 
     painter.click("visibility of dry layer 1");
-    painter.sees("hidden", |easel| easel.layers[0].opacity == 0.0);
+    painter.sees("hidden", |painting| painting.layers[0].opacity == 0.0);
     painter.click("visibility of dry layer 1");
-    let back = painter.sees("shown", |easel| easel.layers[0].opacity > 0.0);
+    let back = painter.sees("shown", |painting| painting.layers[0].opacity > 0.0);
     assert_eq!(back.layers[0].opacity, opacity);
 
     for _ in 0..3 {
         painter.click("Undo");
     }
-    painter.sees("as before the drag", |easel| {
-        easel.history_done == before && easel.layers[0].opacity == 1.0
+    painter.sees("as before the drag", |painting| {
+        painting.history_done == before && painting.layers[0].opacity == 1.0
     });
     painter.click("merge dry layer 2 down");
-    let both = easel.layers[0].mean_mm + easel.layers[1].mean_mm;
-    let is_merged = |easel: &PaintingState| {
-        easel.layers.len() == 1 && (easel.layers[0].mean_mm / both - 1.0).abs() < 0.05
+    let both = painting.layers[0].mean_mm + painting.layers[1].mean_mm;
+    let is_merged = |painting: &PaintingState| {
+        painting.layers.len() == 1 && (painting.layers[0].mean_mm / both - 1.0).abs() < 0.05
     };
     let merged = painter.sees("one layer as high as both", is_merged);
 
     let history = merged.history.clone();
     painter.click("0 beginning");
-    painter.sees("bare", |easel| easel.history_done == 0 && easel.layers.is_empty());
+    painter.sees("bare", |painting| painting.history_done == 0 && painting.layers.is_empty());
     assert_eq!(painter.brush("round"), loaded, "as before the stroke");
     painter.click(&format!("{} {}", history.len(), history[history.len() - 1]));
-    let again = painter
-        .sees("all done again", |easel| easel.history_done == history.len() && is_merged(easel));
+    let again = painter.sees("all done again", |painting| {
+        painting.history_done == history.len() && is_merged(painting)
+    });
     assert_eq!(again.history, history);
     assert_eq!(again.layers[0].mean_mm, merged.layers[0].mean_mm);
     assert_eq!(again.brushes, merged.brushes);
@@ -138,10 +140,10 @@ fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
     painter.click("tube of Vermilion");
     painter.click("Load brush");
     painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
-    painter.sees("a stroke", |easel| easel.history.len() == 1);
+    painter.sees("a stroke", |painting| painting.history.len() == 1);
 
     // A slot whose paint is still wet.
-    let slots = painter.easel().slots;
+    let slots = painter.painting().slots;
     painter.click("Tubes...");
     painter.click("slot 4");
     painter.choose("Cobalt Blue");
@@ -152,27 +154,27 @@ fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
     }
     let (text, hint) = painter.harness.state_mut().messages.pop().unwrap();
     assert!(text.contains("Vermilion") && hint.is_some(), "{text}, {hint:?}");
-    assert_eq!(painter.easel().slots, slots, "it stays");
+    assert_eq!(painter.painting().slots, slots, "it stays");
 
     // Another one.
     painter.click("slot 5");
     painter.choose("Cobalt Blue");
     let mut wanted = slots;
-    wanted[4] = Some(painter.easel().library.find("Cobalt Blue").unwrap());
-    painter.sees("Cobalt Blue in slot 5", |easel| easel.slots == wanted);
+    wanted[4] = Some(painter.painting().library.find("Cobalt Blue").unwrap());
+    painter.sees("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
     painter.click("Close window");
 
     // In the painting: wet and dry.
     painter.slide("Share", 50.0);
     painter.click("Dry share");
-    painter.sees("a dry layer", |easel| easel.layers.len() == 1);
+    painter.sees("a dry layer", |painting| painting.layers.len() == 1);
     painter.harness.get_by_label("tube of Vermilion").click_secondary();
     painter.harness.run();
     painter.click("Exchange in the painting...");
     painter.choose("Minium");
-    let minium = Some(painter.easel().library.find("Minium").unwrap());
-    painter.sees("Minium, wet and dry", |easel| {
-        easel.slots[3] == minium && easel.layers[0].slots[3] == minium
+    let minium = Some(painter.painting().library.find("Minium").unwrap());
+    painter.sees("Minium, wet and dry", |painting| {
+        painting.slots[3] == minium && painting.layers[0].slots[3] == minium
     });
     assert_eq!(painter.harness.state().messages, []);
 }

@@ -1,15 +1,15 @@
-//! A slider behind its name.
+//! A slider with its label at the left.
 
 use eframe::egui::{Label, Response, Slider, Ui, vec2};
 
-/// Widths of a name and of the number behind a slider, in points.
+/// Widths of label and number in a wide panel, in points.
 const WIDE: (f32, f32) = (78.0, 54.0);
 
-/// The same where there is little room.
+/// Widths of label and number in a narrow panel, in points.
 const NARROW: (f32, f32) = (54.0, 39.0);
 
-/// Shows `slider` in all the width there is, its name before it.
-pub(super) fn row(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Response {
+/// Adds `slider` over the available width, with its label.
+pub(super) fn labelled_slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Response {
     let width = ui.available_width();
     let (before, behind) = if width > 200.0 { WIDE } else { NARROW };
     let row = ui.horizontal(|ui| {

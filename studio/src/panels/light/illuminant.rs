@@ -1,4 +1,4 @@
-//! One light of the two: its list, and its temperature.
+//! Control of one illuminant: a list and a temperature slider.
 
 use eframe::egui::Ui;
 use spectra::{ColorTemperature, light_from_text};
@@ -6,21 +6,21 @@ use spectra::{ColorTemperature, light_from_text};
 use super::picker::Picker;
 use super::temperature::Temperature;
 
-/// The temperature of the slider where a light has none.
+/// Slider position for a light without a colour temperature, in kelvin.
 const USUAL_KELVIN: f64 = 6500.0;
 
-/// What chooses a light.
+/// Controls that choose one illuminant.
 #[derive(Debug)]
-pub(super) struct Choice {
+pub(super) struct IlluminantControl {
     picker: Picker,
     temperature_name: &'static str,
     temperature: Temperature,
-    /// The temperature of the light last shown, by its name.
+    /// Name and colour temperature (kelvin) of the light last shown.
     known: (String, f64),
 }
 
-impl Choice {
-    /// A choice with the names of its two controls.
+impl IlluminantControl {
+    /// Creates the controls with their accessible names.
     pub(super) fn new(name: &'static str, temperature_name: &'static str) -> Self {
         Self {
             picker: Picker::new(name),
@@ -30,7 +30,7 @@ impl Choice {
         }
     }
 
-    /// Shows both; gives the light that is asked for.
+    /// Draws the controls. Returns the name of the illuminant that was chosen.
     pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         if self.known.0 != chosen {
             let light = light_from_text(chosen).ok();
@@ -42,8 +42,8 @@ impl Choice {
         picked.or(self.temperature.show(ui, self.temperature_name, self.known.1))
     }
 
-    /// The light that the slider stands at, while it is being set.
-    pub(super) fn wished(&self) -> Option<String> {
-        self.temperature.wished()
+    /// Name of the illuminant at the slider while it is being moved.
+    pub(super) fn preview(&self) -> Option<String> {
+        self.temperature.preview()
     }
 }

@@ -1,4 +1,4 @@
-//! The power of lights over wavelength.
+//! Chart of the spectral power of lights.
 
 use eframe::egui::{Color32, Ui, vec2};
 use render::light::Light;
@@ -7,21 +7,21 @@ use spectra::Illuminant;
 use crate::chart::{BAND_NM, Chart, Curve};
 use crate::theme;
 
-/// Points from curve to curve, in nm.
+/// Distance of the points of a curve, in nm.
 const STEP_NM: usize = 2;
 
-/// Shows the present light with the wavelengths that stand for it, and others
-/// beside it, each with its colour. All have the same mean power.
-pub(super) fn powers(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
+/// Draws the current light with its quadrature wavelengths, and other lights in their
+/// colours. All curves are scaled to mean 1.
+pub(super) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
     let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
     curves.push(curve(&light.viewing.illuminant, theme::TEXT));
     let marks = &light.quadrature.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: "relative power", most: None };
-    let told: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
+    let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
     let size = vec2(ui.available_width(), 120.0);
     chart.show(ui, size).on_hover_text(format!(
         "Power over wavelength, mean 1. Paint is computed at {} nm",
-        told.join(", ")
+        nodes.join(", ")
     ));
 }
 

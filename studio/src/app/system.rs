@@ -1,12 +1,12 @@
-//! What the window has to do with the world outside: its title, files dropped on
-//! it, the log of figures, its end.
+//! Connections of the window to the system: title, dropped files, performance log and
+//! closing.
 
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
 
-use super::Studio;
 use super::side::Tab;
+use super::studio::Studio;
 use crate::files::FrameFigures;
 use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
@@ -14,8 +14,8 @@ use crate::theme;
 use session::Command;
 
 impl Studio {
-    /// The window closes: what is being written is waited for, and what the painter
-    /// had in hand is kept.
+    /// Prepares to close: stores the tool settings in the preferences, waits for files
+    /// being written and stops the worker.
     pub fn finish(&mut self) {
         let kept = &mut self.files.preferences.tools;
         kept.brush.clone_from(&self.tools.brush);
@@ -27,8 +27,8 @@ impl Studio {
         self.worker.ask(Command::Quit);
     }
 
-    /// Files dropped on the window are opened.
-    pub(super) fn dropped(&mut self, context: &Context) {
+    /// Opens files dropped on the window, and shows a hint while files hover over it.
+    pub(super) fn open_dropped(&mut self, context: &Context) {
         let (dropped, hovering) = context.input(|input| {
             let paths = input.raw.dropped_files.iter().map(|file| file.path().to_owned());
             (paths.collect::<Vec<_>>(), !input.raw.hovered_files.is_empty())
@@ -36,10 +36,10 @@ impl Studio {
         for path in dropped {
             if Eyedropper::takes(&path) {
                 self.panels.eyedropper.open_swatches(&path);
-                self.panels.bring(Tab::Color);
+                self.panels.select(Tab::Color);
                 continue;
             }
-            self.asked.push(Request::File(FileRequest::Open(Some(path))));
+            self.requests.push(Request::File(FileRequest::Open(Some(path))));
         }
         if hovering {
             let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
@@ -50,7 +50,7 @@ impl Studio {
         }
     }
 
-    pub(super) fn name_window(&mut self, context: &Context) {
+    pub(super) fn update_title(&mut self, context: &Context) {
         let mark = if self.files.has_unsaved_changes() { "*" } else { "" };
         let title = format!("{}{mark}", self.files.title());
         if self.title != title {
@@ -59,8 +59,8 @@ impl Studio {
         }
     }
 
-    /// Tells the log how window and worker keep up.
-    pub(super) fn measure(&mut self, context: &Context, now: Instant) {
+    /// Appends the performance figures to the log, if there is one.
+    pub(super) fn log_figures(&mut self, context: &Context, now: Instant) {
         let Some(log) = &mut self.log else { return };
         let rate = self.frames.rate();
         let (width, height) = self.canvas.cells();

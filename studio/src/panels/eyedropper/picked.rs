@@ -1,28 +1,28 @@
-//! What lies at the place last picked.
+//! Colour, spectrum and paint at the last picked place.
 
 use eframe::egui::{Button, Grid, Ui, vec2};
 use pigment::palette::Appearance;
 use render::paint::strokes::SurfaceId;
 
-use super::super::desk::Desk;
+use super::super::context::PanelContext;
 use super::layer_paint::LayerPaint;
 use super::swatch::swatch;
-use super::wanted::weights;
+use super::target::weights;
 use crate::chart::{Chart, Curve};
 use session::{Command, Picked};
 
-/// Shows colour, spectrum and recipes of what was picked; gives whether recipes
-/// for it are wanted.
-pub(super) fn picked_place(ui: &mut Ui, desk: &mut Desk<'_>, picked: &Picked) -> bool {
-    let easel = desk.easel;
-    let weights = weights(easel.library.grid, &easel.light.viewing);
+/// Draws colour, spectrum and layers of the picked place. Returns whether recipes for
+/// its colour are requested.
+pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picked) -> bool {
+    let painting = cx.painting;
+    let weights = weights(painting.library.grid, &painting.light.viewing);
     let look = Appearance::of(weights.xyz(&picked.reflectance), weights.white());
     ui.horizontal_top(|ui| {
         let patch = swatch(ui, "Picked colour", vec2(68.0, 68.0), &[look.srgb]);
-        patch.on_hover_text("The colour as an instrument would see it: no relief, no gloss");
+        patch.on_hover_text("The colour as measured by an instrument: without relief and gloss");
         numbers(ui, &look, picked);
     });
-    let library = &easel.library;
+    let library = &painting.library;
     let color = look.srgb.to_bytes();
     let curve = Curve::new("reflectance", library.grid, &picked.reflectance).colored(color);
     let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", most: Some(1.0) };
@@ -35,7 +35,7 @@ pub(super) fn picked_place(ui: &mut Ui, desk: &mut Desk<'_>, picked: &Picked) ->
     }
     for (index, paint) in paints.iter().enumerate().rev() {
         if let Some(paint) = paint {
-            layer(ui, desk, &layer_name(index, wet), paint);
+            layer(ui, cx, &layer_name(index, wet), paint);
         }
     }
     let mut wanted = false;
@@ -43,13 +43,13 @@ pub(super) fn picked_place(ui: &mut Ui, desk: &mut Desk<'_>, picked: &Picked) ->
         let has_wet = paints.last().is_some_and(Option::is_some);
         let load = ui.add_enabled(has_wet, Button::new("Load the brush"));
         let load = load
-            .on_hover_text("Puts this wet paint on the brush in hand, as it is")
+            .on_hover_text("Loads the selected brush with this wet paint")
             .on_disabled_hover_text("There is no wet paint at this place");
         if load.clicked() {
-            desk.command(Command::LoadPicked {
-                brush: desk.tools.brush.clone(),
+            cx.command(Command::LoadPicked {
+                brush: cx.tools.brush.clone(),
                 picked: Box::new(picked.clone()),
-                amount_mm: desk.tools.load_mm,
+                amount_mm: cx.tools.load_mm,
             });
         }
         let find = ui.button("Find recipes");
@@ -86,8 +86,8 @@ fn layer_name(index: usize, wet: usize) -> String {
     if index == wet { "Wet".to_owned() } else { format!("Dry {}", index + 1) }
 }
 
-fn layer(ui: &mut Ui, desk: &Desk<'_>, name: &str, paint: &LayerPaint) {
-    let library = &desk.easel.library;
+fn layer(ui: &mut Ui, cx: &PanelContext<'_>, name: &str, paint: &LayerPaint) {
+    let library = &cx.painting.library;
     ui.separator();
     ui.horizontal(|ui| {
         ui.label(name);
@@ -99,7 +99,7 @@ fn layer(ui: &mut Ui, desk: &Desk<'_>, name: &str, paint: &LayerPaint) {
             told += &format!(", opacity {:.2}", paint.opacity);
         }
         ui.weak(told).on_hover_text("Height of the paint, and how much of it is clear medium");
-        if let Some(text) = paint.mix_text(library, &desk.easel.medium) {
+        if let Some(text) = paint.mix_text(library, &cx.painting.medium) {
             let copy = ui.small_button("Copy").accessible_name(format!("Copy {name}"));
             let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");
             if copy.on_hover_text(hover).clicked() {
@@ -114,7 +114,7 @@ fn layer(ui: &mut Ui, desk: &Desk<'_>, name: &str, paint: &LayerPaint) {
     }
 }
 
-/// Amounts before names, in two columns.
+/// Draws amounts and names in two columns.
 fn recipe(ui: &mut Ui, salt: &str, lines: &[(String, String)]) {
     let grid = Grid::new(salt).num_columns(2).min_row_height(16.0).spacing(vec2(8.0, 2.0));
     grid.show(ui, |ui| {

@@ -1,28 +1,28 @@
-//! What is asked for is done.
+//! Performs the intents of menus, toolbar and keyboard.
 
 use eframe::egui::{Context, ViewportCommand};
 use render::paint::strokes::{Action, SurfaceId};
 
-use super::Studio;
 use super::intent::Intent;
 use super::side::Panels;
+use super::studio::Studio;
 use crate::panels::brushes::{wash, wipe};
 use crate::panels::layers::dry;
-use crate::panels::{Desk, FileRequest, Mode, Request};
+use crate::panels::{FileRequest, Mode, PanelContext, Request};
 use session::Command;
 
-/// Degrees of one turn of view or brush by a key.
+/// Rotation of view or brush by one key press, in degrees.
 const TURN_DEG: f64 = 15.0;
 
-/// One step of a brush's size by a key.
+/// Factor of the brush size for one key press.
 const STEP: f64 = 1.15;
 
-/// One step of the zoom by a key.
+/// Factor of the zoom for one key press.
 const ZOOM: f64 = std::f64::consts::SQRT_2;
 
 impl Studio {
-    /// Does what was asked for.
-    pub(super) fn act(&mut self, intent: Intent, context: &Context) {
+    /// Performs one intent: changes the view, or queues a request.
+    pub(super) fn perform(&mut self, intent: Intent, context: &Context) {
         let room = self.canvas.rect();
         let density = context.pixels_per_point();
         let zoom = |studio: &mut Self, factor: f64| {
@@ -42,20 +42,20 @@ impl Studio {
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
             Intent::Undo => self.action(Action::Undo {}),
             Intent::Redo => self.action(Action::Redo {}),
-            Intent::Dry => self.with_desk(|_, desk| dry(desk)),
-            Intent::Wash => self.with_desk(|_, desk| wash(desk)),
-            Intent::Wipe => self.with_desk(|_, desk| wipe(desk)),
+            Intent::Dry => self.with_panels(|_, cx| dry(cx)),
+            Intent::Wash => self.with_panels(|_, cx| wash(cx)),
+            Intent::Wipe => self.with_panels(|_, cx| wipe(cx)),
             Intent::ScrapePalette => self.action(Action::Scrape { on: SurfaceId::Palette }),
-            Intent::OtherLight => self.with_desk(|panels, desk| panels.light.exchange(desk)),
-            Intent::Larger => self.with_desk(|panels, desk| panels.brushes.resize(STEP, desk)),
+            Intent::OtherLight => self.with_panels(|panels, cx| panels.light.switch_illuminant(cx)),
+            Intent::Larger => self.with_panels(|panels, cx| panels.brushes.resize(STEP, cx)),
             Intent::Smaller => {
-                self.with_desk(|panels, desk| panels.brushes.resize(1.0 / STEP, desk));
+                self.with_panels(|panels, cx| panels.brushes.resize(1.0 / STEP, cx));
             }
             Intent::TwistLeft => self.files.preferences.pen.grip.turn(-TURN_DEG),
             Intent::TwistRight => self.files.preferences.pen.grip.turn(TURN_DEG),
-            Intent::Brush(number) => self.with_desk(|panels, desk| {
-                if panels.brushes.choose(usize::from(number), desk) {
-                    desk.tools.mode = Mode::Paint;
+            Intent::Brush(number) => self.with_panels(|panels, cx| {
+                if panels.brushes.choose(usize::from(number), cx) {
+                    cx.tools.mode = Mode::Paint;
                 }
             }),
             Intent::Tool(mode) => self.tools.mode = mode,
@@ -71,29 +71,32 @@ impl Studio {
             Intent::TurnLeft => self.canvas.view.rotate(-TURN_DEG.to_radians()),
             Intent::TurnRight => self.canvas.view.rotate(TURN_DEG.to_radians()),
             Intent::Mirror => self.canvas.view.mirror ^= true,
-            Intent::Panels => self.shown.panels ^= true,
-            Intent::Palette => self.shown.palette ^= true,
+            Intent::Panels => self.visible.panels ^= true,
+            Intent::Palette => self.visible.palette ^= true,
             Intent::Figures => self.tools.figures ^= true,
             Intent::FullScreen => {
                 let full = context.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 context.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
-            Intent::Keys => self.shown.keys ^= true,
+            Intent::Keys => self.visible.keys ^= true,
         }
     }
 
-    /// Lets panels ask for something, if there is a painting.
-    pub(super) fn with_desk(&mut self, ask: impl FnOnce(&mut Panels, &mut Desk<'_>)) {
-        let Some(easel) = self.easel.clone() else { return };
-        let asked = &mut self.asked;
-        ask(&mut self.panels, &mut Desk { easel: &easel, tools: &mut self.tools, asked });
+    /// Calls `ask` with the panels and their context, if a painting is open.
+    pub(super) fn with_panels(&mut self, ask: impl FnOnce(&mut Panels, &mut PanelContext<'_>)) {
+        let Some(painting) = self.painting.clone() else { return };
+        let requests = &mut self.requests;
+        ask(
+            &mut self.panels,
+            &mut PanelContext { painting: &painting, tools: &mut self.tools, requests },
+        );
     }
 
     fn action(&mut self, action: Action) {
-        self.asked.push(Request::Worker(Command::Apply(action)));
+        self.requests.push(Request::Worker(Command::Apply(action)));
     }
 
     fn file(&mut self, request: FileRequest) {
-        self.asked.push(Request::File(request));
+        self.requests.push(Request::File(request));
     }
 }

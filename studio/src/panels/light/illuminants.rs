@@ -1,26 +1,26 @@
-//! The CIE's illuminants for people: what kind of light each is.
+//! The CIE illuminants with their kinds and descriptions.
 
 use spectra::Illuminant;
 
-/// Kinds of light.
+/// Kind of light source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
-    /// Of sun and sky.
+    /// Daylight phases and their indoor versions.
     Daylight,
-    /// Glowing.
+    /// Incandescent (tungsten) lamps.
     Incandescent,
-    /// Tubes.
+    /// Fluorescent tubes.
     Fluorescent,
-    /// High-pressure lamps of streets and halls.
+    /// High-pressure discharge lamps.
     Discharge,
-    /// Light-emitting diodes.
+    /// White LED lamps.
     Led,
-    /// Of no lamp.
+    /// Theoretical illuminants.
     Reference,
 }
 
 impl Kind {
-    /// Every kind, in the order of the list.
+    /// All kinds in the order of the list.
     pub(super) const ALL: [Self; 6] = [
         Self::Daylight,
         Self::Incandescent,
@@ -30,7 +30,7 @@ impl Kind {
         Self::Reference,
     ];
 
-    /// Its name.
+    /// Name shown in the list.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Daylight => "Daylight",
@@ -45,35 +45,35 @@ impl Kind {
 
 /// An illuminant of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Lamp {
-    /// As `spectra` names it.
+pub(super) struct ListedIlluminant {
+    /// Name of the illuminant in `spectra`.
     pub(super) name: &'static str,
-    /// What kind it is.
+    /// Kind of light source.
     pub(super) kind: Kind,
-    /// What it stands for (CIE 15:2018).
+    /// Short description, from CIE 15:2018.
     pub(super) note: &'static str,
 }
 
-impl Lamp {
-    /// Whether every word of `search`, in any case, is in name, kind or note.
-    pub(super) fn answers(&self, search: &str) -> bool {
-        let told = format!("{} {} {}", self.name, self.kind.name(), self.note).to_lowercase();
-        search.to_lowercase().split_whitespace().all(|word| told.contains(word))
+impl ListedIlluminant {
+    /// Whether name, kind or note contain every word of `search`, ignoring case.
+    pub(super) fn matches(&self, search: &str) -> bool {
+        let text = format!("{} {} {}", self.name, self.kind.name(), self.note).to_lowercase();
+        search.to_lowercase().split_whitespace().all(|word| text.contains(word))
     }
 }
 
-/// All that `spectra` has, by kind, each kind in the CIE's order.
-pub(super) fn lamps() -> Vec<Lamp> {
+/// All illuminants of `spectra`, grouped by kind, each group in the CIE's order.
+pub(super) fn listed_illuminants() -> Vec<ListedIlluminant> {
     let lamp = |name: &'static str| {
-        let (kind, note) = described(name);
-        Lamp { name, kind, note }
+        let (kind, note) = description(name);
+        ListedIlluminant { name, kind, note }
     };
-    let mut lamps: Vec<Lamp> = Illuminant::names().map(lamp).collect();
+    let mut lamps: Vec<ListedIlluminant> = Illuminant::names().map(lamp).collect();
     lamps.sort_by_key(|lamp| lamp.kind);
     lamps
 }
 
-fn described(name: &str) -> (Kind, &'static str) {
+fn description(name: &str) -> (Kind, &'static str) {
     let number = |prefix: &str| name.strip_prefix(prefix).and_then(|rest| rest.parse::<u32>().ok());
     if let Some(of_third_set) = number("FL3.") {
         let note = match of_third_set {
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn every_illuminant_stands_in_the_list_once_and_is_described() {
-        let listed = lamps();
+        let listed = listed_illuminants();
         let mut names: Vec<&str> = listed.iter().map(|lamp| lamp.name).collect();
         let mut known: Vec<&str> = Illuminant::names().collect();
         names.sort_unstable();
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn lamps_are_grouped_by_kind() {
-        let listed = lamps();
+        let listed = listed_illuminants();
         assert!(listed.is_sorted_by_key(|lamp| lamp.kind), "{listed:?}");
         let of = |kind| listed.iter().filter(|lamp| lamp.kind == kind).count();
         assert_eq!(Kind::ALL.map(of), [9, 1, 27, 5, 9, 1]);
@@ -144,7 +144,11 @@ mod tests {
     #[test]
     fn the_search_takes_words_of_name_kind_and_note_in_any_case() {
         let found = |search: &str| -> Vec<&str> {
-            lamps().into_iter().filter(|lamp| lamp.answers(search)).map(|lamp| lamp.name).collect()
+            listed_illuminants()
+                .into_iter()
+                .filter(|lamp| lamp.matches(search))
+                .map(|lamp| lamp.name)
+                .collect()
         };
         assert_eq!(found("window PANE"), ["ID50", "ID65"]);
         assert_eq!(found("violet"), ["LED-V1", "LED-V2"]);

@@ -1,4 +1,4 @@
-//! Where the light stands, set by dragging on a shaded half sphere seen from above.
+//! Control of the light direction: a shaded hemisphere seen from above.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,20 +8,23 @@ use eframe::egui::{
 };
 use spectra::color::Rgb;
 
-use super::super::draft::Touch;
+use super::super::pending_value::Edit;
 use crate::theme;
 
-/// The lowest light that can be set, in degrees.
+/// Minimum elevation of the light, in degrees.
 const LOWEST_DEG: f64 = 5.0;
 
-/// What an arrow key turns, in degrees.
+/// Change of direction by an arrow key, in degrees.
 const STEP_DEG: f64 = 5.0;
 
-/// Rings and spokes of the shaded half sphere.
+/// Rings of the hemisphere's mesh, from pole to rim.
 const RINGS: usize = 14;
+
+/// Vertices of each ring.
 const SPOKES: usize = 48;
 
-/// A direction: degrees clockwise from the top of the canvas, and above it.
+/// Direction of the light: azimuth clockwise from the top of the canvas and elevation
+/// above it, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Direction {
     pub(super) azimuth_deg: f64,
@@ -29,15 +32,15 @@ pub(super) struct Direction {
 }
 
 impl Direction {
-    /// Its place on the unit disc seen from above, x right and y down.
+    /// Position on the unit disc seen from above, x right and y down.
     fn on_disc(self) -> [f64; 2] {
         let (sin, cos) = self.azimuth_deg.to_radians().sin_cos();
         let out = self.elevation_deg.to_radians().cos();
         [out * sin, -out * cos]
     }
 
-    /// The direction above a place of the disc; outside it the lowest. In the
-    /// middle, which has no azimuth, the azimuth stays.
+    /// Direction of a position on the unit disc; outside the disc the elevation is
+    /// minimal. At the centre, where the azimuth is undefined, it stays unchanged.
     fn at(self, [x, y]: [f64; 2]) -> Self {
         let out = x.hypot(y);
         let elevation_deg = out.min(1.0).acos().to_degrees().max(LOWEST_DEG);
@@ -46,7 +49,7 @@ impl Direction {
         Self { azimuth_deg: whole(azimuth_deg) % 360.0, elevation_deg: whole(elevation_deg) }
     }
 
-    /// Turned and raised by steps of the arrow keys.
+    /// Direction after a number of arrow key steps.
     fn stepped(self, clockwise: f64, up: f64) -> Self {
         let elevation_deg = (self.elevation_deg + STEP_DEG * up).clamp(LOWEST_DEG, 90.0);
         let azimuth_deg = (self.azimuth_deg + STEP_DEG * clockwise).rem_euclid(360.0);
@@ -54,19 +57,19 @@ impl Direction {
     }
 }
 
-/// To a tenth of a degree.
+/// Rounds to a tenth of a degree.
 fn whole(degrees: f64) -> f64 {
     (degrees * 10.0).round() / 10.0
 }
 
-/// Shows the half sphere under a light of which the share `ambient` comes from
-/// all sides, and lets the painter move it. Arrow keys turn and raise the light.
-pub(super) fn dome(
+/// Draws the hemisphere and updates `direction` from dragging and arrow keys. The share
+/// `ambient` of the light, 0 to 1, is undirected.
+pub(super) fn direction_control(
     ui: &mut Ui,
     size: f32,
     direction: &mut Direction,
     ambient: f64,
-) -> (Response, Touch) {
+) -> (Response, Edit) {
     let (rect, mut response) = ui.allocate_exact_size(Vec2::splat(size), Sense::drag());
     let (centre, radius) = (rect.center(), size / 2.0 - 4.0);
     let before = *direction;
@@ -84,7 +87,7 @@ pub(super) fn dome(
     response.widget_info(|| {
         let mut info =
             WidgetInfo::slider(ui.is_enabled(), direction.azimuth_deg, "Light direction");
-        info.current_text_value = Some(told(*direction));
+        info.current_text_value = Some(direction_text(*direction));
         info
     });
     if ui.is_rect_visible(rect) {
@@ -98,17 +101,17 @@ pub(super) fn dome(
             ui.painter().circle_stroke(centre, radius + 2.0, Stroke::new(1.0, theme::STRONG));
         }
     }
-    let touch = Touch::of(&response);
-    (response, touch)
+    let edit = Edit::of(&response);
+    (response, edit)
 }
 
-/// `315 deg, 50 deg high`.
-pub(super) fn told(direction: Direction) -> String {
+/// Formats a direction such as 315 degrees, 50 degrees high.
+pub(super) fn direction_text(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
     format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high")
 }
 
-/// Steps to the right and up that the keys asked for.
+/// Arrow key steps to the right and up in this frame.
 fn arrow_keys(ui: &Ui, response: &Response) -> (f64, f64) {
     if !response.has_focus() {
         return (0.0, 0.0);
@@ -123,7 +126,7 @@ fn arrow_keys(ui: &Ui, response: &Response) -> (f64, f64) {
     })
 }
 
-/// A matt half sphere under the light, in screen greys.
+/// Mesh of a matt hemisphere under the light, in screen greys.
 fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
     let [x, y] = light.on_disc();
     let z = light.elevation_deg.to_radians().sin();
@@ -137,7 +140,7 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
     let mut mesh = Mesh::default();
     mesh.colored_vertex(centre, grey(0.0, 0.0));
     for ring in 1..=RINGS {
-        // Even steps of slope, so that the rim is as smooth as the top.
+        // Equal steps of slope, so that the rim is as smooth as the pole.
         let out = (FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
         for spoke in 0..SPOKES {
             let (sin, cos) = (TAU * spoke as f64 / SPOKES as f64).sin_cos();

@@ -1,4 +1,4 @@
-//! A colour that is wanted.
+//! The target colour of a recipe search.
 
 use std::sync::Arc;
 
@@ -10,31 +10,31 @@ use spectra::{Grid, TristimulusWeights};
 /// A colour in one of three forms.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Color {
-    /// As on the screen, linear sRGB: wanted to look so under any light.
+    /// Screen colour in linear sRGB, to be matched in appearance under any light.
     Screen([f64; 3]),
-    /// CIELAB under the light of the painting.
+    /// CIELAB relative to the light of the painting.
     Lab(Lab),
-    /// A reflectance on the library's grid.
+    /// Reflectance on the library's wavelength grid, 0 to 1.
     Reflectance(Arc<Vec<f64>>),
 }
 
-/// What is wanted, and what it is called.
+/// A target colour and its description.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wanted {
-    /// Where it comes from.
+pub struct TargetColor {
+    /// Origin of the colour, shown in the panel.
     pub name: String,
-    /// The colour.
+    /// Colour to be matched.
     pub color: Color,
 }
 
-impl Wanted {
-    /// A colour of the screen.
+impl TargetColor {
+    /// Creates a target from a screen colour in linear sRGB.
     #[must_use]
     pub fn screen(name: &str, linear: [f64; 3]) -> Self {
         Self { name: name.to_owned(), color: Color::Screen(linear) }
     }
 
-    /// What a painter types: `#rrggbb`, or `L,a,b`.
+    /// Parses `#rrggbb` or `L,a,b`.
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
         Some(match text.trim().parse().ok()? {
@@ -46,7 +46,7 @@ impl Wanted {
         })
     }
 
-    /// CIELAB under a light.
+    /// CIELAB of the target under a light.
     #[must_use]
     pub fn lab(&self, grid: Grid, viewing: &Viewing) -> Lab {
         match &self.color {
@@ -59,36 +59,36 @@ impl Wanted {
         }
     }
 
-    /// Encoded sRGB under a light, not cut off at the gamut.
+    /// Encoded sRGB of the target under a light, not clipped to the gamut.
     #[must_use]
     pub fn shown(&self, grid: Grid, viewing: &Viewing) -> Rgb {
         match &self.color {
             Color::Screen(linear) => Rgb(*linear).encoded(),
-            _ => shown(self.lab(grid, viewing), weights(grid, viewing).white()),
+            _ => screen_rgb(self.lab(grid, viewing), weights(grid, viewing).white()),
         }
     }
 
-    /// The target of a search under `sights`.
+    /// Converts to the target of a recipe search under the given viewing conditions.
     #[must_use]
-    pub fn target(&self, grid: Grid, sights: &[Sight]) -> Target {
+    pub fn match_target(&self, grid: Grid, sights: &[Sight]) -> Target {
         let lab = sights.iter().map(|sight| self.lab(grid, &sight.viewing)).collect();
         Target { name: self.name.clone(), lab }
     }
 }
 
-/// Encoded sRGB of a colour under `white`, as the painting is shown.
-pub(super) fn shown(lab: Lab, white: Xyz) -> Rgb {
+/// Encoded sRGB of a colour under `white`, adapted as the painting is displayed.
+pub(super) fn screen_rgb(lab: Lab, white: Xyz) -> Rgb {
     RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford)
 }
 
-/// XYZ under `white` of what the screen shows.
+/// XYZ under `white` of a screen colour in linear sRGB.
 fn from_screen(linear: [f64; 3], white: Xyz) -> Xyz {
     RgbSpace::Srgb.xyz_from_encoded(Rgb(linear).encoded(), white, Adaptation::Bradford)
 }
 
-/// The weights of a light for reflectances on `grid`.
+/// Tristimulus weights of a light for reflectances on `grid`.
 pub(super) fn weights(grid: Grid, viewing: &Viewing) -> TristimulusWeights {
-    viewing.weights(grid).expect("the method is chosen to fit the grid")
+    viewing.weights(grid).expect("the tristimulus method fits every library grid")
 }
 
 #[cfg(test)]
@@ -107,24 +107,24 @@ mod tests {
 
     #[test]
     fn hexadecimal_and_lab_are_read_and_other_text_is_not() {
-        let hex = Wanted::from_text(" #2a5caa ").unwrap();
+        let hex = TargetColor::from_text(" #2a5caa ").unwrap();
         assert_eq!(hex.name, "#2a5caa");
         assert_eq!(hex.shown(grid(), &tungsten()).to_hex(), "#2a5caa", "whatever the light");
-        let lab = Wanted::from_text("52,-10.5,8").unwrap();
+        let lab = TargetColor::from_text("52,-10.5,8").unwrap();
         assert_eq!(lab.name, "Lab 52 -10.5 8");
         let found = lab.lab(grid(), &tungsten());
         assert_eq!(found, Lab { lightness: 52.0, a: -10.5, b: 8.0 });
         for text in ["", "blue", "1,2", "#12345"] {
-            assert_eq!(Wanted::from_text(text), None, "{text}");
+            assert_eq!(TargetColor::from_text(text), None, "{text}");
         }
     }
 
     #[test]
     fn what_the_screen_shows_is_met_by_paint_that_looks_the_same_there() {
-        let wanted = Wanted::screen("sky", [0.2, 0.4, 0.7]);
+        let wanted = TargetColor::screen("sky", [0.2, 0.4, 0.7]);
         for viewing in [Viewing::default(), tungsten()] {
             let lab = wanted.lab(grid(), &viewing);
-            let back = shown(lab, weights(grid(), &viewing).white()).linear().0;
+            let back = screen_rgb(lab, weights(grid(), &viewing).white()).linear().0;
             for (found, wanted) in back.into_iter().zip([0.2, 0.4, 0.7]) {
                 assert!((found - wanted).abs() < 1e-9, "{back:?}");
             }
@@ -135,11 +135,13 @@ mod tests {
     fn a_reflectance_has_the_color_that_calibrate_gives_it() {
         let values: Vec<f64> = (0..36).map(|i| 0.1 + 0.02 * f64::from(i)).collect();
         let viewing = tungsten();
-        let wanted =
-            Wanted { name: String::new(), color: Color::Reflectance(Arc::new(values.clone())) };
+        let wanted = TargetColor {
+            name: String::new(),
+            color: Color::Reflectance(Arc::new(values.clone())),
+        };
         assert_eq!(wanted.lab(grid(), &viewing), lab(&viewing.weights(grid()).unwrap(), &values));
         let perfect =
-            Wanted { name: String::new(), color: Color::Reflectance(vec![1.0; 36].into()) };
+            TargetColor { name: String::new(), color: Color::Reflectance(vec![1.0; 36].into()) };
         assert_eq!(perfect.shown(grid(), &viewing).to_hex(), "#ffffff");
     }
 }

@@ -1,4 +1,4 @@
-//! One brush in the stand, as a row.
+//! One row of the brush list.
 
 use eframe::egui::{Align, Color32, Painter, Rect, Response, TextStyle, Ui, pos2, vec2};
 use render::paint::strokes::BrushSpec;
@@ -11,10 +11,10 @@ use session::{BrushState, PaintingState};
 /// Height of a row, in points.
 const HEIGHT: f32 = 34.0;
 
-/// The bar is full at this height of paint, in mm.
+/// Paint height at which the bar is full, in mm.
 const FULL_MM: f64 = 1.0;
 
-/// A brush in the stand; `state` is missing until the worker told of it.
+/// Contents of a row; `state` is `None` until the worker has reported the brush.
 pub(super) struct Row<'a> {
     pub(super) number: usize,
     pub(super) label: &'a str,
@@ -24,8 +24,8 @@ pub(super) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Shows it, to be clicked.
-    pub(super) fn show(&self, ui: &mut Ui, easel: &PaintingState) -> Response {
+    /// Draws the row, which can be clicked.
+    pub(super) fn show(&self, ui: &mut Ui, painting: &PaintingState) -> Response {
         let response = row(ui, HEIGHT, self.label, self.in_hand);
         let inner = response.rect.shrink2(vec2(6.0, 3.0));
         let between = |left: f32, right: f32| {
@@ -55,36 +55,36 @@ impl Row<'_> {
         if let Some(state) = self.state {
             paint_bar(ui.painter(), bar.shrink2(vec2(0.0, 2.5)), state);
         }
-        response.on_hover_text(self.words(easel))
+        response.on_hover_text(self.words(painting))
     }
 
-    /// What the brush is and holds, in words.
-    fn words(&self, easel: &PaintingState) -> String {
+    /// Tooltip text: shape, size and paint of the brush.
+    fn words(&self, painting: &PaintingState) -> String {
         let BrushSpec { shape, size_mm } = self.spec;
-        let cells = size_mm / easel.cell_mm;
+        let cells = size_mm / painting.cell_mm;
         let head = format!("{shape}, {} ({cells:.0} cells)", millimetres(*size_mm));
         match self.state {
-            Some(state) if state.amount_mm > 0.0 => format!("{head}\n{}", paint(easel, state)),
+            Some(state) if state.amount_mm > 0.0 => format!("{head}\n{}", paint(painting, state)),
             _ => format!("{head}\nclean"),
         }
     }
 }
 
-/// The paint on a brush in words: `0.30 mm, 15 % medium: 60 % Zinc White ..`.
-fn paint(easel: &PaintingState, state: &BrushState) -> String {
+/// Describes the paint on a brush: `0.30 mm, 15 % medium: 60 % Zinc White, ..`.
+fn paint(painting: &PaintingState, state: &BrushState) -> String {
     let mut words = millimetres(state.amount_mm);
     if state.vehicle > 0.0 {
         words += &format!(", {:.0} % medium", 100.0 * state.vehicle);
     }
-    let parts = easel.slots.iter().zip(state.parts).filter_map(|(slot, part)| {
-        let name = &easel.library.pigments[(*slot)?].name;
+    let parts = painting.slots.iter().zip(state.parts).filter_map(|(slot, part)| {
+        let name = &painting.library.pigments[(*slot)?].name;
         (part >= 0.005).then(|| format!("{:.0} % {name}", 100.0 * part))
     });
     let parts: Vec<String> = parts.collect();
     if parts.is_empty() { words } else { format!("{words}: {}", parts.join(", ")) }
 }
 
-/// How much paint there is: pigment in its colour, then medium.
+/// Draws a bar of the amount of paint: pigment in its colour, then medium in grey.
 fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
     painter.rect_filled(bar, 2.0, theme::WELL);
     let filled = (state.amount_mm / FULL_MM).clamp(0.0, 1.0) as f32;

@@ -1,0 +1,57 @@
+//! Loading, wiping and washing the selected brush.
+
+use render::paint::strokes::{Action, Load, Recipe};
+
+use crate::panels::{Mode, PanelContext};
+use session::BrushState;
+
+/// Loads the selected brush with clear medium only and selects the paint tool.
+pub fn load_medium(cx: &mut PanelContext<'_>) {
+    let brush = cx.tools.brush.clone();
+    let amount_mm = cx.tools.load_mm;
+    cx.act(Action::Load(Load { brush, recipe: Recipe::new(), vehicle: 1.0, amount_mm }));
+    cx.tools.mode = Mode::Paint;
+}
+
+/// Wipes the selected brush if it holds paint.
+pub fn wipe(cx: &mut PanelContext<'_>) {
+    if is_loaded(cx) {
+        let (brush, keep) = (cx.tools.brush.clone(), cx.tools.wipe_keep);
+        cx.act(Action::Wipe { brush, keep });
+    }
+}
+
+/// Washes the selected brush if it holds paint.
+pub fn wash(cx: &mut PanelContext<'_>) {
+    if is_loaded(cx) {
+        let brush = cx.tools.brush.clone();
+        cx.act(Action::Wash { brush });
+    }
+}
+
+/// State of the selected brush as last reported by the worker.
+pub(super) fn selected<'a>(cx: &PanelContext<'a>) -> Option<&'a BrushState> {
+    cx.painting.brushes.iter().find(|brush| brush.name == cx.tools.brush)
+}
+
+/// Whether the selected brush holds paint.
+pub(super) fn is_loaded(cx: &PanelContext<'_>) -> bool {
+    selected(cx).is_some_and(|brush| brush.amount_mm > 0.0)
+}
+
+/// Load action that reproduces the mean of the paint on a brush; `None` for a clean
+/// brush.
+pub(super) fn load_matching(cx: &PanelContext<'_>, brush: &BrushState) -> Option<Load> {
+    if brush.amount_mm <= 0.0 {
+        return None;
+    }
+    let pigments = &cx.painting.library.pigments;
+    let parts = cx.painting.slots.iter().zip(brush.parts);
+    let recipe: Recipe = parts
+        .filter(|(_, part)| *part > 0.0)
+        .filter_map(|(slot, part)| Some((pigments[(*slot)?].name.clone(), part)))
+        .collect();
+    // Paint without any pigment is clear medium.
+    let vehicle = if recipe.is_empty() { 1.0 } else { brush.vehicle };
+    Some(Load { brush: brush.name.clone(), recipe, vehicle, amount_mm: brush.amount_mm })
+}

@@ -1,0 +1,44 @@
+//! Context in which a panel is drawn: the painting, the tools, and a queue of requests.
+
+use render::paint::strokes::Action;
+
+use super::tools::Tools;
+use crate::files::FileRequest;
+use session::{Command, PaintingState};
+
+/// Request of a panel.
+#[derive(Debug)]
+pub enum Request {
+    /// Command for the worker.
+    Worker(Command),
+    /// Request for the file manager.
+    File(FileRequest),
+}
+
+/// Input and output of a panel in one frame.
+#[derive(Debug)]
+pub struct PanelContext<'a> {
+    /// State of the painting as last reported by the worker.
+    pub painting: &'a PaintingState,
+    /// Selected tool, brush and tool settings.
+    pub tools: &'a mut Tools,
+    /// Requests in order; the window carries them out after the frame.
+    pub requests: &'a mut Vec<Request>,
+}
+
+impl PanelContext<'_> {
+    /// Queues a command for the worker.
+    pub fn command(&mut self, command: Command) {
+        self.requests.push(Request::Worker(command));
+    }
+
+    /// Queues an action, which becomes one entry of the history.
+    pub fn act(&mut self, action: Action) {
+        self.command(Command::Apply(action));
+    }
+
+    /// Queues a file request.
+    pub fn file(&mut self, request: FileRequest) {
+        self.requests.push(Request::File(request));
+    }
+}
