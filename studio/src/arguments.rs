@@ -56,7 +56,7 @@ enum BackendName {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PaceName {
-    /// As fast as the machine allows
+    /// Maximum speed of the machine
     Fast,
     /// At the speed it was painted
     Painted,
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_command_line_outdoes_the_preferences() {
+    fn the_command_line_overrides_the_preferences() {
         let folder = tempfile::tempdir().unwrap();
         let home = folder.path().to_str().unwrap();
         let preferences = Preferences {
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn help_is_a_result_and_a_slip_is_none() {
+    fn help_exits_with_0_and_errors_with_2() {
         assert_eq!(start(&["--help"]).unwrap_err().status, 0);
         for arguments in [
             &["--window", "8x8"][..],

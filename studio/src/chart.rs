@@ -65,7 +65,7 @@ pub struct Chart<'a> {
     /// Label of the vertical axis, such as `reflectance` or `relative power`.
     pub quantity: &'a str,
     /// Upper end of the vertical axis, which starts at 0; `None` fits it to the curves.
-    pub most: Option<f64>,
+    pub max: Option<f64>,
 }
 
 impl Chart<'_> {
@@ -78,12 +78,12 @@ impl Chart<'_> {
         if !ui.is_rect_visible(whole) {
             return response;
         }
-        let axes = Axes::new(whole, self.most());
+        let axes = Axes::new(whole, self.max());
         let painter = ui.painter_at(whole);
         painter.rect_filled(whole, theme::ROUND, theme::WELL);
         axes.frame(&painter, self.quantity);
         for &nm in self.marks {
-            let line = [axes.place(nm, 0.0), axes.place(nm, axes.most)];
+            let line = [axes.place(nm, 0.0), axes.place(nm, axes.max)];
             painter.line_segment(line, Stroke::new(1.0, theme::FAINT.gamma_multiply(0.6)));
         }
         let inner = painter.with_clip_rect(axes.inner.expand(1.0));
@@ -97,11 +97,11 @@ impl Chart<'_> {
         response.on_hover_text_at_pointer(self.tooltip(nm))
     }
 
-    fn most(&self) -> f64 {
+    fn max(&self) -> f64 {
         let values = self.curves.iter().flat_map(|curve| &curve.points);
         let shown = values.filter(|point| BAND_NM.contains(&point.0)).map(|point| point.1);
-        let most = self.most.unwrap_or_else(|| shown.fold(0.0, f64::max) * 1.05);
-        if most.is_finite() && most > 0.0 { most } else { 1.0 }
+        let max = self.max.unwrap_or_else(|| shown.fold(0.0, f64::max) * 1.05);
+        if max.is_finite() && max > 0.0 { max } else { 1.0 }
     }
 
     /// Tooltip text: the wavelength and one line for each curve with a value there.
@@ -119,20 +119,20 @@ impl Chart<'_> {
 /// Conversion between wavelength and value and screen position.
 struct Axes {
     inner: Rect,
-    most: f64,
+    max: f64,
 }
 
 impl Axes {
-    fn new(whole: Rect, most: f64) -> Self {
+    fn new(whole: Rect, max: f64) -> Self {
         let inner = Rect::from_min_max(whole.min + vec2(30.0, 16.0), whole.max - vec2(10.0, 18.0));
-        Self { inner, most }
+        Self { inner, max }
     }
 
     fn place(&self, nm: f64, value: f64) -> Pos2 {
         let along = (nm - BAND_NM.start()) / (BAND_NM.end() - BAND_NM.start());
         pos2(
             self.inner.left() + self.inner.width() * along as f32,
-            self.inner.bottom() - self.inner.height() * (value / self.most) as f32,
+            self.inner.bottom() - self.inner.height() * (value / self.max) as f32,
         )
     }
 
@@ -145,7 +145,7 @@ impl Axes {
         let font = FontId::proportional(10.0);
         let line = Stroke::new(1.0, theme::LINE);
         for share in [0.0, 0.5, 1.0] {
-            let value = self.most * share;
+            let value = self.max * share;
             let y = self.place(400.0, value).y;
             painter.hline(self.inner.x_range(), y, line);
             let beside = pos2(self.inner.left() - 4.0, y);
@@ -164,7 +164,7 @@ impl Axes {
     }
 }
 
-/// Formats a number in at most five characters.
+/// Formats a number in at max five characters.
 fn short(value: f64) -> String {
     let digits = match value.abs() {
         0.0 => 0,
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_lies_on_the_line_between_its_neighbours_and_nowhere_else() {
+    fn values_are_interpolated_and_not_extrapolated() {
         let curve = ramp();
         assert_eq!(curve.at(400.0), Some(0.0));
         assert_eq!(curve.at(650.0), Some(3.0));
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn places_follow_the_axes_and_come_back() {
+    fn axis_positions_are_inverse() {
         let axes = Axes::new(Rect::from_min_size(pos2(10.0, 20.0), vec2(240.0, 120.0)), 2.0);
         assert_eq!(axes.place(380.0, 0.0), axes.inner.left_bottom());
         assert_eq!(axes.place(730.0, 2.0), axes.inner.right_top());
@@ -207,22 +207,22 @@ mod tests {
         let mut curve = ramp();
         curve.points.push((800.0, 100.0));
         let curves = [curve];
-        let chart = Chart { curves: &curves, marks: &[], quantity: "power", most: None };
-        assert!((chart.most() - 4.2).abs() < 1e-9, "{}", chart.most());
-        assert_eq!(Chart { most: Some(1.0), ..chart }.most(), 1.0);
-        assert_eq!(Chart { curves: &[], ..chart }.most(), 1.0);
+        let chart = Chart { curves: &curves, marks: &[], quantity: "power", max: None };
+        assert!((chart.max() - 4.2).abs() < 1e-9, "{}", chart.max());
+        assert_eq!(Chart { max: Some(1.0), ..chart }.max(), 1.0);
+        assert_eq!(Chart { curves: &[], ..chart }.max(), 1.0);
     }
 
     #[test]
-    fn the_pointer_tells_each_curve_that_has_a_value_there() {
+    fn the_tooltip_lists_curves_with_a_value() {
         let curves = [ramp()];
-        let chart = Chart { curves: &curves, marks: &[], quantity: "power", most: None };
+        let chart = Chart { curves: &curves, marks: &[], quantity: "power", max: None };
         assert_eq!(chart.tooltip(450.0), "450 nm\nramp 0.500");
         assert_eq!(chart.tooltip(390.0), "390 nm");
     }
 
     #[test]
-    fn dark_colors_are_lifted_off_the_ground() {
+    fn dark_colors_are_brightened() {
         let drawn = |rgb| ramp().colored(rgb).color;
         assert_eq!(drawn([10, 20, 30]), Color32::from_rgb(106, 116, 126));
         assert_eq!(drawn([200, 0, 30]), Color32::from_rgb(200, 0, 30));

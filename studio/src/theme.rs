@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_color_of_the_window_has_a_hue() {
+    fn all_window_colors_are_neutral() {
         // Find every colour in the debug output of the visuals.
         let written = format!("{:?}", visuals());
         let colors: Vec<[u8; 4]> = written

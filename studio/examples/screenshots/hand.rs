@@ -1,32 +1,32 @@
-//! A hand that writes down what it does.
+//! A simulated hand that records its actions as a script.
 
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
 
-/// Millimetres a second.
+/// Speed of the pen in mm per second.
 const SPEED: f64 = 60.0;
 
-/// From one sample of a stroke to the next, in mm.
+/// Distance of the samples of a stroke, in mm.
 const STEP: f64 = 0.8;
 
-/// A place on a surface, in mm.
+/// Position on a surface, in mm.
 pub(crate) type Place = (f64, f64);
 
-/// A hand, and what it did.
+/// A hand and its recorded actions.
 pub(crate) struct Hand {
     pub(crate) actions: Vec<Action>,
     seed: u64,
 }
 
 impl Hand {
-    /// A hand that is as unsteady as `seed` has it.
+    /// Creates a hand whose unsteadiness is seeded.
     pub(crate) fn new(seed: u64) -> Self {
         Self { actions: Vec::new(), seed }
     }
 
-    /// Somewhere between `-most` and `most`.
+    /// Random number between `-most` and `most`.
     pub(crate) fn about(&mut self, most: f64) -> f64 {
-        // Knuth's linear congruential generator; the upper bits are the good ones.
+        // Knuth's linear congruential generator, of which the upper bits are used.
         self.seed = self
             .seed
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -35,32 +35,32 @@ impl Hand {
         most * (2.0 * share - 1.0)
     }
 
-    /// Clean paint on a brush: parts by letter, `W6 U1`.
+    /// Washes a brush and loads it with parts of pigments by letter, such as `W6 U1`.
     pub(crate) fn load(&mut self, brush: &str, parts: &str, vehicle: f64, amount_mm: f64) {
         self.wash(brush);
         let brush = brush.to_owned();
         self.actions.push(Action::Load(Load { brush, recipe: recipe(parts), vehicle, amount_mm }));
     }
 
-    /// No paint on a brush.
+    /// Washes a brush.
     pub(crate) fn wash(&mut self, brush: &str) {
         self.actions.push(Action::Wash { brush: brush.to_owned() });
     }
 
-    /// A heap on the palette.
+    /// Squeezes a heap onto the palette.
     pub(crate) fn squeeze(&mut self, parts: &str, (x_mm, y_mm): Place, volume_mm3: f64) {
         let (on, recipe, vehicle) = (SurfaceId::Palette, recipe(parts), 0.1);
         self.actions.push(Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 }));
     }
 
-    /// A stroke on the canvas.
+    /// Paints a stroke on the canvas.
     pub(crate) fn stroke(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
         let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, samples };
         self.actions.push(Action::Stroke(stroke));
     }
 
-    /// A stroke on the palette.
+    /// Paints a stroke on the palette.
     pub(crate) fn mix(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
         let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Palette, samples };
@@ -68,8 +68,8 @@ impl Hand {
     }
 }
 
-/// The pen along a line through places: pressed softly at both ends, leant the way
-/// it goes, the broad side of the head across.
+/// Samples along a polyline: light pressure at both ends, the pen tilted along the
+/// direction of movement, the broad side of the head across it.
 pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
     let legs: Vec<f64> = along.windows(2).map(|leg| length(leg[0], leg[1])).collect();
     let whole: f64 = legs.iter().sum();
@@ -90,7 +90,7 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
         let share = index as f64 / count as f64;
         let way = share * whole;
         let (x_mm, y_mm) = place(way);
-        // Over a few mm, so that the head does not jump round corners.
+        // Averaged over a few mm, so that the head does not jump at corners.
         let (behind, ahead) = (place(way - 2.0), place(way + 2.0));
         let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
         let soft = (share.min(1.0 - share) * 6.0).min(1.0);
@@ -111,7 +111,7 @@ fn length(from: Place, to: Place) -> f64 {
     (to.0 - from.0).hypot(to.1 - from.1)
 }
 
-/// Parts by letter.
+/// Parses parts by letter.
 fn recipe(parts: &str) -> Recipe {
     let part = |part: &str| {
         let (letter, amount) = part.split_at(1);

@@ -1,10 +1,10 @@
-//! Draws the pictures of the window that the README shows: the real window on a
-//! real worker, without a window system, painting a small study.
+//! Renders the pictures of the window for the README: the real window with a real
+//! worker, without a window system, painting a small study.
 //!
-//! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes
-//! `studio.png`, `studio-lights.png`, `studio-colour.png` and `studio-layers.png`
-//! there; `docs/images/studio.sh` turns them into the JPEGs in `docs/images/`. It needs a graphics
-//! adapter; a software one will do.
+//! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
+//! `studio-lights.png`, `studio-colour.png` and `studio-layers.png` there;
+//! `docs/images/studio.sh` converts them to the JPEGs in `docs/images/`. It needs a
+//! graphics adapter; a software one will do.
 
 #[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../../tests/panels/harness.rs"]
@@ -32,10 +32,10 @@ use harness::{Window, has_adapter};
 
 const SIZE: Vec2 = vec2(1440.0, 900.0);
 
-/// High enough for two groups of panels.
+/// Window size in points, tall enough for two groups of tabs.
 const TALL: Vec2 = vec2(1440.0, 960.0);
 
-/// Everything that is not steady about the hand.
+/// Seed of the unsteadiness of the hand.
 const SEED: u64 = 1890;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     save(&mut window, &folder, "studio-layers")
 }
 
-/// The study is painted, down to the stroke that the pen is in.
+/// Paints the study, and takes a picture during a stroke.
 fn at_work(window: &mut Window) {
     let mut hand = Hand::new(SEED);
     study::palette(&mut hand);
@@ -74,10 +74,10 @@ fn at_work(window: &mut Window) {
     let brush = "round".to_owned();
     window.studio_mut().ask(Command::PenDown { surface: SurfaceId::Canvas, brush });
     let mut led = samples(&study::AT_WORK, 0.55);
-    // Before it is lifted.
+    // Before the pen is lifted.
     led.truncate(led.len() * 4 / 5);
     let arrived = Instant::now();
-    // As a right hand holds it.
+    // Held in the right hand.
     let held = |sample| Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample };
     let led = led.into_iter().map(|sample| PenSample { sample: held(sample), arrived }).collect();
     window.studio_mut().ask(Command::PenMove(led));
@@ -91,7 +91,7 @@ fn carry_out(window: &mut Window, hand: Hand) {
     }
 }
 
-/// Daylight and a lamp, side by side.
+/// Shows daylight and a lamp side by side.
 fn two_lights(window: &mut Window) {
     let lamp = Lighting { illuminant: "A".to_owned(), ..study::light() };
     window.studio_mut().ask(Command::SetSecondLight(Some(lamp)));
@@ -100,7 +100,7 @@ fn two_lights(window: &mut Window) {
     window.settle();
 }
 
-/// A colour of the photograph beside the study is matched.
+/// Matches a colour of the reference photograph.
 fn colors(window: &mut Window) -> Result<(), Box<dyn Error>> {
     let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images/still-life.png");
     let context = window.harness().ctx.clone();
@@ -120,7 +120,7 @@ fn colors(window: &mut Window) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// All is dry, and glazed.
+/// Dries all paint and adds a glaze.
 fn layers(window: &mut Window) {
     window.studio_mut().tools.mode = Mode::Paint;
     window.frame(vec![Event::PointerGone]);
@@ -135,7 +135,7 @@ fn layers(window: &mut Window) {
     window.settle();
 }
 
-/// Draws frames until there is something with this label.
+/// Draws frames until a control with this label exists.
 fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn Error>> {
     for _ in 0..6000 {
         if window.harness().query_by_label(label).is_some() {

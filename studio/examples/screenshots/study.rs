@@ -1,4 +1,4 @@
-//! Two pears and a plum, after the photograph `docs/images/still-life.png`.
+//! A study of two pears and a plum, after the photograph `docs/images/still-life.png`.
 
 use std::f64::consts::TAU;
 
@@ -14,10 +14,11 @@ use crate::hand::{Hand, Place};
 const WIDTH: f64 = 96.0;
 const HEIGHT: f64 = 54.0;
 
-/// Where the table ends.
+/// Upper edge of the table, in mm.
 const EDGE: f64 = 31.0;
 
-/// A toned linen, stiff paint, and light from low at the left.
+/// Command that opens a toned linen canvas with stiff paint and low light from the
+/// left.
 pub(crate) fn begun() -> Command {
     let Origin::Blank { mut script, library } =
         blank_canvas(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
@@ -44,12 +45,12 @@ pub(crate) fn begun() -> Command {
     Command::Open(Origin::Blank { script, library })
 }
 
-/// Daylight that shows every ridge.
+/// Low daylight that shows the relief.
 pub(crate) fn light() -> Lighting {
     Lighting { azimuth_deg: 300.0, elevation_deg: 34.0, relief: 2.5, ..Lighting::default() }
 }
 
-/// Heaps along the rim of the palette, and mixtures, drawn together with the knife.
+/// Squeezes heaps along the rim of the palette and mixes them with the knife.
 pub(crate) fn palette(hand: &mut Hand) {
     for (index, parts) in ["W1", "L1", "Y1", "R1", "C1", "U1", "P1", "K1"].iter().enumerate() {
         let share = index as f64 / 7.0;
@@ -66,8 +67,8 @@ pub(crate) fn palette(hand: &mut Hand) {
             hand.load("flat", mixture, 0.1, 2.0);
             hand.mix("flat", &[(x, y), (x + 13.0, y - 0.5)], 0.6);
         }
-        // From one into the other and back; then the blade, which lies well behind
-        // its tip, draws it out.
+        // Push one heap into the other and back, then draw it out with the blade, which
+        // lies behind its tip.
         hand.wash("flat");
         let zigzag = [(4.0, 0.0), (5.0, 7.5), (7.0, -1.0), (8.5, 7.0), (10.5, -1.0), (12.0, 6.5)];
         hand.mix("flat", &zigzag.map(|(right, down)| (x + right, y + down)), 0.5);
@@ -77,7 +78,7 @@ pub(crate) fn palette(hand: &mut Hand) {
     hand.wash("knife");
 }
 
-/// Wall and table in short strokes, with the shadows that lie on the table.
+/// Paints wall and table in short strokes, with the shadows on the table.
 pub(crate) fn surroundings(hand: &mut Hand) {
     let wall =
         ["W12 U0.8 P0.2 K1", "W15 U1 P0.2 K0.7", "W11 U0.6 P0.3 K1 L0.4", "W13 U1.1 K0.8 C0.2"];
@@ -123,7 +124,7 @@ fn rows(hand: &mut Hand, mixtures: &[&str], from: f64, to: f64, slope: f64) {
     }
 }
 
-/// Half the width of a pear at shares of its height, where its widest is 1.
+/// Half width of a pear at shares of its height, relative to its maximum.
 const PEAR: [(f64, f64); 9] = [
     (0.0, 0.12),
     (0.07, 0.3),
@@ -139,18 +140,18 @@ const PEAR: [(f64, f64); 9] = [
 const PLUM: [(f64, f64); 7] =
     [(0.0, 0.2), (0.1, 0.6), (0.3, 0.92), (0.5, 1.0), (0.7, 0.92), (0.9, 0.6), (1.0, 0.2)];
 
-/// A fruit that stands upright.
+/// An upright fruit.
 struct Fruit {
     x: f64,
     top: f64,
     tall: f64,
     half_width: f64,
     outline: &'static [(f64, f64)],
-    /// From the side of the light to the other.
+    /// Mixtures from the lit side to the shaded side.
     mixtures: [&'static str; 7],
 }
 
-/// The fruits, wet in wet on what is dry.
+/// Paints the fruits wet in wet over the dry background.
 pub(crate) fn fruits(hand: &mut Hand) {
     let orange = Fruit {
         x: 58.0,

@@ -303,7 +303,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_key_asks_for_two_things() {
+    fn no_shortcut_has_two_entries() {
         let mut seen: Vec<String> = Vec::new();
         for entry in ENTRIES {
             for shortcut in entry.shortcuts {
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_are_told_apart_by_what_is_held() {
+    fn modifiers_distinguish_shortcuts() {
         let undo = Entry::of(Intent::Undo).unwrap().shortcuts[0];
         assert!(undo.matches(Key::Z, CTRL) && !undo.matches(Key::Z, CTRL_SHIFT), "{undo:?}");
         assert!(!undo.matches(Key::Z, NONE), "{undo:?}");

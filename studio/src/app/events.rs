@@ -62,8 +62,8 @@ impl Studio {
         self.hover = None;
         self.set_painting(state);
         let Some(painting) = &self.painting else { return };
-        let there = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);
-        if let Some(first) = painting.brushes.first().filter(|_| !there) {
+        let exists = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);
+        if let Some(first) = painting.brushes.first().filter(|_| !exists) {
             self.tools.brush = first.name.clone();
         }
     }

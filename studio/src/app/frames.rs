@@ -11,8 +11,8 @@ const WINDOW: Duration = Duration::from_secs(1);
 /// Frame times and sample latencies of the last second.
 #[derive(Debug, Clone, Default)]
 pub struct Frames {
-    drawn: VecDeque<Instant>,
-    shown: VecDeque<(Instant, Duration)>,
+    starts: VecDeque<Instant>,
+    latencies: VecDeque<(Instant, Duration)>,
     began: Option<Instant>,
     newest: Option<Instant>,
 }
@@ -22,11 +22,11 @@ impl Frames {
     /// frame including drawing, if known.
     pub fn begin(&mut self, now: Instant, busy: Option<Duration>) {
         if let (Some(began), Some(newest)) = (self.began, self.newest.take()) {
-            let handed = began + busy.unwrap_or_else(|| now - began);
-            self.shown.push_back((handed, handed.saturating_duration_since(newest)));
+            let finished = began + busy.unwrap_or_else(|| now - began);
+            self.latencies.push_back((finished, finished.saturating_duration_since(newest)));
         }
         self.began = Some(now);
-        self.drawn.push_back(now);
+        self.starts.push_back(now);
         self.forget(now);
     }
 
@@ -39,19 +39,20 @@ impl Frames {
     #[must_use]
     pub fn rate(&self) -> FrameRate {
         let ms = |time: &Duration| time.as_secs_f64() * 1000.0;
-        let late: Vec<f64> = self.shown.iter().map(|(_, time)| ms(time)).collect();
-        let latency_ms = late.iter().fold(0.0, |sum, ms| sum + ms) / late.len().max(1) as f64;
-        let worst_ms = late.iter().copied().fold(0.0, f64::max);
-        FrameRate { frames_a_second: self.drawn.len() as f64, latency_ms, worst_ms }
+        let latency_values: Vec<f64> = self.latencies.iter().map(|(_, time)| ms(time)).collect();
+        let latency_ms = latency_values.iter().fold(0.0, |sum, ms| sum + ms)
+            / latency_values.len().max(1) as f64;
+        let worst_ms = latency_values.iter().copied().fold(0.0, f64::max);
+        FrameRate { frames_a_second: self.starts.len() as f64, latency_ms, worst_ms }
     }
 
     fn forget(&mut self, now: Instant) {
         let old = |at: &Instant| now.saturating_duration_since(*at) >= WINDOW;
-        while self.drawn.front().is_some_and(old) {
-            self.drawn.pop_front();
+        while self.starts.front().is_some_and(old) {
+            self.starts.pop_front();
         }
-        while self.shown.front().is_some_and(|(at, _)| old(at)) {
-            self.shown.pop_front();
+        while self.latencies.front().is_some_and(|(at, _)| old(at)) {
+            self.latencies.pop_front();
         }
     }
 }
@@ -72,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn latency_runs_from_arrival_to_the_handing_over_of_the_frame() {
+    fn latency_is_from_arrival_to_the_end_of_the_frame() {
         let (mut frames, start) = (Frames::default(), Instant::now());
         frames.begin(start + 30 * MS, None);
         frames.shows(start + 10 * MS);

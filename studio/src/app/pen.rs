@@ -37,12 +37,12 @@ impl Studio {
             })
             .collect();
         let context = ui.ctx();
-        let other = mode != Mode::Paint
+        let blocked = mode != Mode::Paint
             || Popup::is_any_open(context)
             || context.memory(|memory| memory.top_modal_layer().is_some());
         let covered = |point| {
             let above = context.layer_id_at(point);
-            other
+            blocked
                 || above.is_some_and(|layer| layer.order != Order::Background)
                 || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
                 || self.visible.palette
@@ -51,8 +51,8 @@ impl Studio {
         };
         let view = PenTargets { surfaces: &transforms, covered: &covered };
         // Copied, because `covered` queries the context while the events are processed.
-        let (heard, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
-        let events = self.pen.process_frame(&heard, modifiers, now, &view);
+        let (input_events, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
+        let events = self.pen.process_frame(&input_events, modifiers, now, &view);
         events.into_iter().for_each(|event| self.handle_pen_event(event));
         if let Some(soon) = self.pen.repaint_after(Instant::now()) {
             context.request_repaint_after(soon);
@@ -85,8 +85,9 @@ impl Studio {
     }
 
     fn brush_for(&self, device: Device) -> String {
-        let stand = self.painting.iter().flat_map(|painting| &painting.brushes);
-        let eraser = device == Device::Eraser && stand.into_iter().any(|is| is.name == ERASER);
+        let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
+        let eraser =
+            device == Device::Eraser && brushes.into_iter().any(|brush| brush.name == ERASER);
         if eraser { ERASER.to_owned() } else { self.tools.brush.clone() }
     }
 }

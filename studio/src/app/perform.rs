@@ -23,10 +23,10 @@ const ZOOM: f64 = std::f64::consts::SQRT_2;
 impl Studio {
     /// Performs one intent: changes the view, or queues a request.
     pub(super) fn perform(&mut self, intent: Intent, context: &Context) {
-        let room = self.canvas.rect();
+        let area = self.canvas.rect();
         let density = context.pixels_per_point();
         let zoom = |studio: &mut Self, factor: f64| {
-            studio.canvas.view.zoom_by(factor, room.center(), room, density);
+            studio.canvas.view.zoom_by(factor, area.center(), area, density);
         };
         match intent {
             Intent::New => self.file(FileRequest::New),

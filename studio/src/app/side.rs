@@ -68,9 +68,9 @@ impl Tab {
 /// State of all panels, and which tabs are selected.
 #[derive(Debug)]
 pub struct Panels {
-    /// Brush panel.
+    /// State of the brush panel.
     pub brushes: Brushes,
-    /// Tube panel beside the palette.
+    /// State of the tube panel beside the palette.
     pub tubes: Tubes,
     /// Eyedropper panel with recipe search.
     pub eyedropper: Eyedropper,

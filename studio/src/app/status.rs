@@ -14,7 +14,7 @@ const DISPLAY_TIME: Duration = Duration::from_secs(10);
 pub struct Message {
     /// Message text, one sentence.
     pub text: String,
-    /// Suggested remedy.
+    /// Suggestion how to solve the problem, if any.
     pub hint: Option<String>,
     /// Whether it is an error, which stays until it is dismissed.
     pub failed: bool,

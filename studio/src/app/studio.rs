@@ -78,13 +78,13 @@ impl Studio {
         let StartedWorker { worker, window } = worker;
         // The slot is empty: a worker has only one window.
         let _ = window.set(context.clone());
-        let kept = &files.preferences.tools;
+        let saved = &files.preferences.tools;
         let tools = Tools {
-            brush: kept.brush.clone(),
-            vehicle: kept.vehicle,
-            load_mm: kept.load_mm,
-            squeeze_mm3: kept.squeeze_mm3,
-            dry_share: kept.dry_share,
+            brush: saved.brush.clone(),
+            vehicle: saved.vehicle,
+            load_mm: saved.load_mm,
+            squeeze_mm3: saved.squeeze_mm3,
+            dry_share: saved.dry_share,
             ..Tools::default()
         };
         let open = open.map(|path| Request::File(FileRequest::Open(Some(path))));

@@ -55,20 +55,20 @@ impl Studio {
                     }
                 });
         }
-        let room = ui.available_rect_before_wrap();
+        let area = ui.available_rect_before_wrap();
         let painting = self.painting.clone();
         let lights = painting.as_ref().and_then(|painting| {
             let second = painting.second_lighting.as_ref()?;
             Some([painting.lighting.illuminant.as_str(), second.illuminant.as_str()])
         });
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
-        let response = self.canvas.show(ui, room, drag, split);
+        let response = self.canvas.show(ui, area, drag, split);
         self.handle_tool(ui, SurfaceId::Canvas, &response, mode);
         self.update_pen(ui, mode);
         self.draw_cursor(ui, mode);
         if self.tools.figures {
             let backend = painting.as_ref().map_or("", |painting| painting.backend.as_str());
-            figures::overlay(ui, room, self.frames.rate(), self.figures, backend);
+            figures::overlay(ui, area, self.frames.rate(), self.figures, backend);
             ui.ctx().request_repaint_after(Duration::from_millis(250));
         }
     }
@@ -80,18 +80,18 @@ impl Studio {
         ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
         let width = (whole.height() * cells.0 as f32 / cells.1 as f32).min(0.6 * whole.width());
-        let room = Rect::from_min_size(whole.min, vec2(width, whole.height()));
-        let response = self.palette.show(ui, room, drag, None);
+        let area = Rect::from_min_size(whole.min, vec2(width, whole.height()));
+        let response = self.palette.show(ui, area, drag, None);
         self.handle_tool(ui, SurfaceId::Palette, &response, mode);
-        let right = whole.right().min(room.right() + TUBES_WIDTH);
-        let beside = Rect::from_min_max(room.right_top(), pos2(right, whole.bottom()));
-        let beside = beside.shrink2(vec2(6.0, 8.0));
-        let mut ui = ui.new_child(UiBuilder::new().max_rect(beside));
+        let right = whole.right().min(area.right() + TUBES_WIDTH);
+        let tubes_rect = Rect::from_min_max(area.right_top(), pos2(right, whole.bottom()));
+        let tubes_rect = tubes_rect.shrink2(vec2(6.0, 8.0));
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(tubes_rect));
         // A plain rectangle, which is cheap, and a thick outline for the rounded
         // corners.
-        fill_rect(ui.painter(), beside.shrink(1.0), theme::PANEL);
+        fill_rect(ui.painter(), tubes_rect.shrink(1.0), theme::PANEL);
         let edge = Stroke::new(3.0, theme::PANEL);
-        ui.painter().rect_stroke(beside, 6, edge, StrokeKind::Inside);
+        ui.painter().rect_stroke(tubes_rect, 6, edge, StrokeKind::Inside);
         let shelf = Frame::new().inner_margin(Margin::same(8));
         shelf.show(&mut ui, |ui| {
             ui.set_min_size(ui.available_size());

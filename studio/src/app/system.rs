@@ -17,12 +17,12 @@ impl Studio {
     /// Prepares to close: stores the tool settings in the preferences, waits for files
     /// being written and stops the worker.
     pub fn finish(&mut self) {
-        let kept = &mut self.files.preferences.tools;
-        kept.brush.clone_from(&self.tools.brush);
-        kept.vehicle = self.tools.vehicle;
-        kept.load_mm = self.tools.load_mm;
-        kept.squeeze_mm3 = self.tools.squeeze_mm3;
-        kept.dry_share = self.tools.dry_share;
+        let saved = &mut self.files.preferences.tools;
+        saved.brush.clone_from(&self.tools.brush);
+        saved.vehicle = self.tools.vehicle;
+        saved.load_mm = self.tools.load_mm;
+        saved.squeeze_mm3 = self.tools.squeeze_mm3;
+        saved.dry_share = self.tools.dry_share;
         self.files.finish();
         self.worker.ask(Command::Quit);
     }

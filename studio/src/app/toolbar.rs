@@ -68,14 +68,14 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
         let side = ui.available_width();
         let (rect, response) = ui.allocate_exact_size(vec2(side, 30.0), Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
-        let look = ui.style().interact(&response);
+        let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {
             (true, _) => theme::CHOSEN,
-            (false, true) => look.bg_fill,
+            (false, true) => visuals.bg_fill,
             (false, false) => theme::BAR,
         };
         ui.painter().rect(rect, theme::ROUND, fill, Stroke::NONE, eframe::egui::StrokeKind::Inside);
-        let color = if chosen { theme::STRONG } else { look.fg_stroke.color };
+        let color = if chosen { theme::STRONG } else { visuals.fg_stroke.color };
         icons::draw(ui.painter(), rect, intent, color);
         let response = response.on_hover_ui(|ui| tip(ui, entry)).on_disabled_hover_ui(|ui| {
             tip(ui, entry);

@@ -11,7 +11,7 @@ use super::problem::Problem;
 pub(crate) enum JobError {
     /// It was cancelled.
     Cancelled,
-    /// It failed.
+    /// The task failed with this problem.
     Failed(Problem),
 }
 

@@ -10,7 +10,7 @@ use super::dialogs::NewPainting;
 use super::exporting::Export;
 use super::pending::PendingAction;
 
-/// A dialog.
+/// A dialog that asks the user.
 #[derive(Debug)]
 pub(super) enum OpenDialog {
     /// Asks for a file.
@@ -30,7 +30,7 @@ pub(super) enum OpenDialog {
 /// The purpose of a file that the painter is asked for.
 #[derive(Debug)]
 pub(super) enum FilePurpose {
-    /// Opens it.
+    /// Opens the dialog.
     Open,
     /// Saves the painting in it, then goes on with `next`.
     Save { next: Option<PendingAction>, keep_revision: bool },

@@ -23,7 +23,7 @@ pub enum Backend {
     /// A graphics adapter if it is hardware, else the processor.
     #[default]
     Auto,
-    /// The processor.
+    /// The processor, on all cores.
     Cpu,
     /// A graphics adapter, even a software one.
     Gpu,

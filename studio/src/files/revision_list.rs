@@ -9,7 +9,7 @@ use super::revisions::Revision;
 /// A revision with its thumbnail as a texture.
 #[derive(Clone)]
 pub struct ListedRevision {
-    /// The revision.
+    /// File and number of the revision.
     pub revision: Revision,
     /// The thumbnail, if its file exists.
     pub texture: Option<TextureHandle>,

@@ -47,10 +47,10 @@ pub(super) fn percent(
     slider(ui, name, tip, shown.fixed_decimals(0).suffix(" %"))
 }
 
-/// Adds a button. `hindered` disables it and gives the reason for the tooltip. Returns
+/// Adds a button. `disabled_reason` disables it and gives the reason for the tooltip. Returns
 /// whether it was clicked.
-pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
-    named_button(ui, name, name, tip, hindered)
+pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&str>) -> bool {
+    named_button(ui, name, name, tip, disabled_reason)
 }
 
 /// Adds a button whose accessible name differs from its text, for one of several equal
@@ -60,15 +60,19 @@ pub(super) fn named_button(
     shown: &str,
     name: &str,
     tip: &str,
-    hindered: Option<&str>,
+    disabled_reason: Option<&str>,
 ) -> bool {
-    let response = ui.add_enabled(hindered.is_none(), Button::new(shown)).accessible_name(name);
-    response.on_hover_text(tip).on_disabled_hover_text(hindered.unwrap_or_default()).clicked()
+    let response =
+        ui.add_enabled(disabled_reason.is_none(), Button::new(shown)).accessible_name(name);
+    response
+        .on_hover_text(tip)
+        .on_disabled_hover_text(disabled_reason.unwrap_or_default())
+        .clicked()
 }
 
 /// Adds a button to a menu, which closes on a click.
-pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, hindered: Option<&str>) -> bool {
-    let clicked = button(ui, name, tip, hindered);
+pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&str>) -> bool {
+    let clicked = button(ui, name, tip, disabled_reason);
     if clicked {
         ui.close();
     }

@@ -73,20 +73,20 @@ impl History {
 fn buttons(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let (done, count) = (cx.painting.history_done, cx.painting.history.len());
     ui.horizontal(|ui| {
-        let nothing = (done == 0).then_some("there is nothing to undo");
+        let disabled_reason = (done == 0).then_some("there is nothing to undo");
         let tip = match done {
             0 => "Undoes the last action (Ctrl+Z)".to_owned(),
             _ => format!("Undoes: {} (Ctrl+Z)", cx.painting.history[done - 1]),
         };
-        if button(ui, "Undo", &tip, nothing) {
+        if button(ui, "Undo", &tip, disabled_reason) {
             cx.act(Action::Undo {});
         }
-        let nothing = (done == count).then_some("there is nothing to redo");
+        let disabled_reason = (done == count).then_some("there is nothing to redo");
         let tip = match cx.painting.history.get(done) {
             None => "Redoes the last undone action (Ctrl+Shift+Z)".to_owned(),
             Some(label) => format!("Redoes: {label} (Ctrl+Shift+Z)"),
         };
-        if button(ui, "Redo", &tip, nothing) {
+        if button(ui, "Redo", &tip, disabled_reason) {
             cx.act(Action::Redo {});
         }
         ui.weak(format!("{done} of {count}"));
@@ -94,11 +94,11 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext<'_>) {
 }
 
 fn memory(ui: &mut Ui, cx: &mut PanelContext<'_>) {
-    let (kept, allowed) = cx.painting.undo_bytes;
-    let share = if allowed > 0 { kept as f32 / allowed as f32 } else { 0.0 };
+    let (used, allowed) = cx.painting.undo_bytes;
+    let share = if allowed > 0 { used as f32 / allowed as f32 } else { 0.0 };
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        let words = format!("{:.0} MiB", kept as f64 / MIB);
+        let words = format!("{:.0} MiB", used as f64 / MIB);
         let bar = ProgressBar::new(share).desired_width(ui.available_width() - 110.0);
         let bar = bar.desired_height(14.0).fill(theme::CHOSEN).text(words);
         ui.add(bar).accessible_name("Memory of undo").on_hover_text(

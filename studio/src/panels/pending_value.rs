@@ -8,7 +8,7 @@ const TIMEOUT_SECONDS: f64 = 3.0;
 /// Change of a control's value in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Edit {
-    /// No change.
+    /// The value did not change.
     #[default]
     None,
     /// The control is being dragged and its value changed.

@@ -25,7 +25,7 @@ pub enum Mode {
 /// Selected tool, brush and tube, and their settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tools {
-    /// Selected tool.
+    /// Tool selected in the toolbar.
     pub mode: Mode,
     /// Name of the selected brush.
     pub brush: String,

@@ -23,7 +23,7 @@ const MOST_CHANGES: usize = 24;
 /// The part of a picture that is drawn, limited by a column of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrawnPart {
-    /// All columns.
+    /// All columns of the surface.
     Whole,
     /// The columns left of this one.
     LeftOf(f64),

@@ -22,7 +22,7 @@ pub enum DragMode {
     /// No effect: the pointer paints.
     #[default]
     None,
-    /// Pans.
+    /// A drag pans the view.
     Pan,
     /// Rotates about the middle of the view.
     Rotate,

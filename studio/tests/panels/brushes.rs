@@ -1,4 +1,4 @@
-//! Of brushes.
+//! Tests of the brush panel.
 
 use eframe::egui::{Event, Key, accesskit::Role};
 use egui_kittest::Harness;
@@ -24,7 +24,7 @@ fn take(name: &str, shape: HeadShape, size_mm: f64) -> Request {
     Request::Worker(Command::SetBrush { name: name.to_owned(), spec })
 }
 
-/// The paint that the round brush of the made painting holds.
+/// Load action with the paint of the round brush of the test painting.
 fn its_paint() -> Request {
     let recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)];
     let recipe: Recipe = recipe.map(|(name, part)| (name.to_owned(), part)).into();
@@ -32,28 +32,28 @@ fn its_paint() -> Request {
 }
 
 #[test]
-fn a_click_or_a_number_takes_a_brush_in_hand() {
+fn a_click_or_a_number_selects_a_brush() {
     let mut harness = brushes();
     harness.state_mut().tools.mode = Mode::Squeeze;
     click(&mut harness, "knife");
     assert_eq!(harness.state().tools.brush, "knife");
     assert_eq!(harness.state().tools.mode, Mode::Paint);
-    let there = harness.state_mut().with_desk(|panel, cx| panel.choose(2, cx));
+    let there = harness.state_mut().with_panel(|panel, cx| panel.choose(2, cx));
     assert_eq!((there, harness.state().tools.brush.as_str()), (true, "flat"));
     for none in [0, 4, 9] {
-        let there = harness.state_mut().with_desk(|panel, cx| panel.choose(none, cx));
+        let there = harness.state_mut().with_panel(|panel, cx| panel.choose(none, cx));
         assert_eq!((there, harness.state().tools.brush.as_str()), (false, "flat"));
     }
     asks(&mut harness, &[]);
 }
 
 #[test]
-fn another_shape_or_size_is_another_head_with_the_same_paint() {
+fn a_changed_shape_or_size_keeps_the_paint() {
     let mut harness = brushes();
     click(&mut harness, "shape filbert");
     asks(&mut harness, &[take("round", HeadShape::Filbert, 6.0), its_paint()]);
-    // The worker has not told yet: what was requests counts.
-    harness.state_mut().with_desk(|panel, cx| panel.resize(1.5, cx));
+    // The worker has not reported yet, so the requested head is used.
+    harness.state_mut().with_panel(|panel, cx| panel.resize(1.5, cx));
     asks(&mut harness, &[take("round", HeadShape::Filbert, 9.0), its_paint()]);
     click(&mut harness, "shape filbert");
     asks(&mut harness, &[]);
@@ -62,12 +62,12 @@ fn another_shape_or_size_is_another_head_with_the_same_paint() {
     harness.get_by_role_and_label(Role::Slider, "Size").set_value_accesskit(0.5);
     harness.run();
     asks(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
-    harness.state_mut().with_desk(|panel, cx| panel.resize(0.1, cx));
+    harness.state_mut().with_panel(|panel, cx| panel.resize(0.1, cx));
     asks(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
 }
 
 #[test]
-fn dragging_the_size_asks_once_at_the_end() {
+fn dragging_the_size_sends_one_request_at_the_end() {
     let mut harness = brushes();
     click(&mut harness, "knife");
     let rail = harness.get_by_role_and_label(Role::Slider, "Size").rect();
@@ -87,11 +87,11 @@ fn dragging_the_size_asks_once_at_the_end() {
 }
 
 #[test]
-fn a_head_that_was_told_of_is_no_more_asked_for() {
+fn a_reported_head_ends_its_request() {
     let mut harness = brushes();
     click(&mut harness, "shape mop");
     harness.state_mut().requests.clear();
-    // First the head alone, as the load comes after it.
+    // The head is reported first, the load later.
     let round = &mut harness.state_mut().painting.brushes[0];
     round.spec.shape = HeadShape::Mop;
     let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
@@ -102,7 +102,7 @@ fn a_head_that_was_told_of_is_no_more_asked_for() {
     round.spec.shape = HeadShape::Bright;
     round.amount_mm = loaded;
     harness.run();
-    // Washed elsewhere: now the brush has no paint to take along.
+    // After washing, the brush has no paint to keep.
     harness.state_mut().painting.brushes[0].amount_mm = 0.0;
     harness.run();
     click(&mut harness, "shape fan");
@@ -110,7 +110,7 @@ fn a_head_that_was_told_of_is_no_more_asked_for() {
 }
 
 #[test]
-fn keeping_takes_a_clean_twin_in_hand_and_the_loaded_one_stays() {
+fn keeping_selects_a_clean_copy_and_leaves_the_loaded_brush() {
     let mut harness = brushes();
     click(&mut harness, "Keep");
     asks(&mut harness, &[take("round 2", HeadShape::Round, 6.0)]);
@@ -124,7 +124,7 @@ fn keeping_takes_a_clean_twin_in_hand_and_the_loaded_one_stays() {
 }
 
 #[test]
-fn a_brush_is_added_renamed_and_put_away() {
+fn a_brush_is_added_renamed_and_removed() {
     let mut harness = brushes();
     click(&mut harness, "Add");
     click(&mut harness, "bright");
@@ -155,7 +155,7 @@ fn a_brush_is_added_renamed_and_put_away() {
 }
 
 #[test]
-fn loading_asks_for_tube_or_medium_as_the_sliders_say() {
+fn loading_uses_tube_or_medium_with_the_slider_values() {
     let mut harness = brushes();
     harness.state_mut().tools.tube = 4;
     harness.get_by_role_and_label(Role::Slider, "Load").set_value_accesskit(0.75);
@@ -187,13 +187,13 @@ fn wiping_and_washing_need_paint() {
     click(&mut harness, "flat");
     assert!(is_disabled(&harness, "Wipe") && is_disabled(&harness, "Wash"), "it is clean");
     let table = harness.state_mut();
-    table.with_desk(|_, cx| studio::panels::brushes::wash(cx));
-    table.with_desk(|_, cx| studio::panels::brushes::wipe(cx));
+    table.with_panel(|_, cx| studio::panels::brushes::wash(cx));
+    table.with_panel(|_, cx| studio::panels::brushes::wipe(cx));
     asks(&mut harness, &[]);
 }
 
 #[test]
-fn the_stand_follows_the_painting() {
+fn the_brush_list_follows_the_painting() {
     let mut harness = brushes();
     click(&mut harness, "knife");
     let state = &mut harness.state_mut().painting.brushes;
@@ -210,7 +210,7 @@ fn the_stand_follows_the_painting() {
 }
 
 #[test]
-fn new_brushes_stand_in_the_order_of_their_shapes() {
+fn new_brushes_are_listed_in_the_order_of_their_shapes() {
     let mut told = painting();
     told.brushes.reverse();
     let harness = shown(Brushes::default(), told, Brushes::show);
@@ -219,7 +219,7 @@ fn new_brushes_stand_in_the_order_of_their_shapes() {
 }
 
 #[test]
-fn a_size_between_the_slider_s_steps_is_left_alone() {
+fn a_size_between_slider_steps_is_not_changed() {
     let mut odd = painting();
     odd.brushes[0].spec.size_mm = 6.123_456;
     let mut harness = shown(Brushes::default(), odd, Brushes::show);
@@ -231,7 +231,7 @@ fn a_size_between_the_slider_s_steps_is_left_alone() {
 fn brushes_are_drawn() {
     let mut harness = brushes();
     let Some(drawn) = picture(&mut harness, "brushes") else { return };
-    // The head of the round brush is in the colour of its paint.
+    // The icon of the round brush has the colour of its paint.
     let row = harness.get_by_label("round").rect();
     let [red, green, blue] = harness.state().painting.brushes[0].color.unwrap();
     let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;

@@ -1,4 +1,4 @@
-//! The surfaces on the screen.
+//! Tests of the surface view.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -12,15 +12,15 @@ use std::f64::consts::FRAC_PI_2;
 use studio::theme;
 use studio::view::{DragMode, Outline, Split, SurfaceView, ViewState};
 
-/// Cells of the surfaces shown here: more than one chunk, and no round number.
+/// Size of the test surfaces in cells: more than one chunk, not a multiple of it.
 const CELLS: (usize, usize) = (700, 530);
 
-/// The colour of a cell: no two near each other are alike.
+/// Colour of a cell; neighbouring cells differ.
 fn cell(x: usize, y: usize) -> [u8; 4] {
     [(x % 251) as u8, (y % 241) as u8, ((x / 16 + y / 16) % 2 * 255) as u8, 255]
 }
 
-/// All of a picture in tiles, as the worker tells it.
+/// A whole picture in tiles, as the worker reports it.
 fn tiles(color: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
     let bounds = tile::Rect { x: 0, y: 0, width: CELLS.0, height: CELLS.1 };
     let pixels = |rect: tile::Rect| {
@@ -41,7 +41,7 @@ fn surface(outline: Outline) -> SurfaceView {
     surface
 }
 
-/// Shows a surface alone in a window.
+/// Creates a window that shows only a surface.
 fn shown(
     surface: SurfaceView,
     size: Vec2,
@@ -65,7 +65,7 @@ fn shown(
     harness
 }
 
-/// The same, drawn if there is an adapter.
+/// Renders a surface if there is an adapter.
 fn drawn(
     surface: SurfaceView,
     size: Vec2,
@@ -82,7 +82,7 @@ fn pixel(picture: &RgbaImage, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
-fn at_actual_size_every_pixel_is_its_cell() {
+fn at_actual_size_every_pixel_shows_its_cell() {
     for (density, rotation, mirror) in
         [(1.0, 0.0, false), (2.0, 0.0, true), (1.0, FRAC_PI_2, false), (1.5, 2.0 * FRAC_PI_2, true)]
     {
@@ -106,10 +106,10 @@ fn at_actual_size_every_pixel_is_its_cell() {
 }
 
 #[test]
-fn turned_and_mirrored_cells_are_where_the_view_says() {
+fn rotated_and_mirrored_cells_are_drawn_where_the_view_places_them() {
     for (rotation, mirror) in [(0.0, false), (0.7, false), (2.5, true)] {
         let mut surface = surface(Outline::Rectangle);
-        // Around the corner of four chunks.
+        // Around the common corner of four chunks.
         surface.view =
             ViewState { centre: [511.0, 509.0], zoom: 7.0, rotation, mirror, fitted: false };
         let (surface, picture) = drawn(surface, vec2(300.0, 200.0), 1.0, None);
@@ -134,7 +134,7 @@ fn turned_and_mirrored_cells_are_where_the_view_says() {
 }
 
 #[test]
-fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
+fn a_reduced_fine_pattern_keeps_its_mean_light() {
     let chequered = |x: usize, y: usize| [[0, 0, 0, 255], [255; 4]][(x + y) % 2];
     for zoom in [0.5, 0.37, 0.21] {
         let mut other = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
@@ -145,14 +145,14 @@ fn from_afar_a_fine_pattern_is_as_bright_as_it_is() {
         let (_, picture) = drawn(other, vec2(100.0, 80.0), 1.0, None);
         let Some(picture) = picture else { return };
         for (x, y) in [(50, 40), (31, 44), (60, 30)] {
-            // Half of the light.
+            // Half of the light, in sRGB.
             assert_eq!(pixel(&picture, x, y), [188, 188, 188, 255], "{x} {y} at {zoom}");
         }
     }
 }
 
 #[test]
-fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
+fn the_split_line_separates_two_pictures_at_any_rotation() {
     let (white, black) = ([255; 4], [0, 0, 0, 255]);
     for (rotation, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
         let mut surface = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
@@ -172,19 +172,19 @@ fn the_line_of_the_split_parts_two_pictures_whichever_way_they_are_turned() {
 }
 
 #[test]
-fn only_what_changed_and_is_seen_is_uploaded() {
+fn only_changed_and_visible_tiles_are_uploaded() {
     let mut surface = surface(Outline::Rectangle);
     surface.view =
         ViewState { centre: [256.0, 256.0], zoom: 1.0, fitted: false, ..ViewState::default() };
     let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
     let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
     let first = bytes(&harness);
-    // One chunk and its neighbours' edges, of the four that there are.
+    // One of four chunks, and the edges of its neighbours.
     assert_eq!(first, 4 * 513 * 513);
     let told = tiles(|_, _| [9, 9, 9, 255]);
     let at =
         |x: usize, y: usize| told.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
-    // A tile in the middle, its neighbour, and one that nobody sees.
+    // A visible tile, its neighbour, and an invisible one.
     for (x, y) in [(192, 192), (256, 192), (576, 64)] {
         harness.state_mut().write(false, at(x, y));
     }
@@ -204,7 +204,7 @@ fn only_what_changed_and_is_seen_is_uploaded() {
 }
 
 #[test]
-fn the_palette_lets_the_surround_through_its_hole() {
+fn the_hole_of_the_palette_shows_the_surround() {
     let (surface, picture) = drawn(surface(Outline::Palette), vec2(500.0, 400.0), 1.0, None);
     let hole = surface.placement().point([700.0 - 0.24 * 530.0, 530.0 - 0.24 * 530.0]);
     assert_eq!(surface.position(hole), None);
@@ -218,7 +218,7 @@ fn the_palette_lets_the_surround_through_its_hole() {
     assert_ne!(pixel(&picture, on.x as u32, on.y as u32), [grey, grey, grey, 255]);
 }
 
-/// Where the line of the edge is drawn.
+/// Whether a place is near the drawn outline.
 fn near_edge(place: [usize; 2]) -> bool {
     let [x, y] = place;
     x < 3 || y < 3 || x + 4 > CELLS.0 || y + 4 > CELLS.1

@@ -1,5 +1,5 @@
-//! Of the eyedropper: what is told equals spectra and calibrate, what is clicked
-//! asks exactly that.
+//! Tests of the eyedropper panel: shown values equal those of the libraries, and clicks
+//! queue the right requests.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -26,7 +26,7 @@ fn stage(painting: PaintingState) -> Stage<Eyedropper> {
     Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), painting, Eyedropper::show)
 }
 
-/// Three parts of white and one of ultramarine, wet, over a dry yellow.
+/// A pick of wet paint (three parts white, one part ultramarine) over dry yellow.
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
     let find = |name: &str| library.find(name).unwrap();
@@ -63,7 +63,7 @@ fn with_picked() -> Stage<Eyedropper> {
 }
 
 #[test]
-fn what_lies_there_is_told_in_the_numbers_of_spectra() {
+fn picked_values_equal_those_of_the_library() {
     let mut stage = with_picked();
     stage.save("eyedropper");
     let painting = &stage.scene().painting;
@@ -83,7 +83,7 @@ fn what_lies_there_is_told_in_the_numbers_of_spectra() {
 }
 
 #[test]
-fn the_wet_paint_is_loaded_and_its_recipe_copied() {
+fn picked_wet_paint_is_loaded_and_its_recipe_copied() {
     let mut stage = with_picked();
     stage.click("Load the brush");
     let wanted = picked(&stage.scene().painting);
@@ -94,7 +94,7 @@ fn the_wet_paint_is_loaded_and_its_recipe_copied() {
     assert_eq!((brush.as_str(), &**picked, *amount_mm), ("round", &wanted, 0.3));
     stage.harness.get_by_label("Copy Wet").click();
     stage.harness.step();
-    // Pressed and released: the text is told in the frame of the release.
+    // The text is copied in the frame of the release.
     let copied = stage.harness.output().platform_output.commands.clone();
     let wanted = "\"Zinc White=3\" \"Ultramarine=1\" --thickness 4".to_owned();
     assert_eq!(copied, [OutputCommand::CopyText(wanted)]);
@@ -113,7 +113,7 @@ fn dry_paint_cannot_be_loaded() {
 }
 
 #[test]
-fn the_eyedropper_is_taken_up_and_put_back() {
+fn the_eyedropper_button_toggles_the_tool() {
     let mut stage = stage(made_painting());
     stage.click("Eyedropper");
     assert_eq!(stage.scene().tools.mode, Mode::Pick);
@@ -121,7 +121,7 @@ fn the_eyedropper_is_taken_up_and_put_back() {
     assert_eq!(stage.scene().tools.mode, Mode::Paint);
 }
 
-/// What calibrate itself finds with the palette of `painting` in up to 40 parts.
+/// Recipes that the library search finds for the painting's palette in up to 40 parts.
 fn by_calibrate(painting: &PaintingState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
     let mut request = MatchRequest::new(&painting.library, sights, FilmKind::Hiding);
     request.allowed = painting.slots.iter().copied().flatten().collect();
@@ -144,7 +144,7 @@ fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
     stage.run();
 }
 
-/// Waits for the answer: the first recipe's button.
+/// Waits for the first recipe's button.
 fn answered(stage: &mut Stage<Eyedropper>) {
     for _ in 0..3000 {
         stage.harness.step();
@@ -157,7 +157,7 @@ fn answered(stage: &mut Stage<Eyedropper>) {
 }
 
 #[test]
-fn a_typed_color_is_matched_as_calibrate_matches_it() {
+fn a_typed_color_gets_the_recipes_of_the_library_search() {
     let mut stage = stage(made_painting());
     ask(&mut stage, "48,-4,-22");
     answered(&mut stage);
@@ -217,9 +217,9 @@ fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
 }
 
 #[test]
-fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
+fn pigments_missing_on_the_palette_can_be_added() {
     let mut painting = made_painting();
-    // Greens need a pigment that is not there.
+    // Greens need a pigment that is not on the palette.
     painting.slots = [None; SLOTS];
     painting.slots[0] = Some(painting.library.find("Zinc White").unwrap());
     let mut stage = stage(painting);
@@ -246,7 +246,7 @@ fn pigments_of_the_library_that_are_not_on_the_palette_are_offered() {
 }
 
 #[test]
-fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_use() {
+fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let mut painting = made_painting();
     let library = Arc::clone(&painting.library);
     let green = library.find("Viridian").unwrap();
@@ -258,7 +258,7 @@ fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_u
     let full = painting.slots;
     let mut stage = stage(painting);
     stage.click("Library");
-    // Viridian itself: nothing is nearer.
+    // The target is pure Viridian.
     let mixture = library.mix(&[(green, 1.0)]).unwrap().hiding(library.saunderson);
     let light = Arc::clone(&stage.scene().painting.light);
     let weights = light.viewing.weights(library.grid).unwrap();
@@ -281,7 +281,7 @@ fn on_a_full_palette_a_pigment_takes_the_place_of_one_that_the_recipe_does_not_u
 }
 
 #[test]
-fn a_color_of_the_reference_picture_is_searched_at_once_and_a_newer_one_wins() {
+fn a_reference_color_starts_a_search_that_a_newer_one_replaces() {
     let mut stage = stage(made_painting());
     stage.scene().tools.reference_color = Some([0.9, 0.05, 0.02]);
     stage.harness.step();
@@ -316,7 +316,7 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
     let wanted = stage.scene().panel.target().unwrap().clone();
     let best =
         by_calibrate(&painting, &wanted.match_target(painting.library.grid, &sights), sights);
-    // The mixture itself is found: three parts of white and one of blue.
+    // The search finds the mixture itself: three parts white and one part blue.
     assert_eq!(best[0].parts, Some(vec![3, 1]));
     assert!(best[0].delta_e.iter().all(|difference| *difference < 0.01), "{best:?}");
     assert!(stage.harness.query_by_label("\u{2206}E 0.00, 0.00").is_some(), "under both lights");
@@ -325,7 +325,7 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
 #[test]
 fn a_search_can_be_cancelled() {
     let mut painting = made_painting();
-    // A library so large that the search takes its time.
+    // A large library, so that the search takes long.
     let mut library = (*painting.library).clone();
     for copy in 0..3 {
         let others = painting.library.pigments.iter().cloned();
@@ -352,7 +352,7 @@ fn a_search_can_be_cancelled() {
 }
 
 #[test]
-fn a_text_that_is_no_color_is_told_with_what_to_try() {
+fn an_invalid_color_text_shows_an_error_with_examples() {
     let mut stage = stage(made_painting());
     ask(&mut stage, "blue");
     let told = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
@@ -361,7 +361,7 @@ fn a_text_that_is_no_color_is_told_with_what_to_try() {
 }
 
 #[test]
-fn colors_of_other_programs_are_wanted_by_a_click() {
+fn swatches_of_other_programs_become_targets_by_a_click() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("colours.gpl");
     std::fs::write(&path, "GIMP Palette\nName: two\n#\n 20 60 120 Sea\n200 180 90\tSand\n")
         .unwrap();

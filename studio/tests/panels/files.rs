@@ -1,4 +1,4 @@
-//! Files: from the dialogs to the disk and back.
+//! Tests of file dialogs, saving, recovery and export.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -29,7 +29,7 @@ fn folder() -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// Saves the painting as `path` by the dialog.
+/// Saves the painting as `path` with the dialog.
 fn save_as(window: &mut Window, path: &Path) {
     ask(window, FileRequest::SaveAs);
     type_name(window, path.file_stem().unwrap().to_str().unwrap());
@@ -38,7 +38,7 @@ fn save_as(window: &mut Window, path: &Path) {
 }
 
 #[test]
-fn a_painting_comes_back_exactly_as_it_was_saved() {
+fn a_reopened_painting_equals_the_saved_one() {
     let (folder, path) = folder();
     let mut window = window(folder.path(), painted("A study"));
     change(&mut window);
@@ -72,7 +72,7 @@ fn a_painting_comes_back_exactly_as_it_was_saved() {
 }
 
 #[test]
-fn the_browser_is_led_by_keys_alone() {
+fn the_browser_works_with_keys_alone() {
     let (folder, path) = folder();
     std::fs::create_dir(folder.path().join("album")).unwrap();
     std::fs::write(folder.path().join("notes.txt"), "nothing").unwrap();
@@ -103,7 +103,7 @@ fn the_browser_is_led_by_keys_alone() {
 }
 
 #[test]
-fn a_file_is_written_over_after_a_question_only() {
+fn a_file_is_overwritten_only_after_confirmation() {
     let (folder, path) = folder();
     std::fs::write(&path, "dear").unwrap();
     let mut window = window(folder.path(), painted("A"));
@@ -124,7 +124,7 @@ fn a_file_is_written_over_after_a_question_only() {
 }
 
 #[test]
-fn what_a_killed_program_left_is_offered_and_recovered() {
+fn a_session_left_by_a_crash_is_offered_and_recovered() {
     let (folder, _) = folder();
     let mut first = window(folder.path(), painted("A study"));
     change(&mut first);
@@ -137,7 +137,7 @@ fn what_a_killed_program_left_is_offered_and_recovered() {
         inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
     };
     until(&mut first, "an autosave", session);
-    // Gone without a word: the lock goes, the folder stays.
+    // Simulate a crash: the lock is released, the folder stays.
     drop(first);
 
     let mut second = window(folder.path(), painted("Another"));
@@ -160,7 +160,7 @@ fn what_a_killed_program_left_is_offered_and_recovered() {
     assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "an end in order leaves nothing");
 }
 
-/// Asks the window to close; whether it does.
+/// Requests closing the window. Returns whether it closes.
 fn closes(window: &mut Window) -> bool {
     let viewports = &mut window.input_mut().viewports;
     viewports.entry(ViewportId::ROOT).or_default().events.push(ViewportEvent::Close);
@@ -192,7 +192,7 @@ fn a_window_with_changes_asks_before_it_closes() {
 }
 
 #[test]
-fn changes_that_are_discarded_let_the_window_close() {
+fn discarding_changes_lets_the_window_close() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A study"));
     change(&mut window);
@@ -205,7 +205,7 @@ fn changes_that_are_discarded_let_the_window_close() {
 }
 
 #[test]
-fn another_painting_asks_before_it_takes_the_place_of_changes() {
+fn opening_another_painting_asks_before_discarding_changes() {
     let (folder, path) = folder();
     std::fs::write(&path, render::paint::file::write(&painted("B")).unwrap()).unwrap();
     let mut window = window(folder.path(), painted("A"));
@@ -253,7 +253,7 @@ fn revisions_are_kept_listed_opened_and_deleted() {
 }
 
 #[test]
-fn exports_are_those_of_the_engine() {
+fn exports_equal_those_of_the_engine() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     let mut painting = opened((*window.state().canvas).clone());
@@ -319,7 +319,7 @@ fn recordings_are_saved_and_played() {
 }
 
 #[test]
-fn a_recording_keeps_the_painting_that_it_began_with() {
+fn a_recording_is_saved_with_its_start_painting() {
     let (folder, path) = folder();
     let first = render::paint::file::write(&painted("A")).unwrap();
     std::fs::write(&path, &first).unwrap();
@@ -344,7 +344,7 @@ fn a_recording_keeps_the_painting_that_it_began_with() {
 }
 
 #[test]
-fn pictures_and_lamps_find_their_place() {
+fn pictures_and_lamps_are_opened_by_content() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     let photo = folder.path().join("photo.png");
@@ -374,7 +374,7 @@ fn pictures_and_lamps_find_their_place() {
 }
 
 #[test]
-fn a_new_painting_takes_the_canvas_that_was_described() {
+fn a_new_painting_has_the_described_canvas() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     ask(&mut window, FileRequest::New);
@@ -392,7 +392,7 @@ fn a_new_painting_takes_the_canvas_that_was_described() {
 }
 
 #[test]
-fn preferences_hold_and_are_written() {
+fn preferences_apply_and_are_written() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     ask(&mut window, FileRequest::Preferences);

@@ -1,4 +1,4 @@
-//! The whole window on a real worker, without a window system.
+//! The whole window with a real worker, without a window system.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -17,10 +17,10 @@ use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
 use studio::theme;
 
-/// Longer than anything a test waits for.
+/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Quiet for so long is idle.
+/// Time without events after which the worker counts as idle.
 const QUIET: Duration = Duration::from_millis(60);
 
 /// A window under test.
@@ -28,25 +28,25 @@ pub(crate) struct Window {
     harness: Harness<'static, Option<Studio>>,
     name: &'static str,
     fences: u64,
-    /// The program's own folders, for as long as the window is there.
+    /// Home folder of the program, deleted with the window.
     _folder: tempfile::TempDir,
 }
 
 impl Window {
-    /// A window of 1280 x 800 points on 320 x 200 cells of linen, 32 x 20 mm, and
-    /// Van Gogh's oils; `name` is the test's, for pictures of failures.
+    /// Opens a window of 1280 x 800 points with 320 x 200 cells of linen (32 x 20 mm)
+    /// and Van Gogh's oils. `name` names the picture saved on failure.
     pub(crate) fn open(name: &'static str) -> Self {
         Self::sized(name, vec2(1280.0, 800.0), 1.0)
     }
 
-    /// The same in another size and density.
+    /// Opens such a window with a size in points and a pixel density.
     pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
         let begin =
             vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
         Self::begun(name, size, density, begin)
     }
 
-    /// A window whose worker is asked for `begin` first.
+    /// Opens a window whose worker executes `begin` first, and waits for it.
     pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
         let mut window = Self::made(name, size, density, begin);
         let start = Instant::now();
@@ -59,7 +59,7 @@ impl Window {
         window
     }
 
-    /// A window that does not wait for its worker.
+    /// Opens a window without waiting for its worker.
     pub(crate) fn made(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
         let folder = tempfile::tempdir().expect("a folder for the session");
         let home = folder.path().to_owned();
@@ -83,7 +83,7 @@ impl Window {
                         Studio::new(ui.ctx(), parts)
                     });
                     studio.logic(ui.ctx());
-                    // The whole window, without the margin that the harness gives.
+                    // Use the whole window, without the margin of the harness.
                     let whole = ui.ctx().content_rect();
                     let mut ui = ui.new_child(UiBuilder::new().max_rect(whole));
                     ui.set_clip_rect(whole);
@@ -94,23 +94,23 @@ impl Window {
         Self { harness, name, fences: 0, _folder: folder }
     }
 
-    /// The window's own state.
+    /// State of the window.
     pub(crate) fn studio(&self) -> &Studio {
         self.harness.state().as_ref().expect("the window is there from the first frame on")
     }
 
-    /// The same, to change it.
+    /// Mutable state of the window.
     pub(crate) fn studio_mut(&mut self) -> &mut Studio {
         self.harness.state_mut().as_mut().expect("the window is there from the first frame on")
     }
 
-    /// What is under test, as kittest has it: `get_by_label` and more.
+    /// The kittest harness, for `get_by_label` and similar queries.
     pub(crate) fn harness(&mut self) -> &mut Harness<'static, Option<Studio>> {
         &mut self.harness
     }
 
-    /// Draws frames until the worker has done all that it was asked for and the
-    /// window shows it.
+    /// Draws frames until the worker has executed all commands and the window shows the
+    /// result.
     pub(crate) fn settle(&mut self) {
         self.fences += 1;
         let fence = u64::MAX - self.fences;
@@ -134,14 +134,14 @@ impl Window {
         self.harness.run_ok();
     }
 
-    /// Gives the window these events within one frame.
+    /// Draws one frame with these events.
     pub(crate) fn frame(&mut self, events: Vec<Event>) {
         self.harness.input_mut().events.extend(events);
         self.harness.step();
     }
 
-    /// Leads the mouse with its first button down along points of the window, a few
-    /// in each frame, and lifts it.
+    /// Drags the mouse with the primary button along points of the window, four in each
+    /// frame.
     pub(crate) fn pen_stroke(&mut self, along: &[Pos2]) {
         let (Some(&first), Some(&last)) = (along.first(), along.last()) else { return };
         self.frame(vec![Event::PointerMoved(first)]);
@@ -161,14 +161,14 @@ impl Window {
         self.harness.run_ok();
     }
 
-    /// Clicks what has this label.
+    /// Clicks the control with this label.
     pub(crate) fn click(&mut self, label: &str) {
         self.harness.get_by_label(label).click();
         self.harness.step();
         self.harness.run_ok();
     }
 
-    /// Where a place of a surface, in mm, is in the window.
+    /// Converts a position on a surface, in mm, to a point of the window.
     pub(crate) fn point(&self, surface: SurfaceId, x_mm: f64, y_mm: f64) -> Pos2 {
         let studio = self.studio();
         let view = match surface {
@@ -179,7 +179,7 @@ impl Window {
         view.placement().point([x_mm / cell_mm, y_mm / cell_mm])
     }
 
-    /// The window as it is drawn; none where there is no adapter, which is said.
+    /// Renders the window; `None` without an adapter.
     pub(crate) fn picture(&mut self) -> Option<RgbaImage> {
         has_adapter().then(|| self.harness.render().expect("the window is drawn"))
     }
@@ -192,7 +192,7 @@ impl Window {
         }
     }
 
-    /// The colour at a point of the window.
+    /// Colour at a point of the window.
     pub(crate) fn color(&self, picture: &RgbaImage, at: Pos2) -> [u8; 3] {
         let pixel = at * self.harness.ctx.pixels_per_point();
         let [red, green, blue, _] = picture.get_pixel(pixel.x as u32, pixel.y as u32).0;
@@ -218,8 +218,7 @@ impl Drop for Window {
     }
 }
 
-/// Whether there is a graphics adapter to draw on; what is found is noted as other
-/// such tests do.
+/// Whether there is a graphics adapter. Notes the result as the other adapter tests do.
 pub(crate) fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);
@@ -234,13 +233,13 @@ pub(crate) fn has_adapter() -> bool {
     device.is_some()
 }
 
-/// The first button of the mouse.
+/// An event of the primary mouse button.
 pub(crate) fn button(pos: Pos2, pressed: bool) -> Event {
     let modifiers = Modifiers::NONE;
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
 }
 
 fn folder() -> PathBuf {
-    // An example is given none.
+    // The variable is not set for examples.
     option_env!("CARGO_TARGET_TMPDIR").map_or_else(std::env::temp_dir, PathBuf::from)
 }

@@ -1,4 +1,4 @@
-//! Of history.
+//! Tests of the history panel.
 
 use eframe::egui::accesskit::Toggled;
 use egui_kittest::Harness;
@@ -19,7 +19,7 @@ fn travel(place: usize) -> Request {
 }
 
 #[test]
-fn a_click_travels_to_a_place_and_the_present_one_asks_nothing() {
+fn a_click_goes_to_an_entry_except_the_current_one() {
     let mut harness = history(painting());
     click(&mut harness, "1 load round");
     click(&mut harness, "0 beginning");
@@ -32,7 +32,7 @@ fn a_click_travels_to_a_place_and_the_present_one_asks_nothing() {
 }
 
 #[test]
-fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
+fn undo_and_redo_request_one_step_and_are_disabled_at_the_ends() {
     let mut harness = history(painting());
     click(&mut harness, "Undo");
     click(&mut harness, "Redo");
@@ -51,7 +51,7 @@ fn undo_and_redo_ask_for_one_step_and_are_grey_at_the_ends() {
 }
 
 #[test]
-fn a_long_list_shows_where_the_painting_is() {
+fn a_long_list_scrolls_to_the_current_entry() {
     let mut long = painting();
     long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
     long.history_done = 1500;
@@ -67,7 +67,7 @@ fn a_long_list_shows_where_the_painting_is() {
 }
 
 #[test]
-fn memory_is_told_in_mebibytes_and_can_be_changed() {
+fn memory_is_shown_in_mebibytes_and_can_be_changed() {
     let mut harness = history(painting());
     let bar = harness.get_by_label("Memory of undo");
     assert_eq!(bar.accesskit_node().numeric_value(), Some(18.0), "96 of 512 MiB, in percent");
@@ -77,7 +77,7 @@ fn memory_is_told_in_mebibytes_and_can_be_changed() {
 }
 
 #[test]
-fn an_odd_amount_of_memory_is_left_alone() {
+fn an_unusual_memory_limit_is_not_changed() {
     let mut odd = painting();
     odd.undo_bytes = (3, 7_654_321);
     let mut harness = history(odd);

@@ -1,4 +1,4 @@
-//! Of layers.
+//! Tests of the layer panel.
 
 use eframe::egui::{accesskit::Role, vec2};
 use egui_kittest::Harness;
@@ -34,17 +34,17 @@ fn all_or_a_share_dries() {
 }
 
 #[test]
-fn the_topmost_layer_stands_first_and_tells_what_it_is() {
+fn layers_are_listed_from_the_top_with_their_figures() {
     let harness = layers();
     let top = |label: &str| harness.get_by_label(label).rect().top();
     let order = [top("Wet"), top("Dry 2"), top("Dry 1")];
     assert!(order.is_sorted(), "{order:?}");
-    assert_eq!(harness.query_all_by_label("0.12 mm, most 0.81 mm").count(), 2);
+    assert_eq!(harness.query_all_by_label("0.12 mm, max 0.81 mm").count(), 2);
     assert_eq!(harness.query_all_by_label("covers 34 %").count(), 2);
 }
 
 #[test]
-fn the_eye_hides_a_layer_and_gives_it_back_its_opacity() {
+fn the_eye_hides_a_layer_and_restores_its_opacity() {
     let mut harness = layers();
     click(&mut harness, "visibility of dry layer 2");
     asks(&mut harness, &[act(opacity(1, 0.0))]);
@@ -52,7 +52,7 @@ fn the_eye_hides_a_layer_and_gives_it_back_its_opacity() {
     harness.run();
     click(&mut harness, "visibility of dry layer 2");
     asks(&mut harness, &[act(opacity(1, 0.5))]);
-    // One that was hidden before it was seen here.
+    // A layer that was hidden before the panel saw it.
     harness.state_mut().painting.layers[0].opacity = 0.0;
     harness.run();
     click(&mut harness, "visibility of dry layer 1");
@@ -60,7 +60,7 @@ fn the_eye_hides_a_layer_and_gives_it_back_its_opacity() {
 }
 
 #[test]
-fn a_drag_of_the_opacity_adjusts_and_settles_once() {
+fn dragging_the_opacity_adjusts_and_ends_once() {
     let mut harness = layers();
     let rail = harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1").rect();
     let start = rail.left_center() + vec2(20.0, 0.0);
@@ -84,7 +84,8 @@ fn a_drag_of_the_opacity_adjusts_and_settles_once() {
         }
     }
     assert!(values.is_sorted() && values[0] > 0.0 && values[2] < 4.0, "{values:?}");
-    // The worker is behind: the slider shows what was asked for, and asks no more.
+    // While the worker lags, the slider shows the requested value and sends nothing
+    // more.
     harness.drop_at(start + vec2(30.0, 0.0));
     harness.run();
     asks(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
@@ -108,7 +109,7 @@ fn a_typed_opacity_is_one_action() {
 }
 
 #[test]
-fn an_opacity_beyond_the_slider_is_left_alone() {
+fn an_opacity_beyond_the_slider_is_not_changed() {
     let mut odd = painting();
     odd.layers[0].opacity = 17.123_456;
     odd.layers[1].opacity = 0.123_456;
@@ -118,7 +119,7 @@ fn an_opacity_beyond_the_slider_is_left_alone() {
 }
 
 #[test]
-fn layers_of_like_opacity_merge_downwards() {
+fn layers_of_equal_opacity_merge_downwards() {
     let mut harness = layers();
     assert!(is_disabled(&harness, "merge dry layer 1 down"), "there is none below");
     assert!(is_disabled(&harness, "merge dry layer 2 down"), "their opacities differ");
@@ -129,7 +130,7 @@ fn layers_of_like_opacity_merge_downwards() {
 }
 
 #[test]
-fn a_hidden_layer_above_a_merge_keeps_what_it_had() {
+fn a_hidden_layer_above_a_merge_keeps_its_opacity() {
     let mut harness = layers();
     let lowest = harness.state().painting.layers[0].clone();
     harness.state_mut().painting.layers.insert(0, lowest);
@@ -162,7 +163,7 @@ fn a_pigment_of_one_layer_is_exchanged() {
 }
 
 #[test]
-fn the_window_of_an_exchange_closes_with_its_layer() {
+fn the_exchange_window_closes_when_its_layer_disappears() {
     let mut harness = layers();
     click(&mut harness, "exchange in dry layer 2");
     harness.state_mut().painting.layers.pop();
@@ -175,7 +176,7 @@ fn the_window_of_an_exchange_closes_with_its_layer() {
 fn layers_are_drawn() {
     let mut harness = layers();
     let Some(drawn) = picture(&mut harness, "layers") else { return };
-    // A thumbnail has the colours of its layer: its middle, about.
+    // Compare the colour at the centre of the thumbnail.
     let eye = harness.get_by_label("visibility of dry layer 2").rect();
     let at = drawn.get_pixel((eye.right() + 6.0 + 30.0) as u32, eye.center().y as u32).0;
     assert_eq!([at[1], at[2]], [90, 60], "{at:?}");

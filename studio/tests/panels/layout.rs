@@ -1,4 +1,4 @@
-//! The window around the surfaces: what is where, keys, hands, two lights.
+//! Tests of the window: layout, keys, view, strokes and split view.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use studio::panels::Mode;
 
-/// A window on a painting that is only told of: a ramp of greys on the canvas, wood
-/// on the palette.
+/// A window with an injected painting: a ramp of greys on the canvas, wood on the
+/// palette.
 fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
     let mut window = Window::made(name, size, density, Vec::new());
     let mut painting = crate::made::painting();
@@ -42,7 +42,7 @@ fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
 }
 
 #[test]
-fn everything_is_within_the_window() {
+fn all_controls_are_within_the_window() {
     for (size, density) in
         [(vec2(1280.0, 800.0), 1.0), (vec2(1920.0, 1080.0), 1.0), (vec2(1280.0, 800.0), 2.0)]
     {
@@ -57,7 +57,7 @@ fn everything_is_within_the_window() {
 }
 
 #[test]
-fn keys_change_the_view_and_not_while_text_is_typed() {
+fn keys_change_the_view_except_while_typing() {
     let mut window = told_window("keys", vec2(1280.0, 800.0), 1.0);
     window.key(Modifiers::NONE, Key::M);
     assert!(window.studio().canvas.view.mirror, "M mirrors");
@@ -82,7 +82,7 @@ fn keys_change_the_view_and_not_while_text_is_typed() {
 }
 
 #[test]
-fn tab_hides_all_panels_and_the_canvas_takes_their_room() {
+fn tab_hides_all_panels_and_enlarges_the_canvas() {
     let mut window = told_window("hidden", vec2(1280.0, 800.0), 1.0);
     let before = window.studio().canvas.rect();
     window.key(Modifiers::NONE, Key::Tab);
@@ -97,7 +97,7 @@ fn tab_hides_all_panels_and_the_canvas_takes_their_room() {
 }
 
 #[test]
-fn the_view_follows_hand_wheel_and_held_keys() {
+fn the_view_follows_drag_wheel_and_held_keys() {
     let mut window = told_window("hand", vec2(1280.0, 800.0), 1.0);
     let middle = window.studio().canvas.rect().center();
     let cell = |window: &Window, at| window.studio().canvas.placement().cell(at);
@@ -126,7 +126,7 @@ fn the_view_follows_hand_wheel_and_held_keys() {
     window.harness().key_up(Key::Space);
     window.harness().step();
 
-    // A key of a tool that is held while it is used gives the one before back.
+    // A tool key held during use restores the previous tool on release.
     window.harness().key_down(Key::Z);
     window.harness().step();
     assert_eq!(window.studio().tools.mode, Mode::Zoom);
@@ -136,7 +136,7 @@ fn the_view_follows_hand_wheel_and_held_keys() {
     window.harness().key_up(Key::Z);
     window.harness().step();
     assert_eq!(window.studio().tools.mode, Mode::Paint);
-    // A tap chooses it.
+    // A short press selects the tool.
     window.key(Modifiers::NONE, Key::I);
     assert_eq!(window.studio().tools.mode, Mode::Pick);
 
@@ -156,7 +156,7 @@ fn the_view_follows_hand_wheel_and_held_keys() {
 }
 
 #[test]
-fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
+fn the_hovering_head_is_drawn_translucent_at_the_pointer() {
     let mut window = told_window("head", vec2(1280.0, 800.0), 1.0);
     for (turn, mirror) in [(0.0, false), (1.0, true)] {
         window.studio_mut().canvas.view.rotation = turn;
@@ -170,8 +170,8 @@ fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
         window.save(&format!("head-{turn}"));
         let changed =
             |offset: Vec2| window.color(&before, at + offset) != window.color(&after, at + offset);
-        // The mouse's hold leans to the lower right of the window, however the
-        // canvas is turned.
+        // The brush of a mouse leans to the lower right of the window, however the
+        // canvas is rotated.
         assert!(changed(vec2(14.0, 14.0)), "the head is seen");
         assert!(!changed(vec2(-60.0, -60.0)), "and nowhere else");
         let [red, green, blue] = window.color(&after, at + vec2(14.0, 14.0));
@@ -183,7 +183,7 @@ fn the_head_hovers_where_the_pen_is_and_paint_below_it_stays_in_sight() {
     }
 }
 
-/// A window on linen with the rigger in hand, loaded with vermilion.
+/// A window on linen with the rigger selected and loaded with vermilion.
 fn loaded(name: &'static str) -> Window {
     let mut window = Window::open(name);
     window.studio_mut().tools.brush = "rigger".to_owned();
@@ -198,7 +198,7 @@ fn loaded(name: &'static str) -> Window {
     window
 }
 
-/// From the left to the right in the middle of the canvas.
+/// Paints a stroke from left to right through the centre of the canvas.
 fn stroke(window: &mut Window) {
     let along: Vec<Pos2> = (0..=40)
         .map(|at| window.point(SurfaceId::Canvas, 8.0 + 0.4 * f64::from(at), 10.0))
@@ -207,7 +207,7 @@ fn stroke(window: &mut Window) {
     window.settle();
 }
 
-/// The mean of the canvas within half a millimetre of a place, as the window has it.
+/// Mean colour of the canvas view within 0.5 mm of a position.
 fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
     let (x, y) = ((x_mm / 0.1) as usize - 5, (y_mm / 0.1) as usize - 5);
     let rect = tile::Rect { x, y, width: 10, height: 10 };
@@ -218,7 +218,7 @@ fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
 }
 
 #[test]
-fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
+fn a_stroke_lands_at_the_pointer_at_any_rotation() {
     for (turn, mirror) in [(0.0, false), (1.1, false), (2.4, true)] {
         let mut window = loaded("stroke");
         window.studio_mut().canvas.view.rotation = turn;
@@ -229,7 +229,7 @@ fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
         let before = look(&window);
         stroke(&mut window);
         let after = look(&window);
-        // How hard the mouse presses depends on how fast this machine is.
+        // The pressure of a mouse stroke depends on the speed of the machine.
         let redness = |[red, green, _]: [i64; 3]| red - green;
         assert!(redness(after[0]) > redness(before[0]) + 6, "{after:?} in the middle, {turn}");
         assert_eq!(before[1..], after[1..], "beside the stroke, {turn}");
@@ -245,7 +245,7 @@ fn a_stroke_lands_where_the_pointer_was_however_the_view_is_turned() {
 }
 
 #[test]
-fn keys_take_back_dry_and_choose_brushes() {
+fn keys_undo_dry_and_select_brushes() {
     let mut window = loaded("history");
     let bare = seen(&window, false, 16.0, 10.0);
     stroke(&mut window);
@@ -269,7 +269,7 @@ fn keys_take_back_dry_and_choose_brushes() {
 }
 
 #[test]
-fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
+fn the_second_light_is_shown_right_of_a_draggable_line() {
     let mut window = loaded("split");
     stroke(&mut window);
     let second = Lighting { illuminant: "A".to_owned(), ..Lighting::default() };
@@ -287,7 +287,7 @@ fn a_second_light_shows_right_of_the_line_which_can_be_dragged() {
     window.save("split");
     window.key(Modifiers::COMMAND, Key::Num1);
     let Some(picture) = window.picture() else { return };
-    // A cell is a pixel: each shows the picture of its side.
+    // At one cell per pixel, each pixel shows the picture of its side.
     for (x, second) in [(120, false), (310, true)] {
         let mut differ = 0;
         for y in 80..120 {

@@ -1,4 +1,4 @@
-//! Of the light: every control asks exactly what it says.
+//! Tests of the light panel.
 
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -16,7 +16,7 @@ fn stage(painting: PaintingState) -> Stage<LightPanel> {
     Stage::new(LightPanel::default(), vec2(300.0, 660.0), painting, LightPanel::show)
 }
 
-/// The light of the only command, which is one action.
+/// Lighting of the only queued command.
 fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
     let commands = stage.commands();
     let [Command::Apply(Action::Light(lighting))] = &commands[..] else {
@@ -26,7 +26,7 @@ fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
 }
 
 #[test]
-fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
+fn a_searched_light_is_set_by_a_click_only() {
     let mut stage = stage(made_painting());
     stage.save("light");
     stage.click("Illuminant: D65");
@@ -47,7 +47,7 @@ fn a_light_is_searched_for_and_taken_by_a_click_and_not_before() {
 }
 
 #[test]
-fn enter_takes_the_first_light_found_and_a_typed_temperature() {
+fn enter_sets_the_first_match_or_a_typed_temperature() {
     for (typed, wanted) in [("north sky", "D75"), ("3200K", "3200K"), ("D7450K", "D7450K")] {
         let mut stage = stage(made_painting());
         stage.click("Illuminant: D65");
@@ -60,7 +60,7 @@ fn enter_takes_the_first_light_found_and_a_typed_temperature() {
 }
 
 #[test]
-fn the_temperature_is_asked_for_once_when_the_slider_is_let_go() {
+fn the_temperature_is_set_once_when_the_slider_is_released() {
     let mut stage = stage(made_painting());
     let slider = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature");
     let rect = slider.rect();
@@ -76,7 +76,7 @@ fn the_temperature_is_asked_for_once_when_the_slider_is_let_go() {
 }
 
 #[test]
-fn a_temperature_set_by_keys_is_asked_for_once_they_rest() {
+fn a_temperature_set_by_keys_is_applied_after_a_pause() {
     let mut stage = stage(made_painting());
     stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Temperature").focus();
     stage.harness.step();
@@ -90,7 +90,7 @@ fn a_temperature_set_by_keys_is_asked_for_once_they_rest() {
 }
 
 #[test]
-fn observers_are_chosen_and_a_lamp_is_asked_of_the_files() {
+fn observers_are_chosen_and_lamp_files_are_requested() {
     let mut stage = stage(made_painting());
     stage.click("Observer");
     stage.click("2015-10");
@@ -100,7 +100,7 @@ fn observers_are_chosen_and_a_lamp_is_asked_of_the_files() {
 }
 
 #[test]
-fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
+fn dragging_the_direction_adjusts_and_ends_on_release() {
     let mut stage = stage(made_painting());
     let rect = stage.harness.get_by_label("Light direction").rect();
     let centre = rect.center();
@@ -119,7 +119,7 @@ fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
     assert!(lights.iter().any(|light| light.azimuth_deg == 90.0), "{lights:?}");
     let last = lights[lights.len() - 1];
     assert_eq!(last.azimuth_deg, 180.0);
-    // The radius of the drawn half sphere is 48 points.
+    // The radius of the drawn hemisphere is 48 points.
     assert!((last.elevation_deg - (30.0_f64 / 48.0).acos().to_degrees()).abs() < 0.1, "{last:?}");
     let told = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
     let before = &stage.scene().painting.lighting;
@@ -131,7 +131,7 @@ fn dragging_the_dome_adjusts_and_letting_it_go_settles() {
 }
 
 #[test]
-fn arrow_keys_turn_the_light_one_action_each() {
+fn each_arrow_key_is_one_action() {
     let mut stage = stage(made_painting());
     stage.harness.get_by_label("Light direction").focus();
     stage.run();
@@ -146,7 +146,7 @@ fn arrow_keys_turn_the_light_one_action_each() {
 }
 
 #[test]
-fn sliders_of_ambient_and_relief_adjust_and_settle() {
+fn ambient_and_relief_sliders_adjust_and_end() {
     for (name, most) in [("Ambient", 1.0), ("Relief", 3.0)] {
         let mut stage = stage(made_painting());
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
@@ -166,7 +166,7 @@ fn sliders_of_ambient_and_relief_adjust_and_settle() {
 }
 
 #[test]
-fn gloss_is_dragged_for_wet_and_for_dry() {
+fn wet_and_dry_gloss_are_dragged() {
     let mut stage = stage(made_painting());
     let medium = stage.scene().painting.medium.clone();
     for (name, is_wet) in [("Wet gloss", true), ("Dry gloss", false)] {
@@ -181,13 +181,13 @@ fn gloss_is_dragged_for_wet_and_for_dry() {
         let corner = Gloss { strength: 1.0, exponent: 500.0 };
         let wanted = if is_wet { (corner, medium.dry) } else { (medium.wet, corner) };
         assert_eq!((*wet, *dry), wanted, "{name}");
-        // The worker tells what it was before: the wish is not granted.
+        // The worker keeps reporting the old value.
         stage.wait(3.5);
     }
 }
 
 #[test]
-fn the_second_light_goes_on_and_off_and_changes_places() {
+fn the_second_light_is_switched_and_swapped() {
     let mut stage = stage(made_painting());
     stage.click("Second light");
     let first = stage.scene().painting.lighting.clone();
@@ -218,7 +218,7 @@ fn the_second_light_goes_on_and_off_and_changes_places() {
 }
 
 #[test]
-fn the_second_light_stands_where_the_first_is_moved_to() {
+fn the_second_light_follows_the_direction_of_the_first() {
     let mut painting = made_painting();
     painting.second_lighting =
         Some(Lighting { illuminant: "A".to_owned(), ..painting.lighting.clone() });
@@ -244,7 +244,7 @@ fn without_a_second_light_there_is_nothing_to_swap() {
 }
 
 #[test]
-fn numbers_of_the_white_are_those_of_spectra() {
+fn white_point_numbers_equal_those_of_the_library() {
     let mut stage = stage(made_painting());
     let light = stage.scene().painting.light.clone();
     let xyz = light.quadrature.white;
@@ -257,9 +257,9 @@ fn numbers_of_the_white_are_those_of_spectra() {
     for told in told {
         assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
     }
-    assert!(told_near_d65(xyz.x / sum, xyz.y / sum), "the light is D65");
+    assert!(is_near_d65(xyz.x / sum, xyz.y / sum), "the light is D65");
 }
 
-fn told_near_d65(x: f64, y: f64) -> bool {
+fn is_near_d65(x: f64, y: f64) -> bool {
     (x - 0.3127).abs() < 1e-4 && (y - 0.3290).abs() < 1e-4
 }

@@ -1,4 +1,4 @@
-//! A painting as a worker would tell of it, and a panel alone on the screen.
+//! A test painting as a worker would report it, and a window with a single panel.
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -20,7 +20,7 @@ use studio::theme;
 
 use super::harness::has_adapter;
 
-/// The pigments in the slots; the last slot is empty.
+/// Pigments in the slots; the last slot is empty.
 pub(crate) const PIGMENTS: [&str; 7] = [
     "Zinc White",
     "Chrome Yellow",
@@ -31,7 +31,7 @@ pub(crate) const PIGMENTS: [&str; 7] = [
     "Bone Black",
 ];
 
-/// A painting with seven tubes, three brushes, two dry layers and a history.
+/// State of a painting with seven tubes, three brushes, two dry layers and a history.
 pub(crate) fn painting() -> PaintingState {
     static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
     let (library, light) = LIBRARY.get_or_init(|| {
@@ -102,7 +102,7 @@ fn layer(slots: Slots, opacity: f64) -> LayerState {
     LayerState { slots, opacity, mean_mm: 0.123, max_mm: 0.81, coverage: 0.34, thumbnail }
 }
 
-/// A panel, what it sees, and what it has asked for.
+/// A panel with its context and its requests.
 pub(crate) struct Table<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
@@ -111,8 +111,8 @@ pub(crate) struct Table<P> {
 }
 
 impl<P> Table<P> {
-    /// Does something that a key would do.
-    pub(crate) fn with_desk<T>(
+    /// Calls `act` with the panel and its context, as a key would.
+    pub(crate) fn with_panel<T>(
         &mut self,
         act: impl FnOnce(&mut P, &mut PanelContext<'_>) -> T,
     ) -> T {
@@ -121,7 +121,7 @@ impl<P> Table<P> {
     }
 }
 
-/// The panel alone in a window as wide as panels are.
+/// Creates a window of the side panel's width that shows one panel.
 pub(crate) fn shown<P: 'static>(
     panel: P,
     painting: PaintingState,
@@ -150,32 +150,32 @@ pub(crate) fn shown<P: 'static>(
     harness
 }
 
-/// Clicks what has a label, and lets the window settle.
+/// Clicks the control with a label and draws until nothing changes.
 pub(crate) fn click<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
     harness.get_by_label(label).click();
     harness.run();
 }
 
-/// The same for a row of a list, which may be out of sight.
+/// Clicks a row of a list, even if it is scrolled out of view.
 pub(crate) fn pick<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
     harness.get_by_label(label).click_accesskit();
     harness.run();
 }
 
-/// Whether what has a label is grey.
+/// Whether the control with a label is disabled.
 pub(crate) fn is_disabled<P>(harness: &Harness<'_, Table<P>>, label: &str) -> bool {
     harness.get_by_label(label).accesskit_node().is_disabled()
 }
 
-/// What was requests since the last call is `wanted`, and nothing else.
+/// Asserts that the requests since the last call are `wanted`.
 #[track_caller]
 pub(crate) fn asks<P>(harness: &mut Harness<'_, Table<P>>, wanted: &[Request]) {
     let requests = std::mem::take(&mut harness.state_mut().requests);
-    assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "what was requests, and wanted");
+    assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "requests differ");
 }
 
-/// The window as it looks, also written to the folder for temporary files; none,
-/// said, without a graphics adapter.
+/// Renders the window and saves the picture below `target/tmp`; `None` without a
+/// graphics adapter.
 pub(crate) fn picture<P>(
     harness: &mut Harness<'_, Table<P>>,
     name: &str,

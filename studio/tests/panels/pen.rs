@@ -1,4 +1,4 @@
-//! A pen that tells pressure and tilt, over the whole window.
+//! Tests of pen input in the whole window.
 
 use std::time::{Duration, Instant};
 
@@ -9,14 +9,14 @@ use studio::pen::{Device, PointerState, Report, ReportKind, Script};
 
 use super::harness::{Window, button};
 
-/// A hold at a place of the canvas, in mm.
+/// Pointer state at a position of the canvas, in mm.
 fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
     let at = window.point(SurfaceId::Canvas, x_mm, y_mm);
     PointerState { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
 }
 
-/// Plays a stroke from 6 to 26 mm, 200 reports a second, in frames of 20 ms, with a
-/// brush full of paint; gives where it ends.
+/// Plays a stroke of a loaded brush from x = 6 to 26 mm with 200 reports per second in
+/// frames of 20 ms. Returns its end in the window.
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     window.click("Load from tube");
     let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
@@ -36,7 +36,7 @@ fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     end
 }
 
-/// Pixels that differ, of rows around a place of the canvas.
+/// Number of pixels that differ in the rows around a position of the canvas.
 fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) -> usize {
     let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(SurfaceId::Canvas, 2.0, y));
     let right = window.point(SurfaceId::Canvas, 30.0, y_mm).x as u32;
@@ -46,13 +46,13 @@ fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) ->
 }
 
 #[test]
-fn a_pen_that_presses_harder_paints_broader() {
+fn more_pressure_paints_a_broader_stroke() {
     let mut window = Window::open("pen-pressure");
     let Some(before) = window.picture() else { return };
     for (y_mm, pressure) in [(5.0, 0.8), (15.0, 0.15)] {
         stroke(&mut window, y_mm, pressure);
     }
-    // No brush is shown over the paint.
+    // The cursor must not cover the paint.
     let (device, arrived, kind) = (Device::Pen, Instant::now(), ReportKind::Gone);
     window.studio_mut().pen.feed(Report { device, arrived, kind });
     window.settle();
@@ -64,10 +64,10 @@ fn a_pen_that_presses_harder_paints_broader() {
 }
 
 #[test]
-fn what_the_system_also_tells_as_a_mouse_makes_no_second_stroke() {
+fn mouse_events_emulated_for_a_pen_make_no_second_stroke() {
     let mut window = Window::open("pen-mouse");
     let end = stroke(&mut window, 5.0, 0.5);
-    // It comes late, as on another connection.
+    // The mouse events arrive late, as from another connection.
     window.frame(vec![Event::PointerMoved(end), button(end, true)]);
     assert!(!window.studio().pen.is_down(), "the pen is near");
     window.frame(vec![button(end, false)]);
@@ -78,7 +78,7 @@ fn what_the_system_also_tells_as_a_mouse_makes_no_second_stroke() {
 }
 
 #[test]
-fn keys_turn_the_brush_that_a_mouse_leads() {
+fn keys_rotate_a_brush_moved_by_the_mouse() {
     let mut window = Window::open("pen-twist");
     window.key(Modifiers::NONE, Key::Period);
     window.key(Modifiers::NONE, Key::Period);

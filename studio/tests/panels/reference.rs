@@ -1,4 +1,4 @@
-//! Of the reference picture: read beside the window, looked at, colours taken.
+//! Tests of the reference picture.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -15,7 +15,7 @@ use studio::panels::reference::Reference;
 
 use super::stage::{Stage, made_painting};
 
-/// Four fields of colour, 400 x 200 pixels.
+/// Colours of the four fields of the test picture, 400 x 200 pixels.
 const FIELDS: [[u8; 3]; 4] = [[200, 30, 20], [240, 220, 40], [20, 60, 160], [90, 90, 90]];
 
 fn file(name: &str) -> PathBuf {
@@ -45,7 +45,7 @@ fn panel(stage: &Stage<Reference>) -> Rect {
     stage.harness.get_by_label("Reference picture").rect()
 }
 
-/// Where a share of the fitted picture's width and height is shown.
+/// Window position of a point of the fitted picture, by shares of width and height.
 fn at(stage: &Stage<Reference>, x: f32, y: f32) -> Pos2 {
     let panel = panel(stage);
     let zoom = (panel.width() / 400.0).min(panel.height() / 200.0);
@@ -59,13 +59,13 @@ fn click(stage: &mut Stage<Reference>, place: Pos2) {
     stage.run();
 }
 
-/// The colour wanted, in 8 bits.
+/// Picked colour as 8-bit sRGB.
 fn wanted(stage: &mut Stage<Reference>) -> Option<[u8; 3]> {
     stage.scene().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
 }
 
 #[test]
-fn a_click_takes_the_color_that_is_shown_there() {
+fn a_click_picks_the_color_shown_there() {
     let mut stage = stage("click.png");
     stage.save("reference");
     for (index, (x, y)) in
@@ -82,7 +82,7 @@ fn a_click_takes_the_color_that_is_shown_there() {
 }
 
 #[test]
-fn dragging_shows_the_color_and_takes_it_when_let_go() {
+fn dragging_shows_the_color_and_picks_it_on_release() {
     let mut stage = stage("drag.png");
     let (from, to) = (at(&stage, 0.25, 0.25), at(&stage, 0.75, 0.75));
     stage.harness.hover_at(from);
@@ -97,7 +97,7 @@ fn dragging_shows_the_color_and_takes_it_when_let_go() {
 }
 
 #[test]
-fn the_mean_is_of_the_radius_in_linear_light() {
+fn the_mean_over_the_radius_is_in_linear_light() {
     let mut stage = stage("mean.png");
     let middle = at(&stage, 0.5, 0.25);
     click(&mut stage, middle);
@@ -105,14 +105,14 @@ fn the_mean_is_of_the_radius_in_linear_light() {
     let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
     let (left, right) = (linear(FIELDS[0]), linear(FIELDS[1]));
     for ((found, left), right) in found.iter().zip(left).zip(right) {
-        // Pixels on both sides alike, but for those on the rim.
+        // Equal numbers of pixels on both sides, except at the rim.
         let share = (found - left) / (right - left);
         assert!((share - 0.5).abs() < 0.15, "{share}");
     }
 }
 
 #[test]
-fn flipped_left_is_right_and_the_colors_follow() {
+fn a_flipped_picture_exchanges_left_and_right() {
     let mut stage = stage("flip.png");
     stage.click("Flip");
     stage.click("Grey");
@@ -141,7 +141,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     stage.wait(1.0);
     click(&mut stage, about);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "the pointer's place stays");
-    // The border at the middle was 20 pixels to the right and is farther away now.
+    // The boundary was 20 pixels to the right and is farther away after zooming.
     let right = about + vec2(30.0, 0.0);
     click(&mut stage, right);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "enlarged, it is of the same field");
@@ -170,7 +170,7 @@ fn drag_middle(stage: &mut Stage<Reference>, from: Pos2, by: Vec2) {
 }
 
 #[test]
-fn pictures_are_asked_of_the_files_and_closed() {
+fn pictures_are_requested_from_the_files_and_closed() {
     let mut stage = stage("close.png");
     stage.click("Open picture");
     assert_eq!(stage.requests(), [FileRequest::OpenReference(None)]);
@@ -181,7 +181,7 @@ fn pictures_are_asked_of_the_files_and_closed() {
 }
 
 #[test]
-fn a_file_that_is_no_picture_is_told_with_its_name() {
+fn an_unreadable_picture_shows_an_error_with_its_name() {
     let path = file("broken.png");
     std::fs::write(&path, "no picture").unwrap();
     let mut stage =

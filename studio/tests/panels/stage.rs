@@ -1,4 +1,4 @@
-//! One panel by itself, on a painting that is told to it.
+//! A window with one panel and a fixed painting.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use studio::theme;
 use super::harness::has_adapter;
 use super::made::painting;
 
-/// A panel with what it sees and asks for.
+/// A panel with its context and its requests.
 pub(crate) struct Scene<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
@@ -28,7 +28,7 @@ pub(crate) struct Stage<P: 'static> {
 }
 
 impl<P> Stage<P> {
-    /// `panel`, shown by `show`, in a window of `size` points.
+    /// Creates a window of `size` points in which `show` draws `panel`.
     pub(crate) fn new(
         panel: P,
         size: Vec2,
@@ -65,24 +65,24 @@ impl<P> Stage<P> {
         self.harness.state_mut()
     }
 
-    /// Clicks what has this label.
+    /// Clicks the control with this label.
     pub(crate) fn click(&mut self, label: &str) {
         self.harness.get_by_label(label).click();
         self.run();
     }
 
-    /// Frames until nothing moves any more.
+    /// Draws frames until nothing changes.
     pub(crate) fn run(&mut self) {
         self.harness.step();
         self.harness.run_ok();
     }
 
-    /// Frames until `seconds` of the harness's clock have passed.
+    /// Draws frames for `seconds` of the harness's clock.
     pub(crate) fn wait(&mut self, seconds: f64) {
         self.harness.run_steps((seconds * 60.0).ceil() as usize);
     }
 
-    /// Leads the mouse with its first button down, a frame for each place.
+    /// Drags the mouse with the primary button, one frame for each position.
     pub(crate) fn drag(&mut self, along: &[Pos2]) {
         self.harness.hover_at(along[0]);
         self.harness.drag_at(along[0]);
@@ -95,7 +95,7 @@ impl<P> Stage<P> {
         self.run();
     }
 
-    /// What was asked for since the last call, of the worker.
+    /// Commands for the worker since the last call.
     pub(crate) fn commands(&mut self) -> Vec<Command> {
         let requests = std::mem::take(&mut self.scene().requests);
         let commands = requests.into_iter().map(|request| match request {
@@ -105,7 +105,7 @@ impl<P> Stage<P> {
         commands.collect()
     }
 
-    /// What was asked for since the last call, of the files.
+    /// File requests since the last call.
     pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
         let requests = std::mem::take(&mut self.scene().requests);
         let requests = requests.into_iter().map(|request| match request {
@@ -115,7 +115,7 @@ impl<P> Stage<P> {
         requests.collect()
     }
 
-    /// Draws the panel into `target/tmp/NAME.png`, where there is an adapter.
+    /// Renders the panel into `target/tmp/NAME.png` if there is an adapter.
     pub(crate) fn save(&mut self, name: &str) {
         if !has_adapter() {
             return;
@@ -127,7 +127,7 @@ impl<P> Stage<P> {
     }
 }
 
-/// Van Gogh's oils on a bare canvas of 1920 x 1080 cells, a clean round brush.
+/// A blank canvas of 1920 x 1080 cells with Van Gogh's oils and a clean round brush.
 pub(crate) fn made_painting() -> PaintingState {
     let made = painting();
     let mut slots = [None; SLOTS];
@@ -155,6 +155,6 @@ pub(crate) fn made_painting() -> PaintingState {
     }
 }
 
-/// On the palette: six, with room for two.
+/// Pigments on the palette: six, with two free slots.
 const TUBES: [&str; 6] =
     ["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine", "Prussian Blue", "Bone Black"];

@@ -1,4 +1,4 @@
-//! Of tubes.
+//! Tests of the tube panel.
 
 use eframe::egui::{Event, PointerButton, Pos2, accesskit::Role};
 use egui_kittest::Harness;
@@ -29,7 +29,7 @@ fn load(name: &str) -> Request {
 }
 
 #[test]
-fn a_click_chooses_a_tube_for_squeezing_and_asks_nothing() {
+fn a_click_selects_a_tube_and_sends_nothing() {
     let mut harness = tubes();
     click(&mut harness, "tube of Vermilion");
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (2, Mode::Squeeze));
@@ -39,7 +39,7 @@ fn a_click_chooses_a_tube_for_squeezing_and_asks_nothing() {
 }
 
 #[test]
-fn a_double_click_and_the_button_load_the_brush_in_hand() {
+fn a_double_click_or_the_button_loads_the_selected_brush() {
     let mut harness = tubes();
     let tube = harness.get_by_label("tube of Ultramarine");
     tube.click();
@@ -52,14 +52,14 @@ fn a_double_click_and_the_button_load_the_brush_in_hand() {
 }
 
 #[test]
-fn squeezing_gives_the_amount_of_the_slider_where_it_was_asked() {
+fn squeezing_uses_the_slider_amount_at_the_given_position() {
     let mut harness = tubes();
     let slider = harness.get_by_role_and_label(Role::Slider, "Amount");
     slider.set_value_accesskit(125.0);
     harness.run();
     let table = harness.state_mut();
-    table.with_desk(|_, cx| squeeze(cx, 3, SurfaceId::Palette, 4.5, 7.25));
-    table.with_desk(|_, cx| squeeze(cx, 7, SurfaceId::Palette, 4.5, 7.25));
+    table.with_panel(|_, cx| squeeze(cx, 3, SurfaceId::Palette, 4.5, 7.25));
+    table.with_panel(|_, cx| squeeze(cx, 7, SurfaceId::Palette, 4.5, 7.25));
     let heap = Squeeze {
         on: SurfaceId::Palette,
         recipe: pure("Eosin Lake"),
@@ -72,7 +72,7 @@ fn squeezing_gives_the_amount_of_the_slider_where_it_was_asked() {
 }
 
 #[test]
-fn a_tube_is_dragged_by_its_slot() {
+fn a_dragged_tube_carries_its_slot() {
     let mut harness = tubes();
     let from = harness.get_by_label("tube of Chrome Yellow").rect().center();
     harness.hover_at(from);
@@ -89,7 +89,7 @@ fn a_tube_is_dragged_by_its_slot() {
 }
 
 #[test]
-fn another_pigment_takes_a_slot_and_all_others_stay() {
+fn a_new_pigment_replaces_one_slot_only() {
     let mut harness = tubes();
     click(&mut harness, "Tubes...");
     click(&mut harness, "slot 5");
@@ -116,7 +116,7 @@ fn another_pigment_takes_a_slot_and_all_others_stay() {
 }
 
 #[test]
-fn searching_leaves_the_pigments_that_have_the_words() {
+fn searching_lists_only_matching_pigments() {
     let mut harness = tubes();
     click(&mut harness, "empty slot 8");
     click(&mut harness, "Search");
@@ -127,10 +127,10 @@ fn searching_leaves_the_pigments_that_have_the_words() {
 }
 
 #[test]
-fn a_tube_is_exchanged_in_every_layer_that_has_it_and_can() {
+fn a_pigment_is_exchanged_in_every_layer_where_possible() {
     let mut harness = tubes();
     let blue = harness.state().painting.library.find("Cobalt Blue").unwrap();
-    // The upper dry layer has the new pigment already, and stays.
+    // The upper dry layer already has the new pigment and stays unchanged.
     harness.state_mut().painting.layers[1].slots[7] = Some(blue);
     harness.get_by_label("tube of Ultramarine").click_secondary();
     harness.run();
@@ -145,7 +145,7 @@ fn a_tube_is_exchanged_in_every_layer_that_has_it_and_can() {
 }
 
 #[test]
-fn the_menu_of_a_tube_loads_squeezes_and_puts_another_there() {
+fn the_menu_of_a_tube_loads_squeezes_and_replaces() {
     let mut harness = tubes();
     let mut choose = |item: &str| {
         harness.get_by_label("tube of Viridian").click_button(PointerButton::Secondary);
@@ -174,10 +174,10 @@ fn without_a_brush_or_a_pigment_nothing_can_be_loaded() {
 }
 
 #[test]
-fn the_card_of_a_tube_tells_its_figures() {
+fn the_card_of_a_tube_shows_its_figures() {
     let mut harness = tubes();
     harness.get_by_label("tube of Zinc White").hover();
-    // A card shows after half a second.
+    // The tooltip appears after half a second.
     harness.run_steps(40);
     let painting = painting();
     let cards = Cards::standard(painting.library.grid);
@@ -195,7 +195,7 @@ fn the_card_of_a_tube_tells_its_figures() {
 }
 
 #[test]
-fn tubes_show_the_colors_as_they_are() {
+fn tubes_show_the_colors_of_their_paint() {
     let mut harness = tubes();
     let drawn = picture(&mut harness, "tubes");
     for (slot, name) in PIGMENTS.into_iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Light, eyedropper and reference picture in the whole window, on a real worker.
+//! Tests of light, eyedropper and reference picture in the whole window with a real
+//! worker.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,14 +14,14 @@ use studio::panels::Mode;
 
 use super::harness::Window;
 
-/// Presses and releases the mouse at a place of a surface.
+/// Clicks at a position of a surface, in mm.
 fn press(window: &mut Window, surface: SurfaceId, x_mm: f64, y_mm: f64) {
     let place = window.point(surface, x_mm, y_mm);
     window.pen_stroke(&[place, place]);
     window.settle();
 }
 
-/// Draws frames until there is something with this label.
+/// Draws frames until a control with this label exists.
 fn wait_for(window: &mut Window, label: &str) {
     for _ in 0..6000 {
         if window.harness().query_by_label(label).is_some() {
@@ -32,7 +33,7 @@ fn wait_for(window: &mut Window, label: &str) {
     panic!("there is no {label}");
 }
 
-/// A file as a window system drops it.
+/// A file dropped by the window system.
 #[derive(Debug)]
 struct Dropped(PathBuf);
 
@@ -61,12 +62,12 @@ fn squeeze(window: &mut Window, recipe: &[(&str, f64)]) {
 }
 
 #[test]
-fn a_place_of_the_palette_is_picked_matched_loaded_and_laid_out() {
+fn picked_palette_paint_is_matched_loaded_and_squeezed() {
     let mut window = Window::open("picked-and-matched");
     squeeze(&mut window, &[("Zinc White", 3.0), ("Ultramarine", 1.0)]);
     window.studio_mut().tools.mode = Mode::Pick;
     press(&mut window, SurfaceId::Palette, 20.0, 15.0);
-    // The eyedropper comes to the front and tells the mixture.
+    // The eyedropper tab is selected and shows the mixture.
     wait_for(&mut window, "Copy Wet");
     assert!(window.harness().query_by_label_contains("20 % medium").is_some(), "its medium");
     window.click("Find recipes");
@@ -102,7 +103,7 @@ fn a_place_of_the_palette_is_picked_matched_loaded_and_laid_out() {
 }
 
 #[test]
-fn another_illuminant_is_chosen_and_the_brush_shows_it() {
+fn a_new_illuminant_changes_the_color_of_the_brush() {
     let mut window = Window::open("relit");
     let load = Load {
         brush: "round".to_owned(),
@@ -166,7 +167,7 @@ fn a_color_of_the_reference_picture_finds_recipes() {
 }
 
 #[test]
-fn a_dropped_file_of_colors_is_shown_to_be_matched() {
+fn a_dropped_swatch_file_is_shown() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("dropped.gpl");
     std::fs::write(&path, "GIMP Palette\n#\n 120 96 60 Umber\n").unwrap();
     let mut window = Window::open("dropped-colours");

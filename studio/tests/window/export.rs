@@ -1,4 +1,4 @@
-//! What the engine itself makes of a saved painting, and where it is on a screen.
+//! The engine's own export of a saved painting, compared with the screen.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,13 +11,13 @@ use render::paint::{file, scene};
 use crate::program::Program;
 use crate::screen::{CONTROL, Pixels, until};
 
-/// The painting in a file.
+/// Reads a painting file.
 pub(crate) fn painting(path: &Path) -> Document {
     let bytes = std::fs::read(path).expect("the painting was saved");
     file::read(&path.display().to_string(), &bytes).expect("it is a painting")
 }
 
-/// Its picture as 8-bit PNG, as `impasto relight PAINTING --png` makes it.
+/// Renders a painting as `impasto relight PAINTING --png` does.
 pub(crate) fn exported(document: &Document) -> Pixels {
     let lighting = &document.lighting;
     let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer);
@@ -29,14 +29,14 @@ pub(crate) fn exported(document: &Document) -> Pixels {
     Pixels { width, height, rows: picture.pixels().map(|pixel| pixel.0).collect() }
 }
 
-/// Waits until the canvas on the screen is `picture`, one cell a pixel: every
-/// pixel of the room for it, to the bit. Gives how many those are.
+/// Waits until the visible part of the canvas equals `picture`, one cell per pixel, to
+/// the bit. Returns the number of pixels compared.
 pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
     let (screen, (x, y)) = (program.screen, &program.room);
     screen.aside();
     let began = Instant::now();
     until("the screen shows the picture of the file", || {
-        // A painting that is taken up is shown whole, so this comes after it.
+        // Opening a painting fits it into the view, so the zoom is set afterwards.
         screen.key(u32::from('1'), &[CONTROL]);
         let shown = screen.still(x.clone(), y.clone());
         let found = seen(program, picture).filter(|seen| *seen == shown);
@@ -49,7 +49,7 @@ pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
     })
 }
 
-/// What of the picture lies in the room, by where the program says it is.
+/// Part of the picture that is visible, from the position that the program reports.
 fn seen(program: &Program<'_>, picture: &Pixels) -> Option<Pixels> {
     let [left, top, right, bottom] = program.canvas()?;
     let whole = left.fract() == 0.0 && top.fract() == 0.0;

@@ -1,9 +1,8 @@
-//! The program itself, in a window on a screen that nobody sees: started,
-//! painted with, saved, killed.
+//! The program in a window on a virtual screen: starting, painting, saving, killing.
 //!
-//! It needs Xvfb and an adapter (software will do). Without them the tests pass
-//! and say so; if the variable `IMPASTO_GPU_TESTS` names a file, each adds a line
-//! to it: the adapter, or `none`.
+//! Needs Xvfb and a graphics adapter (software will do). Without them the tests pass
+//! and print a note. If the variable `IMPASTO_GPU_TESTS` names a file, each test
+//! appends the adapter's name or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -22,7 +21,7 @@ use std::io::Write;
 use render::gpu::{BackendChoice, choose};
 use screen::Screen;
 
-/// A screen to show a window on, where that can be had.
+/// Starts a virtual screen, if Xvfb and an adapter are available.
 fn screen(width: u16, height: u16) -> Option<Screen> {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let adapter = device.map_or_else(|| "none".to_owned(), |is| is.adapter().name.clone());

@@ -6,7 +6,7 @@ use crate::export::{exported, painting, shows};
 use crate::program::{Program, keep_preferences};
 use crate::screen::{CONTROL, Pixels, RETURN, SHIFT, until};
 
-/// Two captures that are equal; else both are kept to be looked at.
+/// Asserts that two captures are equal; saves both for inspection if not.
 fn same(what: &str, before: &Pixels, after: &Pixels) {
     let differing = before.differing(after);
     if differing > 0 {
@@ -16,7 +16,7 @@ fn same(what: &str, before: &Pixels, after: &Pixels) {
 }
 
 #[test]
-fn a_painting_is_painted_saved_and_reopened_as_the_engine_exports_it() {
+fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     let Some(screen) = crate::screen(1280, 800) else { return };
     let folder = tempfile::Builder::new().prefix("window").tempdir().unwrap();
     let home = folder.path().join("home");
@@ -30,7 +30,7 @@ fn a_painting_is_painted_saved_and_reopened_as_the_engine_exports_it() {
         screen.aside();
         screen.still(x.clone(), y.clone())
     };
-    // What is shown once something has happened to it.
+    // Capture the canvas after a change.
     let changed = |what: &str, before: &Pixels| {
         until(what, || Some(now()).filter(|after| before.differing(after) > 1_000))
     };
@@ -51,7 +51,7 @@ fn a_painting_is_painted_saved_and_reopened_as_the_engine_exports_it() {
     let path = folder.path().join("study.exr");
     screen.key(u32::from('s'), &[CONTROL]);
     screen.still(x.clone(), y.clone());
-    // The field of the name has the keyboard.
+    // The name field has the keyboard focus.
     screen.text("study");
     screen.key(RETURN, &[]);
     until("the painting is saved", || path.exists().then_some(()));
@@ -64,7 +64,7 @@ fn a_painting_is_painted_saved_and_reopened_as_the_engine_exports_it() {
     let status = program.quit();
     assert!(status.success(), "{status}");
 
-    // In a new process, on a larger screen.
+    // Reopen in a new process on a larger screen.
     let Some(screen) = crate::screen(1920, 1080) else { return };
     let program = Program::start(&screen, &home, "1920x1080", &[&path]);
     let covered = shows(&program, &picture);

@@ -1,4 +1,4 @@
-//! The program as a painter starts it.
+//! The program as a child process.
 
 use std::io::Write;
 use std::ops::Range;
@@ -9,25 +9,25 @@ use studio::files::{Home, Preferences};
 
 use crate::screen::{CONTROL, Screen, until};
 
-/// Writes what the painter prefers where a program of this home reads it.
+/// Writes preferences into the home folder of the program.
 pub(crate) fn keep_preferences(home: &Path, preferences: &Preferences) {
     let path = Home::in_folder(home).preferences();
     std::fs::create_dir_all(path.parent().expect("it is in a folder")).expect("a folder is made");
     preferences.write(&path).expect("preferences are written");
 }
 
-/// The program, running on a screen.
+/// The program, running on a virtual screen.
 pub(crate) struct Program<'a> {
     pub(crate) screen: &'a Screen,
-    /// Columns and rows of the screen in which the canvas is.
+    /// Columns and rows of the screen that the canvas view covers.
     pub(crate) room: (Range<usize>, Range<usize>),
     child: Child,
     figures: PathBuf,
 }
 
 impl<'a> Program<'a> {
-    /// Starts it on a screen, with a home of its own, and waits for its window
-    /// and the first picture.
+    /// Starts the program with its own home folder, and waits for its window and first
+    /// picture.
     pub(crate) fn start(screen: &'a Screen, home: &Path, size: &str, arguments: &[&Path]) -> Self {
         let figures = home.join("figures.jsonl");
         let _ = std::fs::remove_file(&figures);
@@ -53,7 +53,7 @@ impl<'a> Program<'a> {
         program
     }
 
-    /// A place of the room, by shares of its width and height.
+    /// Position in the canvas view by shares of its width and height.
     pub(crate) fn at(&self, across: f64, down: f64) -> (i32, i32) {
         let place = |range: &Range<usize>, share: f64| {
             (range.start as f64 + share * range.len() as f64) as i32
@@ -61,8 +61,9 @@ impl<'a> Program<'a> {
         (place(&self.room.0, across), place(&self.room.1, down))
     }
 
-    /// Where the canvas is on the screen, in pixels: left, top, right, bottom. Told
-    /// once a second; the window has no frame and is at the corner.
+    /// Position of the canvas on the screen in pixels: left, top, right, bottom, from
+    /// the log that the program writes once a second. The window has no frame and
+    /// stands in the corner.
     pub(crate) fn canvas(&self) -> Option<[f64; 4]> {
         let text = std::fs::read_to_string(&self.figures).ok()?;
         let line: serde_json::Value = serde_json::from_str(text.lines().last()?).ok()?;
@@ -70,25 +71,25 @@ impl<'a> Program<'a> {
         sides.collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 
-    /// Columns and rows of the screen that the canvas covers while all of it is
-    /// seen, as at first: whatever the zoom, nothing else is there later.
+    /// Columns and rows of the screen that the canvas covers when fitted, as at the
+    /// start. Only the canvas is drawn there, whatever the zoom.
     fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
         let [left, top, right, bottom] = self.canvas()?;
         let whole = |from: f64, to: f64| from.ceil() as usize..to.floor() as usize;
         let (x, y) = (whole(left, right), whole(top, bottom));
-        // The window has its size a moment after it is there.
+        // The window gets its size shortly after it appears.
         let (width, height) = self.screen.size();
         let wide = x.len() > width / 2;
         (left > 0.0 && top > 0.0 && wide && x.end < width && y.end < height).then_some((x, y))
     }
 
-    /// Ends it as a painter does.
+    /// Closes the program through its menu key.
     pub(crate) fn quit(mut self) -> ExitStatus {
         self.screen.key(u32::from('q'), &[CONTROL]);
         until("the program ends", || self.child.try_wait().expect("a process is told of"))
     }
 
-    /// Ends it as a crash does: at once, nothing asked.
+    /// Kills the process, as a crash would.
     pub(crate) fn kill(mut self) {
         self.child.kill().expect("it was running");
         self.child.wait().expect("it ended");

@@ -1,4 +1,4 @@
-//! What is left when the program is killed.
+//! Recovery of a painting after the program was killed.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -14,7 +14,7 @@ use crate::screen::{CONTROL, Pixels, until};
 /// Seconds between autosaves.
 const AUTOSAVE: u64 = 2;
 
-/// The newest painting that autosave keeps below `home`, and when it was written.
+/// Newest autosaved painting below `home`, and its time of writing.
 fn kept(home: &Path) -> Option<(PathBuf, SystemTime)> {
     let entries = |folder: &Path| {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
@@ -34,13 +34,13 @@ fn kept(home: &Path) -> Option<(PathBuf, SystemTime)> {
     found.max_by_key(|(_, written)| *written)
 }
 
-/// All wet paint of a painting, in quanta.
+/// Total wet paint of a painting, in quanta.
 fn wet(document: &Document) -> u64 {
     document.wet.totals().iter().sum()
 }
 
-/// The middle of the left one of two buttons side by side, just below the menus:
-/// that which recovers. Both are evenly of the colour of buttons but for words.
+/// Finds the centre of the recover button: the left of two equal buttons below the menu
+/// bar, recognized by the colour of buttons.
 fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
     let fill = [theme::BUTTON.r(), theme::BUTTON.g(), theme::BUTTON.b()];
     for y in 44..120 {
@@ -57,7 +57,7 @@ fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
 }
 
 #[test]
-fn a_kill_within_a_stroke_loses_no_more_than_the_seconds_since_the_last_autosave() {
+fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     let Some(screen) = crate::screen(1280, 800) else { return };
     let folder = tempfile::Builder::new().prefix("window").tempdir().unwrap();
     let home = folder.path().join("home");
@@ -72,7 +72,7 @@ fn a_kill_within_a_stroke_loses_no_more_than_the_seconds_since_the_last_autosave
         let document = painting(&kept(&home)?.0);
         (wet(&document) > 0).then_some(document)
     });
-    // A stroke that does not end; it is killed when some of it has been kept.
+    // Kill the program during a long stroke, once part of it was autosaved.
     screen.begin_drag(at(0.2, 0.5), at(0.8, 0.5), 4.0);
     let some = until("some of the open stroke is kept", || {
         let document = painting(&kept(&home)?.0);
@@ -85,8 +85,7 @@ fn a_kill_within_a_stroke_loses_no_more_than_the_seconds_since_the_last_autosave
     screen.button(false);
     let (canvas, written) = kept(&home).expect("the autosave stands");
     let lost = killed.duration_since(written).unwrap_or_default();
-    // How long ago that was is the machine's matter; that it was within the stroke
-    // is the program's.
+    // The delay depends on the machine, but the autosave must date from the stroke.
     eprintln!("killed {:.1} s after the last autosave", lost.as_secs_f64());
     let last = painting(&canvas);
     assert!(wet(&last) >= wet(&some), "autosaves go forwards");
@@ -99,6 +98,6 @@ fn a_kill_within_a_stroke_loses_no_more_than_the_seconds_since_the_last_autosave
     assert_eq!(covered, x.len() * y.len());
     let now = screen.pixels(x.clone(), y.clone());
     assert!(before.differing(&now) > 0, "what came after the autosave is lost");
-    // It would ask about what is in no file yet.
+    // Quitting would ask about the unsaved painting.
     program.kill();
 }

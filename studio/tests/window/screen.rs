@@ -1,4 +1,4 @@
-//! A screen that nobody sees, with a hand on its keyboard and pointer.
+//! A virtual X screen with simulated keyboard and pointer.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -10,45 +10,45 @@ use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
 
-/// Keys that write nothing, as X names them (keysymdef.h).
+/// Keysyms of keys that produce no text (keysymdef.h).
 pub(crate) const RETURN: u32 = 0xff0d;
 pub(crate) const CONTROL: u32 = 0xffe3;
 pub(crate) const SHIFT: u32 = 0xffe1;
 
-/// An X server and what it shows.
+/// A running X server.
 pub(crate) struct Screen {
     server: Child,
-    /// What programs are told as `DISPLAY`.
+    /// Value of `DISPLAY` for programs.
     pub(crate) name: String,
     connection: RustConnection,
     root: u32,
     size: (u16, u16),
-    /// By key: what it writes plain, and with shift.
+    /// For each key code its keysyms without and with shift.
     keys: Vec<(u8, u32, u32)>,
 }
 
-/// A part of the screen.
+/// Pixels of a part of the screen.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct Pixels {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Red, green, blue, row by row.
+    /// Red, green and blue bytes, row by row.
     pub(crate) rows: Vec<[u8; 3]>,
 }
 
 impl Pixels {
-    /// The pixel of a column and a row.
+    /// Pixel at a column and row.
     pub(crate) fn at(&self, x: usize, y: usize) -> [u8; 3] {
         self.rows[y * self.width + x]
     }
 
-    /// How many pixels differ from another picture of the same size.
+    /// Number of pixels that differ from another picture of equal size.
     pub(crate) fn differing(&self, other: &Self) -> usize {
         assert_eq!((self.width, self.height), (other.width, other.height), "two sizes");
         self.rows.iter().zip(&other.rows).filter(|(a, b)| a != b).count()
     }
 
-    /// Keeps it where a person can look at it.
+    /// Saves the picture for inspection and returns its path.
     pub(crate) fn keep(&self, name: &str) -> String {
         let thread = std::thread::current();
         let test = thread.name().and_then(|name| name.split("::").next()).unwrap_or("window");
@@ -62,7 +62,7 @@ impl Pixels {
 }
 
 impl Screen {
-    /// A screen of this size; `None` without Xvfb.
+    /// Starts a screen of this size in pixels; `None` without Xvfb.
     pub(crate) fn start(width: u16, height: u16) -> Option<Self> {
         let size = format!("{width}x{height}x24");
         let mut command = Command::new("Xvfb");
@@ -87,8 +87,8 @@ impl Screen {
         Some(Self { server, name, connection, root, size: (width, height), keys })
     }
 
-    /// Waits for a program's window, and gives it the keyboard: there is nobody
-    /// else to do so.
+    /// Waits for a program's window and gives it the keyboard focus, as there is no
+    /// window manager.
     pub(crate) fn focus_window(&self) {
         let window = until("a window is shown", || {
             let tree = self.connection.query_tree(self.root).unwrap().reply().unwrap();
@@ -106,7 +106,7 @@ impl Screen {
             .expect("the window takes the keyboard");
     }
 
-    /// Presses a key that writes `writes`, while others are held.
+    /// Presses and releases the key of a keysym while others are held.
     pub(crate) fn key(&self, writes: u32, held: &[u32]) {
         let (code, shifted) = self.code(writes);
         let mut held = held.to_vec();
@@ -119,7 +119,7 @@ impl Screen {
         self.fake(xproto::KEY_RELEASE_EVENT, code);
         codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code));
         self.connection.sync().expect("the server is there");
-        // A frame sees a key with what is held beside it.
+        // Give the program a frame in which it sees key and modifiers.
         std::thread::sleep(Duration::from_millis(40));
     }
 
@@ -139,14 +139,14 @@ impl Screen {
         self.connection.sync().expect("the server is there");
     }
 
-    /// Presses the pointer's first button, or lets it go.
+    /// Presses or releases the primary button.
     pub(crate) fn button(&self, pressed: bool) {
         let kind = if pressed { xproto::BUTTON_PRESS_EVENT } else { xproto::BUTTON_RELEASE_EVENT };
         self.fake(kind, 1);
         self.connection.sync().expect("the server is there");
     }
 
-    /// Clicks at a place.
+    /// Clicks at a position.
     pub(crate) fn click(&self, at: (i32, i32)) {
         self.point(at);
         std::thread::sleep(Duration::from_millis(80));
@@ -155,13 +155,13 @@ impl Screen {
         self.button(false);
     }
 
-    /// Leads the pressed pointer along a line, at 125 places a second.
+    /// Drags along a line with 125 pointer positions per second.
     pub(crate) fn drag(&self, from: (i32, i32), to: (i32, i32), seconds: f64) {
         self.begin_drag(from, to, seconds);
         self.button(false);
     }
 
-    /// As [`Self::drag`], but the button stays pressed.
+    /// Drags along a line and keeps the button pressed.
     pub(crate) fn begin_drag(&self, from: (i32, i32), to: (i32, i32), seconds: f64) {
         self.point(from);
         std::thread::sleep(Duration::from_millis(60));
@@ -174,7 +174,7 @@ impl Screen {
         }
     }
 
-    /// What is shown in columns `x` and rows `y`.
+    /// Captures columns `x` and rows `y`.
     pub(crate) fn pixels(&self, x: std::ops::Range<usize>, y: std::ops::Range<usize>) -> Pixels {
         let (width, height) = (x.len(), y.len());
         assert!(x.end <= self.size.0.into() && y.end <= self.size.1.into(), "beyond the screen");
@@ -200,22 +200,22 @@ impl Screen {
         Pixels { width, height, rows }
     }
 
-    /// Columns and rows.
+    /// Width and height in pixels.
     pub(crate) fn size(&self) -> (usize, usize) {
         (self.size.0.into(), self.size.1.into())
     }
 
-    /// Puts the pointer on the line below, where it shows nothing over a canvas.
+    /// Moves the pointer to the status line, so that it draws no cursor on the canvas.
     pub(crate) fn aside(&self) {
         self.point((120, i32::from(self.size.1) - 8));
     }
 
-    /// The whole screen.
+    /// Captures the whole screen.
     pub(crate) fn all(&self) -> Pixels {
         self.pixels(0..self.size.0.into(), 0..self.size.1.into())
     }
 
-    /// What is shown there once it has not changed for two seconds.
+    /// Captures a part of the screen once it has not changed for two seconds.
     pub(crate) fn still(&self, x: std::ops::Range<usize>, y: std::ops::Range<usize>) -> Pixels {
         let mut last = self.pixels(x.clone(), y.clone());
         let mut since = Instant::now();
@@ -247,7 +247,7 @@ impl Drop for Screen {
     }
 }
 
-/// What `found` gives, as soon as it gives something; for two minutes.
+/// Polls `found` until it returns a value, for at most two minutes.
 pub(crate) fn until<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {

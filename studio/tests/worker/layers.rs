@@ -1,4 +1,4 @@
-//! What is told of layers, brushes and tubes.
+//! Reported state of layers, brushes and tubes.
 
 use render::amount::mm_from_quanta;
 use render::gpu::BackendChoice;
@@ -8,7 +8,7 @@ use super::pen::{load, wander};
 use super::window::Window;
 
 #[test]
-fn layers_are_told_with_what_they_hold_and_how_they_look() {
+fn layers_report_height_coverage_and_thumbnail() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
     let samples = wander(41, 80, 32.0, 20.0);
@@ -48,7 +48,7 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
     let (from, to) = ("Vermilion".to_owned(), "Emerald Green".to_owned());
     window.act(Action::Swap { layer, from, to });
     window.wait_until("another colour", |window| reddest(window) < Some(0));
-    // Undone, the paint of a layer is another: it is looked at again.
+    // Undo changes the paint of a layer, so its thumbnail must be updated.
     window.act(Action::Undo {});
     window.act(Action::Undo {});
     window.wait_until("one layer", |window| window.state().layers.len() == 1);
@@ -56,7 +56,7 @@ fn layers_are_told_with_what_they_hold_and_how_they_look() {
 }
 
 #[test]
-fn a_layer_whose_paint_became_another_is_looked_at_again() {
+fn a_changed_layer_gets_a_new_thumbnail() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
     window.stroke(SurfaceId::Canvas, "flat", [&wander(44, 60, 32.0, 20.0)[..]]);
@@ -75,7 +75,7 @@ fn a_layer_whose_paint_became_another_is_looked_at_again() {
 }
 
 #[test]
-fn brushes_and_tubes_are_told() {
+fn brushes_and_tubes_are_reported() {
     let mut window = Window::open(BackendChoice::Cpu);
     let state = window.state();
     assert_eq!(state.brushes.len(), 6);

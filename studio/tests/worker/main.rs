@@ -1,4 +1,4 @@
-//! The thread that owns the paint, asked as a window asks it.
+//! Tests of the worker thread, driven by commands as a window does.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

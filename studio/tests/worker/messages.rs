@@ -1,4 +1,4 @@
-//! What cannot be done is said, and changes nothing.
+//! Refused commands report a message and change nothing.
 
 use std::sync::Arc;
 
@@ -45,7 +45,7 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
             assert!(hint.as_ref().is_some_and(|hint| hint.contains(hinted)), "{asked}: {hint:?}");
         }
     }
-    // The moves of the pen whose brush there was not.
+    // Pen moves after a PenDown with an unknown brush.
     window.ask(Command::PenUp);
     let after = window.snapshot();
     assert!(after.canvas == before.canvas && after.palette == before.palette, "nothing changed");
@@ -53,7 +53,7 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
 }
 
 #[test]
-fn what_finds_nothing_to_do_says_so() {
+fn a_command_without_effect_reports_a_message() {
     let mut window = Window::open(BackendChoice::Cpu);
     for (action, words) in [
         (Action::Undo {}, "nothing to undo"),
@@ -67,7 +67,7 @@ fn what_finds_nothing_to_do_says_so() {
 }
 
 #[test]
-fn without_a_painting_it_says_so_and_a_painting_that_fails_to_open_leaves_the_last() {
+fn commands_without_a_painting_fail_and_a_failed_open_keeps_the_painting() {
     let mut window = Window::new(BackendChoice::Cpu);
     window.act(Action::Undo {});
     let (text, hint, failed) = window.message();
@@ -85,7 +85,7 @@ fn without_a_painting_it_says_so_and_a_painting_that_fails_to_open_leaves_the_la
 }
 
 #[test]
-fn a_painting_whose_lamp_is_gone_opens_under_daylight() {
+fn a_painting_with_a_missing_lamp_file_opens_under_daylight() {
     let mut window = Window::open(BackendChoice::Cpu);
     let mut document = (*window.snapshot().canvas).clone();
     document.lighting.illuminant = "lost-lamp.csv".to_owned();
@@ -100,7 +100,7 @@ fn a_painting_whose_lamp_is_gone_opens_under_daylight() {
     assert_eq!(lighting.illuminant, "D65");
     assert_eq!(window.state().title, "study");
     assert_eq!(window.recording().start.as_deref(), Some("study.exr"));
-    // A session that was recovered goes on, but is not recorded.
+    // A recovered session continues without a recording.
     let palette = Box::new((*window.snapshot().palette).clone());
     document.lighting = Lighting::default();
     let canvas = Box::new(document);

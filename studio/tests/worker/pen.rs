@@ -1,10 +1,10 @@
-//! Strokes of a made-up hand.
+//! Synthetic strokes.
 
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Load, Stroke, SurfaceId};
 
-/// A hand that wanders over `width_mm` x `height_mm`, as `seed` tells: 120 samples
-/// a second, a stroke of `count`.
+/// Samples of a random stroke within `width_mm` x `height_mm`, at 120 samples per
+/// second.
 pub(crate) fn wander(seed: u64, count: usize, width_mm: f64, height_mm: f64) -> Vec<Sample> {
     let phase = seed as f64 * 1.7;
     let sample = |index: usize| {

@@ -1,4 +1,4 @@
-//! What lies at a place, and paint picked up from there.
+//! Picking colour and paint, and loading picked paint.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ fn pick(window: &mut Window, x_mm: f64, y_mm: f64, radius_mm: f64) -> Arc<Picked
 }
 
 #[test]
-fn a_pick_is_what_an_instrument_would_read() {
+fn a_pick_equals_an_instrument_reading() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
     window.stroke(SurfaceId::Canvas, "flat", [&wander(51, 80, 32.0, 20.0)[..]]);
@@ -39,7 +39,7 @@ fn a_pick_is_what_an_instrument_would_read() {
     let heights: f64 = one.layers[1].amounts_mm.iter().sum();
     let volume = snapshot.canvas.wet.cell(row * 320 + column).volume();
     assert!((heights - render::amount::mm_from_quanta(volume, 0.1)).abs() < 1e-12, "its height");
-    // The mean of a disc, cell by cell.
+    // Mean over a disc, computed cell by cell.
     let radius = 0.35;
     let disc = pick(&mut window, x_mm, y_mm, radius);
     let (mut sum, mut count) = (vec![0.0; wanted.len()], 0.0);
@@ -56,7 +56,7 @@ fn a_pick_is_what_an_instrument_would_read() {
     let mean: Vec<f64> = sum.iter().map(|sum| sum / count).collect();
     assert!(near(&disc.reflectance, &mean), "the mean of {count} cells");
 
-    // Picked paint on a brush is that paint.
+    // A brush loaded with picked paint holds that paint.
     let brush = "filbert".to_owned();
     window.act(load("filbert", "Zinc White"));
     window.ask(Command::LoadPicked {

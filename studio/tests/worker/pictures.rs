@@ -1,4 +1,4 @@
-//! The pictures that are told are those that an export writes.
+//! Reported tiles equal the exported picture.
 
 use render::export::png8;
 use render::gpu::BackendChoice;
@@ -11,7 +11,7 @@ use session::{Command, Snapshot};
 use super::pen::{load, wander};
 use super::window::Window;
 
-/// The document's picture as an export writes it.
+/// Renders the document as an export does.
 pub(crate) fn exported(document: &Document, light: &Light) -> Vec<[u8; 4]> {
     let picture = picture(document, &scene(document, light));
     let bytes = png8(&picture, document.cell_mm).unwrap().bytes;
@@ -19,7 +19,7 @@ pub(crate) fn exported(document: &Document, light: &Light) -> Vec<[u8; 4]> {
     file.pixels().map(|pixel| pixel.0).collect()
 }
 
-/// What was told becomes what the document looks like, to the byte.
+/// Asserts that the tiles received so far equal the rendered document, to the byte.
 pub(crate) fn assert_pictures(window: &mut Window, snapshot: &Snapshot) {
     let light = std::sync::Arc::clone(&window.state().light);
     let Lighting { illuminant, observer, .. } = &snapshot.canvas.lighting;
@@ -34,7 +34,7 @@ pub(crate) fn assert_pictures(window: &mut Window, snapshot: &Snapshot) {
     window.wait_until("the palette as it is", |window| window.pictures.palette == palette);
 }
 
-/// Something that a window asks for.
+/// A step of the test.
 type Step<'a> = &'a dyn Fn(&mut Window);
 
 #[test]
@@ -87,7 +87,7 @@ fn tiles_cover_every_change() {
 }
 
 #[test]
-fn a_second_light_has_a_picture_of_its_own() {
+fn a_second_light_has_its_own_picture() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("round", "Vermilion"));
     let lamp = Lighting { illuminant: "FL11".to_owned(), ..Lighting::default() };

@@ -1,4 +1,4 @@
-//! Recordings played again.
+//! Replay of recordings.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -12,7 +12,7 @@ use super::pen::{load, stroke, wander};
 use super::strokes::{assert_same, session};
 use super::window::{Window, small};
 
-/// Strokes on both surfaces, and what else there is.
+/// A script of strokes on both surfaces and other actions.
 fn script(actions: Vec<Action>) -> (Box<StrokeScript>, Box<pigment::library::PigmentLibrary>) {
     let Origin::Blank { mut script, library } = small() else { panic!("a bare canvas") };
     script.actions = actions;
@@ -58,7 +58,7 @@ fn played(pace: Pace) {
     assert_same(&snapshot, &mut session, "after a replay");
     window.wait_until("the state", |window| window.state().revision == snapshot.revision);
     super::pictures::assert_pictures(&mut window, &snapshot);
-    // And one can go on with it.
+    // Painting can continue after the replay.
     let samples = wander(25, 30, 32.0, 20.0);
     session.apply(&stroke(SurfaceId::Canvas, "knife", &samples)).unwrap();
     window.stroke(SurfaceId::Canvas, "knife", [&samples[..]]);
@@ -66,17 +66,17 @@ fn played(pace: Pace) {
 }
 
 #[test]
-fn a_fast_replay_is_what_the_easel_makes_of_the_script() {
+fn a_fast_replay_equals_the_session_running_the_script() {
     played(Pace::Fast);
 }
 
 #[test]
-fn a_replay_as_painted_is_the_same() {
+fn a_replay_at_painted_speed_gives_the_same_painting() {
     played(Pace::AsPainted);
 }
 
 #[test]
-fn a_recording_of_the_worker_plays_to_the_same_painting() {
+fn a_recording_of_the_worker_replays_to_the_same_painting() {
     let mut window = Window::open(BackendChoice::Cpu);
     for action in lively() {
         match action {
@@ -99,7 +99,7 @@ fn a_recording_of_the_worker_plays_to_the_same_painting() {
 }
 
 #[test]
-fn a_replay_can_be_cancelled_and_answers_on_its_way() {
+fn a_replay_can_be_cancelled_and_answers_commands_meanwhile() {
     let mut actions = vec![load("flat", "Vermilion")];
     for seed in 0..200 {
         actions.push(stroke(SurfaceId::Canvas, "flat", &wander(seed, 600, 32.0, 20.0)));
@@ -124,7 +124,7 @@ fn a_replay_can_be_cancelled_and_answers_on_its_way() {
 }
 
 #[test]
-fn an_action_that_is_refused_ends_the_replay_there() {
+fn a_refused_action_ends_the_replay() {
     let lacking = Load {
         brush: "round".to_owned(),
         recipe: [("Viridian".to_owned(), 1.0)].into(),
@@ -145,7 +145,7 @@ fn an_action_that_is_refused_ends_the_replay_there() {
     let (text, _, failed) = window.message();
     assert!(failed && text.contains("action 1 (opacity)"), "{text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
-    // What cannot be played at all leaves the painting alone.
+    // A script that cannot be played leaves the painting unchanged.
     let before = window.snapshot();
     let mut hopeless = script;
     hopeless.actions = vec![Action::Load(lacking)];

@@ -1,4 +1,4 @@
-//! Paint laid on the palette where there is room.
+//! Squeezing paint into free space of the palette.
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, Squeeze, SurfaceId};
@@ -16,7 +16,7 @@ fn lay(window: &mut Window, pigment: &str, places: &[[f64; 2]]) {
     });
 }
 
-/// Where the heaps of the recording are.
+/// Positions of the heaps in the recording, in mm.
 fn heaps(window: &mut Window) -> Vec<[f64; 2]> {
     let recording = window.recording();
     let heaps = recording.actions.iter().filter_map(|action| match action {
@@ -27,13 +27,13 @@ fn heaps(window: &mut Window) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn heaps_take_the_first_place_that_is_free_and_then_the_one_with_the_least() {
+fn heaps_take_the_first_free_place_or_else_the_emptiest() {
     let mut window = Window::open(BackendChoice::Cpu);
     let places = [[-3.0, 2.0], [2.0, 2.0], [2.5, 2.5], [6.0, 2.0]];
     lay(&mut window, "Vermilion", &places);
     lay(&mut window, "Ultramarine", &places);
     assert_eq!(heaps(&mut window), [[2.0, 2.0], [6.0, 2.0]], "beside the surface is no place");
-    // A little more at the last one: now the first has the least.
+    // With more paint at the last place, the first has the least.
     lay(&mut window, "Zinc White", &[[6.0, 2.0]]);
     lay(&mut window, "Zinc White", &[[6.0, 2.0], [2.0, 2.0]]);
     assert_eq!(heaps(&mut window)[2..], [[6.0, 2.0], [2.0, 2.0]]);
@@ -45,7 +45,7 @@ fn heaps_take_the_first_place_that_is_free_and_then_the_one_with_the_least() {
 }
 
 #[test]
-fn without_a_place_nothing_is_laid_and_that_is_said() {
+fn without_a_place_nothing_is_squeezed_and_a_message_is_reported() {
     let mut window = Window::open(BackendChoice::Cpu);
     lay(&mut window, "Vermilion", &[[50.0, 2.0]]);
     let (text, hint, failed) = window.message();

@@ -1,4 +1,4 @@
-//! Strokes in bursts, and commands between them.
+//! Strokes sent in bursts, with commands in between.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use session::{Command, Event, Origin, Snapshot};
 use super::pen::{load, stroke, wander};
 use super::window::{Window, small};
 
-/// An session as the worker sets it up, without a worker.
+/// A session set up as the worker does, for comparison.
 pub(crate) fn session() -> PaintingSession {
     let Origin::Blank { script, library } = small() else { panic!("a bare canvas") };
     let (canvas, palette) = script.surfaces(&library, None).unwrap();
@@ -40,7 +40,7 @@ pub(crate) fn assert_same(found: &Snapshot, session: &mut PaintingSession, after
 }
 
 #[test]
-fn samples_in_bursts_are_all_painted_and_commands_keep_their_order() {
+fn all_samples_of_bursts_are_painted_in_the_order_of_commands() {
     let mut window = Window::open(BackendChoice::Cpu);
     let mut session = session();
     let far = wander(1, 400, 32.0, 20.0);
@@ -61,7 +61,7 @@ fn samples_in_bursts_are_all_painted_and_commands_keep_their_order() {
     for (index, action) in actions.iter().enumerate() {
         session.apply(action).unwrap();
         match action {
-            // Each told otherwise: all at once, one by one, in uneven pieces.
+            // Send samples all at once, one by one, or in uneven pieces.
             Action::Stroke(stroke) => {
                 let length = [1000, 1, 7, 33][index % 4];
                 window.stroke(stroke.on, &stroke.brush, stroke.samples.chunks(length));
@@ -105,7 +105,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
 }
 
 #[test]
-fn a_window_that_never_looks_gets_few_tiles_and_then_all_that_changed() {
+fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.wait_until("both pictures", |window| {
         let opaque = |pixels: &[[u8; 4]]| pixels.iter().all(|pixel| pixel[3] == 255);
@@ -114,7 +114,7 @@ fn a_window_that_never_looks_gets_few_tiles_and_then_all_that_changed() {
     window.act(load("round", "Vermilion"));
     let samples = wander(5, 600, 32.0, 20.0);
     window.stroke(SurfaceId::Canvas, "round", samples.chunks(5));
-    // Long enough for sixty looks a second to pile up.
+    // Long enough for updates at 60 per second to pile up.
     std::thread::sleep(Duration::from_millis(1500));
     window.told.clear();
     window.look();
@@ -126,7 +126,7 @@ fn a_window_that_never_looks_gets_few_tiles_and_then_all_that_changed() {
 }
 
 #[test]
-fn figures_tell_of_steps_and_latency() {
+fn figures_report_steps_and_latency() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("round", "Vermilion"));
     let samples = wander(6, 300, 32.0, 20.0);
@@ -143,7 +143,7 @@ fn figures_tell_of_steps_and_latency() {
 }
 
 #[test]
-fn a_sample_that_cannot_be_is_told_and_the_stroke_goes_on() {
+fn an_invalid_sample_is_reported_and_the_stroke_continues() {
     let mut window = Window::open(BackendChoice::Cpu);
     let mut session = session();
     session.apply(&load("round", "Vermilion")).unwrap();
@@ -159,7 +159,7 @@ fn a_sample_that_cannot_be_is_told_and_the_stroke_goes_on() {
 }
 
 #[test]
-fn the_head_is_told_while_it_is_down_and_lifted() {
+fn the_head_is_reported_while_down_and_removed_when_lifted() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("flat", "Vermilion"));
     let samples = wander(8, 200, 32.0, 20.0);
@@ -181,7 +181,7 @@ fn the_head_is_told_while_it_is_down_and_lifted() {
 }
 
 #[test]
-fn on_a_device_it_is_the_same() {
+fn a_device_gives_the_same_painting() {
     if !has_adapter() {
         return;
     }
@@ -207,7 +207,7 @@ fn on_a_device_it_is_the_same() {
     }
     let snapshot = window.snapshot();
     assert_same(&snapshot, &mut session, "on the device");
-    // Light agrees to rounding: a byte may differ by one.
+    // Shading agrees up to rounding: a byte may differ by one.
     let light = Arc::clone(&window.state().light);
     let wanted = super::pictures::exported(&snapshot.canvas, &light);
     window.wait_until("the canvas as it is", |window| {
@@ -216,8 +216,7 @@ fn on_a_device_it_is_the_same() {
     });
 }
 
-/// Whether there is a graphics adapter; what is found is noted as other tests on
-/// adapters do.
+/// Whether there is a graphics adapter. Notes the result as the other adapter tests do.
 fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);

@@ -1,4 +1,4 @@
-//! A window without a screen.
+//! A client of the worker that collects its events.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -12,10 +12,10 @@ use session::{
     default_brushes, default_mixing_canvas,
 };
 
-/// Longer than anything here takes.
+/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// What a window holds of a worker.
+/// A worker and everything it has reported.
 pub(crate) struct Window {
     worker: Worker,
     woken: Receiver<()>,
@@ -25,8 +25,8 @@ pub(crate) struct Window {
     numbers: u64,
 }
 
-/// The pictures, as told tile by tile: the canvas, under the second light, and
-/// the palette. Cells that were never told are 0.
+/// Pictures assembled from tiles: canvas, canvas under the second light, and palette.
+/// Cells never received are 0.
 #[derive(Default)]
 pub(crate) struct Pictures {
     pub(crate) canvas: Vec<[u8; 4]>,
@@ -35,7 +35,7 @@ pub(crate) struct Pictures {
 }
 
 impl Window {
-    /// A worker without a painting.
+    /// Starts a worker without a painting.
     pub(crate) fn new(backend: BackendChoice) -> Self {
         let (wake, woken) = channel();
         let options = WorkerOptions { backend, ..WorkerOptions::default() };
@@ -52,7 +52,7 @@ impl Window {
         }
     }
 
-    /// On a small bare canvas.
+    /// Starts a worker with a small blank canvas.
     pub(crate) fn open(backend: BackendChoice) -> Self {
         let mut window = Self::new(backend);
         window.ask(Command::Open(small()));
@@ -68,7 +68,7 @@ impl Window {
         self.ask(Command::Apply(action));
     }
 
-    /// Leads a brush through samples, told in pieces.
+    /// Paints a stroke whose samples are sent in pieces.
     pub(crate) fn stroke<'a>(
         &mut self,
         surface: SurfaceId,
@@ -84,7 +84,7 @@ impl Window {
         self.ask(Command::PenUp);
     }
 
-    /// Takes in all that was told.
+    /// Handles all events received so far.
     pub(crate) fn look(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
@@ -126,8 +126,8 @@ impl Window {
         }
     }
 
-    /// Waits for the first event, told before or from now on, of which `wanted`
-    /// makes something; all before it are forgotten.
+    /// Waits for the first event, past or future, for which `wanted` returns a value;
+    /// drops all earlier events.
     pub(crate) fn wait<T>(&mut self, what: &str, wanted: impl Fn(&Event) -> Option<T>) -> T {
         let end = Instant::now() + PATIENCE;
         loop {
@@ -144,7 +144,7 @@ impl Window {
         }
     }
 
-    /// Looks until `wanted` holds.
+    /// Handles events until `wanted` holds.
     pub(crate) fn wait_until(&mut self, what: &str, wanted: impl Fn(&Self) -> bool) {
         let end = Instant::now() + PATIENCE;
         loop {
@@ -157,7 +157,7 @@ impl Window {
         }
     }
 
-    /// The painting after all that was asked so far.
+    /// Snapshot of the painting after all commands so far.
     pub(crate) fn snapshot(&mut self) -> Snapshot {
         self.numbers += 1;
         let wanted = self.numbers;
@@ -168,7 +168,7 @@ impl Window {
         })
     }
 
-    /// The recording after all that was asked so far.
+    /// Recording after all commands so far.
     pub(crate) fn recording(&mut self) -> StrokeScript {
         self.numbers += 1;
         let wanted = self.numbers;
@@ -179,7 +179,7 @@ impl Window {
         })
     }
 
-    /// The next message: its words, its hint, and whether something failed.
+    /// Next message: text, hint, and whether it is an error.
     pub(crate) fn message(&mut self) -> (String, Option<String>, bool) {
         self.wait("a message", |event| match event {
             Event::Message { text, hint, failed } => {
@@ -189,7 +189,7 @@ impl Window {
         })
     }
 
-    /// Figures that have something in them.
+    /// Next performance figures that are not empty.
     pub(crate) fn figures(&mut self) -> Performance {
         self.wait("figures", |event| match event {
             Event::Performance(figures) if figures.mean_latency_ms > 0.0 => Some(*figures),
@@ -202,7 +202,7 @@ impl Window {
     }
 }
 
-/// 320 x 200 cells of linen, and a palette of 100 x 80.
+/// A linen canvas of 320 x 200 cells with a palette of 100 x 80 cells.
 pub(crate) fn small() -> Origin {
     let Origin::Blank { mut script, library } =
         session::blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1)

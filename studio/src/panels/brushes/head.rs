@@ -7,15 +7,15 @@ use crate::theme;
 
 /// Draws a head that points up, with ferrule and part of the handle. The hair has the
 /// sRGB colour of its paint, or grey if clean.
-pub(super) fn draw(painter: &Painter, room: Rect, shape: HeadShape, color: Option<[u8; 3]>) {
+pub(super) fn draw(painter: &Painter, area: Rect, shape: HeadShape, color: Option<[u8; 3]>) {
     let contour = shape.contour();
     let (length, _) = contour[contour.len() - 1];
-    let metal = room.height() * 0.28;
+    let metal = area.height() * 0.28;
     // Fit to the height for long heads, to the width for wide ones.
-    let scale = (room.width() * 0.78).min((room.height() - metal) / length);
-    let foot = pos2(room.center().x, room.top() + room.height() - metal);
+    let scale = (area.width() * 0.78).min((area.height() - metal) / length);
+    let foot = pos2(area.center().x, area.top() + area.height() - metal);
     let tip = foot.y - length * scale;
-    let drop = (tip - room.top()) * 0.5;
+    let drop = (tip - area.top()) * 0.5;
     let foot = foot - vec2(0.0, drop);
     let ferrule = Rect::from_min_max(
         foot - vec2(contour[0].1 * scale, 0.0),

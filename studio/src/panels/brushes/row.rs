@@ -38,8 +38,8 @@ impl Row<'_> {
             text(ui, key, Align::Center, TextStyle::Small, faint, &number);
         }
         let color = self.state.and_then(|state| state.color);
-        let drawn = between(inner.left() + 18.0, inner.left() + 42.0);
-        head::draw(ui.painter(), drawn, self.spec.shape, color);
+        let icon_rect = between(inner.left() + 18.0, inner.left() + 42.0);
+        head::draw(ui.painter(), icon_rect, self.spec.shape, color);
         let (name, below) =
             between(inner.left() + 50.0, inner.right() - 84.0).split_top_bottom_at_fraction(0.55);
         text(ui, name, Align::Min, TextStyle::Body, theme::STRONG, self.label);
@@ -47,19 +47,19 @@ impl Row<'_> {
         text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
         let (amount, bar) =
             between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
-        let told = match self.state {
+        let amount_text = match self.state {
             Some(state) if state.amount_mm > 0.0 => millimetres(state.amount_mm),
             _ => "clean".to_owned(),
         };
-        text(ui, amount, Align::Max, TextStyle::Small, faint, &told);
+        text(ui, amount, Align::Max, TextStyle::Small, faint, &amount_text);
         if let Some(state) = self.state {
             paint_bar(ui.painter(), bar.shrink2(vec2(0.0, 2.5)), state);
         }
-        response.on_hover_text(self.words(painting))
+        response.on_hover_text(self.tooltip(painting))
     }
 
     /// Tooltip text: shape, size and paint of the brush.
-    fn words(&self, painting: &PaintingState) -> String {
+    fn tooltip(&self, painting: &PaintingState) -> String {
         let BrushSpec { shape, size_mm } = self.spec;
         let cells = size_mm / painting.cell_mm;
         let head = format!("{shape}, {} ({cells:.0} cells)", millimetres(*size_mm));

@@ -52,9 +52,9 @@ impl LayerPaint {
         }
         let (plain, traces): (Vec<_>, Vec<_>) =
             amounts.into_iter().partition(|(_, amount)| *amount >= TRACE * pigments);
-        let told: f64 = plain.iter().map(|(_, amount)| amount).sum();
+        let total: f64 = plain.iter().map(|(_, amount)| amount).sum();
         let mut shares: Vec<(usize, f64)> =
-            plain.into_iter().map(|(pigment, amount)| (pigment, amount / told)).collect();
+            plain.into_iter().map(|(pigment, amount)| (pigment, amount / total)).collect();
         shares.sort_by(|a, b| b.1.total_cmp(&a.1));
         let values: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
         let parts = few_parts(&values, MOST_PARTS, NEAR).filter(|parts| !parts.is_empty());
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn amounts_become_small_whole_parts_the_greatest_first() {
+    fn amounts_become_small_whole_parts_largest_first() {
         let paint = LayerPaint::of(&layer(&[(3, 0.02), (0, 0.06), (7, 0.0)], 0.02)).unwrap();
         assert_eq!(paint.parts, Some(vec![3, 1]));
         let pigments: Vec<usize> = paint.shares.iter().map(|(pigment, _)| *pigment).collect();
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_near_no_parts_is_told_in_percent_and_traces_apart() {
+    fn other_amounts_are_percentages_and_traces_are_separate() {
         let paint = LayerPaint::of(&layer(&[(3, 0.0487), (0, 0.0513), (5, 0.0002)], 0.0)).unwrap();
         assert_eq!((&paint.parts, &paint.traces[..]), (&None, &[5][..]));
         let library = PigmentLibrary::van_gogh_oils();
@@ -163,13 +163,13 @@ mod tests {
     }
 
     #[test]
-    fn the_same_pigment_of_two_slots_is_one() {
+    fn slots_of_the_same_pigment_are_added() {
         let paint = LayerPaint::of(&layer(&[(3, 0.01), (3, 0.03)], 0.0)).unwrap();
         assert_eq!((paint.shares, paint.parts), (vec![(3, 1.0)], Some(vec![1])));
     }
 
     #[test]
-    fn nothing_and_clear_vehicle_are_no_recipe() {
+    fn empty_and_clear_layers_have_no_recipe() {
         assert_eq!(LayerPaint::of(&layer(&[(0, 0.0)], 0.0)), None);
         let clear = LayerPaint::of(&layer(&[], 0.05)).unwrap();
         assert_eq!((clear.vehicle, clear.shares.len()), (1.0, 0));
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn the_text_is_the_recipe_of_mix_with_the_film_in_units_of_the_library() {
+    fn the_mix_text_gives_the_film_in_library_units() {
         let mut library = PigmentLibrary::van_gogh_oils();
         let paint = LayerPaint::of(&layer(&[(0, 0.06), (3, 0.02)], 0.02)).unwrap();
         let names = [0, 3].map(|pigment| library.pigments[pigment].name.clone());
@@ -193,9 +193,9 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_short_and_words_are_safe_in_a_shell() {
-        let told = [0.333_333, 12.0, 1234.56, 0.000_123_456, 0.0].map(significant);
-        assert_eq!(told, ["0.3333", "12", "1235", "0.0001235", "0"]);
+    fn numbers_are_short_and_words_are_quoted() {
+        let found = [0.333_333, 12.0, 1234.56, 0.000_123_456, 0.0].map(significant);
+        assert_eq!(found, ["0.3333", "12", "1235", "0.0001235", "0"]);
         assert_eq!(quoted("Hooker's \"$green`\\"), "\"Hooker's \\\"\\$green\\`\\\\\"");
     }
 }

@@ -16,16 +16,16 @@ use session::{Command, Picked};
 pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picked) -> bool {
     let painting = cx.painting;
     let weights = weights(painting.library.grid, &painting.light.viewing);
-    let look = Appearance::of(weights.xyz(&picked.reflectance), weights.white());
+    let appearance = Appearance::of(weights.xyz(&picked.reflectance), weights.white());
     ui.horizontal_top(|ui| {
-        let patch = swatch(ui, "Picked colour", vec2(68.0, 68.0), &[look.srgb]);
+        let patch = swatch(ui, "Picked colour", vec2(68.0, 68.0), &[appearance.srgb]);
         patch.on_hover_text("The colour as measured by an instrument: without relief and gloss");
-        numbers(ui, &look, picked);
+        numbers(ui, &appearance, picked);
     });
     let library = &painting.library;
-    let color = look.srgb.to_bytes();
+    let color = appearance.srgb.to_bytes();
     let curve = Curve::new("reflectance", library.grid, &picked.reflectance).colored(color);
-    let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", most: Some(1.0) };
+    let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", max: Some(1.0) };
     let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
     chart.on_hover_text("Reflectance over wavelength at the picked place");
     let paints: Vec<Option<LayerPaint>> = picked.layers.iter().map(LayerPaint::of).collect();
@@ -58,19 +58,19 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
     wanted
 }
 
-fn numbers(ui: &mut Ui, look: &Appearance, picked: &Picked) {
+fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {
     let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
     let grid = Grid::new("picked numbers").num_columns(2).min_row_height(16.0);
     grid.spacing(vec2(8.0, 1.0)).show(ui, |ui| {
         ui.weak("Lab").on_hover_text("CIELAB under the light of the painting");
-        ui.monospace(three(look.lab.to_array()));
+        ui.monospace(three(appearance.lab.to_array()));
         ui.end_row();
         ui.weak("XYZ").on_hover_text("Tristimulus values, 100 for the white");
-        ui.monospace(three(look.xyz.to_array()));
+        ui.monospace(three(appearance.xyz.to_array()));
         ui.end_row();
         ui.weak("sRGB").on_hover_text("As shown on the screen");
-        let note = if look.srgb.in_gamut() { "" } else { "  out of gamut" };
-        ui.monospace(format!("{}{note}", look.srgb.to_hex()));
+        let note = if appearance.srgb.in_gamut() { "" } else { "  out of gamut" };
+        ui.monospace(format!("{}{note}", appearance.srgb.to_hex()));
         ui.end_row();
         let surface = match picked.surface {
             SurfaceId::Canvas => "Canvas",
@@ -91,14 +91,14 @@ fn layer(ui: &mut Ui, cx: &PanelContext<'_>, name: &str, paint: &LayerPaint) {
     ui.separator();
     ui.horizontal(|ui| {
         ui.label(name);
-        let mut told = format!("{:.3} mm", paint.thickness_mm);
+        let mut details = format!("{:.3} mm", paint.thickness_mm);
         if paint.vehicle >= 0.005 {
-            told += &format!(", {:.0} % medium", 100.0 * paint.vehicle);
+            details += &format!(", {:.0} % medium", 100.0 * paint.vehicle);
         }
         if (paint.opacity - 1.0).abs() > 1e-9 {
-            told += &format!(", opacity {:.2}", paint.opacity);
+            details += &format!(", opacity {:.2}", paint.opacity);
         }
-        ui.weak(told).on_hover_text("Height of the paint, and how much of it is clear medium");
+        ui.weak(details).on_hover_text("Height of the paint, and how much of it is clear medium");
         if let Some(text) = paint.mix_text(library, &cx.painting.medium) {
             let copy = ui.small_button("Copy").accessible_name(format!("Copy {name}"));
             let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");

@@ -1,4 +1,4 @@
-//! Colour swatches.
+//! Draws swatches of one or more colours.
 
 use eframe::egui::{
     Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn hexadecimal_and_lab_are_read_and_other_text_is_not() {
+    fn only_hexadecimal_and_lab_are_parsed() {
         let hex = TargetColor::from_text(" #2a5caa ").unwrap();
         assert_eq!(hex.name, "#2a5caa");
         assert_eq!(hex.shown(grid(), &tungsten()).to_hex(), "#2a5caa", "whatever the light");
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_screen_shows_is_met_by_paint_that_looks_the_same_there() {
+    fn a_screen_color_round_trips_through_lab() {
         let wanted = TargetColor::screen("sky", [0.2, 0.4, 0.7]);
         for viewing in [Viewing::default(), tungsten()] {
             let lab = wanted.lab(grid(), &viewing);
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reflectance_has_the_color_that_calibrate_gives_it() {
+    fn a_reflectance_has_the_lab_of_the_library() {
         let values: Vec<f64> = (0..36).map(|i| 0.1 + 0.02 * f64::from(i)).collect();
         let viewing = tungsten();
         let wanted = TargetColor {

@@ -19,7 +19,7 @@ const TIMEOUT_SECONDS: f64 = 1.0;
 pub(super) struct Opacity {
     pending: Option<PendingOpacity>,
     /// Opacities of hidden layers before hiding, by layer index.
-    before: BTreeMap<usize, f64>,
+    opacities_before_hiding: BTreeMap<usize, f64>,
 }
 
 /// A requested opacity that is not confirmed yet.
@@ -38,10 +38,10 @@ impl Opacity {
         let response = eye(ui, &format!("visibility of dry layer {}", layer + 1), now > 0.0);
         if response.clicked() {
             let value = if now > 0.0 {
-                self.before.insert(layer, now);
+                self.opacities_before_hiding.insert(layer, now);
                 0.0
             } else {
-                self.before.remove(&layer).unwrap_or(1.0)
+                self.opacities_before_hiding.remove(&layer).unwrap_or(1.0)
             };
             cx.act(Action::Opacity { layer: LayerRef::Dry(layer), value });
         }
@@ -85,9 +85,9 @@ impl Opacity {
 
     /// Renumbers the layers above `layer` after it was merged down.
     pub(super) fn merged(&mut self, layer: usize) {
-        let before = std::mem::take(&mut self.before);
-        let kept = before.into_iter().filter(|(hidden, _)| *hidden != layer);
-        self.before =
+        let opacities_before_hiding = std::mem::take(&mut self.opacities_before_hiding);
+        let kept = opacities_before_hiding.into_iter().filter(|(hidden, _)| *hidden != layer);
+        self.opacities_before_hiding =
             kept.map(|(hidden, value)| (hidden - usize::from(hidden > layer), value)).collect();
     }
 }

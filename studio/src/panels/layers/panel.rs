@@ -68,22 +68,28 @@ impl Layers {
                 self.thumbnails.show(ui, &state.thumbnail, vec2(60.0, 44.0));
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
-                    let [mean, most] = [state.mean_mm, state.max_mm].map(millimetres);
+                    let [mean, max] = [state.mean_mm, state.max_mm].map(millimetres);
                     let covers = format!("covers {:.0} %", 100.0 * state.coverage);
                     ui.horizontal(|ui| {
                         ui.label(RichText::new(format!("Dry {}", layer + 1)).strong());
                         ui.weak(covers).on_hover_text("Share of the canvas covered by this layer");
                     });
-                    ui.weak(format!("{mean}, most {most}"))
+                    ui.weak(format!("{mean}, max {max}"))
                         .on_hover_text("Mean height where it has paint, and maximum height");
                     pigments(ui, catalogue, &state.slots);
                 });
             });
             self.opacity.slider(ui, cx, layer);
             ui.horizontal(|ui| {
-                let hindered = unmergeable(cx, layer);
+                let disabled_reason = merge_obstacle(cx, layer);
                 let tip = "Merges this layer with the one below, without a visible change";
-                if named_button(ui, "Merge down", &format!("merge {name} down"), tip, hindered) {
+                if named_button(
+                    ui,
+                    "Merge down",
+                    &format!("merge {name} down"),
+                    tip,
+                    disabled_reason,
+                ) {
                     cx.act(Action::Merge { layer });
                     self.opacity.merged(layer);
                 }
@@ -120,7 +126,7 @@ fn drying(ui: &mut Ui, cx: &mut PanelContext<'_>) {
 }
 
 /// Reason why a dry layer cannot be merged with the one below, if any.
-fn unmergeable(cx: &PanelContext<'_>, layer: usize) -> Option<&'static str> {
+fn merge_obstacle(cx: &PanelContext<'_>, layer: usize) -> Option<&'static str> {
     let layers = &cx.painting.layers;
     match layer.checked_sub(1) {
         None => Some("there is no dry layer below it"),

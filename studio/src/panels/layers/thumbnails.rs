@@ -20,19 +20,19 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// Draws a thumbnail within `room` points, keeping its aspect ratio.
+    /// Draws a thumbnail within `area` points, keeping its aspect ratio.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         thumbnail: &Arc<Thumbnail>,
-        room: eframe::egui::Vec2,
+        area: eframe::egui::Vec2,
     ) {
-        let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(area, Sense::hover());
         if thumbnail.width == 0 || thumbnail.height == 0 {
             return;
         }
         let size = vec2(thumbnail.width as f32, thumbnail.height as f32);
-        let scale = (room.x / size.x).min(room.y / size.y);
+        let scale = (area.x / size.x).min(area.y / size.y);
         let place = Rect::from_center_size(rect.center(), size * scale);
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         let texture = self.texture(ui.ctx(), thumbnail).id();

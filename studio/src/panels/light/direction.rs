@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_of_the_disc_and_its_direction_are_one() {
+    fn disc_position_and_direction_are_inverse() {
         let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
         for azimuth_deg in [0.0, 45.0, 90.0, 200.0, 315.0, 359.0] {
             for elevation_deg in [5.0, 30.0, 50.0, 85.0] {
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn up_is_the_top_of_the_canvas_and_right_is_a_quarter_clockwise() {
+    fn azimuth_is_clockwise_from_the_top() {
         let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
         assert_eq!(any.at([0.0, -0.5]).azimuth_deg, 0.0);
         assert_eq!(any.at([0.5, 0.0]).azimuth_deg, 90.0);
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_keeps_the_azimuth_and_outside_is_the_lowest() {
+    fn the_centre_keeps_the_azimuth_and_outside_is_the_minimum() {
         let any = Direction { azimuth_deg: 77.0, elevation_deg: 30.0 };
         assert_eq!(any.at([0.0, 0.0]), Direction { azimuth_deg: 77.0, elevation_deg: 90.0 });
         assert_eq!(any.at([3.0, 0.0]), Direction { azimuth_deg: 90.0, elevation_deg: LOWEST_DEG });

@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_of_the_pad_and_its_gloss_are_one() {
+    fn pad_position_and_gloss_are_inverse() {
         let pad = Rect::from_min_size(pos2(10.0, 20.0), vec2(100.0, 80.0));
         for gloss in [
             Gloss { strength: 0.25, exponent: 60.0 },
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn right_is_sharper_and_up_is_stronger_and_the_edges_hold() {
+    fn right_is_sharper_and_up_is_stronger_up_to_the_edges() {
         let pad = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 80.0));
         let low = gloss_at(pad, pos2(20.0, 70.0));
         let high = gloss_at(pad, pos2(80.0, 10.0));

@@ -9,13 +9,13 @@ pub(super) enum Kind {
     Daylight,
     /// Incandescent (tungsten) lamps.
     Incandescent,
-    /// Fluorescent tubes.
+    /// Fluorescent tubes of the FL series.
     Fluorescent,
     /// High-pressure discharge lamps.
     Discharge,
     /// White LED lamps.
     Led,
-    /// Theoretical illuminants.
+    /// Theoretical illuminants such as E.
     Reference,
 }
 
@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_illuminant_stands_in_the_list_once_and_is_described() {
+    fn every_illuminant_is_listed_once_with_a_note() {
         let listed = listed_illuminants();
         let mut names: Vec<&str> = listed.iter().map(|lamp| lamp.name).collect();
         let mut known: Vec<&str> = Illuminant::names().collect();
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn the_search_takes_words_of_name_kind_and_note_in_any_case() {
+    fn the_search_matches_words_of_name_kind_and_note() {
         let found = |search: &str| -> Vec<&str> {
             listed_illuminants()
                 .into_iter()

@@ -29,7 +29,7 @@ const TUNGSTEN: &str = "A";
 pub struct LightPanel {
     first: IlluminantControl,
     second: IlluminantControl,
-    /// Previous illuminant.
+    /// Name of the previous illuminant.
     previous: String,
     /// Illuminant of the second light when it was last on.
     last_second: String,

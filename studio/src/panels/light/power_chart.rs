@@ -16,7 +16,7 @@ pub(super) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Col
     let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
     curves.push(curve(&light.viewing.illuminant, theme::TEXT));
     let marks = &light.quadrature.nodes_nm;
-    let chart = Chart { curves: &curves, marks, quantity: "relative power", most: None };
+    let chart = Chart { curves: &curves, marks, quantity: "relative power", max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
     let size = vec2(ui.available_width(), 120.0);
     chart.show(ui, size).on_hover_text(format!(
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_curve_is_the_power_at_each_wavelength_with_a_mean_of_one() {
+    fn a_curve_is_scaled_to_mean_one() {
         let light = Illuminant::d65();
         let shown = curve(&light, theme::TEXT);
         let power = |nm: f64| light.power().values()[(nm - 360.0) as usize];

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_lights_that_spectra_knows() {
+    fn light_names_are_known_to_spectra() {
         for (kelvin, wanted) in
             [(1500.0, "1500K"), (3990.0, "3990K"), (4000.0, "D4000K"), (25000.0, "D25000K")]
         {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn temperatures_are_round_and_stay_on_the_slider() {
+    fn rounded_temperatures_stay_on_the_slider() {
         assert_eq!([5604.9, 12345.0, 9996.0].map(rounded), [5600.0, 12300.0, 10000.0]);
         assert_eq!([KELVIN.0, KELVIN.1].map(rounded), [KELVIN.0, KELVIN.1]);
     }

@@ -32,7 +32,7 @@ pub(in crate::panels) fn card(
     if let (Some(tint), Some(srgb)) = (&colors.tint, colors.tint_srgb) {
         curves.push(Curve::new("one in ten", grid, tint).colored(srgb));
     }
-    let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", most: Some(1.0) };
+    let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", max: Some(1.0) };
     chart.show(ui, vec2(WIDTH, 120.0));
     for line in lines(catalogue, pigment, scattering_per_mm) {
         ui.label(line);
@@ -50,7 +50,7 @@ fn lines(catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) -> Vec<S
             format!("hides from {}", millimetres(thickness / scattering_per_mm))
         }
         Some(Hides::Never { contrast }) => {
-            format!("hides at no height (contrast {:.0} % at most)", 100.0 * contrast)
+            format!("hides at no height (contrast {:.0} % at max)", 100.0 * contrast)
         }
         None => "hiding power not known".to_owned(),
     }];
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_card_tells_what_calibrate_finds() {
+    fn a_card_shows_the_figures_of_the_library() {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);

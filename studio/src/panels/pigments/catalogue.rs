@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_catalogue_is_made_anew_only_for_another_library_or_light() {
+    fn the_catalogue_is_rebuilt_only_for_a_new_library_or_light() {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let mut known = CatalogueCache::default();

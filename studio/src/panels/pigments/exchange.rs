@@ -14,7 +14,7 @@ use session::PaintingState;
 pub(in crate::panels) enum ExchangeScope {
     /// All layers that contain the pigment.
     AllLayers,
-    /// One layer.
+    /// A single layer, wet or dry.
     Layer(LayerRef),
 }
 

@@ -17,14 +17,14 @@ pub(in crate::panels) struct PigmentList {
 }
 
 impl PigmentList {
-    /// Draws the list. `hindered` gives the reason why a pigment cannot be chosen.
+    /// Draws the list. `disabled_reason` gives the reason why a pigment cannot be chosen.
     /// Returns the index of the pigment that was clicked.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &mut Ui,
         catalogue: &Catalogue,
         scattering_per_mm: f64,
-        hindered: impl Fn(usize) -> Option<String>,
+        disabled_reason: impl Fn(usize) -> Option<String>,
     ) -> Option<usize> {
         let field = TextEdit::singleline(&mut self.search)
             .hint_text("name or colour index")
@@ -44,7 +44,7 @@ impl PigmentList {
         list.show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             for pigment in found {
-                let why = hindered(pigment);
+                let why = disabled_reason(pigment);
                 ui.add_enabled_ui(why.is_none(), |ui| {
                     let response = row(ui, 24.0, catalogue.name(pigment), false);
                     draw(ui, response.rect, catalogue, pigment, scattering_per_mm);

@@ -80,8 +80,8 @@ impl Reference {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.update();
         self.controls(ui, cx);
-        let room = ui.available_size().max(vec2(40.0, 40.0));
-        let (rect, response) = ui.allocate_exact_size(room, Sense::click_and_drag());
+        let area = ui.available_size().max(vec2(40.0, 40.0));
+        let (rect, response) = ui.allocate_exact_size(area, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Reference picture"));
         ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
         if self.picture.is_none() {

@@ -62,16 +62,16 @@ impl Picture {
         if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
             return None;
         }
-        let range = |at: f32, most: usize| {
+        let range = |at: f32, count: usize| {
             let first = (at - radius).floor().max(0.0) as usize;
-            first..=((at + radius).floor() as usize).min(most - 1)
+            first..=((at + radius).floor() as usize).min(count - 1)
         };
         let mut sum = [0.0; 3];
         let mut count = 0.0;
         for row in range(y, height) {
             for column in range(x, width) {
-                let away = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
-                if away <= radius || (column, row) == (x as usize, y as usize) {
+                let distance = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
+                if distance <= radius || (column, row) == (x as usize, y as usize) {
                     count += 1.0;
                     for (sum, value) in sum.iter_mut().zip(self.linear.row(row, column, 1)[0]) {
                         *sum += f64::from(value);
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_is_that_of_the_pixels_around_in_linear_light() {
+    fn the_mean_is_computed_in_linear_light() {
         let picture = two_by_two();
         assert_eq!(picture.mean([0.5, 0.5], 0.0), Some([1.0, 0.0, 0.0]));
         assert_eq!(picture.mean([0.9, 0.1], 0.0), Some([1.0, 0.0, 0.0]), "anywhere in a pixel");
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_takes_what_is_within_the_radius_and_nothing_beyond() {
+    fn the_mean_includes_only_pixels_within_the_radius() {
         let mut linear = Linear::filled(7, 7, [0.0; 3]);
         linear.values_mut()[3 * 7 + 5] = [1.0; 3];
         let picture = Picture { linear };

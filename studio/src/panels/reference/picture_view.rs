@@ -17,9 +17,9 @@ pub(super) struct PictureView {
 }
 
 impl PictureView {
-    /// Fits a picture of `size` pixels into a panel of `room` points.
-    pub(super) fn fit(size: Vec2, room: Vec2, flipped: bool) -> Self {
-        let zoom = (room.x / size.x).min(room.y / size.y).clamp(ZOOM.0, ZOOM.1);
+    /// Fits a picture of `size` pixels into a panel of `panel_size` points.
+    pub(super) fn fit(size: Vec2, panel_size: Vec2, flipped: bool) -> Self {
+        let zoom = (panel_size.x / size.x).min(panel_size.y / size.y).clamp(ZOOM.0, ZOOM.1);
         Self { center: size / 2.0, zoom, flipped }
     }
 
@@ -29,29 +29,29 @@ impl PictureView {
 
     /// Converts a picture position in pixels to a point of the window.
     pub(super) fn point(self, panel: Rect, place: Vec2) -> Pos2 {
-        let away = (place - self.center) * self.zoom;
-        panel.center() + vec2(self.side() * away.x, away.y)
+        let offset = (place - self.center) * self.zoom;
+        panel.center() + vec2(self.side() * offset.x, offset.y)
     }
 
     /// Converts a point of the window to a picture position in pixels.
     pub(super) fn place(self, panel: Rect, point: Pos2) -> Vec2 {
-        let away = (point - panel.center()) / self.zoom;
-        self.center + vec2(self.side() * away.x, away.y)
+        let offset = (point - panel.center()) / self.zoom;
+        self.center + vec2(self.side() * offset.x, offset.y)
     }
 
     /// Returns the view moved by a drag, in points.
     pub(super) fn panned(self, by: Vec2) -> Self {
-        let away = by / self.zoom;
-        Self { center: self.center - vec2(self.side() * away.x, away.y), ..self }
+        let offset = by / self.zoom;
+        Self { center: self.center - vec2(self.side() * offset.x, offset.y), ..self }
     }
 
     /// Returns the view zoomed by a factor about a fixed point.
     pub(super) fn zoomed(self, panel: Rect, about: Pos2, factor: f32) -> Self {
         let zoom = (self.zoom * factor).clamp(ZOOM.0, ZOOM.1);
-        let kept = self.place(panel, about);
+        let fixed = self.place(panel, about);
         let moved = Self { zoom, ..self };
         let now = moved.place(panel, about);
-        Self { center: moved.center + kept - now, ..moved }
+        Self { center: moved.center + fixed - now, ..moved }
     }
 
     /// Rectangle of the whole picture of `size` pixels in the window, and its texture
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn all_of_a_picture_fits_and_touches_two_edges() {
+    fn a_fitted_picture_touches_two_edges() {
         for flipped in [false, true] {
             let view = PictureView::fit(vec2(1600.0, 400.0), PANEL.size(), flipped);
             let (rect, _) = view.rects(PANEL, vec2(1600.0, 400.0));
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn points_and_places_are_one_flipped_or_not() {
+    fn point_and_position_are_inverse_flipped_or_not() {
         for flipped in [false, true] {
             let view = PictureView { center: vec2(30.0, 70.0), zoom: 2.5, flipped };
             for place in [vec2(0.0, 0.0), vec2(31.0, 68.0), vec2(200.0, 10.0)] {
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_under_the_pointer_stays_while_zooming_and_follows_the_hand() {
+    fn zoom_keeps_the_point_and_pan_follows_the_drag() {
         for flipped in [false, true] {
             let view = PictureView { center: vec2(30.0, 70.0), zoom: 1.0, flipped };
             let (about, hand) = (pos2(140.0, 300.0), vec2(25.0, -12.0));

@@ -47,7 +47,7 @@ impl Chooser {
             let held = cx.painting.slots[self.slot];
             let name = held.map_or("empty", |pigment| catalogue.name(pigment));
             ui.label(format!("Slot {}: {name}", self.slot + 1));
-            let hindered = match held {
+            let disabled_reason = match held {
                 None => Some("the slot is empty"),
                 Some(_) if cx.painting.slots.iter().flatten().count() == 1 => {
                     Some("the palette needs at least one pigment")
@@ -55,7 +55,7 @@ impl Chooser {
                 Some(_) => None,
             };
             let tip = "Empties the slot; there must be no wet paint of it";
-            if button(ui, "Take off", tip, hindered) {
+            if button(ui, "Take off", tip, disabled_reason) {
                 set_slot(cx, self.slot, None);
             }
         });

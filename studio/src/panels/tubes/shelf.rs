@@ -24,15 +24,15 @@ impl Tubes {
     /// Draws the panel, with as many tubes in a row as fit.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let catalogue = self.known.of(cx.painting);
-        let room = ui.available_width() + 2.0;
-        let beside = ((room / (tube::TUBE_SIZE.x + 2.0)) as usize).clamp(1, SLOTS);
+        let area = ui.available_width() + 2.0;
+        let per_row = ((area / (tube::TUBE_SIZE.x + 2.0)) as usize).clamp(1, SLOTS);
         // Rows of equal length: 4 and 4 instead of 5 and 3.
-        let beside = SLOTS.div_ceil(SLOTS.div_ceil(beside));
+        let per_row = SLOTS.div_ceil(SLOTS.div_ceil(per_row));
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
-            for first in (0..SLOTS).step_by(beside) {
+            for first in (0..SLOTS).step_by(per_row) {
                 ui.horizontal(|ui| {
-                    for slot in first..(first + beside).min(SLOTS) {
+                    for slot in first..(first + per_row).min(SLOTS) {
                         self.tube(ui, &catalogue, cx, slot);
                     }
                 });

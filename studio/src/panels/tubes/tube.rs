@@ -21,13 +21,13 @@ const METAL: [(f32, u8); 6] =
 /// Draws a tube standing on its cap, with masstone and tint (sRGB) on its label.
 pub(super) fn draw(
     ui: &Ui,
-    room: Rect,
+    area: Rect,
     masstone: Option<[u8; 3]>,
     tint: Option<[u8; 3]>,
     name: &str,
 ) {
-    let painter = ui.painter_at(room);
-    let body = body(room);
+    let painter = ui.painter_at(area);
+    let body = body(area);
     crimp(&painter, body);
     tapered(&painter, body);
     let cap = Rect::from_center_size(
@@ -47,12 +47,12 @@ pub(super) fn draw(
     let (full, light) = label.split_top_bottom_at_fraction(0.62);
     patch(&painter, light, tint);
     patch(&painter, full, masstone);
-    names(ui, room, name);
+    names(ui, area, name);
 }
 
 /// Draws an empty slot.
-pub(super) fn draw_empty(ui: &Ui, room: Rect) {
-    let body = body(room).shrink(1.0);
+pub(super) fn draw_empty(ui: &Ui, area: Rect) {
+    let body = body(area).shrink(1.0);
     let painter = ui.painter();
     let line = Stroke::new(1.0, theme::LINE);
     painter.rect(body, CornerRadius::same(3), Color32::TRANSPARENT, line, StrokeKind::Inside);
@@ -60,7 +60,7 @@ pub(super) fn draw_empty(ui: &Ui, room: Rect) {
     let middle = body.center();
     painter.hline(middle.x - 6.0..=middle.x + 6.0, middle.y, plus);
     painter.vline(middle.x, middle.y - 6.0..=middle.y + 6.0, plus);
-    names(ui, room, "empty");
+    names(ui, area, "empty");
 }
 
 /// Draws the drop of paint that follows the pointer while a tube is dragged.
@@ -69,12 +69,12 @@ pub(super) fn draw_drop(painter: &Painter, at: Pos2, [red, green, blue]: [u8; 3]
     painter.circle(drop, 8.0, Color32::from_rgb(red, green, blue), Stroke::new(1.5, theme::STRONG));
 }
 
-fn body(room: Rect) -> Rect {
-    let width = room.width() * 0.68;
-    let left = room.center().x - width / 2.0;
+fn body(area: Rect) -> Rect {
+    let width = area.width() * 0.68;
+    let left = area.center().x - width / 2.0;
     Rect::from_min_max(
-        pos2(left, room.top() + 5.0),
-        pos2(left + width, room.bottom() - NAME_HEIGHT - 19.0),
+        pos2(left, area.top() + 5.0),
+        pos2(left + width, area.bottom() - NAME_HEIGHT - 19.0),
     )
 }
 
@@ -117,8 +117,8 @@ fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
 }
 
 /// Draws the name in two lines, split at its first space.
-fn names(ui: &Ui, room: Rect, name: &str) {
-    let below = Rect::from_min_max(pos2(room.left() + 1.0, room.bottom() - NAME_HEIGHT), room.max);
+fn names(ui: &Ui, area: Rect, name: &str) {
+    let below = Rect::from_min_max(pos2(area.left() + 1.0, area.bottom() - NAME_HEIGHT), area.max);
     let (upper, lower) = below.split_top_bottom_at_fraction(0.5);
     let (first, second) = match name.split_once(' ') {
         Some((first, second)) => (first, second),

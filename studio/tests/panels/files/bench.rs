@@ -1,4 +1,4 @@
-//! Files of the studio with a worker that only holds the painting.
+//! A test bench of the studio's files with a simulated worker.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -20,7 +20,7 @@ use studio::panels::revisions;
 use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
-/// A painting of some strokes, by the engine.
+/// Paints a few strokes with the engine.
 pub(super) fn painted(title: &str) -> Document {
     let Origin::Blank { mut script, library } =
         blank_canvas(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
@@ -56,13 +56,13 @@ pub(super) fn painted(title: &str) -> Document {
     painting.document().unwrap()
 }
 
-/// The painting at work on the processor.
+/// Opens a document on the CPU backend.
 pub(super) fn opened(document: Document) -> Painting {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     Painting::open(document, engine, 1 << 24).unwrap()
 }
 
-/// What the window would know of `document`.
+/// State that a worker would report for `document`.
 fn painting(document: &Document, revision: u64) -> Arc<PaintingState> {
     let lighting = document.lighting.clone();
     let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer).unwrap();
@@ -92,7 +92,7 @@ fn painting(document: &Document, revision: u64) -> Arc<PaintingState> {
     })
 }
 
-/// Window and worker in one.
+/// Files of the window and the simulated worker.
 pub(super) struct Bench {
     files: Option<Files>,
     home: Home,
@@ -103,9 +103,9 @@ pub(super) struct Bench {
     pub(super) painting: Arc<PaintingState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
-    /// What was recorded, if it is not a bare canvas.
+    /// Start of the recording, if it is not a blank canvas.
     pub(super) recorded: Option<StrokeScript>,
-    /// What the worker was asked for, but for documents.
+    /// Commands received, except requests for documents.
     pub(super) commands: Vec<Command>,
 }
 
@@ -173,7 +173,7 @@ impl Bench {
         self.commands.push(command);
     }
 
-    /// The recording that the worker would tell.
+    /// Recording that the worker would return.
     pub(super) fn script(&self) -> StrokeScript {
         if let Some(script) = &self.recorded {
             return script.clone();
@@ -187,10 +187,10 @@ impl Bench {
     }
 }
 
-/// The bench in a window.
+/// A window that contains the bench.
 pub(super) type Window = Harness<'static, Bench>;
 
-/// A window on `document` with its own folders in `home`.
+/// Opens a window on `document` with its home folder in `home`.
 pub(super) fn window(home: &Path, document: Document) -> Window {
     let preferences = Preferences {
         autosave_seconds: 2,
@@ -239,7 +239,7 @@ pub(super) fn ask(window: &mut Window, request: FileRequest) {
     }
 }
 
-/// As if the painter had changed something.
+/// Simulates a change of the painting.
 pub(super) fn change(window: &mut Window) {
     let bench = window.state_mut();
     let mut canvas = (*bench.canvas).clone();
@@ -257,14 +257,14 @@ pub(super) fn shows(window: &Window, label: &str) -> bool {
     window.query_all_by_label_contains(label).next().is_some()
 }
 
-/// Clicks what has this label.
+/// Clicks the control with this label.
 pub(super) fn click(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
-    // What it opens takes its place in the frames after.
+    // A dialog that it opens is laid out in the following frames.
     window.run_steps(4);
 }
 
-/// Types into the field of the name, in place of what is there.
+/// Replaces the text of the name field.
 pub(super) fn type_name(window: &mut Window, name: &str) {
     let field = window.get_all_by_role(eframe::egui::accesskit::Role::TextInput).last().unwrap();
     field.focus();
@@ -277,7 +277,7 @@ pub(super) fn type_name(window: &mut Window, name: &str) {
     window.step();
 }
 
-/// Writes what is on the screen below `target/tmp`, where a device can draw it.
+/// Saves a picture of the window below `target/tmp` if there is an adapter.
 pub(super) fn picture(window: &mut Window, name: &str) {
     if std::env::var_os("IMPASTO_PICTURES").is_none() {
         return;

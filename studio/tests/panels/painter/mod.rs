@@ -1,4 +1,4 @@
-//! A painter at tubes, brushes, layers and history, with the worker's own paint.
+//! Tests of tube, brush, layer and history panels with a real worker.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -24,10 +24,10 @@ use super::harness::has_adapter;
 
 mod trials;
 
-/// Longer than anything here takes.
+/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The four panels side by side, and a worker.
+/// Four panels side by side, and a worker.
 struct Studio {
     worker: Worker,
     painting: Option<Arc<PaintingState>>,
@@ -95,7 +95,7 @@ impl Studio {
     }
 }
 
-/// A painter in front of it.
+/// A simulated painter who operates the panels.
 struct Painter {
     harness: Harness<'static, Studio>,
     fences: u64,
@@ -114,7 +114,7 @@ impl Painter {
         painter
     }
 
-    /// Lets the worker do all that was asked for.
+    /// Waits until the worker has executed all commands.
     fn settle(&mut self) {
         self.harness.step();
         self.fences += 1;
@@ -132,8 +132,8 @@ impl Painter {
         self.harness.run();
     }
 
-    /// Waits until the worker tells of a painting that is so: it answers before all
-    /// is measured and told.
+    /// Waits until the reported painting satisfies `is`. The worker answers before it
+    /// has measured everything.
     #[track_caller]
     fn sees(&mut self, what: &str, is: impl Fn(&PaintingState) -> bool) -> Arc<PaintingState> {
         let start = Instant::now();
@@ -149,7 +149,7 @@ impl Painter {
         }
     }
 
-    /// The same of a brush.
+    /// Waits until the reported state of a brush satisfies `is`.
     #[track_caller]
     fn sees_brush(&mut self, name: &str, is: impl Fn(&BrushState) -> bool) -> BrushState {
         self.sees(name, |painting| {
@@ -164,7 +164,7 @@ impl Painter {
         self.settle();
     }
 
-    /// Clicks a row of a list, which may be out of sight.
+    /// Clicks a row of a list, even if it is scrolled out of view.
     fn choose(&mut self, label: &str) {
         self.harness.get_by_label(label).click_accesskit();
         self.harness.run();
@@ -178,7 +178,7 @@ impl Painter {
         self.settle();
     }
 
-    /// Squeezes the chosen tube.
+    /// Squeezes the selected tube.
     fn squeeze(&mut self, on: SurfaceId, x_mm: f64, y_mm: f64) {
         let Studio { painting, tools, requests, .. } = self.harness.state_mut();
         let painting = painting.clone().unwrap();
@@ -187,8 +187,7 @@ impl Painter {
         self.settle();
     }
 
-    /// Leads the brush in hand along a line with a pen that tells 200 samples a
-    /// second, at 50 mm a second.
+    /// Paints a line with the selected brush, at 200 samples per second and 50 mm/s.
     fn stroke(&mut self, surface: SurfaceId, from: (f64, f64), to: (f64, f64)) {
         let studio = self.harness.state();
         let brush = studio.tools.brush.clone();
@@ -222,7 +221,7 @@ impl Painter {
         painting.brushes.iter().find(|brush| brush.name == name).unwrap().clone()
     }
 
-    /// The share of a pigment in what a brush holds.
+    /// Share of a pigment in the paint of a brush.
     fn part(&self, brush: &str, pigment: &str) -> f64 {
         let painting = self.painting();
         let index = painting.library.find(pigment).unwrap();

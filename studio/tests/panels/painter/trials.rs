@@ -1,14 +1,14 @@
-//! What a painter does, and what comes of it.
+//! Typical working steps and their results.
 
 use super::*;
 
-/// Whether two amounts are the same but for whole quanta.
+/// Whether two amounts are equal up to the rounding to quanta.
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.01
 }
 
 #[test]
-fn paint_is_squeezed_mixed_and_taken_up() {
+fn paint_is_squeezed_mixed_and_picked_up() {
     let mut painter = Painter::new();
     painter.click("tube of Chrome Yellow");
     painter.squeeze(SurfaceId::Palette, 20.0, 20.0);
@@ -33,7 +33,7 @@ fn paint_is_squeezed_mixed_and_taken_up() {
 }
 
 #[test]
-fn a_brush_is_loaded_thinned_wiped_kept_and_resized() {
+fn a_brush_is_loaded_thinned_wiped_duplicated_and_resized() {
     let mut painter = Painter::new();
     painter.harness.state_mut().tools.tube = 3;
     painter.harness.run();
@@ -47,7 +47,7 @@ fn a_brush_is_loaded_thinned_wiped_kept_and_resized() {
     painter.click("Medium only");
     painter.sees_brush("round", is(0.6, 0.6));
 
-    // The paint goes along to the larger head.
+    // The larger head keeps the paint.
     painter.slide("Size", 9.0);
     let larger =
         painter.sees_brush("round", |brush| brush.spec.size_mm == 9.0 && is(0.6, 0.6)(brush));
@@ -64,7 +64,7 @@ fn a_brush_is_loaded_thinned_wiped_kept_and_resized() {
 }
 
 #[test]
-fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
+fn dried_layers_are_dimmed_merged_and_undone() {
     let mut painter = Painter::new();
     painter.click("tube of Vermilion");
     painter.click("Load brush");
@@ -83,7 +83,7 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
     }
     painter.save("painter");
 
-    // A drag is one action, and where it ends is where it stays.
+    // A drag is one action with the value at its end.
     let before = painting.history.len();
     let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
     let start = rail.rect().left_center() + vec2(30.0, 0.0);
@@ -135,14 +135,14 @@ fn what_dries_is_dimmed_exchanged_merged_and_all_of_it_taken_back() {
 }
 
 #[test]
-fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
+fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     let mut painter = Painter::new();
     painter.click("tube of Vermilion");
     painter.click("Load brush");
     painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
     painter.sees("a stroke", |painting| painting.history.len() == 1);
 
-    // A slot whose paint is still wet.
+    // A slot whose paint is still wet cannot be changed.
     let slots = painter.painting().slots;
     painter.click("Tubes...");
     painter.click("slot 4");
@@ -156,7 +156,7 @@ fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
     assert!(text.contains("Vermilion") && hint.is_some(), "{text}, {hint:?}");
     assert_eq!(painter.painting().slots, slots, "it stays");
 
-    // Another one.
+    // Another slot can be changed.
     painter.click("slot 5");
     painter.choose("Cobalt Blue");
     let mut wanted = slots;
@@ -164,7 +164,7 @@ fn tubes_change_where_no_paint_is_wet_and_in_what_is_painted() {
     painter.sees("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
     painter.click("Close window");
 
-    // In the painting: wet and dry.
+    // Exchange in the painting, wet and dry.
     painter.slide("Share", 50.0);
     painter.click("Dry share");
     painter.sees("a dry layer", |painting| painting.layers.len() == 1);
