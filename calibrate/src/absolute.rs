@@ -1,5 +1,4 @@
-//! Calibration from films whose amounts are absolute: ladders and glazes of
-//! watercolor on one known backing.
+//! Calibration from absolute amounts: ladders and glazes of watercolor on one known backing.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -8,36 +7,33 @@ use rayon::prelude::*;
 use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
-use crate::calibration::{Calibration, CalibrationError};
+use crate::calibration::{Calibration, CalibrationError, pigment};
 use crate::findings;
 use crate::fit::{
-    FiniteProblem, FitError, FitSettings, Refined, Refinement, Smoothness, fit_finite,
-    root_mean_square,
+    FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness,
+    fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
-use pigment::digits::rounded;
+use pigment::PigmentId;
 use pigment::evaluate::{Viewing, delta_e};
 use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 
-/// Every film of `set` that lies on a backing of known reflectance, by name.
+/// Collects every film of `set` that lies on a backing of known reflectance.
 ///
 /// # Errors
-/// [`MeasurementError::NoBareBacking`] for the first film whose backing has no
-/// bare reading, [`MeasurementError::NoFilms`] if there is no film.
-pub fn films(set: &SwatchSet) -> Result<(FiniteProblem, Vec<String>), MeasurementError> {
+/// [`MeasurementError::NoBareBacking`] for the first film whose backing has no bare reading,
+/// [`MeasurementError::NoFilms`] if there is no film.
+pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
     let mut problem = FiniteProblem {
         grid: set.grid,
         pigments: set.pigments.len(),
         reading_sd: root_mean_square(
             set.swatches.iter().flat_map(|s| &s.films).filter_map(|film| film.spread),
         ),
-        recipes: Vec::new(),
-        reflectance: Vec::new(),
-        bare: Vec::new(),
+        films: Vec::new(),
     };
-    let mut names = Vec::new();
     for swatch in &set.swatches {
         for film in &swatch.films {
             let bare = film.bare.clone().ok_or_else(|| MeasurementError::NoBareBacking {
@@ -46,43 +42,46 @@ pub fn films(set: &SwatchSet) -> Result<(FiniteProblem, Vec<String>), Measuremen
                 sample: swatch.sample.clone(),
                 backing: film.backing.clone(),
             })?;
+            let several = swatch.films.len() > 1;
             let amounts = swatch.amounts.iter().copied().enumerate();
-            problem.recipes.push(amounts.filter(|(_, amount)| *amount > 0.0).collect());
-            problem.reflectance.push(film.reflectance.clone());
-            problem.bare.push(bare);
-            names.push(if swatch.films.len() > 1 {
-                format!("{} on {}", swatch.sample, film.backing)
-            } else {
-                swatch.sample.clone()
+            let amounts = amounts.filter(|(_, amount)| *amount > 0.0);
+            problem.films.push(MeasuredFilm {
+                name: match several {
+                    true => format!("{} on {}", swatch.sample, film.backing),
+                    false => swatch.sample.clone(),
+                },
+                recipe: amounts.map(|(pigment, amount)| (PigmentId(pigment), amount)).collect(),
+                reflectance: film.reflectance.clone(),
+                bare,
             });
         }
     }
-    if names.is_empty() {
+    if problem.films.is_empty() {
         return Err(MeasurementError::NoFilms);
     }
-    Ok((problem, names))
+    Ok(problem)
 }
 
-/// Fits K and S per unit of amount, see [`fit_finite`].
+/// Fits K and S per unit of amount by [`fit_finite`].
 ///
 /// # Errors
-/// [`CalibrationError`]; a reading below the surface's own reflection is
-/// refused as for shares.
+/// [`CalibrationError`] if readings cannot be used or the fit fails. A reading below the surface's own
+/// reflection is treated as for shares.
 pub fn calibrate_absolute(
     set: &SwatchSet,
     film: UnevenFilm,
     settings: &FitSettings,
     viewing: &Viewing,
 ) -> Result<Calibration, CalibrationError> {
-    let (problem, names) = films(set)?;
+    let problem = films(set)?;
     let dark = findings::below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
     let fit = fit_finite(&problem, film, &own, Refinement::whole(settings.smoothness))?;
 
     let weights = viewing.weights(set.grid).expect("the method fits the grid");
-    let films = names.into_iter().enumerate().map(|(index, name)| {
+    let films = problem.films.iter().enumerate().map(|(index, measured)| {
         let predicted = problem.predicted(&fit, film, index);
-        (name, problem.reflectance[index].as_slice(), predicted)
+        (measured.name.clone(), measured.reflectance.as_slice(), predicted)
     });
     let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films).rounded();
     let undetermined = undetermined(&fit);
@@ -94,21 +93,14 @@ pub fn calibrate_absolute(
         warnings: findings::absolute_warnings(set, &undetermined, dark, &per_sample),
         per_sample,
     };
-    let curve = |values: &[f64]| values.iter().map(|&v| rounded(v)).collect();
+    let deviations = fit.deviations.as_deref();
     let pigments = set.pigments.iter().enumerate().map(|(index, name)| Pigment {
-        name: name.clone(),
-        color_index: None,
-        absorption: curve(&fit.absorption[index]),
-        scattering: curve(&fit.scattering[index]),
-        absorption_sd: curve(&fit.absorption_sd[index]),
-        scattering_sd: curve(&fit.scattering_sd[index]),
-        identified: true,
-        guessed: false,
-        notes: if undetermined.contains(&index) {
+        notes: if undetermined.contains(&PigmentId(index)) {
             vec!["these films tell little of S: the backing outshines its scattering".to_owned()]
         } else {
             Vec::new()
         },
+        ..pigment(name, &fit.curves[index], deviations.map(|all| &all[index]))
     });
     Ok(Calibration {
         library: PigmentLibrary {
@@ -131,41 +123,40 @@ pub fn calibrate_absolute(
     })
 }
 
-/// Pigments of whose S less than half of what is known comes from the films.
-fn undetermined(fit: &Refined) -> Vec<usize> {
+/// Pigments for which less than half of the information on S comes from the films.
+fn undetermined(fit: &Refined) -> Vec<PigmentId> {
     let known = fit.scattering_known.iter().enumerate();
-    known.filter(|(_, share)| **share < 0.5).map(|(pigment, _)| pigment).collect()
+    known.filter(|(_, share)| **share < HALF_KNOWN).map(|(pigment, _)| PigmentId(pigment)).collect()
 }
 
-/// The film model that predicts unseen films best.
+/// Chooses the film model that predicts unseen films best.
 ///
-/// Tried are the share k2 that the surface turns back (0, 0.3, 0.6; k1 as
-/// given), then the unevenness of the films (0, 0.25, 0.5), each by five-fold
-/// cross-validation over seeded folds, scored by mean CIEDE2000. A model gives
-/// way to a better one only for a gain of 3 %; for fewer than 20 films the plain
-/// one (0 and 0) is taken untried. Such a k2 serves prediction; it is no
-/// measurement of the surface, which unevenness imitates.
+/// Candidates are the share k2 of light that the surface turns back (0, 0.3, 0.6; k1 as given), then the
+/// unevenness of the films (0, 0.25, 0.5). Each is scored by five-fold cross-validation over seeded
+/// folds, as mean CIEDE2000. A model is replaced by another one only for a gain of 3 %. With fewer than
+/// 20 films the plain model (0 and 0) is returned without a test. Such a k2 serves prediction; it is no
+/// measurement of the surface, whose effect unevenness imitates.
 ///
 /// # Errors
-/// [`FitError`] as [`fit_finite`].
+/// [`FitError`] from any fit.
 pub fn chosen_film(
     problem: &FiniteProblem,
     surface: Surface,
     progress: &(impl Fn() + Sync),
 ) -> Result<UnevenFilm, FitError> {
     let plain = UnevenFilm { surface: Surface { k2: 0.0, ..surface }, unevenness: 0.0 };
-    if problem.recipes.len() < 4 * FOLDS {
-        // Too few to hold any back.
+    if problem.films.len() < 4 * FOLDS {
+        // Too few films to hold any back.
         return Ok(plain);
     }
     let weights = Viewing::default().weights(problem.grid).expect("the method fits the grid");
     let score = |film: UnevenFilm| -> Result<f64, FitError> {
-        let folds = folds(problem.recipes.len(), FOLDS);
+        let folds = folds(problem.films.len(), FOLDS);
         let errors: Vec<Vec<f64>> = folds
             .par_iter()
             .map(|left_out| {
-                let kept = all_but(problem.recipes.len(), left_out);
-                let part = problem.of(&kept);
+                let kept = all_but(problem.films.len(), left_out);
+                let part = problem.with_films(&kept);
                 let fit = fit_finite(
                     &part,
                     film,
@@ -181,9 +172,9 @@ pub fn chosen_film(
     };
     let with =
         |k2: f64, unevenness: f64| UnevenFilm { surface: Surface { k2, ..surface }, unevenness };
-    // The best of some models replaces the one kept if it gains 3 %.
+    // The best of the models replaces the current one if it gains 3 %.
     let replaced = |kept: (f64, UnevenFilm), models: [UnevenFilm; 2]| {
-        let mut best = (0.97 * kept.0, None);
+        let mut best = (LEAST_GAIN * kept.0, None);
         for model in models {
             let score = score(model)?;
             if score < best.0 {
@@ -197,9 +188,16 @@ pub fn chosen_film(
     Ok(replaced(kept, [with(k2, 0.25), with(k2, 0.5)])?.1)
 }
 
-/// Fits that [`chosen_film`] makes.
+/// Number of fits that [`chosen_film`] makes: five models with five folds each.
 pub const CHOICE_FITS: usize = 5 * FOLDS;
+/// Number of folds of the cross-validation.
 const FOLDS: usize = 5;
+/// A model is replaced by one whose score is below this fraction of its own; chosen by eye.
+const LEAST_GAIN: f64 = 0.97;
+/// Fraction of information on S from the films below which S is called undetermined; chosen by eye.
+const HALF_KNOWN: f64 = 0.5;
+/// Seed of the folds.
+const FOLD_SEED: u64 = 2004;
 
 pub(crate) fn errors(
     problem: &FiniteProblem,
@@ -210,15 +208,15 @@ pub(crate) fn errors(
 ) -> Vec<f64> {
     let error = |&index: &usize| {
         let predicted = problem.predicted(fit, film, index);
-        delta_e(weights, &problem.reflectance[index], &predicted)
+        delta_e(weights, &problem.films[index].reflectance, &predicted)
     };
     of.iter().map(error).collect()
 }
 
-/// `count` indices in seeded order, dealt into `folds` hands.
+/// Deals `count` indices in seeded random order into `folds` groups.
 pub(crate) fn folds(count: usize, folds: usize) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..count).collect();
-    order.shuffle(&mut ChaCha8Rng::seed_from_u64(2004));
+    order.shuffle(&mut ChaCha8Rng::seed_from_u64(FOLD_SEED));
     (0..folds.min(count))
         .map(|fold| order.iter().copied().skip(fold).step_by(folds).collect())
         .collect()
@@ -233,7 +231,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folds_deal_every_index_once_and_the_rest_is_all_but_them() {
+    fn folds_hold_every_index_once_and_all_but_is_the_complement() {
         let dealt = folds(23, 5);
         let mut all: Vec<usize> = dealt.iter().flatten().copied().collect();
         all.sort_unstable();

@@ -1,11 +1,13 @@
 //! The main job: from swatches to a pigment library with its evidence.
 
+use spectra::hint::{Explain, Hint};
 use spectra::optics::Surface;
 
 use crate::findings;
 use crate::fit::{
-    Condition, FitError, FitSettings, Method, Problem, RefinedState, Refinement, Unidentified,
-    Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations, unidentified,
+    Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
+    Unidentified, Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations,
+    unidentified,
 };
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
@@ -14,65 +16,61 @@ use crate::swatch::SwatchSet;
 use pigment::digits::rounded;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
+use pigment::{Curves, PigmentId, Recipe};
 
-/// A library, and what its making showed.
+/// A fitted library, with intermediate results of the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
-    /// The library; its title, licence, source and inputs are left to the
-    /// caller.
+    /// Fitted library. Title, licence, source and inputs are empty.
     pub library: PigmentLibrary,
-    /// The swatches as the fit saw them, in order of the file.
+    /// Swatches as the fit used them, in order of the file; empty for absolute amounts.
     pub observations: Vec<Observation>,
-    /// Rank and condition of the equations; none for absolute amounts.
+    /// Rank and condition of the equations; `None` for absolute amounts.
     pub condition: Option<Condition>,
-    /// What a leave-one-out fit may reuse.
+    /// Estimates of noise and smoothness that a leave-one-out fit may reuse.
     pub state: Option<RefinedState>,
 }
 
-/// Fits K and S of every pigment of `set`, S relative to the pigment number
-/// `reference`.
+/// Fits K and S of every pigment of `set`, with S relative to that of `reference`.
 ///
-/// Colour errors in the evidence are CIEDE2000 under `viewing`, between each
-/// swatch's K/S in a film that hides and the fitted mixture. Samples of a
-/// pigment that the data do not identify take no part in fit and errors: a
-/// pigment known only from a masstone gets its K/S with S = 1, marked so; one
-/// without even that is left out.
-///
+/// Colour errors in the evidence are CIEDE2000 under `viewing`, between each swatch's K/S as a film that
+/// hides and the fitted mixture. Samples of pigments that the data do not identify are used neither for
+/// the fit nor for its errors. A pigment known only from a masstone gets its K/S with S = 1, marked as
+/// not identified; one without a masstone is left out.
 /// # Errors
-/// [`CalibrationError`].
+/// [`CalibrationError`] if readings cannot be used or the fit fails.
 pub fn calibrate(
     set: &SwatchSet,
-    reference: usize,
+    reference: PigmentId,
     surface: Surface,
     settings: &FitSettings,
     viewing: &Viewing,
 ) -> Result<Calibration, CalibrationError> {
     let observations = observations(set, surface, settings.below_surface)?;
-    let shares: Vec<Vec<f64>> = observations.iter().map(|o| o.shares.clone()).collect();
-    let unknown = unidentified(&shares, reference);
+    let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
     let (solvable, identified) = without(&observations, &unknown);
     let reference_among =
         identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
-    let problem = Problem::new(set.grid, surface, &solvable, reference_among)?;
+    let problem = Problem::new(set.grid, surface, &solvable, PigmentId(reference_among))?;
     let solution = solve(&problem, settings.method, Refinement::whole(settings.smoothness))?;
-    let condition = condition(&problem, &solution.absorption, &solution.scattering);
+    let condition = condition(&problem, &solution.curves);
 
-    let mut pigments: Vec<(usize, Pigment)> = identified
+    let mut pigments: Vec<(PigmentId, Pigment)> = identified
         .iter()
         .enumerate()
-        .map(|(place, &index)| (index, solution.pigment(place, &set.pigments[index])))
+        .map(|(place, &id)| (id, solution.pigment(place, &set.pigments[id.index()])))
         .collect();
     for lone in unknown.iter().filter(|u| u.unknown == Unknown::Scattering) {
         pigments.push((lone.pigment, masstone(set, &observations, lone)));
     }
-    pigments.sort_by_key(|(index, _)| *index);
+    pigments.sort_by_key(|(id, _)| *id);
     let mut library = PigmentLibrary {
         title: String::new(),
         licence: String::new(),
         source: String::new(),
         grid: set.grid,
         amounts: AmountKind::Relative,
-        reference: Some(set.pigments[reference].clone()),
+        reference: Some(set.pigments[reference.index()].clone()),
         saunderson: surface,
         unevenness: 0.0,
         inputs: Vec::new(),
@@ -90,76 +88,77 @@ pub fn calibrate(
 
 /// K and S by any method, with their standard deviations.
 pub(crate) struct Solution {
-    pub(crate) absorption: Vec<Vec<f64>>,
-    pub(crate) scattering: Vec<Vec<f64>>,
-    deviations: [Vec<Vec<f64>>; 2],
+    /// K and S by pigment.
+    pub(crate) curves: Vec<Curves>,
+    /// Standard deviations of K and S by pigment; `None` if they were not requested.
+    deviations: Option<Vec<Curves>>,
     state: Option<RefinedState>,
 }
 
 impl Solution {
     fn pigment(&self, place: usize, name: &str) -> Pigment {
-        let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
-        Pigment {
-            name: name.to_owned(),
-            color_index: None,
-            absorption: rounded(&self.absorption[place]),
-            scattering: rounded(&self.scattering[place]),
-            absorption_sd: rounded(&self.deviations[0][place]),
-            scattering_sd: rounded(&self.deviations[1][place]),
-            identified: true,
-            guessed: false,
-            notes: Vec::new(),
-        }
+        pigment(name, &self.curves[place], self.deviations.as_ref().map(|all| &all[place]))
     }
 }
 
+/// A fitted pigment with its values rounded for a file.
+pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) -> Pigment {
+    let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
+    let deviation = |curve: fn(&Curves) -> &[f64]| {
+        deviations.map_or_else(Vec::new, |curves| rounded(curve(curves)))
+    };
+    Pigment {
+        name: name.to_owned(),
+        color_index: None,
+        absorption: rounded(&curves.absorption),
+        scattering: rounded(&curves.scattering),
+        absorption_sd: deviation(|curves| &curves.absorption),
+        scattering_sd: deviation(|curves| &curves.scattering),
+        identified: true,
+        guessed: false,
+        notes: Vec::new(),
+    }
+}
+
+/// Solves `problem` by `method`.
 pub(crate) fn solve(
     problem: &Problem,
     method: Method,
     how: Refinement,
 ) -> Result<Solution, FitError> {
-    let plain = |[absorption, scattering]: [Vec<Vec<f64>>; 2]| Solution {
-        deviations: if how.deviations {
-            linear_deviations(problem, &absorption, &scattering)
-        } else {
-            [Vec::new(), Vec::new()]
-        },
-        absorption,
-        scattering,
+    let plain = |curves: Vec<Curves>| Solution {
+        deviations: how.deviations.then(|| linear_deviations(problem, &curves)),
+        curves,
         state: None,
     };
     Ok(match method {
         Method::Qp => plain(fit_qp(problem)?),
         Method::Weighted => plain(fit_weighted(problem)?),
         Method::Refined => {
-            // K and S must not depend on the light of the day's comparison.
+            // K and S must not depend on the light under which errors are computed.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
-            let refined = fit_refined(problem, &weights, how)?;
-            Solution {
-                absorption: refined.absorption,
-                scattering: refined.scattering,
-                deviations: [refined.absorption_sd, refined.scattering_sd],
-                state: Some(refined.state),
-            }
+            let Refined { curves, deviations, state, .. } = fit_refined(problem, &weights, how)?;
+            Solution { curves, deviations, state: Some(state) }
         }
     })
 }
 
-/// The observations of identified pigments alone, their shares cut down to
-/// those, and the pigments' indices.
+/// Observations of identified pigments only, with their shares reduced to these, and the places of these
+/// pigments.
 pub(crate) fn without(
     observations: &[Observation],
     unknown: &[Unidentified],
-) -> (Vec<Observation>, Vec<usize>) {
+) -> (Vec<Observation>, Vec<PigmentId>) {
     let count = observations.first().map_or(0, |o| o.shares.len());
-    let identified: Vec<usize> =
-        (0..count).filter(|p| unknown.iter().all(|u| u.pigment != *p)).collect();
+    let all = (0..count).map(PigmentId);
+    let identified: Vec<PigmentId> =
+        all.filter(|p| unknown.iter().all(|u| u.pigment != *p)).collect();
     let kept = observations
         .iter()
-        .filter(|o| unknown.iter().all(|u| o.shares[u.pigment] == 0.0))
+        .filter(|o| unknown.iter().all(|u| o.shares[u.pigment.index()] == 0.0))
         .map(|o| Observation {
-            shares: identified.iter().map(|&p| o.shares[p]).collect(),
+            shares: identified.iter().map(|p| o.shares[p.index()]).collect(),
             ..o.clone()
         })
         .collect();
@@ -168,10 +167,10 @@ pub(crate) fn without(
 
 /// A pigment of which only K/S is known.
 fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) -> Pigment {
-    let alone = lone.samples.iter().find(|&&s| observations[s].shares[lone.pigment] == 1.0);
-    let sample = &observations[*alone.expect("its masstone was found before")];
+    let alone = lone.samples.iter().find(|&&s| observations[s].shares[lone.pigment.index()] == 1.0);
+    let sample = &observations[*alone.expect("the pigment has a masstone")];
     Pigment {
-        name: set.pigments[lone.pigment].clone(),
+        name: set.pigments[lone.pigment.index()].clone(),
         color_index: None,
         absorption: sample.ratio.iter().map(|&v| rounded(v)).collect(),
         scattering: vec![1.0; sample.ratio.len()],
@@ -190,18 +189,20 @@ fn evidence(
     library: &PigmentLibrary,
     set: &SwatchSet,
     solvable: &[Observation],
-    identified: &[usize],
+    identified: &[PigmentId],
     viewing: &Viewing,
 ) -> Evidence {
     let weights = viewing.weights(library.grid).expect("the method fits the grid");
-    let in_library: Vec<usize> = identified
+    let in_library: Vec<PigmentId> = identified
         .iter()
-        .map(|&p| library.find(&set.pigments[p]).expect("every identified pigment is in it"))
+        .map(|&p| {
+            library.find(&set.pigments[p.index()]).expect("every identified pigment is in it")
+        })
         .collect();
     let films = solvable.iter().map(|observation| {
         let shares = observation.shares.iter().copied();
-        let recipe: Vec<(usize, f64)> = in_library.iter().copied().zip(shares).collect();
-        let mixture = library.mix(&recipe).expect("shares sum to 1");
+        let recipe: Recipe = in_library.iter().copied().zip(shares).collect();
+        let mixture = library.mix(recipe).expect("shares sum to 1");
         let predicted = mixture.hiding(library.saunderson);
         (observation.sample.clone(), observation.reflectance.as_slice(), predicted)
     });
@@ -216,13 +217,22 @@ fn evidence(
     }
 }
 
-/// Why there is no calibration.
+/// A calibration that cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
-    /// The readings cannot be used.
+    /// Readings cannot be used.
     #[error(transparent)]
     Measurement(#[from] MeasurementError),
     /// The fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),
+}
+
+impl Explain for CalibrationError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Measurement(error) => error.hint(),
+            Self::Fit(error) => error.hint(),
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! The black and the white card that the swatches of a set were painted on.
+//! The black and the white card on which the swatches of a set were painted.
 
 use pigment::palette::Cards;
 use spectra::TristimulusWeights;
@@ -6,8 +6,8 @@ use spectra::TristimulusWeights;
 use crate::swatch::SwatchSet;
 
 impl SwatchSet {
-    /// The cards under the films of this set, as [`Cards::among`] chooses them. The
-    /// standard cards where the set stands on another grid than `weights`.
+    /// Cards under the films of this set, chosen by [`Cards::among`]; the standard cards if the set is on
+    /// another grid than `weights`.
     #[must_use]
     pub fn cards(&self, weights: &TristimulusWeights) -> Cards {
         if self.grid != weights.grid() {
@@ -17,7 +17,7 @@ impl SwatchSet {
     }
 }
 
-/// Mean bare reflectance of each backing, over the films that lie on it.
+/// Mean bare reflectance of each backing over the films that lie on it.
 fn bare_backings(set: &SwatchSet) -> Vec<Vec<f64>> {
     let films = || set.swatches.iter().flat_map(|swatch| &swatch.films);
     let mut names: Vec<&str> = films().map(|film| film.backing.as_str()).collect();

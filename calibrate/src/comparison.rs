@@ -1,73 +1,73 @@
-//! A library held against measurements: what it predicts of each sample, and
-//! what it would predict of mixtures it had not seen.
+//! Comparison of a library with measurements: its prediction of each sample, and predictions of mixtures
+//! left out of the fit.
 
-use pigment::palette::{MeasuredSample, Palette, Recipe};
+use pigment::palette::{MeasuredSample, Palette};
+use pigment::{PigmentId, Recipe};
+use spectra::hint::{Explain, Hint};
 use spectra::optics::Surface;
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::absolute::{calibrate_absolute, films};
 use crate::calibration::{CalibrationError, calibrate};
-use crate::fit::FitSettings;
+use crate::fit::{FitSettings, MeasuredFilm};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
 use crate::scores::Scores;
 use crate::swatch::{Swatch, SwatchSet};
-use crate::validation::{Validation, ValidationPlan, validate, validate_absolute};
+use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
 use pigment::evaluate::{Summary, Viewing};
 use pigment::library::{AmountKind, PigmentLibrary};
 
 /// One film, measured and predicted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedFilm {
-    /// The sample, with its backing where it has several films.
+    /// Name of the sample, with its backing if it has several films.
     pub sample: String,
     /// Pigments of the library with their amounts; shares sum to 1.
-    pub recipe: Vec<(usize, f64)>,
-    /// Measured reflectance, 0..1: of a film that hides for shares, of the film
-    /// itself for absolute amounts.
+    pub recipe: Recipe,
+    /// Measured reflectance as a fraction: as a film that hides for shares, of the film itself for
+    /// absolute amounts.
     pub measured: Vec<f64>,
-    /// What the library predicts of it.
+    /// Reflectance that the library predicts.
     pub predicted: Vec<f64>,
-    /// CIEDE2000 between the two.
+    /// CIEDE2000 between measured and predicted colour.
     pub delta_e: f64,
-    /// Whether the recipe holds a pigment whose K and S are no measurement (not
-    /// identified, or guessed).
+    /// Whether the recipe contains a pigment whose K and S were not measured (not identified, or
+    /// guessed).
     pub unsure: bool,
-    /// Whether the fit left this sample out.
+    /// Whether the fit of the library left this sample out.
     pub excluded: bool,
 }
 
-/// A library held against measurements.
+/// A library compared with measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// The films in order of the file.
+    /// Films in order of the file.
     pub films: Vec<ComparedFilm>,
-    /// Root mean square residual of reflectance, of sure films.
+    /// Root mean square error of reflectance, over sure films.
     pub rms: f64,
-    /// Summary of the colour errors of sure films.
+    /// Summary of the colour errors, over sure films.
     pub delta_e: Summary,
-    /// Samples that could not be compared, each with the pigments that the
-    /// library has not.
+    /// Samples that could not be compared, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// The wavelengths of the readings, where they are not the library's.
+    /// Wavelengths of the readings, if they are not the library's.
     pub resampled_from: Option<Grid>,
 }
 
 impl Comparison {
-    /// The films whose pigments are all measured and identified: those that the
-    /// errors are of.
+    /// Films whose pigments are all measured and identified, over which errors are summarised.
     pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
         self.films.iter().filter(|film| !film.unsure)
     }
 
-    /// The films whose pigments `palette` can mix, without those that the fit
-    /// excluded. None for absolute amounts, whose films do not hide.
+    /// Films that `palette` can mix, without those that the fit excluded. Empty for absolute amounts, whose
+    /// films do not hide.
     #[must_use]
     pub fn measured_samples(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
         if palette.library().amounts == AmountKind::Absolute {
             return Vec::new();
         }
-        let known = |recipe: &Recipe| recipe.iter().all(|(p, _)| palette.paints().contains(p));
+        let known = |recipe: &Recipe| recipe.pigments().all(|p| palette.paints().contains(&p));
         let films = self.films.iter().filter(|film| !film.excluded && known(&film.recipe));
         let sample = |film: &ComparedFilm| MeasuredSample {
             sample: film.sample.clone(),
@@ -78,31 +78,29 @@ impl Comparison {
     }
 }
 
-/// The measurements that can be compared with a library.
+/// Measurements that can be compared with a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparable {
-    /// The samples whose every pigment is in the library, on its wavelengths.
+    /// Samples whose pigments are all in the library, on the library's wavelengths.
     pub set: SwatchSet,
-    /// Where each pigment of `set` stands in the library.
-    pub in_library: Vec<usize>,
-    /// See [`Comparison::absent`].
+    /// Place in the library of each pigment of `set`.
+    pub in_library: Vec<PigmentId>,
+    /// Samples that cannot be compared, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// See [`Comparison::resampled_from`].
+    /// Wavelengths of the readings, if they are not the library's.
     pub resampled_from: Option<Grid>,
 }
 
 impl Comparable {
-    /// The part of `set` whose pigments `library` has, by their names (without
-    /// regard to case).
+    /// Selects the samples of `set` whose pigments are all in `library`, by name without regard to case.
     ///
     /// # Errors
-    /// [`ComparisonError`] if that is nothing, or if the readings do not cover
-    /// the library's wavelengths.
+    /// [`ComparisonError`] if there is none, or if the readings do not cover the library's wavelengths.
     pub fn of(set: &SwatchSet, library: &PigmentLibrary) -> Result<Self, ComparisonError> {
         let find = |name: &String| {
             let lower = name.to_lowercase();
-            let exact = library.pigments.iter().position(|p| p.name == *name);
-            exact.or_else(|| library.pigments.iter().position(|p| p.name.to_lowercase() == lower))
+            let exact = library.ids().find(|id| library[*id].name == *name);
+            exact.or_else(|| library.ids().find(|id| library[*id].name.to_lowercase() == lower))
         };
         let lacking = |swatch: &Swatch| -> Vec<String> {
             let used = set.pigments.iter().zip(&swatch.amounts).filter(|(_, a)| **a > 0.0);
@@ -129,13 +127,13 @@ impl Comparable {
         Ok(Self { set, in_library, absent, resampled_from })
     }
 
-    /// Each film as measured and as `library` predicts it, under `viewing`.
+    /// Compares each film as measured with the prediction of `library` under `viewing`.
     ///
     /// # Errors
-    /// [`MeasurementError`] as [`observations`] and [`films`].
+    /// [`MeasurementError`] if readings cannot be used.
     ///
     /// # Panics
-    /// If `library` is not the one that the measurements were chosen for.
+    /// If `library` is not the one for which the measurements were selected.
     pub fn with(
         &self,
         library: &PigmentLibrary,
@@ -154,8 +152,8 @@ impl Comparable {
         let mut films: Vec<ComparedFilm> = measured;
         for (film, error) in films.iter_mut().zip(errors) {
             film.delta_e = error.delta_e;
-            let pigments = film.recipe.iter().map(|(pigment, _)| &library.pigments[*pigment]);
-            film.unsure = pigments.into_iter().any(|p| p.guessed || !p.identified);
+            let mut pigments = film.recipe.pigments().map(|pigment| &library[pigment]);
+            film.unsure = pigments.any(|p| p.guessed || !p.identified);
         }
         let sure = films.iter().filter(|film| !film.unsure);
         let sure = sure.map(|f| (f.sample.clone(), f.measured.as_slice(), f.predicted.clone()));
@@ -181,28 +179,29 @@ impl Comparable {
     }
 
     fn finite(&self, library: &PigmentLibrary) -> Result<Vec<ComparedFilm>, MeasurementError> {
-        let (problem, names) = films(&self.set)?;
+        let problem = films(&self.set)?;
         let settings = settings(library);
         let excluded = self.set.swatches.iter().flat_map(|swatch| {
             let excluded = settings.excluded.contains(&swatch.sample);
             swatch.films.iter().map(move |_| excluded)
         });
-        let films = names.into_iter().zip(excluded).enumerate().map(|(index, (name, excluded))| {
-            let amounts = problem.recipes[index].iter();
-            let recipe: Vec<_> = amounts.map(|&(p, a)| (self.in_library[p], a)).collect();
+        let films = problem.films.into_iter().zip(excluded).map(|(measured, excluded)| {
+            let MeasuredFilm { name, recipe, reflectance, bare } = measured;
+            let amounts = recipe.iter().map(|&(p, amount)| (self.in_library[p.index()], amount));
+            let recipe: Recipe = amounts.collect();
             let mixture = library.mix(&recipe).expect("amounts are above 0");
-            let predicted = mixture.film(1.0, &problem.bare[index], library.film());
-            film(name, recipe, problem.reflectance[index].clone(), predicted, excluded)
+            let predicted = mixture.film(1.0, &bare, library.film());
+            film(name, recipe, reflectance, predicted, excluded)
         });
         Ok(films.collect())
     }
 
-    fn recipe(&self, shares: &[f64]) -> Vec<(usize, f64)> {
+    fn recipe(&self, shares: &[f64]) -> Recipe {
         let all = self.in_library.iter().copied().zip(shares.iter().copied());
         all.filter(|(_, share)| *share > 0.0).collect()
     }
 
-    /// Mixtures that leave-one-out would predict.
+    /// Number of mixtures that [`Self::left_out`] would predict.
     #[must_use]
     pub fn mixtures(&self, library: &PigmentLibrary) -> usize {
         let mixed = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
@@ -214,13 +213,12 @@ impl Comparable {
         films.sum()
     }
 
-    /// Leaves each mixture out in turn (absolute amounts: each of 10 seeded
-    /// groups), fits the others as `library` was fitted, and predicts it.
-    /// Nothing where the reference white was not measured, or there is no
-    /// mixture.
+    /// Leaves out each mixture in turn (for absolute amounts, each of 10 seeded groups), fits the others as
+    /// `library` was fitted, and predicts it. Returns `None` if the reference white was not measured, or
+    /// there is no mixture.
     ///
-    /// A library that does not tell its settings is taken to be fitted as
-    /// [`FitSettings::default`] has it, dark readings read as black.
+    /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
+    /// read as black.
     ///
     /// # Errors
     /// [`CalibrationError`] from any fit.
@@ -240,18 +238,18 @@ impl Comparable {
         if library.amounts == AmountKind::Absolute {
             let film = library.film();
             let state = calibrate_absolute(&set, film, &settings, viewing)?.state;
-            return validate_absolute(&set, film, &plan(state, Some(10))).map(Some);
+            return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
         }
-        let named = |name: &String| set.pigments.iter().position(|p| p == name);
+        let named = |name: &String| set.pigments.iter().position(|p| p == name).map(PigmentId);
         let Some(reference) = library.reference.as_ref().and_then(named) else { return Ok(None) };
         let surface: Surface = library.saunderson;
         let state = calibrate(&set, reference, surface, &settings, viewing)?.state;
-        validate(&set, reference, surface, &plan(state, None), |_| true).map(Some)
+        leave_out(&set, reference, surface, &plan(state, None), |_| true).map(Some)
     }
 
-    /// The samples that a fit takes, their pigments called as in the library.
+    /// The samples that the library's fit used, with pigments named as in the library.
     fn fitted_again(&self, library: &PigmentLibrary) -> SwatchSet {
-        let names = self.in_library.iter().map(|&p| library.pigments[p].name.clone());
+        let names = self.in_library.iter().map(|&p| library[p].name.clone());
         let named = SwatchSet { pigments: names.collect(), ..self.set.clone() };
         let excluded = settings(library).excluded;
         named.retaining(|swatch| !excluded.contains(&swatch.sample))
@@ -265,7 +263,7 @@ fn settings(library: &PigmentLibrary) -> FitSettings {
 
 fn film(
     sample: String,
-    recipe: Vec<(usize, f64)>,
+    recipe: Recipe,
     measured: Vec<f64>,
     predicted: Vec<f64>,
     excluded: bool,
@@ -273,7 +271,7 @@ fn film(
     ComparedFilm { sample, recipe, measured, predicted, delta_e: 0.0, unsure: false, excluded }
 }
 
-/// Every reading of `set` on `grid`, which it covers.
+/// Resamples every reading of `set` to `grid`, which its own grid covers.
 fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> {
     let method = Interpolation::best_for(set.grid);
     let from = set.grid;
@@ -292,40 +290,38 @@ fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> 
     Ok(set)
 }
 
-/// Why a library and measurements cannot be compared.
+/// A library and measurements that cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ComparisonError {
-    /// Every sample holds a pigment that the library has not.
+    /// Every sample contains a pigment that the library lacks.
     #[error("every sample holds a pigment that the library has not; measured are `{}`", measured.join(", "))]
     NothingInCommon {
-        /// The pigments measured.
+        /// Names of the measured pigments.
         measured: Vec<String>,
-        /// The pigments of the library.
+        /// Names of the library's pigments.
         library: Vec<String>,
     },
-    /// The readings do not reach far enough.
+    /// The readings do not cover the library's wavelengths.
     #[error("the library stands on {library}, the readings on `{readings}`")]
     Band {
-        /// The readings' wavelengths.
+        /// Wavelengths of the readings.
         readings: Grid,
-        /// The library's.
+        /// Wavelengths of the library.
         library: Grid,
     },
-    /// The readings cannot be brought to the library's wavelengths.
+    /// The readings cannot be interpolated to the library's wavelengths.
     #[error(transparent)]
     Interpolate(#[from] InterpolateError),
 }
 
-impl ComparisonError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
+impl Explain for ComparisonError {
+    fn hint(&self) -> Option<Hint> {
         match self {
             Self::NothingInCommon { library, .. } => {
-                Some(format!("pigments of the library: {}", library.join(", ")))
+                Some(Hint::new(format!("pigments of the library: {}", library.join(", "))))
             }
             Self::Band { .. } => {
-                Some("fit a library from these readings, or measure the whole band".to_owned())
+                Some(Hint::new("fit a library from these readings, or measure the whole band"))
             }
             Self::Interpolate(_) => None,
         }

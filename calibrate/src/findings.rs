@@ -1,14 +1,15 @@
-//! What the data cannot tell, in words.
+//! Warnings about quantities that the data do not identify, and about inconsistent data.
 
 use crate::fit::{Condition, Unidentified, Unknown};
 use crate::measurement::MeasurementError;
-use crate::observation::{BelowSurface, Door, Hiding, Observation};
+use crate::observation::{BelowSurface, HIDING_DIFFERENCE, Hiding, Observation, SurfaceConversion};
 use crate::swatch::SwatchSet;
+use pigment::PigmentId;
 use pigment::evaluate::percentile;
 use pigment::library::SampleEvidence;
 use spectra::optics::Surface;
 
-/// Every warning a fit should carry, in order of weight.
+/// All warnings of a fit of shares, the most important first.
 pub(crate) fn warnings(
     set: &SwatchSet,
     observations: &[Observation],
@@ -18,7 +19,7 @@ pub(crate) fn warnings(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     for lone in unknown {
-        let name = &set.pigments[lone.pigment];
+        let name = &set.pigments[lone.pigment.index()];
         let samples: Vec<&str> =
             lone.samples.iter().map(|&s| observations[s].sample.as_str()).collect();
         let samples = samples.join(", ");
@@ -57,10 +58,10 @@ pub(crate) fn warnings(
     warnings
 }
 
-/// Every warning of a fit of absolute amounts.
+/// All warnings of a fit of absolute amounts.
 pub(crate) fn absolute_warnings(
     set: &SwatchSet,
-    undetermined: &[usize],
+    undetermined: &[PigmentId],
     dark: Option<String>,
     per_sample: &[SampleEvidence],
 ) -> Vec<String> {
@@ -73,10 +74,10 @@ pub(crate) fn absolute_warnings(
             warnings.push(format!("{pigment}: no film of its own, known only from mixtures"));
         }
     }
-    for &index in undetermined {
+    for id in undetermined {
         warnings.push(format!(
             "{}: these films tell little of its scattering; add it over a black backing, or mixed with white and with black",
-            set.pigments[index]
+            set.pigments[id.index()]
         ));
     }
     warnings.extend(dark);
@@ -84,20 +85,20 @@ pub(crate) fn absolute_warnings(
     warnings
 }
 
-/// Refuses readings below the surface's own reflection, of films and of bare
-/// backings, unless they may be read as black; then says so.
+/// Checks readings of films and bare backings for values below the surface's own reflection: an error, or a
+/// warning where they are read as black.
 pub(crate) fn below_surface(
     set: &SwatchSet,
     surface: Surface,
     below: BelowSurface,
 ) -> Result<Option<String>, MeasurementError> {
-    let door = Door { set, surface, below };
+    let conversion = SurfaceConversion { set, surface, below };
     let mut dark = Vec::new();
     for swatch in &set.swatches {
         let mut count = 0;
         for film in &swatch.films {
             for readings in std::iter::once(&film.reflectance).chain(&film.bare) {
-                door.internal(swatch, readings)?;
+                conversion.internal(swatch, readings)?;
                 count += readings.iter().filter(|&&r| r < surface.floor()).count();
             }
         }
@@ -110,13 +111,13 @@ pub(crate) fn below_surface(
 
 const READ_AS_BLACK: &str = "readings below the surface's own reflection were read as black, a lower k1 would fit these samples";
 
-/// Samples with a count above 0, the count in brackets.
+/// Samples with a count above 0, each with the count in brackets.
 fn counted(observations: &[Observation], count: impl Fn(&Observation) -> usize) -> Vec<String> {
     let some = observations.iter().filter(|o| count(o) > 0);
     some.map(|o| format!("{} ({})", o.sample, count(o))).collect()
 }
 
-/// One line for many samples; eight are named.
+/// One line for several samples, of which eight are named.
 fn listed(what: &str, samples: Vec<String>) -> Option<String> {
     let more = samples.len().saturating_sub(8);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -124,7 +125,7 @@ fn listed(what: &str, samples: Vec<String>) -> Option<String> {
     (!samples.is_empty()).then(|| format!("{what}: {shown}{rest}"))
 }
 
-/// Films taken to hide: apart those whose readings deny it.
+/// Warnings about films that are assumed to hide; those whose readings contradict this come first.
 fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     let difference = |o: &Observation| match o.hiding {
         Hiding::Assumed(difference) => Some(difference.unwrap_or(0.0)),
@@ -132,7 +133,8 @@ fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     };
     let assumed: Vec<(&Observation, f64)> =
         observations.iter().filter_map(|o| Some((o, difference(o)?))).collect();
-    let (denied, plain): (Vec<_>, Vec<_>) = assumed.into_iter().partition(|(_, d)| *d > 0.05);
+    let (denied, plain): (Vec<_>, Vec<_>) =
+        assumed.into_iter().partition(|(_, d)| *d > HIDING_DIFFERENCE);
     let denied = denied.iter().map(|(o, d)| format!("{} (by {d:.2})", o.sample)).collect();
     let plain = plain.iter().map(|(o, _)| o.sample.clone()).collect();
     [
@@ -146,13 +148,20 @@ fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     .flatten()
 }
 
-/// Samples whose error stands far out: above the median by five times the
-/// spread (1.4826 x the median deviation), and above 2.
+/// Spreads above the median from which an error is outlying; chosen by eye.
+const OUTLYING: f64 = 5.0;
+/// Standard deviation over median absolute deviation for normal errors.
+const SD_OVER_MEDIAN: f64 = 1.4826;
+/// Least CIEDE2000 of an outlying error, just above what is plainly visible; chosen by eye.
+const LEAST_OUTLIER: f64 = 2.0;
+/// Samples with an outlying error: above the median by five times the spread (1.4826 x the median absolute
+/// deviation), and above 2.
 fn outliers(per_sample: &[SampleEvidence]) -> Vec<String> {
     let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
     let median = percentile(&errors, 50.0);
     let deviations: Vec<f64> = errors.iter().map(|e| (e - median).abs()).collect();
-    let limit = (median + 5.0 * 1.4826 * percentile(&deviations, 50.0)).max(2.0);
+    let limit =
+        (median + OUTLYING * SD_OVER_MEDIAN * percentile(&deviations, 50.0)).max(LEAST_OUTLIER);
     let mut far: Vec<&SampleEvidence> = per_sample.iter().filter(|s| s.delta_e > limit).collect();
     far.sort_by(|a, b| b.delta_e.total_cmp(&a.delta_e));
     far.into_iter()

@@ -8,7 +8,9 @@
 //! Files stand in an order of dependence; each uses only what stands above it.
 
 pub use pigment::{
-    curation, digits, evaluate, library, matching, mixture, palette, quadrature, smooth_reflectance,
+    Appearance, Backing, BackingError, ColorError, Curves, FilmOver, MixtureColor, PigmentId,
+    PigmentLibrary, Recipe, Viewing, curation, curves, digits, evaluate, library, matching,
+    palette, quadrature, recipe, remark, smooth_reflectance, visible_band,
 };
 
 pub mod measurement;
@@ -34,5 +36,7 @@ pub mod comparison;
 mod cards;
 
 pub mod plan;
+
+pub use plan::plan;
 
 pub mod synthetic;

@@ -1,5 +1,4 @@
-//! What a swatch tells of its paint: K/S, and the colour it would have in a
-//! film that hides.
+//! Observations of swatches: K/S, and the reflectance that the paint would have in a film that hides.
 
 use spectra::optics::{
     OverBacking, Surface, SurfaceError, absorption_over_scattering, film_over_two_backings,
@@ -10,27 +9,36 @@ pub use pigment::fit_settings::BelowSurface;
 use crate::measurement::MeasurementError;
 use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
 
-/// The internal reflectance that stands for black: K/S is about 500 there. A
-/// reading nearer to the surface's own reflection carries no more information,
-/// and K/S would rise without bound.
+/// Internal reflectance that stands for black; K/S is about 500 there. A reading nearer to the surface's
+/// own reflection contains no more information, and K/S would rise without bound.
 pub const BLACK: f64 = 1e-3;
+/// Two readings over different backings that differ by at most this show a film that hides; chosen by
+/// eye.
+pub const HIDING_DIFFERENCE: f64 = 0.05;
+/// Least difference of the mean reflectances of two backings from which K/S can be computed; chosen by
+/// eye.
+const LEAST_CONTRAST: f64 = 0.05;
+/// Relative difference of two thicknesses that a gauge cannot tell apart; chosen by eye.
+const SAME_THICKNESS: f64 = 0.05;
+/// Internal reflectance above which a reading is refused rather than read as white; chosen by eye.
+const ABOVE_WHITE: f64 = 1.05;
 
-/// How the backing was kept out of a swatch's K/S.
+/// The way in which the backing was separated from a swatch's K/S.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hiding {
-    /// Read over two backings; the largest difference of the two readings over
-    /// wavelength, in measured reflectance.
+    /// Read over two backings: the largest difference of the two readings over wavelength, in measured
+    /// reflectance.
     Difference(f64),
-    /// Taken to hide: there are no two backings of different reflectance, each
-    /// read bare, under films of one thickness. If there are films over several
-    /// backings all the same, the largest difference of their readings.
+    /// Assumed to hide, for want of films of one thickness on two backings of different reflectance that
+    /// were each read bare. The largest difference of readings over different backings, if there are
+    /// several.
     Assumed(Option<f64>),
 }
 
-/// One swatch as the fit sees it.
+/// One swatch as the fit uses it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
-    /// The sample's name.
+    /// Name of the sample.
     pub sample: String,
     /// Share of each pigment, sum 1.
     pub shares: Vec<f64>,
@@ -38,50 +46,46 @@ pub struct Observation {
     pub ratio: Vec<f64>,
     /// Measured reflectance of a film that hides, surface included.
     pub reflectance: Vec<f64>,
-    /// How far the film let its backing through.
+    /// Evidence that the film hides its backing.
     pub hiding: Hiding,
-    /// Spread of repeated readings, if any were repeated.
+    /// Standard deviation of repeated readings; `None` if none were repeated.
     pub spread: Option<f64>,
-    /// How many of its films' readings lay below the surface's own reflection
-    /// and were read as black.
+    /// Number of readings that were below the surface's own reflection and were read as black.
     pub below_surface: usize,
-    /// How many of them lay above a perfect white and were read as white.
+    /// Number of readings that were above a perfect white and were read as white.
     pub above_white: usize,
 }
 
 impl Hiding {
-    /// Whether the two readings differ by at most 0.05 at every wavelength;
-    /// `None` if assumed.
+    /// Whether the two readings differ by at most 0.05 at every wavelength; `None` if hiding is assumed.
     #[must_use]
     pub fn hides(self) -> Option<bool> {
         match self {
-            Self::Difference(largest) => Some(largest <= 0.05),
+            Self::Difference(largest) => Some(largest <= HIDING_DIFFERENCE),
             Self::Assumed(_) => None,
         }
     }
 }
 
-/// The observations of all swatches.
+/// Computes the observations of all swatches.
 ///
-/// Readings are first brought below the surface. A film over two backings of
-/// known reflectance gives K/S by [`film_over_two_backings`], the pair with the
-/// greatest contrast at one thickness (to 5 %); the thickest such pair where
-/// there are several. Any other swatch is taken to hide, its thickest film
-/// counting.
+/// Readings are first converted to reflectances below the surface. Films over two backings of known
+/// reflectance give K/S by [`film_over_two_backings`]: of several such pairs of one thickness (to 5 %)
+/// the thickest, and of these the one with the greatest contrast. Any other swatch is assumed to hide,
+/// and its thickest film is used.
 ///
 /// # Errors
-/// [`MeasurementError::BelowSurface`] or `AboveWhite`, naming sample and
-/// wavelength.
+/// [`MeasurementError::BelowSurface`] or `AboveWhite`, with sample and wavelength.
 pub fn observations(
     set: &SwatchSet,
     surface: Surface,
     below: BelowSurface,
 ) -> Result<Vec<Observation>, MeasurementError> {
-    let door = Door { set, surface, below };
-    set.swatches.iter().map(|swatch| door.observation(swatch)).collect()
+    let conversion = SurfaceConversion { set, surface, below };
+    set.swatches.iter().map(|swatch| conversion.observation(swatch)).collect()
 }
 
-/// The least measured reflectance of any film or bare backing in use.
+/// Least measured reflectance of any film or bare backing of `set`.
 #[must_use]
 pub fn least_reading(set: &SwatchSet) -> f64 {
     let films = set.swatches.iter().flat_map(|swatch| &swatch.films);
@@ -89,15 +93,15 @@ pub fn least_reading(set: &SwatchSet) -> f64 {
     all.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Readings pass through the surface here.
-pub(crate) struct Door<'a> {
+/// Conversion of the readings of a set to reflectances below the surface.
+pub(crate) struct SurfaceConversion<'a> {
     pub(crate) set: &'a SwatchSet,
     pub(crate) surface: Surface,
     pub(crate) below: BelowSurface,
 }
 
-impl Door<'_> {
-    /// Measured reflectances below the surface.
+impl SurfaceConversion<'_> {
+    /// Converts measured reflectances of `swatch` to reflectances below the surface.
     pub(crate) fn internal(
         &self,
         swatch: &Swatch,
@@ -120,7 +124,7 @@ impl Door<'_> {
                     });
                 }
             };
-            if internal > 1.05 {
+            if internal > ABOVE_WHITE {
                 return Err(MeasurementError::AboveWhite {
                     file: swatch.file.to_string(),
                     row: swatch.row,
@@ -129,7 +133,7 @@ impl Door<'_> {
                     measured: value,
                 });
             }
-            // A hair above white is the instrument's tile, not the paint.
+            // Slightly above white is an error of the instrument's tile, not of the paint.
             Ok(internal.min(1.0))
         };
         measured.iter().enumerate().map(at).collect()
@@ -180,7 +184,7 @@ impl Door<'_> {
             .zip(dark)
             .map(|(light, dark)| match film_over_two_backings(light, dark) {
                 Some(optics) => optics.ratio.min(absorption_over_scattering(BLACK)),
-                // Two backings that are alike here tell nothing apart.
+                // Two backings that are alike at this wavelength give no ratio.
                 None => absorption_over_scattering(f64::midpoint(light.film, dark.film)),
             })
             .collect();
@@ -188,7 +192,7 @@ impl Door<'_> {
     }
 }
 
-/// Film and bare reflectance over the two backings that differ most.
+/// Film and bare reflectance over each of two backings.
 type Pair<'a> = ((&'a [f64], &'a [f64]), (&'a [f64], &'a [f64]));
 
 fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
@@ -204,7 +208,7 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
             let contrast = (mean(first_bare) - mean(second_bare)).abs();
             let thickness = first.thickness_mm.unwrap_or(0.0);
             let better = best.as_ref().is_none_or(|(t, c, _)| (thickness, contrast) > (*t, *c));
-            if contrast > 0.05 && better {
+            if contrast > LEAST_CONTRAST && better {
                 let pair = (
                     (first.reflectance.as_slice(), *first_bare),
                     (second.reflectance.as_slice(), *second_bare),
@@ -216,23 +220,23 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
     best.map(|(_, _, pair)| pair)
 }
 
-/// Two thicknesses that a gauge cannot tell apart, or two that nobody measured.
+/// Whether two thicknesses cannot be told apart by a gauge, or both are unknown.
 fn alike(first: Option<f64>, second: Option<f64>) -> bool {
     match (first, second) {
-        (Some(a), Some(b)) => (a - b).abs() <= 0.05 * a.max(b),
+        (Some(a), Some(b)) => (a - b).abs() <= SAME_THICKNESS * a.max(b),
         (None, None) => true,
         _ => false,
     }
 }
 
-/// The first of the thickest films; films of unknown thickness count as thin.
+/// First of the thickest films; films of unknown thickness count as thin.
 fn thickest(films: &[SwatchFilm]) -> &SwatchFilm {
     let thickness = |film: &SwatchFilm| film.thickness_mm.unwrap_or(0.0);
     let thicker = |a, b| if thickness(b) > thickness(a) { b } else { a };
     films.iter().reduce(thicker).expect("a swatch has films")
 }
 
-/// The largest difference of readings over different backings.
+/// Largest difference of readings over different backings; `None` if there is only one backing.
 fn largest_difference(films: &[SwatchFilm]) -> Option<f64> {
     let mut largest: Option<f64> = None;
     for (index, first) in films.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How near predicted films come to measured ones.
+//! Errors of predicted films against measured ones.
 
 use spectra::TristimulusWeights;
 
@@ -6,7 +6,7 @@ use pigment::digits::rounded;
 use pigment::evaluate::{Summary, delta_e};
 use pigment::library::SampleEvidence;
 
-/// The errors of a set of films.
+/// Errors of a set of films.
 pub(crate) struct Scores {
     /// Root mean square error of reflectance.
     pub(crate) rms: f64,
@@ -15,7 +15,7 @@ pub(crate) struct Scores {
 }
 
 impl Scores {
-    /// The scores of `(sample, measured, predicted)`.
+    /// Errors of films, each given as name of the sample, measured and predicted reflectance.
     pub(crate) fn of<'a>(
         weights: &TristimulusWeights,
         films: impl IntoIterator<Item = (String, &'a [f64], Vec<f64>)>,
@@ -32,7 +32,7 @@ impl Scores {
         Self { rms, delta_e: summary(&per_sample), per_sample }
     }
 
-    /// The same to six significant digits, for a file.
+    /// Copy rounded to six significant digits, for a file.
     pub(crate) fn rounded(mut self) -> Self {
         self.per_sample.iter_mut().for_each(|s| s.delta_e = rounded(s.delta_e));
         Self {

@@ -7,59 +7,59 @@ use spectra::Grid;
 
 use crate::measurement::{CellPlace, Film, MeasurementError, MeasurementTable, Reading};
 
-/// One painted sample.
+/// One painted sample, with its recipe and its averaged films.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Swatch {
-    /// Its name.
+    /// Name of the sample.
     pub sample: String,
-    /// The file of its first reading.
+    /// File of the first reading.
     pub file: Arc<str>,
-    /// Its first row there.
+    /// Row of the first reading in that file.
     pub row: u64,
-    /// Amount of each pigment as written.
+    /// Amount of each pigment of the set, as written in the file.
     pub amounts: Vec<f64>,
-    /// The same, normalised to sum 1.
+    /// Share of each pigment of the set, sum 1.
     pub shares: Vec<f64>,
-    /// Its films, by backing and thickness; at least one.
+    /// Films of the sample by backing and thickness; at least one.
     pub films: Vec<SwatchFilm>,
 }
 
-/// The averaged readings of one film on one backing.
+/// Averaged readings of one film on one backing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchFilm {
-    /// The backing's name; empty if the file does not say.
+    /// Name of the backing; empty if the file does not state it.
     pub backing: String,
-    /// Thickness in mm, where given.
+    /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
-    /// Mean measured reflectance, as a fraction.
+    /// Mean measured reflectance, as a fraction, on the set's grid.
     pub reflectance: Vec<f64>,
-    /// Root mean square over wavelengths of the standard deviation of repeated
-    /// readings; `None` for a single reading.
+    /// Standard deviation of repeated readings, root mean square over wavelengths; `None` for a single
+    /// reading.
     pub spread: Option<f64>,
-    /// The bare backing's measured reflectance, where there is a reading of it:
-    /// the sample's own, else the mean over the file.
+    /// Measured reflectance of the bare backing, if it was read: that of the sample's own card, else the
+    /// mean over the file.
     pub bare: Option<Vec<f64>>,
 }
 
-/// Every swatch of a measurement file, in order of first appearance.
+/// All swatches of the measurement files, in order of first appearance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchSet {
-    /// The wavelengths of every reflectance.
+    /// Wavelengths of every reflectance.
     pub grid: Grid,
-    /// The pigments.
+    /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
-    /// The swatches; none if the file holds bare cards only.
+    /// Swatches; empty if the files hold bare cards only.
     pub swatches: Vec<Swatch>,
 }
 
 impl SwatchSet {
-    /// Groups the readings of `table` by sample, averages what was repeated and
-    /// gives every film its bare backing.
+    /// Groups the readings of `table` by sample, averages repeated readings, and assigns each film its bare
+    /// backing.
     ///
     /// # Errors
-    /// [`MeasurementError::Contradiction`] if rows of one sample disagree on the
-    /// recipe, [`MeasurementError::NoRecipe`] for paint without a pigment,
-    /// [`MeasurementError::NoFilms`] if there are bare cards only.
+    /// [`MeasurementError::Contradiction`] if rows of one sample have different recipes,
+    /// [`MeasurementError::NoRecipe`] for paint without a pigment, [`MeasurementError::NoFilms`] if there
+    /// are bare cards only.
     pub fn from_table(table: &MeasurementTable) -> Result<Self, MeasurementError> {
         let cards = BareCards::of(table);
         let mut order: Vec<&str> = Vec::new();
@@ -83,7 +83,7 @@ impl SwatchSet {
         Ok(all.retaining(|_| true))
     }
 
-    /// The set without some swatches; pigments that then occur nowhere go too.
+    /// Copy with the swatches that `keep` selects; pigments that none of them contains are dropped.
     #[must_use]
     pub fn retaining(&self, keep: impl Fn(&Swatch) -> bool) -> Self {
         let swatches: Vec<Swatch> = self.swatches.iter().filter(|s| keep(s)).cloned().collect();
@@ -106,8 +106,8 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in
-    /// percent; nothing where the file plainly counts parts instead.
+    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in percent. Empty where the file
+    /// counts parts instead.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
         // A masstone may be written as 1 where mixtures are counted in parts.
@@ -128,7 +128,7 @@ impl SwatchSet {
     }
 }
 
-/// Mean readings of the bare backings: by sample and backing, and by backing.
+/// Mean readings of bare backings: by sample and backing, and by backing alone.
 struct BareCards {
     own: BTreeMap<(String, String), Vec<f64>>,
     any: BTreeMap<String, Vec<f64>>,

@@ -1,6 +1,4 @@
-//! Made-up paint of known K and S, for tests, benches and trying a method.
-//!
-//! Nothing here was measured.
+//! Synthetic paint of known K and S, for tests, benches and trials of a method. Nothing here was measured.
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
@@ -10,55 +8,52 @@ use spectra::Grid;
 use spectra::optics::{Specular, Surface, absorption_over_scattering};
 
 use crate::observation::{BLACK, Hiding, Observation};
-use pigment::mixture::Mixture;
+use pigment::Curves;
 
-/// Mixtures of made-up pigments, the first of them white with S = 1.
+/// Mixtures of synthetic pigments, the first of which is a white with S = 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SyntheticMixtures {
-    /// The wavelengths.
+    /// Wavelengths of all curves.
     pub grid: Grid,
-    /// The surface.
+    /// Surface of the films.
     pub surface: Surface,
-    /// True K by pigment and wavelength.
-    pub absorption: Vec<Vec<f64>>,
-    /// True S by pigment and wavelength.
-    pub scattering: Vec<Vec<f64>>,
-    /// By mixture: reflectance without noise.
-    pub truth: Vec<Vec<f64>>,
-    /// By mixture: what a noisy instrument makes of it.
+    /// True K and S by pigment.
+    pub curves: Vec<Curves>,
+    /// Reflectance of each mixture without noise.
+    truth: Vec<Vec<f64>>,
+    /// Observation of each mixture by a noisy instrument.
     pub observations: Vec<Observation>,
 }
 
 impl SyntheticMixtures {
-    /// The size of the paper's experiment, 11 pigments and 71 mixtures at 101
-    /// wavelengths (400 to 700 nm by 3 nm): every masstone, two tints with
-    /// white of each (10 % and 40 %), then random mixtures of two or three.
-    /// Readings carry normal noise of standard deviation `noise` in reflectance.
+    /// Data of the size of the published experiment (Baxter, Wendt and Lin 2004): 11 pigments and 71
+    /// mixtures at 101 wavelengths (400 to 700 nm by 3 nm). The mixtures are every masstone, two tints
+    /// with white of each other pigment (10 % and 40 %), then random mixtures of two or three. Readings
+    /// have normal noise of standard deviation `noise` in reflectance.
     ///
-    /// K and S are exponentials of a level and a few smooth bumps.
+    /// K and S are exponentials of a level plus a few smooth bumps.
     #[must_use]
     pub fn paper_size(seed: u64, noise: f64) -> Self {
         let grid = Grid::from_nm(400.0, 3.0, 101).expect("a grid");
         let surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let pigments = 11;
-        let mut absorption = vec![curve(&mut random, grid, (-6.0, -5.0), 2)];
-        let mut scattering = vec![vec![1.0; grid.count()]];
+        let white = Curves {
+            grid,
+            absorption: curve(&mut random, grid, (-6.0, -5.0), 2),
+            scattering: vec![1.0; grid.count()],
+        };
+        let mut curves = vec![white];
         for _ in 1..pigments {
-            absorption.push(curve(&mut random, grid, (-2.5, 1.5), 4));
-            scattering.push(curve(&mut random, grid, (-2.0, 0.3), 3));
+            let absorption = curve(&mut random, grid, (-2.5, 1.5), 4);
+            let scattering = curve(&mut random, grid, (-2.0, 0.3), 3);
+            curves.push(Curves { grid, absorption, scattering });
         }
         let observations = recipes(&mut random, pigments, 71);
-        let mut mixtures = Self {
-            grid,
-            surface,
-            absorption,
-            scattering,
-            truth: Vec::new(),
-            observations: Vec::new(),
-        };
+        let mut mixtures =
+            Self { grid, surface, curves, truth: Vec::new(), observations: Vec::new() };
         for (number, shares) in observations.into_iter().enumerate() {
-            let truth = mixtures.predicted(&mixtures.absorption, &mixtures.scattering, &shares);
+            let truth = mixtures.predicted(&mixtures.curves, &shares);
             let read = |value: &f64| {
                 let error: f64 = StandardNormal.sample(&mut random);
                 let internal = surface.internal_from_measured(value + noise * error);
@@ -83,30 +78,27 @@ impl SyntheticMixtures {
         mixtures
     }
 
-    /// Root mean square difference of what K and S predict from the truth.
+    /// Root mean square difference between predictions from `curves` and the true reflectances.
     #[must_use]
-    pub fn rms_to_truth(&self, absorption: &[Vec<f64>], scattering: &[Vec<f64>]) -> f64 {
+    pub fn rms_to_truth(&self, curves: &[Curves]) -> f64 {
         let mut squares = 0.0;
         for (observation, truth) in self.observations.iter().zip(&self.truth) {
-            let predicted = self.predicted(absorption, scattering, &observation.shares);
+            let predicted = self.predicted(curves, &observation.shares);
             squares += predicted.iter().zip(truth).map(|(p, t)| (p - t).powi(2)).sum::<f64>();
         }
         (squares / (self.truth.len() * self.grid.count()) as f64).sqrt()
     }
 
-    fn predicted(
-        &self,
-        absorption: &[Vec<f64>],
-        scattering: &[Vec<f64>],
-        shares: &[f64],
-    ) -> Vec<f64> {
-        let curves = absorption.iter().zip(scattering).zip(shares);
-        let parts = curves.map(|((k, s), share)| (*share, k.as_slice(), s.as_slice()));
-        Mixture::of(self.grid.count(), parts).hiding(self.surface)
+    fn predicted(&self, curves: &[Curves], shares: &[f64]) -> Vec<f64> {
+        let parts = curves.iter().zip(shares).map(|(curves, share)| {
+            let (absorption, scattering) = curves.as_slices();
+            (*share, absorption, scattering)
+        });
+        Curves::weighted_sum(self.grid, parts).hiding(self.surface)
     }
 }
 
-/// exp of a level between `level` and a few Gaussian bumps.
+/// Exponential of a random level within `level` plus a few Gaussian bumps.
 fn curve(random: &mut ChaCha8Rng, grid: Grid, level: (f64, f64), bumps: usize) -> Vec<f64> {
     let level = random.random_range(level.0..level.1);
     let bumps: Vec<(f64, f64, f64)> = (0..bumps)

@@ -1,4 +1,4 @@
-//! How well films that a fit has not seen are predicted.
+//! Errors of predictions for films that the fit has not seen.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -14,34 +14,37 @@ use crate::scores::Scores;
 use crate::swatch::SwatchSet;
 use pigment::evaluate::{Summary, Viewing};
 use pigment::library::SampleEvidence;
-use pigment::mixture::Mixture;
+use pigment::{Curves, PigmentId};
 
-/// Errors of mixtures predicted without their own measurement.
+/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long;
+/// chosen by eye.
+pub const DEFAULT_FOLDS: usize = 10;
+
+/// Errors of mixtures that were predicted without their own measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Validation {
     /// Root mean square error of measured reflectance.
     pub rms: f64,
-    /// Summary of the colour errors.
+    /// Summary of the colour errors in CIEDE2000.
     pub delta_e: Summary,
-    /// By mixture, in order of the file.
+    /// Colour error of each mixture, in order of the file.
     pub per_sample: Vec<SampleEvidence>,
-    /// Mixtures that could not be left out, since a pigment would not be
-    /// identified without them.
+    /// Mixtures that could not be left out, since a pigment would not be identified without them.
     pub needed: Vec<String>,
 }
 
-/// How to fit, and what to leave out.
+/// Settings of a validation: the fit, and the mixtures that are left out.
 pub struct ValidationPlan<'a> {
-    /// The fit's settings.
+    /// Settings of the fits.
     pub settings: &'a FitSettings,
-    /// Light and observer of the errors.
+    /// Light and observer of the colour errors.
     pub viewing: &'a Viewing,
-    /// What the fit of all samples found out about the noise; spares estimating
-    /// it anew. On the Van Gogh oils this moves the mean error by 0.004.
+    /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
+    /// Van Gogh oils this moves the mean error by 0.004.
     pub state: Option<RefinedState>,
-    /// Leave out this many seeded groups, instead of each mixture by itself.
+    /// Number of seeded groups that are left out in turn; `None` for each mixture by itself.
     pub folds: Option<usize>,
-    /// Called after each mixture.
+    /// Called after each mixture, from any thread.
     pub progress: &'a (dyn Fn() + Sync),
 }
 
@@ -61,7 +64,7 @@ impl ValidationPlan<'_> {
         dealt.into_iter().map(|group| group.into_iter().map(|i| candidates[i]).collect()).collect()
     }
 
-    /// What `predict` makes of each group left out, on all cores, in order.
+    /// Predictions of each group left out, on all cores, in order of the file.
     fn predictions(
         &self,
         candidates: &[usize],
@@ -75,46 +78,43 @@ impl ValidationPlan<'_> {
     }
 }
 
-/// Refits without each mixture (two pigments or more) that `chosen` admits, on
-/// all cores, and predicts its film that hides.
+/// Refits without each mixture (of two pigments or more) that `chosen` selects, on all cores, and predicts
+/// it as a film that hides.
 ///
 /// # Errors
 /// [`CalibrationError`] from reading or from any fit.
-pub fn validate(
+pub fn leave_out(
     set: &SwatchSet,
-    reference: usize,
+    reference: PigmentId,
     surface: Surface,
     plan: &ValidationPlan<'_>,
     chosen: impl Fn(&Observation) -> bool,
 ) -> Result<Validation, CalibrationError> {
     let observations = observations(set, surface, plan.settings.below_surface)?;
-    let shares = |some: &[&Observation]| -> Vec<Vec<f64>> {
-        some.iter().map(|o| o.shares.clone()).collect()
-    };
-    let unknown = unidentified(&shares(&observations.iter().collect::<Vec<_>>()), reference);
+    let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
     let is_mixture = |o: &Observation| o.shares.iter().filter(|s| **s > 0.0).count() > 1;
     let candidates: Vec<usize> = (0..observations.len())
         .filter(|&i| is_mixture(&observations[i]) && chosen(&observations[i]))
-        .filter(|&i| unknown.iter().all(|u| observations[i].shares[u.pigment] == 0.0))
+        .filter(|&i| unknown.iter().all(|u| observations[i].shares[u.pigment.index()] == 0.0))
         .collect();
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let rest: Vec<Observation> =
             all_but(observations.len(), group).iter().map(|&i| observations[i].clone()).collect();
-        let unknown = unidentified(&shares(&rest.iter().collect::<Vec<_>>()), reference);
+        let unknown = unidentified(rest.iter().map(|o| o.shares.as_slice()), reference);
         let (solvable, identified) = without(&rest, &unknown);
         let among = identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
-        let problem = Problem::new(set.grid, surface, &solvable, among)?;
+        let problem = Problem::new(set.grid, surface, &solvable, PigmentId(among))?;
         let how = Refinement::prediction(plan.settings.smoothness, plan.state);
         let solution = solve(&problem, plan.settings.method, how)?;
         let predictions = group.iter().map(|&index| {
             (plan.progress)();
             let target = &observations[index];
-            let needed = unknown.iter().any(|u| target.shares[u.pigment] > 0.0);
-            let parts = identified.iter().enumerate().map(|(place, &pigment)| {
-                let curves = (&solution.absorption[place], &solution.scattering[place]);
-                (target.shares[pigment], curves.0.as_slice(), curves.1.as_slice())
+            let needed = unknown.iter().any(|u| target.shares[u.pigment.index()] > 0.0);
+            let parts = identified.iter().zip(&solution.curves).map(|(pigment, curves)| {
+                let (absorption, scattering) = curves.as_slices();
+                (target.shares[pigment.index()], absorption, scattering)
             });
-            let predicted = Mixture::of(set.grid.count(), parts).hiding(surface);
+            let predicted = Curves::weighted_sum(set.grid, parts).hiding(surface);
             Prediction { index, predicted: (!needed).then_some(predicted) }
         });
         Ok(predictions.collect())
@@ -126,22 +126,23 @@ pub fn validate(
     Ok(summary(set, plan, predictions, sample))
 }
 
-/// The same for absolute amounts: each film of two pigments or more.
+/// Refits without each film of two pigments or more, for absolute amounts, and predicts it.
 ///
 /// # Errors
 /// [`CalibrationError`] from reading or from any fit.
-pub fn validate_absolute(
+pub fn leave_out_films(
     set: &SwatchSet,
     film: UnevenFilm,
     plan: &ValidationPlan<'_>,
 ) -> Result<Validation, CalibrationError> {
-    let (problem, names) = films(set)?;
+    let problem = films(set)?;
     let weights = Viewing::default().weights(set.grid).expect("the method fits the grid");
-    let count = problem.recipes.len();
-    let candidates: Vec<usize> = (0..count).filter(|&i| problem.recipes[i].len() > 1).collect();
+    let count = problem.films.len();
+    let candidates: Vec<usize> =
+        (0..count).filter(|&i| problem.films[i].recipe.len() > 1).collect();
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let how = Refinement::prediction(plan.settings.smoothness, plan.state);
-        let part = problem.of(&all_but(count, group));
+        let part = problem.with_films(&all_but(count, group));
         let fit = fit_finite(&part, film, &weights, how)?;
         let predictions = group.iter().map(|&index| {
             (plan.progress)();
@@ -150,11 +151,13 @@ pub fn validate_absolute(
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let sample = |index: usize| (names[index].clone(), problem.reflectance[index].as_slice());
+    let sample = |index: usize| {
+        (problem.films[index].name.clone(), problem.films[index].reflectance.as_slice())
+    };
     Ok(summary(set, plan, predictions, sample))
 }
 
-/// What was predicted of a left-out sample; nothing if it was needed.
+/// Prediction of a left-out sample; `None` if a pigment would not be identified without it.
 struct Prediction {
     index: usize,
     predicted: Option<Vec<f64>>,

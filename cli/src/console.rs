@@ -2,8 +2,11 @@
 
 use std::io::Write;
 
+use calibrate::remark::Remark;
 use serde_json::Value;
 use spectra::color::Rgb;
+
+use crate::failure::flags;
 
 /// What the terminal can do.
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,6 +44,21 @@ impl Console<'_> {
     /// A line beside the results.
     pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> anyhow::Result<()> {
         writeln!(self.err, "{}", text.as_ref())?;
+        Ok(())
+    }
+
+    /// Remarks of a library, one a line, with settings as options.
+    pub(crate) fn remarks<'r>(
+        &mut self,
+        remarks: impl IntoIterator<Item = &'r Remark>,
+    ) -> anyhow::Result<()> {
+        for remark in remarks {
+            let mut line = Remark { hint: None, ..remark.clone() }.to_string();
+            if let Some(hint) = &remark.hint {
+                line += &format!("; {}", flags(hint));
+            }
+            self.remark(line)?;
+        }
         Ok(())
     }
 

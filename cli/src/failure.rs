@@ -7,9 +7,11 @@ use calibrate::comparison::ComparisonError;
 use calibrate::curation::{CurationError, TableError};
 use calibrate::fit::FitError;
 use calibrate::library::{LibraryError, RecipeError};
-use calibrate::matching::MatchError;
+use calibrate::matching::{MatchError, PriceError};
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
+use calibrate::visible_band::BandError;
+use calibrate::{BackingError, ColorError};
 use render::camera::CameraPathError;
 use render::export::{FrameError, PaintingExportError, SequenceError};
 use render::gpu::DeviceError;
@@ -74,7 +76,7 @@ pub(crate) fn report(error: &anyhow::Error, err: &mut dyn Write) -> u8 {
 }
 
 /// Writes a hint with its settings as options: `[full_scale=255]` becomes `--full-scale 255`.
-fn flags(hint: &Hint) -> String {
+pub(crate) fn flags(hint: &Hint) -> String {
     hint.with_settings(|name, value| {
         let option = format!("--{}", name.replace('_', "-"));
         value.map_or_else(|| option.clone(), |value| format!("{option} {value}"))
@@ -97,6 +99,22 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<LampError>,
         as_explained::<LightError>,
         as_explained::<SwatchFileError>,
+        as_explained::<MeasurementError>,
+        as_explained::<RecipesError>,
+        as_explained::<CalibrationError>,
+        as_explained::<FitError>,
+        as_explained::<ComparisonError>,
+        as_explained::<PlanError>,
+        as_explained::<LibraryError>,
+        as_explained::<RecipeError>,
+        as_explained::<ColorError>,
+        as_explained::<BackingError>,
+        as_explained::<BandError>,
+        as_explained::<MatchError>,
+        as_explained::<PriceError>,
+        as_explained::<CurationError>,
+        as_explained::<TableError>,
+        as_explained::<PaintingFileError>,
         as_explained::<PaintingError>,
         as_explained::<SessionError>,
         as_explained::<ScriptStartError>,
@@ -116,45 +134,8 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
 }
 
 fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
-    if let Some(CalibrationError::Measurement(error)) = cause.downcast_ref() {
-        return error.hint();
-    }
-    let fit = match cause.downcast_ref() {
-        Some(CalibrationError::Fit(error)) => Some(error),
-        _ => cause.downcast_ref::<FitError>(),
-    };
-    if matches!(fit, Some(FitError::Empty | FitError::Reference)) {
-        return Some("measure the white by itself and mixtures with it, or name another white with --reference".to_owned());
-    }
-    if let Some(error) = cause.downcast_ref::<MeasurementError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<RecipesError>() {
-        return error.hint();
-    }
     if let Some(error) = explained(cause) {
         return error.hint().map(|hint| flags(&hint));
-    }
-    if let Some(error) = cause.downcast_ref::<ComparisonError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<RecipeError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<CurationError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<TableError>() {
-        return error.hint();
-    }
-    if let Some(error) = cause.downcast_ref::<LibraryError>() {
-        return error.hint().map(str::to_owned);
-    }
-    if let Some(error) = cause.downcast_ref::<PlanError>() {
-        return Some(error.hint());
-    }
-    if let Some(error) = cause.downcast_ref::<MatchError>() {
-        return error.hint().map(str::to_owned);
     }
     if let Some(hint) = painting_hint(cause) {
         return Some(hint);
@@ -204,6 +185,9 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     if let Some(PaintingError::Engine(_)) = painting {
         return Some(2);
     }
+    if let Some(status) = color_status(cause) {
+        return Some(status);
+    }
     if let Some(error) = explained(cause) {
         let wrong_option =
             matches!(
@@ -239,4 +223,43 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<MeshError>()
         || cause.is::<CameraPathError>();
     data.then_some(1)
+}
+
+/// Exit status of errors about mixtures and recipes: 2 where an option is wrong, 1 where the data are.
+fn color_status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
+    let backing = |error: &BackingError| match error {
+        BackingError::Reflectance { .. } => 2,
+        _ => 1,
+    };
+    if let Some(error) = cause.downcast_ref::<MatchError>() {
+        return Some(match error {
+            MatchError::Backing(error) => backing(error),
+            MatchError::NoRecipe
+            | MatchError::Recipe(_)
+            | MatchError::PricedPigment { .. }
+            | MatchError::NoPrice { .. }
+            | MatchError::Band(_)
+            | MatchError::Interpolate(_) => 1,
+            _ => 2,
+        });
+    }
+    if let Some(error) = cause.downcast_ref::<ColorError>() {
+        return Some(match error {
+            ColorError::Thickness { .. } => 2,
+            ColorError::Backing(error) => backing(error),
+            _ => 1,
+        });
+    }
+    if let Some(error) = cause.downcast_ref::<PlanError>() {
+        let of_data = matches!(error, PlanError::Unidentified { .. } | PlanError::Prior(_));
+        return Some(if of_data { 1 } else { 2 });
+    }
+    if let Some(error) = cause.downcast_ref::<PriceError>() {
+        let of_data = matches!(error, PriceError::MissingColumn { .. } | PriceError::Price { .. });
+        return Some(if of_data { 1 } else { 2 });
+    }
+    cause
+        .downcast_ref::<BackingError>()
+        .map(backing)
+        .or_else(|| cause.is::<BandError>().then_some(1))
 }

@@ -1,26 +1,17 @@
-//! What lies under a film: a grey, or a measured spectrum.
+//! The ground under a film: a grey, or a measured spectrum.
 
-use calibrate::library::PigmentLibrary;
-use spectra::{Extrapolation, Interpolation, Reflectance, Spectrum};
+use calibrate::Backing;
+use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::named_spectra::{Chosen, chosen, first_few};
 use crate::readings::ReadingOptions;
 
-/// The ground's measured reflectance on the library's grid.
-pub(crate) fn ground(
-    text: &str,
-    library: &PigmentLibrary,
-    console: &mut Console<'_>,
-) -> anyhow::Result<Vec<f64>> {
-    let even = match text {
-        "white" => Some(1.0),
-        "black" => Some(0.0),
-        _ => text.parse().ok().filter(|v| (0.0..=1.0).contains(v)),
-    };
-    if let Some(value) = even {
-        return Ok(vec![value; library.grid.count()]);
+/// The ground that `--over` names: a number, a word, or a spectrum of a file.
+pub(crate) fn ground(text: &str, console: &mut Console<'_>) -> anyhow::Result<Backing> {
+    if let Ok(even) = text.parse() {
+        return Ok(even);
     }
     let Some(Chosen { file, grid, spectra }) = chosen(text, &ReadingOptions::default(), console)?
     else {
@@ -37,18 +28,5 @@ pub(crate) fn ground(
         ));
     };
     let spectrum = Spectrum::<Reflectance>::new(grid, one.reflectance.clone())?;
-    let (start, end) = (grid.start_nm(), grid.end_nm());
-    if start > library.grid.end_nm() || end < library.grid.start_nm() {
-        return Err(Refusal::data(
-            format!("{file}: the ground is measured from {start} to {end} nm only"),
-            format!("the library stands on {}", library.grid),
-        ));
-    }
-    if start > library.grid.start_nm() || end < library.grid.end_nm() {
-        console.warnings(&[format!(
-            "the ground is measured from {start} to {end} nm; beyond, its end values are held"
-        )])?;
-    }
-    let method = Interpolation::best_for(grid);
-    Ok(spectrum.resampled(library.grid, method, Extrapolation::Hold)?.into_values())
+    Ok(Backing::Measured(spectrum))
 }

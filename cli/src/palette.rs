@@ -15,7 +15,7 @@ pub(crate) fn palette(names: &[String], library: &PigmentLibrary) -> anyhow::Res
         ));
     }
     for (place, name) in names.iter().enumerate() {
-        let index = library.find(name)?;
+        let index = library.find(name)?.index();
         if slots.contains(&Some(index)) {
             return Err(Refusal::usage(
                 format!("--palette takes each pigment once, found `{name}` again"),

@@ -60,8 +60,8 @@ impl ReadingOptions {
 
     fn scale(&self) -> ScaleChoice {
         match (self.percent, self.fraction) {
-            (true, _) => ScaleChoice::Told(Scale::Percent),
-            (_, true) => ScaleChoice::Told(Scale::Fraction),
+            (true, _) => ScaleChoice::Known(Scale::Percent),
+            (_, true) => ScaleChoice::Known(Scale::Fraction),
             _ => ScaleChoice::ByFile,
         }
     }

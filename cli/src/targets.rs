@@ -1,8 +1,7 @@
-//! Colours to be met: `#rrggbb`, Lab, or measured spectra.
+//! Target colours: `#rrggbb`, CIELAB, or measured spectra.
 
-use calibrate::matching::{Sight, Target};
+use calibrate::matching::ColorTarget;
 use calibrate::measurement::Film;
-use spectra::color::ColorCode;
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
@@ -11,40 +10,27 @@ use crate::input::remark_coverage;
 use crate::named_spectra::{Chosen, NamedSpectrum, chosen};
 use crate::readings::ReadingOptions;
 
-/// The targets that `text` names: one colour, or the spectra of FILE or
-/// FILE#SAMPLE.
-///
-/// A colour without a spectrum is wanted to look the same under every sight. An
-/// sRGB colour is adapted (Bradford) from the display's white to the light's.
+/// Targets that `text` names: one colour, or the spectra of `FILE` or `FILE#SAMPLE`.
 pub(crate) fn targets(
     text: &str,
-    sights: &[Sight],
     reading: &ReadingOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<Vec<Target>> {
+) -> anyhow::Result<Vec<ColorTarget>> {
     if let Some(chosen) = chosen(text, reading, console)? {
-        return measured(chosen, sights, console);
+        return measured(chosen, console);
     }
-    let Ok(code) = text.parse::<ColorCode>() else {
-        return Err(Refusal::usage(
+    let target = text.parse().map_err(|_| {
+        Refusal::usage(
             format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
             "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
-        ));
-    };
-    let name = match code {
-        ColorCode::Srgb(rgb) => rgb.to_hex(),
-        ColorCode::Lab(_) => format!("Lab {text}"),
-    };
-    Ok(vec![Target::from_lab(&name, code.lab(), sights)])
+        )
+    })?;
+    Ok(vec![target])
 }
 
-/// The paint among `chosen`. Bare cards are read to tell the paint's K/S and not to be matched,
-/// unless one is named or there is nothing else.
-fn measured(
-    chosen: Chosen,
-    sights: &[Sight],
-    console: &mut Console<'_>,
-) -> anyhow::Result<Vec<Target>> {
+/// Spectra of paint among `chosen`. Bare cards are left out, unless one is named or there is nothing
+/// else.
+fn measured(chosen: Chosen, console: &mut Console<'_>) -> anyhow::Result<Vec<ColorTarget>> {
     let Chosen { file, grid, mut spectra } = chosen;
     remark_coverage(grid, console)?;
     let count = spectra.len();
@@ -57,7 +43,7 @@ fn measured(
     }
     let target = |one: NamedSpectrum| {
         let reflectance = Spectrum::<Reflectance>::new(grid, one.reflectance)?;
-        Ok(Target::from_reflectance(&one.name, &reflectance, sights)?)
+        Ok(ColorTarget::measured(one.name, reflectance))
     };
     spectra.into_iter().map(target).collect()
 }

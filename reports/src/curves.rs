@@ -71,34 +71,34 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
         Column::quantity(curves.quantity, &unit, 4),
         Column::quantity("standard deviation", &unit, 4),
     ]);
-    let panels = (0..library.pigments.len()).map(|index| {
-        let (values, deviations) = (curves.of)(&library.pigments[index]);
-        let name = subject.label(index);
+    let panels = library.ids().map(|id| {
+        let (values, deviations) = (curves.of)(&library[id]);
+        let name = subject.label(id);
         let mut edges = Vec::new();
         for (at, nm) in library.grid.wavelengths_nm().enumerate() {
             let (value, sd) = (values[at], deviations.get(at).copied());
             data.push([name.as_str().into(), nm.into(), value.into(), Cell::from(sd)]);
             edges.extend(sd.map(|sd| (nm, value - sd, value + sd)));
         }
-        let color = subject.masstone(index);
+        let color = subject.masstone(id);
         let points = library.grid.wavelengths_nm().zip(values.iter().copied()).collect();
         let mut marks = Vec::new();
         if !edges.is_empty() {
             marks.push(Mark::band(&edges, color.for_line()));
         }
         let color = color.for_line();
-        marks.push(if subject.mark(index).is_none() {
+        marks.push(if subject.mark(id).is_none() {
             Mark::Line { points, color, width: CURVE }
         } else {
             Mark::Dashes { points, color }
         });
-        if let Some(mark) = subject.mark(index) {
+        if let Some(mark) = subject.mark(id) {
             let corner = (x.low, 0.3 * y.high);
             let names = vec![(corner, mark.to_owned())];
             marks.push(Mark::Names { names, around: Vec::new(), color: FAINT });
         }
-        let patch = [subject.masstone(index)];
-        let pigment = &library.pigments[index];
+        let patch = [subject.masstone(id)];
+        let pigment = &library[id];
         Panel::new(x.clone(), y.clone(), marks)
             .with_title(pigment.name.as_str())
             .with_patches(patch)

@@ -6,6 +6,7 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
 use calibrate::validation::Validation;
+use calibrate::{PigmentId, Recipe};
 use spectra::{InterpolateError, TristimulusWeights};
 
 use crate::figure::{Drawing, Figure, Words};
@@ -33,7 +34,7 @@ pub struct Subject<'a> {
     /// Quadratures of a few wavelengths for `viewing`, by method and number of wavelengths.
     pub quadratures: Vec<QuadratureTrial>,
     /// The pigments of the graded mixture; `None` to choose pairs from the library.
-    pub pair: Option<(usize, usize)>,
+    pub pair: Option<(PigmentId, PigmentId)>,
 }
 
 /// One section of the page.
@@ -144,23 +145,23 @@ impl Subject<'_> {
     /// # Panics
     /// If the library has no pigment of this index.
     #[must_use]
-    pub fn masstone(&self, pigment: usize) -> Color {
-        let mixture = self.library.mix(&[(pigment, 1.0)]).expect("one part makes a mixture");
+    pub fn masstone(&self, pigment: PigmentId) -> Color {
+        let mixture = self.library.mix([(pigment, 1.0)]).expect("one part makes a mixture");
         self.color(&mixture.hiding(self.library.saunderson))
     }
 
     /// A pigment's name, followed by its mark ([`Subject::mark`]) in brackets if it has one.
     #[must_use]
-    pub fn label(&self, pigment: usize) -> String {
-        let name = &self.library.pigments[pigment].name;
+    pub fn label(&self, pigment: PigmentId) -> String {
+        let name = &self.library[pigment].name;
         self.mark(pigment).map_or_else(|| name.clone(), |mark| format!("{name} ({mark})"))
     }
 
     /// Why a pigment's K and S are not measured: `guessed` from a colour, or `S unknown`. `None`
     /// if both are measured.
     #[must_use]
-    pub fn mark(&self, pigment: usize) -> Option<&'static str> {
-        let pigment = &self.library.pigments[pigment];
+    pub fn mark(&self, pigment: PigmentId) -> Option<&'static str> {
+        let pigment = &self.library[pigment];
         match (pigment.guessed, pigment.identified) {
             (true, _) => Some("guessed"),
             (_, false) => Some("S unknown"),
@@ -176,9 +177,9 @@ impl Subject<'_> {
 
     /// A recipe as text: percentages for a library of relative amounts, else the amounts.
     #[must_use]
-    pub fn recipe(&self, recipe: &[(usize, f64)]) -> String {
+    pub fn recipe(&self, recipe: &Recipe) -> String {
         let absolute = self.library.amounts == AmountKind::Absolute;
-        let part = |&(pigment, amount): &(usize, f64)| {
+        let part = |&(pigment, amount): &(PigmentId, f64)| {
             let label = self.label(pigment);
             match (recipe.len(), absolute) {
                 (1, false) => label,

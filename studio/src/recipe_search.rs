@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use pigment::library::PigmentLibrary;
-use pigment::matching::{MatchError, MatchRequest, Recipe, Target, Watch, recipes_watched};
+use pigment::matching::{
+    MatchError, MatchRequest, RecipeMatch, SearchControl, Target, recipes_with_control,
+};
 
 /// A target colour, and the pigments and limits of the search.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +25,7 @@ pub struct SearchResult {
     /// Request that was searched.
     pub request: SearchRequest,
     /// Recipes found, best match first.
-    pub recipes: Result<Vec<Recipe>, MatchError>,
+    pub recipes: Result<Vec<RecipeMatch>, MatchError>,
 }
 
 /// Runs one search at a time on its own thread. A new search cancels the previous one,
@@ -37,7 +39,7 @@ pub struct RecipeSearch {
 
 #[derive(Debug)]
 struct Running {
-    watch: Arc<Watch>,
+    control: Arc<SearchControl>,
     receiver: Receiver<SearchResult>,
 }
 
@@ -46,12 +48,12 @@ impl RecipeSearch {
     pub fn start(&mut self, request: SearchRequest, wake: impl FnOnce() + Send + 'static) {
         self.cancel();
         self.crashed = false;
-        let watch = Arc::new(Watch::default());
+        let control = Arc::new(SearchControl::default());
         let (sender, receiver) = channel();
-        self.running = Some(Running { watch: Arc::clone(&watch), receiver });
+        self.running = Some(Running { control: Arc::clone(&control), receiver });
         std::thread::spawn(move || {
             let SearchRequest { library, target, limits } = &request;
-            let recipes = recipes_watched(library, target, limits, &watch).transpose();
+            let recipes = recipes_with_control(library, target, limits, &control).transpose();
             if let Some(recipes) = recipes {
                 let _ = sender.send(SearchResult { request, recipes });
             }
@@ -63,7 +65,7 @@ impl RecipeSearch {
     /// Cancels the running search, if any. The last result is kept.
     pub fn cancel(&mut self) {
         if let Some(running) = self.running.take() {
-            running.watch.stop();
+            running.control.cancel();
         }
     }
 
@@ -86,7 +88,7 @@ impl RecipeSearch {
     /// Progress of the running search, 0 to 1; `None` if no search runs.
     #[must_use]
     pub fn progress(&self) -> Option<f64> {
-        self.running.as_ref().map(|running| running.watch.share())
+        self.running.as_ref().map(|running| running.control.progress())
     }
 
     /// Result of the last search that ended, if any.
@@ -113,7 +115,7 @@ mod tests {
     use std::time::{Duration, Instant};
 
     use pigment::evaluate::Viewing;
-    use pigment::matching::{FilmKind, Sight, recipes};
+    use pigment::matching::{FilmKind, ViewingCondition, recipes};
     use spectra::color::Lab;
 
     use super::*;
@@ -121,10 +123,10 @@ mod tests {
 
     fn request_for(lightness: f64, at_most: usize) -> SearchRequest {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
-        let sights = vec![Sight { viewing: Viewing::default(), weight: 1.0 }];
-        let target = Target::from_lab("wanted", Lab { lightness, a: 4.0, b: 9.0 }, &sights);
+        let conditions = vec![ViewingCondition { viewing: Viewing::default(), weight: 1.0 }];
+        let target = Target::from_lab("wanted", Lab { lightness, a: 4.0, b: 9.0 }, &conditions);
         let limits =
-            MatchRequest { at_most, ..MatchRequest::new(&library, sights, FilmKind::Hiding) };
+            MatchRequest { at_most, ..MatchRequest::new(&library, conditions, FilmKind::Hiding) };
         SearchRequest { library, target, limits }
     }
 
@@ -139,7 +141,7 @@ mod tests {
             }
             library.pigments.extend(copies);
         }
-        request.limits.allowed = (0..library.pigments.len()).collect();
+        request.limits.allowed = library.ids().collect();
         request
     }
 
@@ -174,9 +176,9 @@ mod tests {
         let (ended, ends) = channel();
         let of_old = ended.clone();
         search.start(old, move || of_old.send("old").unwrap());
-        let watch = Arc::clone(&search.running.as_ref().unwrap().watch);
+        let control = Arc::clone(&search.running.as_ref().unwrap().control);
         search.start(new.clone(), move || ended.send("new").unwrap());
-        assert!(watch.stopped(), "the older search was asked to stop");
+        assert!(control.cancelled(), "the older search was asked to stop");
         // Both threads must end soon, in either order.
         for _ in 0..2 {
             ends.recv_timeout(Duration::from_secs(20)).unwrap();
@@ -193,9 +195,9 @@ mod tests {
         wait(&mut search);
         let (ended, ends) = channel();
         search.start(long_request(), move || ended.send(()).unwrap());
-        let watch = Arc::clone(&search.running.as_ref().unwrap().watch);
+        let control = Arc::clone(&search.running.as_ref().unwrap().control);
         search.cancel();
-        assert!(watch.stopped(), "the search was asked to stop");
+        assert!(control.cancelled(), "the search was asked to stop");
         assert_eq!(search.progress(), None);
         ends.recv_timeout(Duration::from_secs(20)).expect("a cancelled search ends within 20 s");
         search.update();

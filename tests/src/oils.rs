@@ -1,5 +1,6 @@
 //! The Van Gogh oils, read and fitted.
 
+use calibrate::PigmentId;
 use calibrate::calibration::{Calibration, calibrate};
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{FitSettings, Method};
@@ -16,13 +17,13 @@ pub const SURFACE: Surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::In
 /// # Panics
 /// If the file cannot be read.
 #[must_use]
-pub fn swatches() -> (SwatchSet, usize) {
+pub fn swatches() -> (SwatchSet, PigmentId) {
     let bytes = include_bytes!("../../measurements/van-gogh-oils.csv");
     let table = MeasurementTable::from_csv("van-gogh-oils.csv", bytes, ScaleChoice::ByFile)
         .expect("the shipped oils are sound");
     let set = SwatchSet::from_table(&table).expect("the shipped oils are sound");
     let white = set.pigments.iter().position(|p| p == "Zinc White").expect("a zinc white");
-    (set, white)
+    (set, PigmentId(white))
 }
 
 /// Settings for the oils, some of whose readings lie below k1.

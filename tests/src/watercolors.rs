@@ -3,8 +3,8 @@
 //! Nothing here was measured. The hard set imitates what makes real washes
 //! differ from the theory.
 
+use calibrate::Curves;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
-use calibrate::mixture::Mixture;
 use calibrate::swatch::SwatchSet;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -124,7 +124,7 @@ impl Watercolors {
             let parts = amounts.iter().enumerate().filter(|(_, a)| **a > 0.0).map(|(paint, &a)| {
                 (laid(a), absorption[paint].as_slice(), scattering[paint].as_slice())
             });
-            let reflectance = Mixture::of(grid.count(), parts).film(1.0, &paper, film);
+            let reflectance = Curves::weighted_sum(grid, parts).film(1.0, &paper, film);
             let read: Vec<f64> =
                 reflectance.into_iter().map(|r| (r + noise()).clamp(0.0, 1.0)).collect();
             row(&format!("W{number:03}"), "paint", &amounts, &read);

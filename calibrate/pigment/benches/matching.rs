@@ -1,12 +1,12 @@
 //! Recipe search: `cargo bench -p impasto-pigment --bench matching`.
 //!
-//! To beat on 2 cores: 0.5 s for 20 pigments, up to 4 of them. A public Python
-//! tool needs about 112 s for 13 pigments.
+//! Bound on 2 cores: 0.5 s for 20 pigments, up to 4 of them. A public Python tool needs about 112 s
+//! for 13 pigments.
 
 use divan::{Bencher, black_box};
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
-use pigment::matching::{FilmKind, MatchRequest, Sight, Target, Thickness, recipes};
+use pigment::matching::{FilmKind, MatchRequest, Target, Thickness, ViewingCondition, recipes};
 use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
 
@@ -20,12 +20,15 @@ fn oils() -> PigmentLibrary {
 
 /// All 20 pigments, up to four, under the named lights.
 fn request(library: &PigmentLibrary, lights: &[&str], film: FilmKind) -> MatchRequest {
-    let sights = lights.iter().map(|name| {
+    let conditions = lights.iter().map(|name| {
         let illuminant = Illuminant::named(name).expect("a CIE light");
-        Sight { viewing: Viewing { illuminant, observer: Observer::default() }, weight: 1.0 }
+        ViewingCondition {
+            viewing: Viewing { illuminant, observer: Observer::default() },
+            weight: 1.0,
+        }
     });
-    let allowed = (0..library.pigments.len()).collect();
-    MatchRequest { allowed, ..MatchRequest::new(library, sights.collect(), film) }
+    let allowed = library.ids().collect();
+    MatchRequest { allowed, ..MatchRequest::new(library, conditions.collect(), film) }
 }
 
 fn search(bencher: Bencher<'_, '_>, lights: &[&str], change: impl Fn(&mut MatchRequest)) {
@@ -33,7 +36,7 @@ fn search(bencher: Bencher<'_, '_>, lights: &[&str], change: impl Fn(&mut MatchR
     let mut request = request(&library, lights, FilmKind::Hiding);
     change(&mut request);
     let wanted = Lab { lightness: 49.5, a: -12.9, b: -13.5 };
-    let target = Target::from_lab("", wanted, &request.sights);
+    let target = Target::from_lab("", wanted, &request.conditions);
     bencher.bench(|| recipes(black_box(&library), &target, &request).expect("recipes"));
 }
 

@@ -1,38 +1,38 @@
-//! Colour errors, and their summary.
+//! Colours and colour differences of reflectances, and their summary.
 
 use serde::{Deserialize, Serialize};
 use spectra::TristimulusWeights;
 pub use spectra::Viewing;
 use spectra::color::{Lab, delta_e_ciede2000};
 
-/// CIELAB of a reflectance.
+/// CIELAB of a reflectance on the grid of `weights`.
 #[must_use]
 pub fn lab(weights: &TristimulusWeights, reflectance: &[f64]) -> Lab {
     Lab::from_xyz(weights.xyz(reflectance), weights.white())
 }
 
-/// CIEDE2000 between two reflectances.
+/// CIEDE2000 difference of two reflectances on the grid of `weights`.
 #[must_use]
 pub fn delta_e(weights: &TristimulusWeights, first: &[f64], second: &[f64]) -> f64 {
     delta_e_ciede2000(lab(weights, first), lab(weights, second))
 }
 
-/// A set of errors in four numbers.
+/// Four numbers that summarise a set of colour differences.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
-    /// Arithmetic mean.
+    /// Arithmetic mean of the differences.
     pub mean: f64,
-    /// Median.
+    /// Median of the differences.
     pub median: f64,
-    /// 90th percentile.
+    /// 90th percentile of the differences.
     pub p90: f64,
-    /// Largest.
+    /// Largest of the differences.
     pub max: f64,
 }
 
 impl Summary {
-    /// The summary of `errors`; all 0 if there are none.
+    /// Summarises `errors`; every number is 0 where there are none.
     #[must_use]
     pub fn of(errors: &[f64]) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl Summary {
         }
     }
 
-    /// The same to six significant digits, for a file.
+    /// Copy rounded to six significant digits, for a file.
     #[must_use]
     pub fn rounded(&self) -> Self {
         let Self { mean, median, p90, max } = *self;
@@ -52,9 +52,8 @@ impl Summary {
     }
 }
 
-/// The value that `percent` of `values` do not exceed, with straight lines
-/// between order statistics (Hyndman and Fan 1996, definition 7, as numpy); 0
-/// if there are none.
+/// Value that `percent` of `values` do not exceed, interpolated linearly between order statistics
+/// (Hyndman and Fan 1996, definition 7, as numpy does); 0 for no values.
 #[must_use]
 pub fn percentile(values: &[f64], percent: f64) -> f64 {
     let mut sorted = values.to_vec();

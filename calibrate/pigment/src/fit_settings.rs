@@ -1,56 +1,56 @@
-//! Settings of a fit, which the library that it makes keeps in its file.
+//! Settings of a fit. They live here because a library keeps those of its own fit in its file.
 
 use serde::{Deserialize, Serialize};
 
-/// How K and S are found; see the module.
+/// Method by which K and S are found; the crate `calibrate` describes each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// The published quadratic program.
+    /// The quadratic program as published (Baxter, Wendt and Lin 2004, section 5.2).
     Qp,
-    /// The program, weighted.
+    /// The quadratic program with rows weighted into errors of reflectance.
     Weighted,
-    /// Nonlinear refinement in measured reflectance.
+    /// Nonlinear refinement in measured reflectance, started from `Weighted`.
     #[default]
     Refined,
 }
 
-/// How strongly K and S are kept smooth over wavelength.
+/// Strength of the smoothing of K and S over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Smoothness {
-    /// Not at all: every wavelength by itself.
+    /// No smoothing: every wavelength is fitted by itself.
     None,
-    /// As strongly as the data themselves ask for (MacKay 1992).
+    /// The weight under which the data are most likely (MacKay 1992, eq. 2.18).
     #[default]
     Auto,
-    /// This weight on the squared second differences of log K and log S, in
-    /// units of the residual's variance, for a step of 10 nm.
+    /// A given weight, 0 and up, on the squared second differences of log K and log S, in units of
+    /// the residual's variance, for a wavelength step of 10 nm.
     Fixed(f64),
 }
 
-/// What to do with a reading below what the surface alone reflects.
+/// Treatment of a reading below the surface's own reflection k1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BelowSurface {
-    /// Refuse, naming sample and wavelength: k1 is too high for this paint.
+    /// Return an error that names sample and wavelength: k1 is too high for this paint.
     #[default]
     Refuse,
-    /// Read it as a reflectance of 0.001 below the surface.
+    /// Read it as an internal reflectance of 0.001, which stands for black.
     Floor,
 }
 
-/// Everything that changes the result of a fit.
+/// Every setting that changes the result of a fit; kept in the library's file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitSettings {
-    /// The method.
+    /// Method of the fit; absolute amounts always take their own.
     pub method: Method,
-    /// Smoothness over wavelength; only `refined` and absolute amounts have it.
+    /// Smoothing over wavelength; only `refined` and absolute amounts use it.
     pub smoothness: Smoothness,
-    /// Readings below the surface's own reflection.
+    /// Treatment of readings below the surface's own reflection.
     pub below_surface: BelowSurface,
-    /// Samples left out by name.
+    /// Names of the samples that were left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<String>,
 }

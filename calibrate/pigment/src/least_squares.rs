@@ -1,12 +1,19 @@
-//! Bounded nonlinear least squares: Levenberg-Marquardt with a projected step.
+//! Bounded nonlinear least squares by the Levenberg-Marquardt method.
 //!
-//! Marquardt 1963 with Nielsen's damping (1999). A parameter at its bound whose
-//! gradient points outward is held for the step; every trial is projected into
-//! the box (Kanzow, Yamashita and Fukushima 2004, the projected variant).
+//! Marquardt 1963, with Nielsen's damping (1999). A parameter that stands at its bound while its
+//! gradient points outwards is fixed for one step, and every trial point is projected into the
+//! bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
 
 use nalgebra::{DMatrix, DVector};
 
-/// Half the sum of squares, its gradient and the Gauss-Newton matrix.
+/// First damping: Nielsen's choice for a start near the minimum.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Damping stays above this, so that the matrix keeps a Cholesky factor; chosen by eye.
+const LEAST_DAMPING: f64 = 1e-12;
+/// The search ends beyond this damping: steps are then below rounding.
+const MOST_DAMPING: f64 = 1e12;
+
+/// Half the sum of squared residuals, its gradient and the Gauss-Newton matrix (lower triangle).
 #[derive(Debug, Clone)]
 pub(crate) struct NormalEquations {
     pub(crate) cost: f64,
@@ -19,7 +26,7 @@ impl NormalEquations {
         Self { cost: 0.0, gradient: DVector::zeros(count), matrix: DMatrix::zeros(count, count) }
     }
 
-    /// Adds one residual with its derivatives.
+    /// Adds one residual with its derivatives over all parameters.
     pub(crate) fn add(&mut self, residual: f64, derivatives: &[f64], weight: f64) {
         self.cost += 0.5 * weight * residual * residual;
         let count = derivatives.len();
@@ -30,7 +37,7 @@ impl NormalEquations {
             }
             let scaled = weight * d;
             self.gradient[j] += scaled * residual;
-            // The lower triangle of column j; mirrored when solved.
+            // Fills the lower triangle only; the solver reads no other entries.
             for (target, other) in
                 columns[j * count + j..(j + 1) * count].iter_mut().zip(&derivatives[j..])
             {
@@ -40,23 +47,24 @@ impl NormalEquations {
     }
 }
 
-/// When to stop.
+/// Stopping rule of [`minimise`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stop {
+    /// Largest number of steps.
     pub(crate) iterations: usize,
-    /// Stop when the cost falls by less than this share of itself.
+    /// Stops when a step lowers the cost by less than this fraction of it.
     pub(crate) relative_decrease: f64,
 }
 
-/// The best point found.
+/// Point of least cost that was found, with that cost.
 #[derive(Debug, Clone)]
 pub(crate) struct Minimum {
     pub(crate) point: DVector<f64>,
     pub(crate) cost: f64,
 }
 
-/// Minimises from `start` inside `lower..=upper`. `build` gives the normal
-/// equations at a point, `cost` the cost alone.
+/// Minimises from `start` within `lower..=upper`. `build` returns the normal equations at a point,
+/// `cost` the cost alone.
 pub(crate) fn minimise(
     start: DVector<f64>,
     (lower, upper): (&DVector<f64>, &DVector<f64>),
@@ -67,7 +75,7 @@ pub(crate) fn minimise(
     let mut point = start.zip_zip_map(lower, upper, f64::clamp);
     let mut equations = build(&point);
     let largest = equations.matrix.diagonal().max();
-    let mut damping = 1e-3;
+    let mut damping = FIRST_DAMPING;
     let mut growth = 2.0;
     for _ in 0..stop.iterations {
         let held: Vec<bool> = (0..point.len())
@@ -90,7 +98,7 @@ pub(crate) fn minimise(
         if trial_cost.is_finite() && decrease > 0.0 {
             let ratio = if promised > 0.0 { decrease / promised } else { 1.0 };
             damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
-            damping = damping.max(1e-12);
+            damping = damping.max(LEAST_DAMPING);
             growth = 2.0;
             point = trial;
             let done = decrease <= stop.relative_decrease * equations.cost;
@@ -101,7 +109,7 @@ pub(crate) fn minimise(
         } else {
             damping *= growth;
             growth *= 2.0;
-            if damping > 1e12 {
+            if damping > MOST_DAMPING {
                 break;
             }
         }
@@ -109,8 +117,8 @@ pub(crate) fn minimise(
     Minimum { point, cost: equations.cost }
 }
 
-/// Solves (A + damping D) step = -gradient over the parameters not held, D the
-/// diagonal of A kept off zero.
+/// Solves (A + damping D) step = -gradient for the parameters that are not held, where D is the
+/// diagonal of A kept away from zero.
 fn damped_step(
     equations: &NormalEquations,
     held: &[bool],
@@ -137,7 +145,7 @@ fn damped_step(
     Some(matrix.cholesky()?.solve(&right))
 }
 
-/// v' A v of a symmetric A given by its lower triangle.
+/// v' A v of a symmetric matrix A stored as its lower triangle.
 fn lower_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> f64 {
     let mut total = 0.0;
     for j in 0..vector.len() {
@@ -172,13 +180,13 @@ mod tests {
     }
 
     #[test]
-    fn the_valley_of_rosenbrock_is_followed_to_its_end() {
+    fn the_minimum_of_rosenbrocks_function_is_found() {
         let minimum = rosenbrock(2.0);
         assert!(minimum.cost < 1e-20, "{minimum:?}");
     }
 
     #[test]
-    fn a_bound_is_kept_and_the_best_point_on_it_found() {
+    fn the_minimum_on_a_bound_is_found() {
         let minimum = rosenbrock(0.5);
         assert!(minimum.point.max() <= 0.5, "{minimum:?}");
         // On the face y = 0.5 the minimum of 100 (0.5 - x^2)^2 + (1 - x)^2,

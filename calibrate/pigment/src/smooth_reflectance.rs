@@ -1,11 +1,10 @@
 //! The smoothest reflectance that has a given colour.
 //!
-//! S. A. Burns, "Numerical methods for smoothest reflectance reconstruction",
-//! Color Research and Application 45 (2020), the method of least hyperbolic
-//! tangent slope squared: R = (1 + tanh z) / 2 cannot leave 0..1, and the sum of
-//! squared steps of z over wavelength is least among all z of that colour. Here R
-//! is the reflectance below the surface, so that the paint also keeps within what
-//! its surface lets through. Lagrange's conditions are solved by Newton's method.
+//! S. A. Burns, "Numerical methods for smoothest reflectance reconstruction", Color Research and
+//! Application 45 (2020), the method of least hyperbolic tangent slope squared: R = (1 + tanh z) / 2
+//! stays within 0..1, and the sum of squared steps of z over wavelength is the least of all z with
+//! that colour. R is the reflectance below the surface, so that the result is one a paint under
+//! this surface can have. Lagrange's conditions are solved by Newton's method.
 
 use nalgebra::{DMatrix, DVector};
 use spectra::TristimulusWeights;
@@ -14,25 +13,24 @@ use spectra::optics::Surface;
 
 use crate::least_squares::{NormalEquations, Stop, minimise};
 
-/// The darkest and the lightest reflectance below the surface: K/S from 1000
-/// down to 5e-9. Nothing is without limits.
+/// Range of the reflectance below the surface: K/S from 1000 down to 5e-9, since a paint is never
+/// perfectly black or white. Chosen by eye.
 const INTERNAL: [f64; 2] = [0.0005, 0.9999];
 
-/// A reflectance below the surface, and how far its colour is from the one that
-/// was asked for.
+/// A reflectance below the surface, with the difference between its colour and the requested one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recovered {
-    /// Internal reflectance by wavelength, above 0 and below 1.
+    /// Internal reflectance by wavelength, between 0 and 1 exclusive.
     pub internal: Vec<f64>,
-    /// Its colour seen through the surface.
+    /// XYZ of the film seen through its surface, Y = 100 for white.
     pub xyz: Xyz,
-    /// CIEDE2000 from the colour asked for: 0 to rounding where a paint of this
-    /// surface can have it, else that of a colour near the nearest.
+    /// CIEDE2000 from the requested colour: 0 to rounding where a paint under this surface can
+    /// have it, else the difference to a colour near the nearest possible one.
     pub delta_e: f64,
 }
 
-/// The smoothest reflectance under `surface` whose colour is `wanted`; where no
-/// reflectance has that colour, one whose colour lies near.
+/// Returns the smoothest reflectance under `surface` whose colour is `wanted`. Where no reflectance
+/// has that colour, returns one whose colour is near it.
 #[must_use]
 pub fn smoothest_reflectance(
     weights: &TristimulusWeights,
@@ -48,7 +46,7 @@ pub fn smoothest_reflectance(
     Recovered { internal, xyz, delta_e: delta_e_ciede2000(lab(wanted), lab(xyz)) }
 }
 
-/// Internal reflectance at z, with its first two derivatives.
+/// Internal reflectance at z with its first and second derivative.
 fn internal(z: f64) -> [f64; 3] {
     let [low, high] = INTERNAL;
     let half = 0.5 * (high - low);
@@ -64,7 +62,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Measured reflectance at z, with its first two derivatives.
+    /// Measured reflectance at z with its first and second derivative.
     fn measured(&self, z: f64) -> [f64; 3] {
         let [r, slope, curvature] = internal(z);
         let by_r = self.surface.measured_slope(r);
@@ -78,8 +76,8 @@ impl Problem<'_> {
         self.weights.xyz(&reflectance)
     }
 
-    /// Newton's method on Lagrange's conditions, each step cut until the residual
-    /// falls; `None` where it does not come to rest, as for a colour that cannot be.
+    /// Newton's method on Lagrange's conditions; each step is shortened until the residual falls.
+    /// Returns `None` if it does not converge, as for a colour that no reflectance has.
     fn exact(&self, mut z: DVector<f64>) -> Option<DVector<f64>> {
         let count = z.len();
         let mut multipliers = DVector::zeros(3);
@@ -109,8 +107,8 @@ impl Problem<'_> {
         None
     }
 
-    /// The residual of Lagrange's conditions and its derivatives: the slope of
-    /// the roughness, then XYZ (white 1).
+    /// Residual of Lagrange's conditions with its derivatives: first the gradient of the
+    /// roughness, then XYZ (scaled to white 1).
     fn conditions(
         &self,
         z: &DVector<f64>,
@@ -147,9 +145,10 @@ impl Problem<'_> {
         (residual, matrix)
     }
 
-    /// A reflectance whose colour is near the nearest in CIEDE2000 (its local
-    /// metric at the colour asked for), kept smooth by a little.
+    /// Reflectance whose colour is near the nearest possible one by CIEDE2000 (in its local metric
+    /// at the requested colour), kept smooth by a small weight.
     fn nearest(&self, start: DVector<f64>) -> DVector<f64> {
+        /// Weight of the squared steps of z; chosen by eye, small against one CIEDE2000.
         const SMOOTH: f64 = 1e-5;
         let white = self.weights.white();
         let wanted = Lab::from_xyz(self.wanted, white);
@@ -219,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_surface_every_color_of_srgb_is_met() {
+    fn without_a_surface_every_srgb_color_is_reproduced() {
         for (rgb, found) in recovered(Surface::NONE, random()) {
             assert!(found.delta_e < 1e-6, "{}: {}", rgb.to_hex(), found.delta_e);
             assert!(found.internal.iter().all(|r| *r > 0.0 && *r < 1.0), "{:?}", found.internal);
@@ -227,12 +226,12 @@ mod tests {
     }
 
     #[test]
-    fn under_a_surface_most_colors_are_met_and_the_rest_come_near() {
+    fn under_a_surface_most_srgb_colors_are_reproduced() {
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();
         let found = recovered(surface, random());
         let (met, missed): (Vec<_>, Vec<_>) = found.iter().partition(|(_, f)| f.delta_e < 0.05);
         assert!(met.len() > 880 && missed.len() > 50, "{} met", met.len());
-        // Only colours with a primary darker than what the surface reflects are missed.
+        // Only colours with a primary darker than the surface's reflection are missed.
         for (rgb, found) in missed {
             let least = rgb.linear().0.into_iter().fold(1.0, f64::min);
             assert!(least < 0.03 && found.delta_e < 14.0, "{}: {}", rgb.to_hex(), found.delta_e);
@@ -240,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn black_comes_no_nearer_than_the_surface_alone() {
+    fn black_is_limited_by_the_surface_reflection() {
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();
         let (_, black) = recovered(surface, [Rgb([0.0; 3])].into_iter()).remove(0);
         // L* of 3 % is 20.0, 12.5 in CIEDE2000 from black.
@@ -250,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn no_other_reflectance_of_the_color_is_smoother() {
+    fn no_other_reflectance_of_the_same_color_is_smoother() {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();
@@ -261,7 +260,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         for _ in 0..20 {
             let nudge = DVector::from_fn(31, |_, _| random.random_range(-0.05..0.05));
-            // Back to the colour from beside it, along the three weights alone.
+            // Returns to the colour from nearby, along the three weights alone.
             let mut other = &best + nudge;
             for _ in 0..20 {
                 let jacobian = DMatrix::from_fn(3, 31, |c, i| {

@@ -1,11 +1,10 @@
-//! Symmetric banded matrices: Cholesky factor, solution, and the band of the
-//! inverse.
+//! Symmetric banded matrices: Cholesky factor, solution, and the band of the inverse.
 
-/// The lower band of a symmetric matrix, column by column.
+/// Lower band of a symmetric matrix, stored column by column.
 #[derive(Debug, Clone)]
 pub(crate) struct Banded {
     size: usize,
-    /// Entries below the diagonal that are kept.
+    /// Number of entries kept below the diagonal.
     reach: usize,
     columns: Vec<f64>,
 }
@@ -19,7 +18,7 @@ impl Banded {
         self.columns[i * (self.reach + 1)]
     }
 
-    /// Adds to the entry at `row` and `column`, `row >= column`.
+    /// Adds to the entry at `row` and `column`, where `row >= column`.
     #[inline]
     pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
         debug_assert!(
@@ -29,7 +28,7 @@ impl Banded {
         self.columns[column * (self.reach + 1) + row - column] += value;
     }
 
-    /// Clears a row and column but for a 1 on the diagonal.
+    /// Replaces a row and a column by those of the identity, which fixes the unknown `i`.
     pub(crate) fn hold(&mut self, i: usize) {
         let width = self.reach + 1;
         self.columns[i * width..(i + 1) * width].fill(0.0);
@@ -39,7 +38,7 @@ impl Banded {
         self.columns[i * width] = 1.0;
     }
 
-    /// The product with a vector.
+    /// Product with a vector.
     pub(crate) fn times(&self, vector: &[f64]) -> Vec<f64> {
         let width = self.reach + 1;
         let mut product = vec![0.0; self.size];
@@ -54,7 +53,7 @@ impl Banded {
         product
     }
 
-    /// The Cholesky factor; `None` if the matrix is not positive definite.
+    /// Cholesky factor; `None` if the matrix is not positive definite.
     pub(crate) fn cholesky(mut self) -> Option<BandedCholesky> {
         let width = self.reach + 1;
         for column in 0..self.size {
@@ -67,7 +66,7 @@ impl Banded {
             let (head, tail) = self.columns.split_at_mut(start + width);
             let own = &mut head[start..];
             own.iter_mut().for_each(|v| *v /= root);
-            // Subtract the outer product from what lies to the right below.
+            // Subtracts the outer product from the columns to the right.
             let below = self.reach.min(self.size - 1 - column);
             for offset in 1..=below {
                 let factor = own[offset];
@@ -84,7 +83,7 @@ impl Banded {
     }
 }
 
-/// L of A = L L'.
+/// Cholesky factor L of A = L L'.
 #[derive(Debug, Clone)]
 pub(crate) struct BandedCholesky {
     factor: Banded,
@@ -112,7 +111,7 @@ impl BandedCholesky {
         x
     }
 
-    /// The band of the inverse (Takahashi, Fagan and Chin 1973).
+    /// Band of the inverse of A (Takahashi, Fagan and Chin 1973).
     pub(crate) fn inverse_band(&self) -> Banded {
         let (size, reach) = (self.factor.size, self.factor.reach);
         let width = reach + 1;
@@ -150,7 +149,7 @@ impl BandedCholesky {
 }
 
 impl Banded {
-    /// The entry at `row` and `column`, `row >= column`, within the band.
+    /// Entry at `row` and `column` within the band, where `row >= column`.
     pub(crate) fn at(&self, row: usize, column: usize) -> f64 {
         self.columns[column * (self.reach + 1) + row - column]
     }
@@ -181,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn solution_product_and_inverse_band_are_those_of_the_dense_matrix() {
+    fn solution_product_and_inverse_band_agree_with_the_dense_matrix() {
         let (banded, dense) = example();
         let right: Vec<f64> = (0..23).map(|i| f64::from(i) - 7.0).collect();
         let product = banded.times(&right);

@@ -1,22 +1,21 @@
-//! Colour differences as a part of what a fit minimises, and as a scale for
-//! its residuals.
+//! Colour differences as a term of the cost of a fit, and as a scale for its residuals.
 
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 
-/// The colours that a fit should reproduce.
+/// Measured colours that a fit should reproduce.
 #[derive(Debug, Clone)]
 pub(super) struct ColorTerm<'a> {
     weights: &'a TristimulusWeights,
-    /// By sample: its measured colour, and the local metric of CIEDE2000.
+    /// By sample: its measured colour, and the local metric of CIEDE2000 there.
     targets: Vec<(Lab, Matrix3)>,
 }
 
-/// The colour residual of one sample, with its slopes over reflectance.
+/// Colour residual of one sample, with its slopes over reflectance.
 pub(super) struct ColorResidual {
-    /// Three components whose length is the colour difference.
+    /// Three components; their length is the colour difference.
     pub(super) residual: [f64; 3],
-    /// By wavelength: their derivatives.
+    /// By wavelength: derivatives of the components over reflectance.
     pub(super) slopes: Vec<[f64; 3]>,
 }
 
@@ -32,7 +31,7 @@ impl<'a> ColorTerm<'a> {
         Self { weights, targets }
     }
 
-    /// The colour difference of sample `index`.
+    /// Colour difference of sample `index` at `reflectance`.
     pub(super) fn difference(&self, index: usize, reflectance: &[f64]) -> f64 {
         let residual = self.components(index, self.weights.xyz(reflectance));
         residual.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -45,8 +44,7 @@ impl<'a> ColorTerm<'a> {
         ColorResidual { residual: self.components(index, xyz), slopes }
     }
 
-    /// How far the colour moves, in CIEDE2000, with the reflectance of each
-    /// sample at each wavelength.
+    /// Movement of the colour, in CIEDE2000, per unit of reflectance at each wavelength, by sample.
     pub(super) fn sensitivity(&self, target: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
         (0..self.targets.len())

@@ -1,20 +1,42 @@
-//! K and S of every pigment, as physical values and as unknowns.
+//! K and S of all pigments, as values and as unknowns of a fit.
 
-/// K and S by pigment and wavelength.
+use pigment::Curves;
+use spectra::Grid;
+
+/// K and S of all pigments, by pigment and wavelength.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Curves {
+pub(crate) struct CurveTable {
     pub(crate) absorption: Vec<Vec<f64>>,
     pub(crate) scattering: Vec<Vec<f64>>,
 }
 
-/// Bounds of log K and log S: from 1e-5, where a pigment no longer shows, to
-/// 1e4.
+impl CurveTable {
+    /// Table of `curves`, with K of at least `least[0]` and S of at least `least[1]`, since the logarithm
+    /// of 0 has no slope.
+    pub(crate) fn off_zero(curves: &[Curves], least: [f64; 2]) -> Self {
+        let clamped = |curve: &[f64], least: f64| curve.iter().map(|v| v.max(least)).collect();
+        Self {
+            absorption: curves.iter().map(|c| clamped(&c.absorption, least[0])).collect(),
+            scattering: curves.iter().map(|c| clamped(&c.scattering, least[1])).collect(),
+        }
+    }
+
+    /// The curves by pigment.
+    pub(crate) fn into_curves(self, grid: Grid) -> Vec<Curves> {
+        let pairs = self.absorption.into_iter().zip(self.scattering);
+        pairs.map(|(absorption, scattering)| Curves { grid, absorption, scattering }).collect()
+    }
+}
+
+/// Least K and S that are assumed where a solution may hold 0 and logarithms are needed.
+pub(crate) const OFF_ZERO: [f64; 2] = [1e-4, 1e-3];
+
+/// Bounds of log K and log S: from 1e-5, below which a pigment does not show, to 1e4.
 pub(super) const LOWER: f64 = -11.512_925_464_970_229;
 pub(super) const UPPER: f64 = 9.210_340_371_976_184;
 
-/// Where each unknown stands: by wavelength log K of every pigment, then log S
-/// of every pigment but the reference, whose S is 1. Absolute amounts need no
-/// reference.
+/// Places of the unknowns: by wavelength, log K of every pigment, then log S of every pigment except the
+/// reference, whose S is 1. Absolute amounts have no reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) pigments: usize,
@@ -23,18 +45,17 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Unknowns a wavelength.
+    /// Number of unknowns per wavelength.
     pub(super) fn per_wavelength(self) -> usize {
         2 * self.pigments - usize::from(self.reference.is_some())
     }
 
-    /// Unknowns in all.
+    /// Number of unknowns in all.
     pub(super) fn len(self) -> usize {
         self.per_wavelength() * self.wavelengths
     }
 
-    /// Where log S of `pigment` stands in its wavelength; `None` for the
-    /// reference.
+    /// Place of log S of `pigment` within its wavelength; `None` for the reference.
     pub(super) fn scattering(self, pigment: usize) -> Option<usize> {
         match self.reference {
             Some(reference) if pigment == reference => None,
@@ -43,8 +64,8 @@ impl Layout {
         }
     }
 
-    /// The unknowns of `curves`, within the bounds.
-    pub(super) fn unknowns(self, curves: &Curves) -> Vec<f64> {
+    /// Unknowns of `curves`, clamped to the bounds.
+    pub(super) fn unknowns(self, curves: &CurveTable) -> Vec<f64> {
         let log = |value: f64| value.max(f64::MIN_POSITIVE).ln().clamp(LOWER, UPPER);
         let mut unknowns = Vec::with_capacity(self.len());
         for at in 0..self.wavelengths {
@@ -55,13 +76,13 @@ impl Layout {
         unknowns
     }
 
-    /// The curves of `unknowns`.
-    pub(super) fn curves(self, unknowns: &[f64]) -> Curves {
+    /// K and S of `unknowns`.
+    pub(super) fn curves(self, unknowns: &[f64]) -> CurveTable {
         let per = self.per_wavelength();
         let curve = |place: usize| -> Vec<f64> {
             (0..self.wavelengths).map(|at| unknowns[at * per + place].exp()).collect()
         };
-        Curves {
+        CurveTable {
             absorption: (0..self.pigments).map(curve).collect(),
             scattering: (0..self.pigments)
                 .map(|p| self.scattering(p).map_or_else(|| vec![1.0; self.wavelengths], curve))

@@ -1,26 +1,30 @@
 //! Standard deviations of K and S.
 
-use super::curves::Curves;
+use super::curves::CurveTable;
 use super::forward::{Data, Forward};
 use super::objective::{Objective, RIDGE};
 use super::problem::Problem;
+use pigment::Curves;
 use pigment::evaluate::percentile;
+
+/// Least K and S for the slopes of [`linear_deviations`].
+const LEAST: f64 = 1e-4;
 
 /// Standard deviations of K and S at the minimum of `objective`.
 ///
-/// The larger of two: from the normal matrix, priors included, as if every
-/// residual were independent; and from the spread of the samples' own pulls,
-/// H^-1 (sum of g g') H^-1 with g a sample's gradient over all wavelengths
-/// (Liang and Zeger 1986), which knows that a sample painted wrongly is wrong
-/// everywhere, but sees nothing where a pigment's few samples are fitted exactly.
-pub(super) fn deviations<F: Forward>(
+/// The larger of two estimates: from the normal matrix, priors included, as if all residuals were
+/// independent; and from the spread of the samples' own gradients, H^-1 (sum of g g') H^-1 with g the
+/// gradient of one sample over all wavelengths (Liang and Zeger 1986). The second takes into account
+/// that a sample painted wrongly is wrong at every wavelength, but is 0 where the few samples of a
+/// pigment are fitted exactly.
+pub(super) fn standard_deviations<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
-    curves: &Curves,
-) -> [Vec<Vec<f64>>; 2] {
+    curves: &CurveTable,
+) -> CurveTable {
     let layout = objective.data.layout;
     let per = layout.per_wavelength();
-    // Without data the ridge alone is left.
+    // Without data only the ridge remains.
     let mut variances = vec![RIDGE.recip(); layout.len()];
     if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
         let inverse = factor.inverse_band();
@@ -49,15 +53,15 @@ pub(super) fn deviations<F: Forward>(
             None => vec![0.0; curve.len()],
         })
         .collect();
-    [absorption, scattering]
+    CurveTable { absorption, scattering }
 }
 
-/// By pigment, the share of what is known of its log S that comes from the data
-/// rather than from the prior, 0 to 1; the median over wavelength.
+/// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather
+/// than from the prior; the median over wavelength.
 ///
-/// The data's information on log S, with the pigment's own K unknown, against
-/// the ridge. `objective` must have no smoothness, which would count one
-/// wavelength's prior as its neighbours' data.
+/// Compares the data's information on log S, with the pigment's own K unknown, with the ridge.
+/// `objective` must have no smoothness, which would count the prior of one wavelength as data of its
+/// neighbours.
 pub(super) fn share_of_scattering_known<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -80,50 +84,40 @@ pub(super) fn share_of_scattering_known<F: Forward>(
         .collect()
 }
 
-/// Standard deviations of K and S after a fit that has none of its own, by
-/// pigment and wavelength.
+/// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
 ///
-/// Each wavelength by itself: the variance of its residuals of measured
-/// reflectance times the inverse of the normal matrix of their derivatives over
-/// K and S. What no mixture determines gets a deviation of its own size or
-/// more; the reference's S, which is given, gets 0.
+/// Each wavelength is treated by itself: the variance of its residuals of measured reflectance times
+/// the inverse of the normal matrix of their derivatives over K and S. A value that no mixture
+/// determines gets a deviation of its own size or more; the S of the reference gets 0.
 #[must_use]
-pub fn linear_deviations(
-    problem: &Problem,
-    absorption: &[Vec<f64>],
-    scattering: &[Vec<f64>],
-) -> [Vec<Vec<f64>>; 2] {
-    // A program may put a pigment at 0, where the slopes are not finite.
-    let off_zero = |curves: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        curves.iter().map(|curve| curve.iter().map(|v| v.max(1e-4)).collect()).collect()
-    };
-    let curves = Curves { absorption: off_zero(absorption), scattering: off_zero(scattering) };
+pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
+    // The program may set a pigment to 0, where the slopes are not finite.
+    let curves = CurveTable::off_zero(curves, [LEAST, LEAST]);
     let data = Data::hiding(problem);
     let (layout, linear) = (data.layout, data.linear(&curves));
     let unknowns = layout.per_wavelength();
     let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
-    let mut deviations =
-        [absorption, scattering].map(|c| vec![vec![0.0; layout.wavelengths]; c.len()]);
+    let zeros = || vec![vec![0.0; layout.wavelengths]; layout.pigments];
+    let mut deviations = CurveTable { absorption: zeros(), scattering: zeros() };
     for at in 0..layout.wavelengths {
         let mut normal = data.normal(&linear, at);
         let pairs = linear.values.iter().zip(&problem.reflectance);
         let squares: f64 = pairs.map(|(value, read)| (value[at] - read[at]).powi(2)).sum();
         let variance = squares / freedom;
-        // In logarithms, so that a deviation of 1 is as much as nothing known.
+        // In logarithms, so that a deviation of 1 means that nothing is known.
         for i in 0..unknowns {
             normal[(i, i)] += variance.max(f64::MIN_POSITIVE);
         }
         let Some(inverse) = normal.cholesky().map(|factor| factor.inverse()) else { continue };
         let sd = |place: usize| (variance * inverse[(place, place)]).sqrt();
-        let [of_absorption, of_scattering] = &mut deviations;
-        for (pigment, curve) in of_absorption.iter_mut().enumerate() {
+        for (pigment, curve) in deviations.absorption.iter_mut().enumerate() {
             curve[at] = curves.absorption[pigment][at] * sd(pigment);
         }
-        for (pigment, curve) in of_scattering.iter_mut().enumerate() {
+        for (pigment, curve) in deviations.scattering.iter_mut().enumerate() {
             if let Some(place) = layout.scattering(pigment) {
                 curve[at] = curves.scattering[pigment][at] * sd(place);
             }
         }
     }
-    deviations
+    deviations.into_curves(problem.grid)
 }

@@ -1,85 +1,65 @@
-//! What mixtures that nobody has made yet would tell of K and S.
+//! Information that mixtures which nobody has made yet would give on K and S.
 
-use spectra::Grid;
 use spectra::optics::Surface;
 
 use super::color_term::ColorTerm;
-use super::curves::{Curves, Layout};
+use super::curves::{CurveTable, Layout, OFF_ZERO};
 use super::forward::Data;
-use super::noise::Noise;
+use super::noise::{ExpectedNoise, Noise};
 use super::objective::RIDGE;
 use super::problem::Problem;
 use pigment::evaluate::Viewing;
+use pigment::{Curves, PigmentId};
 
-/// How far a swatch's reflectance is expected to be off, as standard
-/// deviations in measured reflectance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExpectedNoise {
-    /// The same at every reflectance: the instrument's.
-    pub constant: f64,
-    /// Even to the eye, so less in the dark: weighing, mixing and the film.
-    /// Told for a typical swatch.
-    pub even: f64,
-}
-
-/// Paint as it is believed to be.
+/// Assumed K and S of the paints.
 #[derive(Debug, Clone)]
-pub(crate) struct Belief<'a> {
-    pub(crate) grid: Grid,
+pub(crate) struct AssumedPaints {
     pub(crate) surface: Surface,
-    /// The pigment whose S is 1.
-    pub(crate) reference: usize,
-    /// K by pigment and wavelength.
-    pub(crate) absorption: Vec<&'a [f64]>,
-    /// S by pigment and wavelength.
-    pub(crate) scattering: Vec<&'a [f64]>,
+    /// Paint whose S is 1.
+    pub(crate) reference: PigmentId,
+    /// K and S by paint; at least one.
+    pub(crate) curves: Vec<Curves>,
 }
 
-/// The slopes of mixtures over the unknowns of a fit, log K of every pigment
-/// and log S of all but the reference, in standard deviations of a reading.
+/// Derivatives of the reflectances of mixtures over the unknowns of a fit (log K of every paint and log S
+/// of all except the reference), divided by the standard deviation of a reading.
 #[derive(Debug, Clone)]
 pub(crate) struct Slopes {
     layout: Layout,
-    /// By mixture: the unknowns it depends on, as places in a wavelength.
+    /// Places of each mixture's unknowns within a wavelength.
     pub(crate) places: Vec<Vec<usize>>,
-    /// By mixture: by wavelength, one slope for each of its places.
+    /// By mixture: for each wavelength in turn, one slope for each of its places.
     pub(crate) slopes: Vec<Vec<f64>>,
 }
 
 impl Slopes {
-    /// Those of `recipes`, films that hide, under the noise model of the
-    /// refinement with its two parts as `noise` has them.
+    /// Slopes of `recipes` as films that hide, under the noise model of the refinement. Recipes are lists
+    /// of paints with their shares.
     pub(crate) fn of(
-        belief: &Belief<'_>,
-        recipes: &[Vec<(usize, f64)>],
+        paints: &AssumedPaints,
+        recipes: Vec<Vec<(usize, f64)>>,
         noise: ExpectedNoise,
     ) -> Self {
-        // At 0 a logarithm has no slope.
-        let off_zero = |curves: &[&[f64]], least: f64| -> Vec<Vec<f64>> {
-            curves.iter().map(|curve| curve.iter().map(|v| v.max(least)).collect()).collect()
-        };
-        let curves = Curves {
-            absorption: off_zero(&belief.absorption, 1e-4),
-            scattering: off_zero(&belief.scattering, 1e-3),
-        };
+        let curves = CurveTable::off_zero(&paints.curves, OFF_ZERO);
+        let grid = paints.curves[0].grid;
         let mut problem = Problem {
-            grid: belief.grid,
-            surface: belief.surface,
-            pigments: belief.absorption.len(),
-            reference: belief.reference,
+            grid,
+            surface: paints.surface,
+            pigments: paints.curves.len(),
+            reference: paints.reference,
             reading_sd: 0.0,
-            recipes: recipes.to_vec(),
+            recipes,
             ratio: Vec::new(),
             reflectance: Vec::new(),
         };
         problem.reflectance = problem.predicted(&curves);
-        let weights = Viewing::default().weights(belief.grid).expect("the method fits the grid");
+        let weights = Viewing::default().weights(grid).expect("the method fits the grid");
         let term = ColorTerm::new(&weights, &problem.reflectance);
         let precision = Noise::new(&term, &problem.reflectance, 0.0).precision(noise);
         let data = Data::hiding(&problem);
         let mut slopes = data.linear(&curves).slopes;
         let places: Vec<Vec<usize>> =
-            (0..recipes.len()).map(|index| data.places(index).to_vec()).collect();
+            (0..problem.recipes.len()).map(|index| data.places(index).to_vec()).collect();
         for ((slopes, places), precision) in slopes.iter_mut().zip(&places).zip(&precision) {
             for (chunk, precision) in slopes.chunks_exact_mut(places.len()).zip(precision) {
                 chunk.iter_mut().for_each(|slope| *slope *= precision);
@@ -88,7 +68,7 @@ impl Slopes {
         Self { layout: data.layout, places, slopes }
     }
 
-    /// Unknowns a wavelength.
+    /// Number of unknowns per wavelength.
     pub(crate) fn unknowns(&self) -> usize {
         self.layout.per_wavelength()
     }
@@ -97,18 +77,18 @@ impl Slopes {
         self.layout.wavelengths
     }
 
-    /// Where log S of `pigment` stands; `None` for the reference. Log K stands
-    /// at its own number.
-    pub(crate) fn scattering(&self, pigment: usize) -> Option<usize> {
-        self.layout.scattering(pigment)
+    /// Place of log S of `paint` within a wavelength; `None` for the reference. The place of log K is the
+    /// paint's own number.
+    pub(crate) fn scattering(&self, paint: usize) -> Option<usize> {
+        self.layout.scattering(paint)
     }
 
-    /// The slopes of mixture `index` at wavelength `at`, by its places.
+    /// Slopes of mixture `index` at wavelength `at`, one for each of its places.
     pub(crate) fn at(&self, index: usize, at: usize) -> &[f64] {
         let count = self.places[index].len();
         &self.slopes[index][at * count..(at + 1) * count]
     }
 }
 
-/// What a fit knows of each log K and log S before any data.
+/// Information that a fit has on each log K and log S before any data: that of its prior.
 pub(crate) const PRIOR_INFORMATION: f64 = RIDGE;

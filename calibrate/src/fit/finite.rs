@@ -1,62 +1,79 @@
-//! Absolute amounts on a known backing: the finite layer equation itself.
+//! Fit of absolute amounts on known backings, by the finite layer equation.
 
 use spectra::optics::UnevenFilm;
 use spectra::{Grid, TristimulusWeights};
 
-use super::curves::{Curves, Layout};
+use super::curves::{CurveTable, Layout};
 use super::forward::{Data, Finite};
 use super::problem::FitError;
 use super::refined::{Refined, Refinement, refine};
-use pigment::mixture::Mixture;
+use pigment::{Curves, Recipe};
+/// Values of S that are tried as a start, evenly spaced in their logarithm; chosen by eye.
+const STARTS: i32 = 44;
+/// Least of these values of S.
+const LEAST_START: f64 = 0.012;
+/// Ratio of the greatest to the least of these values.
+const START_RANGE: f64 = 1000.0;
+/// Range of K of the start; chosen by eye.
+const START_K: [f64; 2] = [4e-4, 120.0];
+/// Values of K in the coarse grid of the first wavelength; chosen by eye.
+const COARSE_STEPS: i32 = 25;
+/// Knee of the robust loss of a start, in cube roots of reflectance: 2 of 100 on a scale like lightness.
+const START_KNEE: f64 = 0.02;
+/// Most Gauss-Newton steps of a start; chosen by eye.
+const START_STEPS: usize = 12;
 
 /// Films of known amounts over known backings.
 #[derive(Debug, Clone)]
 pub struct FiniteProblem {
-    /// The wavelengths.
+    /// Wavelengths of all reflectances.
     pub grid: Grid,
-    /// How many pigments.
+    /// Number of pigments.
     pub pigments: usize,
-    /// Root mean square spread of repeated readings; 0 if none were repeated.
+    /// Standard deviation of repeated readings, root mean square over films; 0 if none were repeated.
     pub reading_sd: f64,
-    /// By film: its pigments and the amounts of each on the area.
-    pub recipes: Vec<Vec<(usize, f64)>>,
-    /// By film and wavelength: measured reflectance.
-    pub reflectance: Vec<Vec<f64>>,
-    /// By film and wavelength: measured reflectance of its bare backing.
-    pub bare: Vec<Vec<f64>>,
+    /// The films.
+    pub films: Vec<MeasuredFilm>,
+}
+
+/// One film of known amounts over a known backing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredFilm {
+    /// Name of the sample, with its backing if the sample has several films.
+    pub name: String,
+    /// Pigments with their amounts on the area, above 0.
+    pub recipe: Recipe,
+    /// Measured reflectance of the film, as a fraction.
+    pub reflectance: Vec<f64>,
+    /// Measured reflectance of the bare backing, as a fraction.
+    pub bare: Vec<f64>,
 }
 
 impl FiniteProblem {
-    /// The films number `kept`, in that order.
+    /// Copy with the films of indices `kept`, in that order.
     #[must_use]
-    pub fn of(&self, kept: &[usize]) -> Self {
-        let rows = |all: &[Vec<f64>]| kept.iter().map(|&i| all[i].clone()).collect();
-        Self {
-            grid: self.grid,
-            pigments: self.pigments,
-            reading_sd: self.reading_sd,
-            recipes: kept.iter().map(|&i| self.recipes[i].clone()).collect(),
-            reflectance: rows(&self.reflectance),
-            bare: rows(&self.bare),
-        }
+    pub fn with_films(&self, kept: &[usize]) -> Self {
+        Self { films: kept.iter().map(|&i| self.films[i].clone()).collect(), ..*self }
     }
 
-    /// Measured reflectance that K and S predict of film number `index`.
+    /// Predicted measured reflectance of the film of index `index`.
     #[must_use]
     pub fn predicted(&self, fit: &Refined, film: UnevenFilm, index: usize) -> Vec<f64> {
-        let parts = self.recipes[index].iter().map(|&(pigment, amount)| {
-            (amount, fit.absorption[pigment].as_slice(), fit.scattering[pigment].as_slice())
+        let MeasuredFilm { recipe, bare, .. } = &self.films[index];
+        let parts = recipe.iter().map(|&(pigment, amount)| {
+            let (absorption, scattering) = fit.curves[pigment.index()].as_slices();
+            (amount, absorption, scattering)
         });
-        Mixture::of(self.grid.count(), parts).film(1.0, &self.bare[index], film)
+        Curves::weighted_sum(self.grid, parts).film(1.0, bare, film)
     }
 }
 
-/// K and S per unit of amount.
+/// Fits K and S per unit of amount.
 ///
-/// K d and S d of a film are the sums of its amounts times K and S; its
-/// reflectance over the backing follows by the finite layer equation. Starts
-/// from each pigment's films without others (one S for all wavelengths, the
-/// best K at each), then minimises what `refined` does.
+/// K d and S d of a film are the sums of its amounts times K and S, and its reflectance over the
+/// backing follows from the finite layer equation. The start comes from each pigment's films without
+/// others (one S for all wavelengths, the best K at each); then the cost of the refinement is
+/// minimised, see [`super::fit_refined`].
 ///
 /// # Errors
 /// [`FitError::Empty`] without films.
@@ -66,48 +83,42 @@ pub fn fit_finite(
     weights: &TristimulusWeights,
     how: Refinement,
 ) -> Result<Refined, FitError> {
-    if problem.recipes.is_empty() {
+    if problem.films.is_empty() {
         return Err(FitError::Empty);
     }
-    // Bounds and starts are set for amounts near 1, whatever the user's unit.
-    let totals: Vec<f64> =
-        problem.recipes.iter().map(|r| r.iter().map(|(_, amount)| amount).sum()).collect();
+    // Bounds and starts are set for amounts near 1, whatever the unit of the user.
+    let totals: Vec<f64> = problem.films.iter().map(|film| film.recipe.total()).collect();
     let unit = pigment::evaluate::percentile(&totals, 50.0);
-    let recipes: Vec<Vec<(usize, f64)>> = problem
-        .recipes
-        .iter()
-        .map(|recipe| recipe.iter().map(|&(p, amount)| (p, amount / unit)).collect())
-        .collect();
+    let in_unit = |film: &MeasuredFilm| -> Vec<(usize, f64)> {
+        film.recipe.iter().map(|&(p, amount)| (p.index(), amount / unit)).collect()
+    };
+    let recipes: Vec<Vec<(usize, f64)>> = problem.films.iter().map(in_unit).collect();
+    let reflectance: Vec<Vec<f64>> = problem.films.iter().map(|f| f.reflectance.clone()).collect();
     let below = |measured: &f64| {
         film.surface.internal_from_measured(*measured).unwrap_or(0.0).clamp(0.0, 1.0)
     };
     let backing: Vec<Vec<f64>> =
-        problem.bare.iter().map(|bare| bare.iter().map(below).collect()).collect();
+        problem.films.iter().map(|f| f.bare.iter().map(below).collect()).collect();
     let layout =
         Layout { pigments: problem.pigments, reference: None, wavelengths: problem.grid.count() };
-    let start = Start { film, recipes: &recipes, target: &problem.reflectance, backing: &backing };
+    let start = Start { film, recipes: &recipes, target: &reflectance, backing: &backing };
     let curves: Vec<(Vec<f64>, f64)> =
         (0..problem.pigments).map(|pigment| start.of(pigment, layout.wavelengths)).collect();
-    let start = Curves {
+    let start = CurveTable {
         absorption: curves.iter().map(|(k, _)| k.clone()).collect(),
         scattering: curves.iter().map(|(_, s)| vec![*s; layout.wavelengths]).collect(),
     };
     let forward = Finite { film, backing: &backing };
-    let data = Data::new(layout, forward, &recipes, &problem.reflectance, problem.reading_sd);
-    let step = problem.grid.step_nm();
-    let mut refined = refine(&data, &start, weights, step, how);
-    for curves in [
-        &mut refined.absorption,
-        &mut refined.scattering,
-        &mut refined.absorption_sd,
-        &mut refined.scattering_sd,
-    ] {
-        curves.iter_mut().flatten().for_each(|v| *v /= unit);
+    let data = Data::new(layout, forward, &recipes, &reflectance, problem.reading_sd);
+    let mut refined = refine(&data, &start, weights, problem.grid, how);
+    for curves in refined.curves.iter_mut().chain(refined.deviations.iter_mut().flatten()) {
+        let values = curves.absorption.iter_mut().chain(&mut curves.scattering);
+        values.for_each(|value| *value /= unit);
     }
     Ok(refined)
 }
 
-/// Where a pigment's K and S start.
+/// Data from which the start of a pigment's K and S is computed.
 struct Start<'a> {
     film: UnevenFilm,
     recipes: &'a [Vec<(usize, f64)>],
@@ -116,9 +127,9 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// K by wavelength and one S: the best of 44 S from 0.012 to 12. A prior
-    /// on S would outweigh the weak evidence that a ladder gives of it, so
-    /// there is none. A pigment without films of its own starts at 1.
+    /// K by wavelength and one S: the best of 44 values of S from 0.012 to 12. No prior on S is used,
+    /// since it would outweigh the weak evidence that a ladder gives. A pigment without films of its
+    /// own starts at 1.
     fn of(&self, pigment: usize, wavelengths: usize) -> (Vec<f64>, f64) {
         let own: Vec<(usize, f64)> = self
             .recipes
@@ -132,8 +143,8 @@ impl Start<'_> {
         }
         let mut best: Option<(f64, Vec<f64>, f64)> = None;
         let mut logs = vec![None; wavelengths];
-        for step in 0..44 {
-            let s = 0.012 * 1000f64.powf(f64::from(step) / 43.0);
+        for step in 0..STARTS {
+            let s = LEAST_START * START_RANGE.powf(f64::from(step) / f64::from(STARTS - 1));
             let mut cost = 0.0;
             for (at, log) in logs.iter_mut().enumerate() {
                 let (k, own_cost) = self.best_absorption(&own, at, s, *log);
@@ -145,12 +156,12 @@ impl Start<'_> {
                 best = Some((cost, curve, s));
             }
         }
-        let (_, absorption, scattering) = best.expect("there are 44 candidates");
+        let (_, absorption, scattering) = best.expect("there is at least one candidate");
         (absorption, scattering)
     }
 
-    /// The log K that fits a pigment's own films best at one wavelength for a
-    /// given S, by Gauss-Newton from `near` or from a coarse grid.
+    /// Log K that fits a pigment's own films best at one wavelength for a given S, with its cost: by
+    /// Gauss-Newton steps from `near`, or from the best of a coarse grid.
     fn best_absorption(
         &self,
         own: &[(usize, f64)],
@@ -158,8 +169,7 @@ impl Start<'_> {
         s: f64,
         near: Option<f64>,
     ) -> (f64, f64) {
-        // Robust on a scale like lightness; the knee is 2 of 100.
-        let knee: f64 = 0.02;
+        let knee = START_KNEE;
         let sums = |log: f64| {
             let k = log.exp();
             let (mut cost, mut gradient, mut curvature) = (0.0, 0.0, 0.0);
@@ -179,13 +189,14 @@ impl Start<'_> {
             }
             (cost, gradient, curvature)
         };
-        let (low, high) = (4e-4f64.ln(), 120f64.ln());
+        let (low, high) = (START_K[0].ln(), START_K[1].ln());
         let mut log = near.unwrap_or_else(|| {
-            let candidates = (0..25).map(|i| low + (high - low) * f64::from(i) / 24.0);
+            let last = f64::from(COARSE_STEPS - 1);
+            let candidates = (0..COARSE_STEPS).map(|i| low + (high - low) * f64::from(i) / last);
             candidates.min_by(|a, b| sums(*a).0.total_cmp(&sums(*b).0)).unwrap_or(0.0)
         });
         let mut here = sums(log);
-        for _ in 0..12 {
+        for _ in 0..START_STEPS {
             let step = (-here.1 / (here.2 + 1e-9)).clamp(-1.0, 1.0);
             let next = (log + step).clamp(low, high);
             let there = sums(next);

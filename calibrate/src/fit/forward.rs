@@ -1,21 +1,21 @@
-//! The two optical models a fit can see its films through.
+//! The two optical models through which a fit sees its films.
 
 use nalgebra::DMatrix;
 use spectra::optics::{Surface, UnevenFilm, infinite_film, infinite_film_slope};
 
-use super::curves::{Curves, Layout};
+use super::curves::{CurveTable, Layout};
 use super::problem::Problem;
 
-/// The measured reflectance of a film, from K and S of its mixture.
+/// Model of the measured reflectance of a film, from K and S of its mixture.
 pub(super) trait Forward: Sync {
-    /// The reflectance of sample `index` at wavelength `at`.
+    /// Reflectance of sample `index` at wavelength `at`.
     fn reflectance(&self, index: usize, at: usize, k: f64, s: f64) -> f64;
 
-    /// The same, with its derivatives over K and over S.
+    /// Reflectance with its derivatives over K and over S.
     fn linearised(&self, index: usize, at: usize, k: f64, s: f64) -> [f64; 3];
 }
 
-/// Films that hide.
+/// Model of films that hide their backing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hiding {
     pub(super) surface: Surface,
@@ -33,11 +33,11 @@ impl Forward for Hiding {
     }
 }
 
-/// Films of unit thickness (the amounts carry it) over known backings.
+/// Model of films of unit thickness over known backings; the amounts carry the thickness.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finite<'a> {
     pub(super) film: UnevenFilm,
-    /// By sample and wavelength: internal reflectance of the bare backing.
+    /// Internal reflectance of the bare backing, by sample and wavelength.
     pub(super) backing: &'a [Vec<f64>],
 }
 
@@ -51,35 +51,35 @@ impl Forward for Finite<'_> {
     }
 }
 
-/// Samples seen through a model.
+/// Measured samples, seen through an optical model.
 #[derive(Debug)]
 pub(super) struct Data<'a, F> {
     pub(super) layout: Layout,
     pub(super) forward: F,
-    /// By sample: its pigments and their amounts.
+    /// Pigments of each sample with their amounts.
     pub(super) recipes: &'a [Vec<(usize, f64)>],
-    /// By sample and wavelength: what was measured.
+    /// Measured reflectance by sample and wavelength.
     pub(super) target: &'a [Vec<f64>],
-    /// Spread of repeated readings in measured reflectance; 0 if unknown.
+    /// Standard deviation of repeated readings in measured reflectance; 0 if unknown.
     pub(super) reading_sd: f64,
-    /// By sample: where its unknowns stand in a wavelength.
+    /// Places of each sample's unknowns within a wavelength.
     places: Vec<Vec<usize>>,
 }
 
-/// A model near a point: values, and slopes over the unknowns.
+/// A model linearised at a point: values, and slopes over the unknowns.
 pub(super) struct Linear {
-    /// By sample and wavelength.
+    /// Predicted reflectance by sample and wavelength.
     pub(super) values: Vec<Vec<f64>>,
-    /// By sample: by wavelength, one slope for each of the sample's places.
+    /// By sample: for each wavelength in turn, one slope for each of the sample's places.
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
 impl<'a> Data<'a, Hiding> {
-    /// The mixtures of a problem, in films that hide.
+    /// The mixtures of a problem, seen as films that hide.
     pub(super) fn hiding(problem: &'a Problem) -> Self {
         let layout = Layout {
             pigments: problem.pigments,
-            reference: Some(problem.reference),
+            reference: Some(problem.reference.index()),
             wavelengths: problem.grid.count(),
         };
         let forward = Hiding { surface: problem.surface };
@@ -106,7 +106,7 @@ impl<'a, F: Forward> Data<'a, F> {
         Self { layout, forward, recipes, target, reading_sd, places }
     }
 
-    /// The normal matrix of the slopes at one wavelength, samples alike.
+    /// Normal matrix of the slopes at one wavelength, all samples having equal weight.
     pub(super) fn normal(&self, linear: &Linear, at: usize) -> DMatrix<f64> {
         let unknowns = self.layout.per_wavelength();
         let mut normal = DMatrix::zeros(unknowns, unknowns);
@@ -121,13 +121,13 @@ impl<'a, F: Forward> Data<'a, F> {
         normal
     }
 
-    /// Where the unknowns of sample `index` stand in a wavelength.
+    /// Places of the unknowns of sample `index` within a wavelength.
     pub(super) fn places(&self, index: usize) -> &[usize] {
         &self.places[index]
     }
 
-    /// Predicted measured reflectance, by sample and wavelength.
-    pub(super) fn values(&self, curves: &Curves) -> Vec<Vec<f64>> {
+    /// Predicted measured reflectance by sample and wavelength.
+    pub(super) fn values(&self, curves: &CurveTable) -> Vec<Vec<f64>> {
         (0..self.recipes.len())
             .map(|index| {
                 (0..self.layout.wavelengths)
@@ -140,8 +140,8 @@ impl<'a, F: Forward> Data<'a, F> {
             .collect()
     }
 
-    /// The model at `curves`, with slopes over log K and log S.
-    pub(super) fn linear(&self, curves: &Curves) -> Linear {
+    /// Linearises the model at `curves`, with slopes over log K and log S.
+    pub(super) fn linear(&self, curves: &CurveTable) -> Linear {
         let wavelengths = self.layout.wavelengths;
         let mut linear = Linear { values: Vec::new(), slopes: Vec::new() };
         for (index, recipe) in self.recipes.iter().enumerate() {
@@ -162,7 +162,7 @@ impl<'a, F: Forward> Data<'a, F> {
         linear
     }
 
-    fn mixed(&self, curves: &Curves, index: usize, at: usize) -> (f64, f64) {
+    fn mixed(&self, curves: &CurveTable, index: usize, at: usize) -> (f64, f64) {
         self.recipes[index].iter().fold((0.0, 0.0), |(k, s), &(pigment, amount)| {
             (
                 k + amount * curves.absorption[pigment][at],

@@ -1,38 +1,46 @@
-//! What mixtures can tell of each pigment, before anything is fitted.
+//! Identification: which pigments the mixtures determine, before anything is fitted.
 //!
-//! The equations K = Q S of the mixtures are homogeneous but for the reference
-//! white. A pigment's S is known only through mixtures that tie it, directly
-//! or through others, to that white.
+//! The equations K = Q S of the mixtures are homogeneous except for the reference white. The S of a
+//! pigment is known only through mixtures that connect it, directly or through others, to that white.
 
-/// What of a pigment the data cannot tell.
+use pigment::PigmentId;
+
+/// Quantity of a pigment that the data do not identify.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
     /// Its S; its K/S is known from a masstone.
     Scattering,
-    /// Both.
+    /// Both K and S.
     Everything,
 }
 
-/// A pigment the data do not identify.
+/// A pigment that the data do not identify.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unidentified {
-    /// Its index.
-    pub pigment: usize,
-    /// What is unknown.
+    /// Place of the pigment in the list of pigments.
+    pub pigment: PigmentId,
+    /// Quantity that is not identified.
     pub unknown: Unknown,
-    /// The samples that hold it, by index.
+    /// Indices of the samples that contain the pigment.
     pub samples: Vec<usize>,
 }
 
-/// The pigments that `shares` (by sample, then pigment) do not identify, given
-/// the `reference` whose S is 1.
+/// Sum of differences of shares below which two recipes are equal.
+const SAME_RECIPE: f64 = 1e-9;
+
+/// Finds the pigments that the mixtures do not identify, given the `reference` whose S is 1. `shares` are
+/// the shares of all pigments, by sample.
 ///
-/// A pigment counts as identified if it occurs in two or more samples of
-/// different recipe, at least one of them a mixture with an identified
-/// pigment.
+/// A pigment is identified if it occurs in two or more samples of different recipe, at least one of them
+/// a mixture with an identified pigment.
 #[must_use]
-pub fn unidentified(shares: &[Vec<f64>], reference: usize) -> Vec<Unidentified> {
-    let pigments = shares.first().map_or(0, Vec::len);
+pub fn unidentified<'a>(
+    shares: impl IntoIterator<Item = &'a [f64]>,
+    reference: PigmentId,
+) -> Vec<Unidentified> {
+    let collected: Vec<&[f64]> = shares.into_iter().collect();
+    let shares = collected.as_slice();
+    let pigments = shares.first().map_or(0, |shares| shares.len());
     let holding = |pigment: usize| -> Vec<usize> {
         (0..shares.len()).filter(|&s| shares[s][pigment] > 0.0).collect()
     };
@@ -41,12 +49,12 @@ pub fn unidentified(shares: &[Vec<f64>], reference: usize) -> Vec<Unidentified> 
     };
     let different = |samples: &[usize]| {
         samples.iter().any(|&s| {
-            let pairs = shares[s].iter().zip(&shares[samples[0]]);
-            pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() > 1e-9
+            let pairs = shares[s].iter().zip(shares[samples[0]]);
+            pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() > SAME_RECIPE
         })
     };
     let mut known = vec![false; pigments];
-    known[reference] = true;
+    known[reference.index()] = true;
     loop {
         let found = (0..pigments).filter(|&p| !known[p]).find(|&pigment| {
             let samples = holding(pigment);
@@ -65,7 +73,7 @@ pub fn unidentified(shares: &[Vec<f64>], reference: usize) -> Vec<Unidentified> 
             let samples = holding(pigment);
             let masstone = samples.iter().any(|&s| partners(s, pigment).next().is_none());
             let unknown = if masstone { Unknown::Scattering } else { Unknown::Everything };
-            Unidentified { pigment, unknown, samples }
+            Unidentified { pigment: PigmentId(pigment), unknown, samples }
         })
         .collect()
 }
@@ -74,23 +82,27 @@ pub fn unidentified(shares: &[Vec<f64>], reference: usize) -> Vec<Unidentified> 
 mod tests {
     use super::*;
 
+    fn found(shares: &[Vec<f64>]) -> Vec<Unidentified> {
+        unidentified(shares.iter().map(Vec::as_slice), PigmentId(0))
+    }
+
     #[test]
-    fn a_masstone_alone_tells_only_the_ratio() {
+    fn a_masstone_alone_identifies_only_the_ratio() {
         let shares = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
-        let found = unidentified(&shares, 0);
+        let found = found(&shares);
         assert_eq!(found.len(), 1);
-        assert_eq!((found[0].pigment, found[0].unknown), (1, Unknown::Scattering));
+        assert_eq!((found[0].pigment, found[0].unknown), (PigmentId(1), Unknown::Scattering));
         assert_eq!(found[0].samples, vec![1]);
     }
 
     #[test]
-    fn a_single_mixture_tells_nothing() {
-        let found = unidentified(&[vec![1.0, 0.0], vec![0.5, 0.5]], 0);
-        assert_eq!((found[0].pigment, found[0].unknown), (1, Unknown::Everything));
+    fn a_single_mixture_identifies_nothing() {
+        let found = found(&[vec![1.0, 0.0], vec![0.5, 0.5]]);
+        assert_eq!((found[0].pigment, found[0].unknown), (PigmentId(1), Unknown::Everything));
     }
 
     #[test]
-    fn masstone_and_tint_identify_and_a_chain_reaches_the_white() {
+    fn masstone_and_tint_identify_a_pigment_through_a_chain_to_the_white() {
         let shares = vec![
             vec![1.0, 0.0, 0.0],
             vec![0.0, 1.0, 0.0],
@@ -98,7 +110,7 @@ mod tests {
             vec![0.0, 0.0, 1.0],
             vec![0.0, 0.5, 0.5],
         ];
-        assert!(unidentified(&shares, 0).is_empty(), "pigment 2 hangs on 1, and 1 on the white");
+        assert!(found(&shares).is_empty(), "pigment 2 is mixed with 1, and 1 with the white");
     }
 
     #[test]
@@ -109,7 +121,7 @@ mod tests {
             vec![0.0, 0.0, 1.0],
             vec![0.0, 0.5, 0.5],
         ];
-        let found: Vec<usize> = unidentified(&shares, 0).iter().map(|u| u.pigment).collect();
+        let found: Vec<usize> = found(&shares).iter().map(|u| u.pigment.index()).collect();
         assert_eq!(found, vec![1, 2]);
     }
 }

@@ -1,15 +1,17 @@
-//! From observed swatches to K and S.
+//! Fit of K and S to observed swatches.
 //!
-//! Three methods for shares of a mixture, each starting from the one before:
+//! There are three methods for shares of a mixture, each of which starts from the one before:
 //!
 //! | method | minimises, over K and S of every pigment |
 //! |---|---|
-//! | `qp` | per wavelength, the sum over mixtures of (C K - Q C S)^2, Q = K/S of each (Baxter, Wendt and Lin 2004, 5.2): a quadratic program, K and S 0 and up, S = 1 for the reference white |
-//! | `weighted` | the same with each row times dR/dQ over the mixture's own C S, which makes the residual an error of measured reflectance; re-weighted, the best iterate kept per wavelength |
-//! | `refined` | a robust loss of the residual in measured reflectance on a perceptual scale, plus the robust colour difference of each sample, plus roughness of log K and log S over wavelength; see `refined` |
+//! | `qp` | per wavelength, the sum over mixtures of (C K - Q C S)^2, Q = K/S of each (Baxter, Wendt and Lin 2004, section 5.2): a quadratic program, K and S 0 and up, S = 1 for the reference white |
+//! | `weighted` | the same sum with each row times dR/dQ over the mixture's own C S, which makes the residual an error of measured reflectance; re-weighted several times, the best iterate kept per wavelength |
+//! | `refined` | a robust loss of the residuals in measured reflectance on a perceptual scale, plus the robust colour difference of each sample, plus the roughness of log K and log S over wavelength; see [`fit_refined`] |
 //!
-//! and one for absolute amounts on a known backing, `finite`, which fits the
-//! finite layer equation itself.
+//! Absolute amounts on known backings have a method of their own, [`fit_finite`], which fits the finite
+//! layer equation.
+
+mod curves;
 
 mod problem;
 
@@ -19,8 +21,6 @@ mod weighted;
 
 mod banded;
 
-mod curves;
-
 mod forward;
 
 mod color_term;
@@ -28,6 +28,8 @@ mod color_term;
 mod noise;
 
 mod objective;
+
+mod deviations;
 
 mod refined;
 
@@ -37,16 +39,14 @@ mod expected;
 
 mod identification;
 
-mod deviations;
-
 mod condition;
 
 pub use condition::{Condition, condition};
 pub use deviations::linear_deviations;
-pub use expected::ExpectedNoise;
-pub(crate) use expected::{Belief, PRIOR_INFORMATION, Slopes};
-pub use finite::{FiniteProblem, fit_finite};
+pub(crate) use expected::{AssumedPaints, PRIOR_INFORMATION, Slopes};
+pub use finite::{FiniteProblem, MeasuredFilm, fit_finite};
 pub use identification::{Unidentified, Unknown, unidentified};
+pub use noise::ExpectedNoise;
 pub use pigment::fit_settings::{FitSettings, Method, Smoothness};
 pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};

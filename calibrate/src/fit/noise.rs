@@ -1,23 +1,41 @@
-//! How the readings' noise spreads, and so how much each residual weighs.
+//! Noise model of the readings, which sets the weight of each residual.
 //!
-//! Part of the noise is even to the eye (a paint that was mixed a little
-//! otherwise), part is constant in reflectance (the instrument's).
+//! One part of the noise is perceptually uniform (errors of mixing and weighing), the other is constant
+//! in reflectance (errors of the instrument).
 
 use super::color_term::ColorTerm;
-use super::expected::ExpectedNoise;
 use pigment::evaluate::percentile;
+/// Least standard deviation of a residual, as a cube root of reflectance; chosen by eye.
+const LEAST_SD: f64 = 1e-4;
+/// Standard deviation over median absolute value for normal noise.
+const SD_OVER_MEDIAN: f64 = 1.4826;
+/// Ratios of the two kinds of noise that are tried besides 0, evenly spaced in their logarithm.
+const RATIOS: i32 = 25;
+/// Least of these ratios; chosen by eye.
+const LEAST_RATIO: f64 = 0.02;
+/// Decades that these ratios span; chosen by eye.
+const RATIO_DECADES: f64 = 4.0;
 
-/// How noise spreads over samples and wavelengths.
+/// Expected errors of a swatch's reflectance, as standard deviations in measured reflectance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExpectedNoise {
+    /// Error that is equal at every reflectance, of the instrument; 0 to below 1.
+    pub constant: f64,
+    /// Error that is perceptually uniform, and so smaller in the dark: of weighing, mixing and the film;
+    /// 0 to below 1, for a swatch of typical reflectance.
+    pub even: f64,
+}
+
+/// Distribution of the noise over samples and wavelengths.
 pub(super) struct Noise<'a> {
     target: &'a [Vec<f64>],
-    /// By sample and wavelength: weight of a cube-root residual that makes it
-    /// even to the eye.
+    /// By sample and wavelength: weight of a cube-root residual that makes it perceptually uniform.
     even: Vec<Vec<f64>>,
-    /// The same for a residual in reflectance itself.
+    /// By sample and wavelength: that weight for a residual in reflectance itself.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
-    /// The least standard deviation of a residual: what repeated readings show.
-    /// Few samples may be fitted nearer than that, but not known nearer.
+    /// Least standard deviation of a residual: that of repeated readings. Few samples may be fitted
+    /// more closely than that, but they are not known more closely.
     least_sd: f64,
 }
 
@@ -30,8 +48,8 @@ impl<'a> Noise<'a> {
                 *value /= root_slope(r);
             }
         }
-        // Only the differences among samples count: no wavelength outweighs
-        // another here, or the dim ends of the band would not be fitted at all.
+        // Only the differences among samples count. No wavelength outweighs another here, since the dim
+        // ends of the band would not be fitted at all otherwise.
         for at in 0..even[0].len() {
             let mean = even.iter().map(|row| row[at]).sum::<f64>() / even.len() as f64;
             for row in &mut even {
@@ -45,12 +63,12 @@ impl<'a> Noise<'a> {
             .collect();
         let all: Vec<f64> = slope.iter().flatten().copied().collect();
         let median_slope = percentile(&all, 50.0);
-        let least_sd = (reading_sd * median_slope).max(1e-4);
+        let least_sd = (reading_sd * median_slope).max(LEAST_SD);
         Self { target, even, slope, median_slope, least_sd }
     }
 
-    /// One over the standard deviation of each residual, and the deviation at a
-    /// typical sample, which is `least` or more.
+    /// One over the standard deviation of each residual, and the deviation at a typical sample, which
+    /// is `least` or more.
     pub(super) fn weights(
         &self,
         ratio: f64,
@@ -73,22 +91,21 @@ impl<'a> Noise<'a> {
                 sizes.push((w * (v.cbrt() - t.cbrt())).abs());
             }
         }
-        // The median of |r| is 0.6745 standard deviations of normal noise.
         let least = if least.is_finite() { least.max(self.least_sd) } else { self.least_sd };
-        let sd = (1.4826 * percentile(&sizes, 50.0)).max(least);
+        let sd = (SD_OVER_MEDIAN * percentile(&sizes, 50.0)).max(least);
         weights.iter_mut().flatten().for_each(|w| *w /= sd);
         (weights, sd)
     }
 
-    /// One over the standard deviation of each reading, in measured
-    /// reflectance, where both parts of the noise are known.
+    /// One over the standard deviation of each reading in measured reflectance, where both parts of the
+    /// noise are known.
     pub(super) fn precision(&self, noise: ExpectedNoise) -> Vec<Vec<f64>> {
         let sd = |slope: &f64| noise.constant.hypot(noise.even * self.median_slope / slope);
         self.slope.iter().map(|row| row.iter().map(|slope| sd(slope).recip()).collect()).collect()
     }
 
-    /// The ratio of the two kinds of noise under which the residuals of
-    /// `values` are most likely.
+    /// Ratio of the two kinds of noise (constant over uniform) under which the residuals of `values` are
+    /// most likely by Laplace's law.
     pub(super) fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
         let score = |ratio: f64| {
             let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
@@ -104,8 +121,9 @@ impl<'a> Noise<'a> {
             }
             count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
         };
-        // 0, then 25 steps of equal ratio from 0.02 to 200.
-        let candidates = (0..25).map(|i| 0.02 * 10f64.powf(4.0 * f64::from(i) / 24.0));
+        let candidates = (0..RATIOS).map(|i| {
+            LEAST_RATIO * 10f64.powf(RATIO_DECADES * f64::from(i) / f64::from(RATIOS - 1))
+        });
         let mut best = (score(0.0), 0.0);
         for ratio in candidates {
             let score = score(ratio);

@@ -1,57 +1,73 @@
-//! What the refinement minimises, and one step of Levenberg-Marquardt on it.
+//! Cost of the refinement, and the steps of the Levenberg-Marquardt method that minimise it.
 
 use super::banded::{Banded, BandedCholesky};
 use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
 use super::forward::{Data, Forward};
 
-/// Weight of the pull towards the start, in 1 / (log unit)^2: a standard
-/// deviation of 10, which only keeps what no sample tells from running away.
+/// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of
+/// 10, which only keeps unknowns that no sample determines from running away.
 pub(super) const RIDGE: f64 = 0.01;
+/// First damping of a descent; chosen by eye.
+const FIRST_DAMPING: f64 = 1e-2;
+/// Damping stays above this, so that the matrix keeps a Cholesky factor.
+const LEAST_DAMPING: f64 = 1e-8;
+/// Factor by which damping falls after a step that lowers the cost; chosen by eye.
+const DAMPING_FALL: f64 = 5.0;
+/// Factor by which damping rises after a step that does not; chosen by eye.
+const DAMPING_RISE: f64 = 6.0;
+/// Most dampings tried for one step.
+const TRIALS: usize = 8;
+/// Longest step of one unknown, in log units; chosen by eye.
+const LONGEST_STEP: f64 = 2.0;
+/// Added to the diagonal, so that unknowns without data have a finite step.
+const DIAGONAL_FLOOR: f64 = 1e-9;
+/// Squared relative residual at which conjugate gradients stop: a thousandth of the start.
+const GRADIENT_TOLERANCE: f64 = 1e-6;
+/// Most steps of conjugate gradients; the preconditioner needs about ten. Chosen by eye.
+const GRADIENT_STEPS: usize = 60;
 
-/// The whole cost, in units of the residual's variance:
+/// Cost of a fit, in units of the residual's variance. It is the sum of
 ///
-/// - spectral: rho(w (cbrt R - cbrt R_measured)), knee at 3 standard deviations;
-/// - roughness: smoothness / 2 (second difference over wavelength)^2 of each
-///   log K and log S;
-/// - ridge: [`RIDGE`] / 2 (log - start)^2, for S as told;
+/// - spectral: rho(w (cbrt R - cbrt R_measured)), with the knee at 3 standard deviations;
+/// - roughness: smoothness / 2 (second difference over wavelength)^2 of each log K and log S;
+/// - ridge: [`RIDGE`] / 2 (log - start)^2, with a strength of its own for log S;
 /// - colour: strength x rho(CIEDE2000) of each sample;
 ///
-/// rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1), half a square near 0 and straight
-/// beyond the knee c.
+/// where rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1) is half a square near 0 and straight beyond the knee c.
 pub(super) struct Objective<'a, F> {
     pub(super) data: &'a Data<'a, F>,
-    /// By sample and wavelength: w, one over the residual's standard deviation.
+    /// Weight w by sample and wavelength: one over the residual's standard deviation.
     pub(super) weights: Vec<Vec<f64>>,
     pub(super) knee: f64,
     pub(super) smoothness: f64,
     pub(super) start: &'a [f64],
-    /// As [`RIDGE`], for log S.
+    /// Strength of the pull of log S towards its start; that of log K is [`RIDGE`].
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
 }
 
-/// The colour part of the cost.
+/// Colour term of the cost.
 pub(super) struct ColorPart<'a> {
     pub(super) term: &'a ColorTerm<'a>,
     pub(super) strength: f64,
     pub(super) knee: f64,
 }
 
-/// The cost near a point.
+/// The cost near a point: its value, gradient and Gauss-Newton matrix.
 pub(super) struct Local {
     pub(super) cost: f64,
     gradient: Vec<f64>,
-    /// Gauss-Newton matrix of all but the colour part.
+    /// Gauss-Newton matrix of all terms but the colour.
     pub(super) matrix: Banded,
-    /// The Gauss-Newton matrix's diagonal, colour included.
+    /// Diagonal of the Gauss-Newton matrix, colour included.
     diagonal: Vec<f64>,
-    /// By sample: the colour part's rows, with their weight.
+    /// Rows of the colour term by sample, with their weights.
     color: Vec<(ColorResidual, f64)>,
     slopes: Vec<Vec<f64>>,
 }
 
-/// rho and its weight rho'(r) / r.
+/// Robust loss rho and its weight rho'(r) / r.
 pub(super) fn robust(squared: f64, knee: f64) -> (f64, f64) {
     let root = (1.0 + squared / (knee * knee)).sqrt();
     (knee * knee * (root - 1.0), root.recip())
@@ -127,7 +143,7 @@ impl<F: Forward> Objective<'_, F> {
         local
     }
 
-    /// The gradient of each sample's spectral part over all unknowns.
+    /// Gradient of each sample's spectral term over all unknowns.
     pub(super) fn gradients_by_sample(&self, unknowns: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let layout = self.data.layout;
         let per = layout.per_wavelength();
@@ -150,10 +166,10 @@ impl<F: Forward> Objective<'_, F> {
         })
     }
 
-    /// Moves `unknowns` downhill until the cost falls by less than `relative`
-    /// of itself, or for `iterations` steps.
+    /// Moves `unknowns` downhill until one step lowers the cost by less than the fraction `relative`, or
+    /// for `iterations` steps.
     pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {
-        let mut damping: f64 = 1e-2;
+        let mut damping: f64 = FIRST_DAMPING;
         let mut local = self.local(unknowns);
         for _ in 0..iterations {
             let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { return };
@@ -177,32 +193,33 @@ impl<F: Forward> Objective<'_, F> {
             .zip(&local.gradient)
             .map(|(&x, &g)| (x <= LOWER && g > 0.0) || (x >= UPPER && g < 0.0))
             .collect();
-        for _ in 0..8 {
+        for _ in 0..TRIALS {
             let trial = self.step(local, &held, *damping).map(|step| {
                 let moved = unknowns.iter().zip(&step);
-                moved.map(|(x, d)| (x + d.clamp(-2.0, 2.0)).clamp(LOWER, UPPER)).collect()
+                moved
+                    .map(|(x, d)| (x + d.clamp(-LONGEST_STEP, LONGEST_STEP)).clamp(LOWER, UPPER))
+                    .collect()
             });
             if let Some(trial) = trial {
                 let trial: Vec<f64> = trial;
                 let cost = self.cost(&trial);
                 if cost < local.cost {
-                    *damping = (*damping / 5.0).max(1e-8);
+                    *damping = (*damping / DAMPING_FALL).max(LEAST_DAMPING);
                     return Some((trial, cost));
                 }
             }
-            *damping *= 6.0;
+            *damping *= DAMPING_RISE;
         }
         None
     }
 
-    /// The damped Gauss-Newton step: straight from the banded factor, or, where
-    /// colour ties all wavelengths together, by conjugate gradients with that
-    /// factor as preconditioner.
+    /// Damped Gauss-Newton step: directly from the banded factor or, with the colour term, which couples
+    /// all wavelengths, by conjugate gradients with that factor as preconditioner.
     fn step(&self, local: &Local, held: &[bool], damping: f64) -> Option<Vec<f64>> {
         let mut matrix = local.matrix.clone();
         let mut right: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
         for (i, diagonal) in local.diagonal.iter().enumerate() {
-            matrix.add(i, i, damping * diagonal + 1e-9);
+            matrix.add(i, i, damping * diagonal + DIAGONAL_FLOOR);
         }
         for i in (0..right.len()).filter(|&i| held[i]) {
             matrix.hold(i);
@@ -223,7 +240,7 @@ impl<F: Forward> Objective<'_, F> {
         Some(conjugate_gradients(&right, &factor, product))
     }
 
-    /// Strength of the pull of unknown number `place` towards its start.
+    /// Strength of the pull of the unknown `place` towards its start.
     pub(super) fn ridge(&self, place: usize) -> f64 {
         let layout = self.data.layout;
         let is_scattering = place % layout.per_wavelength() >= layout.pigments;
@@ -310,7 +327,7 @@ impl<F: Forward> Objective<'_, F> {
     }
 }
 
-/// Solves A x = `right` for the A that `product` applies, to a thousandth.
+/// Solves A x = `right` for the matrix A that `product` applies, to a relative residual of a thousandth.
 fn conjugate_gradients(
     right: &[f64],
     factor: &BandedCholesky,
@@ -322,9 +339,9 @@ fn conjugate_gradients(
     let mut preconditioned = factor.solve(&residual);
     let mut direction = preconditioned.clone();
     let mut length = dot(&residual, &preconditioned);
-    let wanted = 1e-6 * length;
-    for _ in 0..60 {
-        if length <= wanted {
+    let tolerance = GRADIENT_TOLERANCE * length;
+    for _ in 0..GRADIENT_STEPS {
+        if length <= tolerance {
             break;
         }
         let image = product(&direction);

@@ -1,44 +1,45 @@
-//! The unknowns and the data of a fit, in arrays.
+//! Data of a fit as arrays.
 
 use spectra::Grid;
+use spectra::hint::{Explain, Hint};
 use spectra::optics::Surface;
 
-use super::curves::Curves;
+use super::curves::CurveTable;
 use crate::observation::Observation;
+use pigment::PigmentId;
 
-/// Mixtures of known shares with the K/S observed of each.
+/// Mixtures of known shares, with the K/S observed for each.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// The wavelengths.
+    /// Wavelengths of all curves.
     pub grid: Grid,
-    /// The surface of the measured films.
+    /// Surface of the measured films.
     pub surface: Surface,
-    /// How many pigments.
+    /// Number of pigments.
     pub pigments: usize,
-    /// The pigment whose S is 1.
-    pub reference: usize,
-    /// Root mean square spread of repeated readings; 0 if none were repeated.
+    /// Pigment whose S is 1.
+    pub reference: PigmentId,
+    /// Standard deviation of repeated readings, root mean square over samples; 0 if none were repeated.
     pub(crate) reading_sd: f64,
-    /// By mixture: the pigments in it and their shares.
+    /// Pigments of each mixture with their shares.
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
-    /// By mixture and wavelength: K/S.
+    /// K/S by mixture and wavelength.
     pub(crate) ratio: Vec<Vec<f64>>,
-    /// By mixture and wavelength: measured reflectance of a film that hides.
+    /// Measured reflectance, as films that hide, by mixture and wavelength.
     pub(crate) reflectance: Vec<Vec<f64>>,
 }
 
 impl Problem {
-    /// The problem of `observations`.
+    /// Collects the data of `observations`.
     ///
     /// # Errors
-    /// [`FitError::Empty`] without mixtures, [`FitError::Reference`] if the
-    /// reference pigment occurs in none, [`FitError::Shape`] if an observation
-    /// has another number of pigments or wavelengths.
+    /// [`FitError::Empty`] without mixtures, [`FitError::Reference`] if none contains the reference
+    /// pigment, [`FitError::Shape`] if an observation has another number of pigments or wavelengths.
     pub fn new(
         grid: Grid,
         surface: Surface,
         observations: &[Observation],
-        reference: usize,
+        reference: PigmentId,
     ) -> Result<Self, FitError> {
         let first = observations.first().ok_or(FitError::Empty)?;
         let pigments = first.shares.len();
@@ -52,7 +53,7 @@ impl Problem {
                 });
             }
         }
-        if !observations.iter().any(|o| o.shares.get(reference).is_some_and(|&s| s > 0.0)) {
+        if !observations.iter().any(|o| o.shares.get(reference.index()).is_some_and(|&s| s > 0.0)) {
             return Err(FitError::Reference);
         }
         let recipe = |o: &Observation| {
@@ -71,15 +72,14 @@ impl Problem {
     }
 
     /// K and S of mixture `index` at wavelength `at`.
-    pub(crate) fn mixed(&self, curves: &Curves, index: usize, at: usize) -> (f64, f64) {
+    pub(crate) fn mixed(&self, curves: &CurveTable, index: usize, at: usize) -> (f64, f64) {
         self.recipes[index].iter().fold((0.0, 0.0), |(k, s), &(pigment, share)| {
             (k + share * curves.absorption[pigment][at], s + share * curves.scattering[pigment][at])
         })
     }
 
-    /// Measured reflectance that `curves` predict of each mixture in a film
-    /// that hides, by mixture and wavelength.
-    pub(crate) fn predicted(&self, curves: &Curves) -> Vec<Vec<f64>> {
+    /// Predicted measured reflectance of each mixture as a film that hides, by mixture and wavelength.
+    pub(crate) fn predicted(&self, curves: &CurveTable) -> Vec<Vec<f64>> {
         let film = |index: usize, at: usize| {
             let (k, s) = self.mixed(curves, index, at);
             self.surface.measured_from_internal(spectra::optics::infinite_film(k, s))
@@ -90,40 +90,51 @@ impl Problem {
     }
 }
 
-/// 0 for no values.
+/// Root mean square of `values`; 0 for no values.
 pub(crate) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (squares, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
     f64::sqrt(squares / f64::max(count, 1.0))
 }
 
-/// Why a fit could not be made.
+/// A fit that cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// Nothing to fit.
+    /// No sample can be fitted.
     #[error("no sample can be fitted: none ties its pigments to the reference white")]
     Empty,
-    /// The reference pigment occurs in no mixture.
+    /// No mixture contains the reference pigment.
     #[error("the reference pigment occurs in no mixture")]
     Reference,
-    /// An observation of another shape.
+    /// An observation has another number of pigments or wavelengths.
     #[error(
         "sample {sample} must have {} shares and {} wavelengths, found `{}` and `{}`",
         wanted.0, wanted.1, found.0, found.1
     )]
     Shape {
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// Pigments and wavelengths wanted.
+        /// Expected numbers of pigments and wavelengths.
         wanted: (usize, usize),
-        /// Pigments and wavelengths found.
+        /// Numbers of pigments and wavelengths in the observation.
         found: (usize, usize),
     },
-    /// The quadratic program could not be solved.
+    /// The solver did not solve the quadratic program.
     #[error("the quadratic program at {nm} nm ended as `{status}`")]
     Solver {
-        /// The wavelength.
+        /// Wavelength in nm.
         nm: f64,
-        /// What the solver said.
+        /// Status of the solver.
         status: String,
     },
+}
+
+impl Explain for FitError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Empty | Self::Reference => Some(Hint::new(
+                "measure the white by itself and mixtures with it, or name another white with [reference]",
+            )),
+            Self::Shape { .. } | Self::Solver { .. } => None,
+        }
+    }
 }

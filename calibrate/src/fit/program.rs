@@ -1,33 +1,31 @@
-//! The paper's quadratic program; the only file that knows the solver.
+//! The published quadratic program; the only file that uses the solver.
 
 use clarabel::algebra::{CscMatrix, MatrixMathMut};
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use rayon::prelude::*;
 
-use super::curves::Curves;
+use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
+use pigment::Curves;
 
-/// K and S by `qp`: per wavelength, minimise the sum over mixtures of
-/// (C K - Q C S)^2 with K and S 0 and up and S = 1 for the reference
-/// (Baxter, Wendt and Lin 2004, section 5.2). Unweighted, so dark mixtures,
-/// whose Q runs to hundreds, outweigh all others.
+/// Fits K and S by the method `qp`: per wavelength, minimises the sum over mixtures of (C K - Q C S)^2
+/// with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). Rows
+/// are not weighted, so dark mixtures, whose Q is in the hundreds, outweigh all others.
 ///
-/// Returns absorption and scattering by pigment and wavelength.
+/// Returns K and S by pigment.
 ///
 /// # Errors
 /// [`FitError::Solver`] if the solver does not reach its tolerance.
-pub fn fit_qp(problem: &Problem) -> Result<[Vec<Vec<f64>>; 2], FitError> {
+pub fn fit_qp(problem: &Problem) -> Result<Vec<Curves>, FitError> {
     let rows = vec![1.0; problem.recipes.len()];
-    let curves = solve_all(problem, |_| rows.clone())?;
-    Ok([curves.absorption, curves.scattering])
+    Ok(solve_all(problem, |_| rows.clone())?.into_curves(problem.grid))
 }
 
-/// The program at every wavelength, on all cores, with the weights that
-/// `weights` gives the rows there.
+/// Solves the program at every wavelength, on all cores, with row weights from `weights`.
 pub(super) fn solve_all(
     problem: &Problem,
     weights: impl Fn(usize) -> Vec<f64> + Sync,
-) -> Result<Curves, FitError> {
+) -> Result<CurveTable, FitError> {
     let count = problem.grid.count();
     let solved: Vec<Vec<f64>> = (0..count)
         .into_par_iter()
@@ -35,18 +33,18 @@ pub(super) fn solve_all(
         .collect::<Result<_, _>>()?;
     let n = problem.pigments;
     let curve = |place: usize| -> Vec<f64> { solved.iter().map(|v| v[place]).collect() };
-    Ok(Curves {
+    Ok(CurveTable {
         absorption: (0..n).map(curve).collect(),
         scattering: (n..2 * n).map(curve).collect(),
     })
 }
 
-/// K, then S, of every pigment at one wavelength.
+/// K of every pigment at one wavelength, followed by S.
 fn solve(problem: &Problem, at: usize, weights: &[f64]) -> Result<Vec<f64>, FitError> {
     let n = problem.pigments;
-    let reference = n + problem.reference;
-    // Half the quadratic form, over K and all of S; the reference's S is taken
-    // out below. A row has as many entries as its mixture has pigments, twice.
+    let reference = n + problem.reference.index();
+    // Half the quadratic form over K and all of S; the S of the reference is eliminated below. A row
+    // has twice as many entries as its mixture has pigments.
     let mut form = vec![0.0; 4 * n * n];
     let mut row: Vec<(usize, f64)> = Vec::new();
     for ((recipe, ratio), weight) in problem.recipes.iter().zip(&problem.ratio).zip(weights) {
@@ -59,7 +57,7 @@ fn solve(problem: &Problem, at: usize, weights: &[f64]) -> Result<Vec<f64>, FitE
             }
         }
     }
-    // Columns scaled to length 1: Q spans four decades.
+    // Columns are scaled to length 1, since Q spans four decades.
     let scale: Vec<f64> = (0..2 * n)
         .map(|i| {
             let length = form[i * 2 * n + i].sqrt();
@@ -97,7 +95,7 @@ fn solve(problem: &Problem, at: usize, weights: &[f64]) -> Result<Vec<f64>, FitE
     )
     .map_err(|error| failed(error.to_string()))?;
     solver.solve();
-    // Almost solved is 1e-4 of the objective: far below any reading's noise.
+    // Almost solved means 1e-4 of the objective, far below the noise of any reading.
     if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
         return Err(failed(format!("{:?}", solver.solution.status)));
     }

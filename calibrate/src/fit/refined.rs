@@ -1,119 +1,136 @@
-//! The refinement: from the weighted program to the K and S a user gets.
+//! The refinement: from the weighted program to the final K and S.
 
-use spectra::TristimulusWeights;
+use spectra::{Grid, TristimulusWeights};
 
 use super::color_term::ColorTerm;
-use super::curves::Curves;
-use super::deviations::{deviations, share_of_scattering_known};
+use super::curves::{CurveTable, OFF_ZERO};
+use super::deviations::{share_of_scattering_known, standard_deviations};
 use super::forward::{Data, Forward};
 use super::noise::Noise;
 use super::objective::{ColorPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
 use super::weighted::weighted;
+use pigment::Curves;
 use pigment::fit_settings::Smoothness;
 
-/// Knee of the spectral loss, in standard deviations.
+/// Knee of the spectral loss, in standard deviations; chosen by eye.
 const KNEE: f64 = 3.0;
-/// One over the variance granted to each sample's colour: a standard deviation
-/// of 0.32 CIEDE2000, the repeatability of a good instrument.
+/// One over the variance of each sample's colour difference: a standard deviation of 0.32 CIEDE2000, the
+/// repeatability of a good instrument.
 const COLOR_STRENGTH: f64 = 10.0;
-
-/// Pull of log S towards a pigment's start where amounts are absolute: a
-/// standard deviation of 0.32.
+/// Knee of the colour loss, in medians of all colour differences; chosen by eye.
+const COLOR_KNEE: f64 = 5.0;
+/// Least median of the colour differences for that knee, in CIEDE2000: about the repeatability of a good
+/// instrument.
+const LEAST_MEDIAN_COLOR: f64 = 0.3;
+/// Most steps of the colour stage, which starts near its minimum; chosen by eye.
+const COLOR_STEPS: usize = 12;
+/// Relative decrease of the cost at which the colour stage ends; chosen by eye.
+const COLOR_DECREASE: f64 = 1e-5;
+/// Strength of the pull of log S towards a pigment's start where amounts are absolute: a standard
+/// deviation of 0.32. Chosen by eye.
 const SCATTERING_RIDGE: f64 = 10.0;
+/// Smoothness with which its estimation starts, for a wavelength step of 10 nm; chosen by eye.
+const FIRST_SMOOTHNESS: f64 = 10.0;
+/// Most rounds in which noise and smoothness are estimated alternately; chosen by eye.
+const ESTIMATION_ROUNDS: usize = 5;
+/// Change of log smoothness below which its estimate has settled; chosen by eye.
+const SETTLED_SMOOTHNESS: f64 = 0.15;
+/// Most rounds in which the residuals' scale is set anew; chosen by eye.
+const SCALE_ROUNDS: usize = 20;
+/// Rounds after which the scale may count as settled; chosen by eye.
+const LEAST_SCALE_ROUNDS: usize = 3;
+/// Relative change of the scale below which it has settled; chosen by eye.
+const SETTLED_SCALE: f64 = 0.1;
+/// Greatest fall of the scale in one round, as a factor: a scale that fell at once would fix early errors
+/// as outliers. Chosen by eye.
+const SCALE_FALL: f64 = 3.0;
+/// Steps of a round before and after the scale has settled; chosen by eye.
+const SCALE_STEPS: [usize; 2] = [5, 60];
+/// Relative decrease of the cost at which the descent of a round ends; chosen by eye.
+const SCALE_DECREASE: f64 = 1e-6;
 
-/// The fit's answer, with what it found out about the noise.
+/// Result of a refinement, with what it estimated about the noise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refined {
-    /// K by pigment and wavelength.
-    pub absorption: Vec<Vec<f64>>,
-    /// S by pigment and wavelength.
-    pub scattering: Vec<Vec<f64>>,
-    /// Standard deviation of K; empty if not asked for.
-    pub absorption_sd: Vec<Vec<f64>>,
-    /// Standard deviation of S, 0 for the reference; empty if not asked for.
-    pub scattering_sd: Vec<Vec<f64>>,
-    /// By pigment, the share of what is known of S that comes from the data
-    /// rather than from the prior, 0 to 1; empty if not asked for.
+    /// K and S by pigment.
+    pub curves: Vec<Curves>,
+    /// Standard deviations of K and S by pigment, 0 for the S of the reference; `None` if they were not
+    /// requested.
+    pub deviations: Option<Vec<Curves>>,
+    /// By pigment, the fraction (0 to 1) of the information on S that comes from the data rather than
+    /// from the prior; empty if standard deviations were not requested.
     pub scattering_known: Vec<f64>,
-    /// What was estimated beside K and S.
+    /// Estimates of noise and smoothness.
     pub state: RefinedState,
 }
 
-/// Two numbers estimated from the data, which a leave-one-out fit may reuse.
+/// Two numbers estimated from the data, which leave-one-out fits may reuse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RefinedState {
-    /// How much of the noise is constant in reflectance rather than even to the
-    /// eye, 0 to 200.
+    /// Ratio of the noise that is constant in reflectance to the perceptually uniform noise, 0 to 200.
     pub noise_ratio: f64,
-    /// Weight of roughness, in units of the residual's variance.
+    /// Weight of the roughness, in units of the residual's variance.
     pub smoothness: f64,
 }
 
-/// What a refinement should do.
+/// Settings of one refinement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refinement {
-    /// How smooth K and S are over wavelength.
+    /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
-    /// What another fit of nearly the same data found out, to be reused.
+    /// Estimates of another fit of nearly the same data, to be reused; `None` to estimate them.
     pub state: Option<RefinedState>,
-    /// Whether standard deviations are wanted; a prediction does without.
+    /// Whether standard deviations are computed; predictions do without them.
     pub deviations: bool,
 }
 
 impl Refinement {
-    /// The whole answer.
+    /// Refinement with standard deviations, all estimates made from the data.
     #[must_use]
     pub fn whole(smoothness: Smoothness) -> Self {
         Self { smoothness, state: None, deviations: true }
     }
 
-    /// K and S alone, for a prediction.
+    /// Refinement without standard deviations, for a prediction.
     #[must_use]
     pub fn prediction(smoothness: Smoothness, state: Option<RefinedState>) -> Self {
         Self { smoothness, state, deviations: false }
     }
 }
 
-/// K and S by `refined`.
+/// Fits K and S by the method `refined`.
 ///
-/// Minimised is a robust loss of the residuals in measured reflectance, on a
-/// scale even to the eye (cube root, weighted by how far CIEDE2000 moves with
-/// reflectance at that wavelength), plus roughness of log K and log S over
-/// wavelength, then, from there, the same plus the robust colour difference of
-/// each sample under D65 (whose weights `weights` are). K and S stay within
-/// 1e-5 to 1e4.
+/// The cost is a robust loss of the residuals in measured reflectance, on a perceptually uniform scale
+/// (cube root, weighted by the movement of CIEDE2000 with reflectance at that wavelength), plus the
+/// roughness of log K and log S over wavelength. From its minimum the robust colour difference of each
+/// sample under D65 (for which `weights` are computed) is added. K and S stay within 1e-5 to 1e4.
 ///
-/// The residual's variance is a sum of two: one even to the eye, one constant
-/// in reflectance; their ratio is the one under which the residuals are most
-/// likely (Laplace's law). The smoothness is the one under which the data are
-/// most likely (MacKay 1992, eq. 2.18). Both are taken from `how.state` instead,
-/// where given.
+/// The variance of a residual is a sum of two: one perceptually uniform, one constant in reflectance.
+/// Their ratio is the one under which the residuals are most likely (Laplace's law). The smoothness is
+/// the one under which the data are most likely (MacKay 1992, eq. 2.18). Both are taken from
+/// `how.state` instead, if given.
 ///
 /// # Errors
+/// [`FitError`] from the weighted program, from which the refinement starts.
 /// As [`super::fit_weighted`], which it starts from.
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
     how: Refinement,
 ) -> Result<Refined, FitError> {
-    let mut start = weighted(problem)?;
-    // A weighted fit may put a pigment at 0, where its logarithm has no slope.
-    let off_zero = |curves: &mut Vec<Vec<f64>>, least: f64| {
-        curves.iter_mut().flatten().for_each(|v| *v = v.max(least));
-    };
-    off_zero(&mut start.absorption, 1e-4);
-    off_zero(&mut start.scattering, 1e-3);
+    // A weighted fit may set a pigment to 0, where its logarithm has no slope.
+    let start = CurveTable::off_zero(&weighted(problem)?.into_curves(problem.grid), OFF_ZERO);
     let data = Data::hiding(problem);
-    Ok(refine(&data, &start, weights, problem.grid.step_nm(), how))
+    Ok(refine(&data, &start, weights, problem.grid, how))
 }
 
-/// The refinement of `start` under any optical model.
+/// Refines `start` under any optical model.
 pub(super) fn refine<F: Forward>(
     data: &Data<'_, F>,
-    start: &Curves,
+    start: &CurveTable,
     weights: &TristimulusWeights,
-    step_nm: f64,
+    grid: Grid,
     how: Refinement,
 ) -> Refined {
     let smoothness = how.smoothness;
@@ -121,13 +138,13 @@ pub(super) fn refine<F: Forward>(
     let term = ColorTerm::new(weights, data.target);
     let noise = Noise::new(&term, data.target, data.reading_sd);
     let origin = layout.unknowns(start);
-    let fixed = |lambda: f64| lambda * (10.0 / step_nm).powi(3);
+    let fixed = |lambda: f64| lambda * (10.0 / grid.step_nm()).powi(3);
     let estimate = how.state.is_none();
     let mut state = how.state.unwrap_or(RefinedState {
         noise_ratio: 0.0,
         smoothness: match smoothness {
             Smoothness::None => 0.0,
-            Smoothness::Auto => fixed(10.0),
+            Smoothness::Auto => fixed(FIRST_SMOOTHNESS),
             Smoothness::Fixed(lambda) => fixed(lambda),
         },
     });
@@ -138,7 +155,7 @@ pub(super) fn refine<F: Forward>(
         knee: KNEE,
         smoothness: state.smoothness,
         start: &origin,
-        // One backing tells little of S, which then keeps the pigment's mean.
+        // One backing says little about S, which then stays near the pigment's mean.
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
     };
@@ -146,7 +163,7 @@ pub(super) fn refine<F: Forward>(
     let rounds = if !estimate {
         0
     } else if smoothness == Smoothness::Auto && layout.wavelengths > 2 {
-        5
+        ESTIMATION_ROUNDS
     } else {
         1
     };
@@ -157,7 +174,7 @@ pub(super) fn refine<F: Forward>(
             break;
         }
         let next = likeliest_smoothness(&objective, &unknowns);
-        if (next / state.smoothness).ln().abs() < 0.15 {
+        if (next / state.smoothness).ln().abs() < SETTLED_SMOOTHNESS {
             break;
         }
         state.smoothness = next;
@@ -170,32 +187,24 @@ pub(super) fn refine<F: Forward>(
         .enumerate()
         .map(|(index, values)| term.difference(index, values))
         .collect();
-    let knee = 5.0 * pigment::evaluate::percentile(&differences, 50.0).max(0.3);
+    let median = pigment::evaluate::percentile(&differences, 50.0);
+    let knee = COLOR_KNEE * median.max(LEAST_MEDIAN_COLOR);
     objective.color = Some(ColorPart { term: &term, strength: COLOR_STRENGTH, knee });
-    objective.descend(&mut unknowns, 12, 1e-5);
+    objective.descend(&mut unknowns, COLOR_STEPS, COLOR_DECREASE);
     objective.color = None;
 
     let curves = layout.curves(&unknowns);
-    let mut scattering_known = Vec::new();
-    let [mut absorption_sd, mut scattering_sd] = [Vec::new(), Vec::new()];
+    let (mut deviations, mut scattering_known) = (None, Vec::new());
     if how.deviations {
-        [absorption_sd, scattering_sd] = deviations(&objective, &unknowns, &curves);
+        let table = standard_deviations(&objective, &unknowns, &curves);
+        deviations = Some(table.into_curves(grid));
         objective.smoothness = 0.0;
         scattering_known = share_of_scattering_known(&objective, &unknowns);
     }
-    Refined {
-        absorption: curves.absorption,
-        scattering: curves.scattering,
-        absorption_sd,
-        scattering_sd,
-        scattering_known,
-        state,
-    }
+    Refined { curves: curves.into_curves(grid), deviations, scattering_known, state }
 }
 
-/// Descends while the residuals' scale is set anew from their median, until
-/// that settles: a scale that fell at once would lock early errors in as
-/// outliers.
+/// Descends while the residuals' scale is set anew from their median in each round, until it settles.
 fn settle<F: Forward>(
     objective: &mut Objective<'_, F>,
     noise: &Noise<'_>,
@@ -203,21 +212,21 @@ fn settle<F: Forward>(
     unknowns: &mut Vec<f64>,
 ) {
     let mut before = f64::INFINITY;
-    for round in 0..20 {
+    for round in 0..SCALE_ROUNDS {
         let values = objective.data.values(&objective.data.layout.curves(unknowns));
-        let (weights, sd) = noise.weights(ratio, &values, before / 3.0);
+        let (weights, sd) = noise.weights(ratio, &values, before / SCALE_FALL);
         objective.weights = weights;
-        let settled = round >= 3 && (sd / before - 1.0).abs() < 0.1;
+        let settled = round >= LEAST_SCALE_ROUNDS && (sd / before - 1.0).abs() < SETTLED_SCALE;
         before = sd;
-        objective.descend(unknowns, if settled { 60 } else { 5 }, 1e-6);
+        objective.descend(unknowns, SCALE_STEPS[usize::from(settled)], SCALE_DECREASE);
         if settled {
             break;
         }
     }
 }
 
-/// MacKay's update: the number of well-determined second differences over
-/// their sum of squares.
+/// MacKay's update of the smoothness: the number of well-determined second differences divided by their
+/// sum of squares.
 fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f64]) -> f64 {
     let layout = objective.data.layout;
     let per = layout.per_wavelength();

@@ -1,31 +1,31 @@
-//! The program, its rows weighted into errors of reflectance.
+//! The quadratic program with rows weighted into errors of reflectance.
 
-use super::curves::Curves;
+use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
 use super::program::solve_all;
+use pigment::Curves;
 use spectra::optics::{infinite_film_from_ratio, infinite_film_slope};
 
-/// How often the weights are set anew: on the Van Gogh oils nothing is gained
-/// after the sixth.
+/// Number of times that the weights are computed; on the Van Gogh oils more than six gain nothing.
 const ROUNDS: usize = 6;
+/// Least scattering of a mixture in its weight, so that weights stay finite.
+const LEAST_SCATTERING: f64 = 1e-3;
 
-/// K and S by `weighted`: the program of [`super::fit_qp`] with each row times
-/// dR/dQ (of measured reflectance, at the observed Q) over the mixture's own
-/// scattering C S, so that a residual is, to first order, an error of measured
-/// reflectance (after Centore 2013, who weights for reflectance too). C S comes
-/// from the round before and starts at 1; since re-weighting can diverge, the
-/// round with the least error of reflectance is kept, at each wavelength.
+/// Fits K and S by the method `weighted`: the program of [`super::fit_qp`] with each row times dR/dQ (of
+/// measured reflectance, at the observed Q) over the mixture's own scattering C S. A residual is then,
+/// to first order, an error of measured reflectance (Centore 2013 weights for reflectance too). C S
+/// comes from the round before and starts at 1. Since re-weighting can diverge, the round with the
+/// least error of reflectance is kept at each wavelength.
 ///
-/// Returns absorption and scattering by pigment and wavelength.
+/// Returns K and S by pigment.
 ///
 /// # Errors
-/// As [`super::fit_qp`].
-pub fn fit_weighted(problem: &Problem) -> Result<[Vec<Vec<f64>>; 2], FitError> {
-    let curves = weighted(problem)?;
-    Ok([curves.absorption, curves.scattering])
+/// [`FitError::Solver`] if the solver does not reach its tolerance.
+pub fn fit_weighted(problem: &Problem) -> Result<Vec<Curves>, FitError> {
+    Ok(weighted(problem)?.into_curves(problem.grid))
 }
 
-pub(super) fn weighted(problem: &Problem) -> Result<Curves, FitError> {
+pub(super) fn weighted(problem: &Problem) -> Result<CurveTable, FitError> {
     let wavelengths = problem.grid.count();
     let slope = |ratio: f64| {
         let r = infinite_film_from_ratio(ratio).min(1.0 - 1e-9);
@@ -34,11 +34,11 @@ pub(super) fn weighted(problem: &Problem) -> Result<Curves, FitError> {
     let slopes: Vec<Vec<f64>> =
         problem.ratio.iter().map(|row| row.iter().map(|&q| slope(q)).collect()).collect();
     let mut scattering = vec![vec![1.0f64; wavelengths]; problem.recipes.len()];
-    let mut best: Option<(Vec<f64>, Curves)> = None;
+    let mut best: Option<(Vec<f64>, CurveTable)> = None;
     for _ in 0..ROUNDS {
         let curves = solve_all(problem, |at| {
             let pairs = slopes.iter().zip(&scattering);
-            pairs.map(|(slope, s)| slope[at] / f64::max(s[at], 1e-3)).collect()
+            pairs.map(|(slope, s)| slope[at] / f64::max(s[at], LEAST_SCATTERING)).collect()
         })?;
         let errors = squared_errors(problem, &curves);
         for (index, row) in scattering.iter_mut().enumerate() {
@@ -65,8 +65,8 @@ pub(super) fn weighted(problem: &Problem) -> Result<Curves, FitError> {
     Ok(best.expect("there is at least one round").1)
 }
 
-/// By wavelength, the sum of squared errors of measured reflectance.
-fn squared_errors(problem: &Problem, curves: &Curves) -> Vec<f64> {
+/// Sum of squared errors of measured reflectance by wavelength.
+fn squared_errors(problem: &Problem, curves: &CurveTable) -> Vec<f64> {
     let predicted = problem.predicted(curves);
     (0..problem.grid.count())
         .map(|at| {

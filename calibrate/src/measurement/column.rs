@@ -1,10 +1,10 @@
-//! What a column of a measurement file holds, by its header.
+//! Meaning of the columns of a measurement file, by their headers.
 
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 
 use super::error::MeasurementError;
 
-/// The meaning of one column.
+/// Meaning of one column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Column {
     Sample,
@@ -12,37 +12,37 @@ pub(super) enum Column {
     Backing,
     Thickness,
     Replicate,
-    /// Of a file of recipes: the name in the measurement file.
+    /// In a file of recipes: the name of the reading in the measurement file.
     Reading,
-    /// What an instrument or its user notes, and no pigment.
-    Passed,
+    /// Notes of an instrument or its user, which are no pigment.
+    Ignored,
     Pigment(String),
     Wavelength(f64),
 }
 
-/// What a file is to hold.
+/// Kind of table that a file should hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
-    /// Rows of readings, with wavelengths.
+pub(super) enum TableKind {
+    /// Readings, with wavelengths.
     Readings,
-    /// Rows of recipes, without.
+    /// Recipes, without wavelengths.
     Recipes,
 }
 
-/// Every column of a header row, checked: a sample column, no name twice,
-/// wavelengths rising.
+/// Reads a header row: one meaning per column. Checks that there is a sample column, that no name occurs
+/// twice and that wavelengths rise.
 pub(super) fn columns(
     file: &str,
     headers: &[String],
-    wanted: Wanted,
+    kind: TableKind,
 ) -> Result<Vec<Column>, MeasurementError> {
     let place = |index: usize| CellPlace::new(file, 1, &headers[index]);
-    // Pigment Red 254 is R254 to some.
+    // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
     let plain = |header: &String| {
         let lower = header.trim().to_ascii_lowercase();
         !lower.starts_with('r') && wavelength_of_header(&lower).is_some()
     };
-    let letters = wanted == Wanted::Readings && !headers.iter().any(plain);
+    let letters = kind == TableKind::Readings && !headers.iter().any(plain);
     let mut columns = Vec::with_capacity(headers.len());
     for (index, header) in headers.iter().enumerate() {
         let name = header.trim();
@@ -67,7 +67,7 @@ pub(super) fn columns(
             }));
         }
         let column = match name.to_ascii_lowercase().as_str() {
-            "reading" if wanted == Wanted::Recipes => Some(Column::Reading),
+            "reading" if kind == TableKind::Recipes => Some(Column::Reading),
             _ => column(name, letters),
         };
         let out_of_range = || MeasurementError::WavelengthRange { place: place(index) };
@@ -96,7 +96,7 @@ pub(super) fn columns(
             _ => before = Some(nm),
         }
     }
-    if before.is_none() && wanted == Wanted::Readings {
+    if before.is_none() && kind == TableKind::Readings {
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
             file: file.to_owned(),
             column: "400 (a wavelength in nm)",
@@ -105,19 +105,19 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// `None` for a number that no instrument for paint measures at. `letters` tells
-/// whether `R400` is a wavelength here: beside plain numbers it is a pigment.
+/// Meaning of the header `name`; `None` for a number outside the wavelengths at which paint is measured.
+/// `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
     let pigment = || Some(Column::Pigment(name.to_owned()));
-    let in_range = |nm: &f64| (200.0..=2500.0).contains(nm);
+    let in_range = |nm: &f64| (MEASURABLE_NM).contains(nm);
     match lower.as_str() {
         "sample" => Some(Column::Sample),
         "film" => Some(Column::Film),
         "backing" => Some(Column::Backing),
         "thickness_mm" => Some(Column::Thickness),
         "replicate" => Some(Column::Replicate),
-        lower if NO_PIGMENTS.contains(&lower) => Some(Column::Passed),
+        lower if NO_PIGMENTS.contains(&lower) => Some(Column::Ignored),
         _ => match wavelength_of_header(&lower) {
             Some(nm) if lower.starts_with('r') => {
                 if letters && in_range(&nm) {
@@ -132,14 +132,17 @@ fn column(name: &str, letters: bool) -> Option<Column> {
     }
 }
 
-/// Whether a column headed `name`, beside wavelengths written as plain numbers,
-/// is read as a pigment.
+/// Whether a column headed `name` is read as a pigment, in a file whose wavelengths are plain numbers.
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
     let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
     plain && matches!(column(name, false), Some(Column::Pigment(_)))
 }
-/// Headings of instruments' tables and of notes beside them, which no pigment is called.
+
+/// Wavelengths in nm at which instruments for paint measure.
+pub(super) const MEASURABLE_NM: std::ops::RangeInclusive<f64> = 200.0..=2500.0;
+
+/// Headings of instruments' tables and of notes, none of which is the name of a pigment.
 const NO_PIGMENTS: [&str; 36] = [
     "l*",
     "a*",
@@ -184,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wavelengths_are_read_in_every_spelling() {
+    fn headers_of_wavelengths_are_read_in_every_spelling() {
         for header in ["400", "400nm", "400 nm", "R400", "SPEC_400", "nm400", "400.0"] {
             assert_eq!(column(header, true), Some(Column::Wavelength(400.0)), "{header}");
         }
@@ -195,18 +198,18 @@ mod tests {
     }
 
     #[test]
-    fn a_letter_and_a_number_beside_plain_numbers_is_a_pigment() {
-        let columns = |names: &[&str], wanted| {
+    fn a_letter_with_a_number_is_a_pigment_beside_plain_wavelengths() {
+        let columns = |names: &[&str], kind| {
             let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-            columns("f", &names, wanted).unwrap()
+            columns("f", &names, kind).unwrap()
         };
-        let beside = columns(&["sample", "R254", "R101", "400"], Wanted::Readings);
+        let beside = columns(&["sample", "R254", "R101", "400"], TableKind::Readings);
         assert_eq!(beside[1], Column::Pigment("R254".into()));
-        let alone = columns(&["sample", "R101", "R400", "R500"], Wanted::Readings);
+        let alone = columns(&["sample", "R101", "R400", "R500"], TableKind::Readings);
         assert_eq!(alone[1], Column::Pigment("R101".into()));
         assert_eq!(alone[2], Column::Wavelength(400.0));
-        let recipe = columns(&["sample", "R254", "a*"], Wanted::Recipes);
+        let recipe = columns(&["sample", "R254", "a*"], TableKind::Recipes);
         assert_eq!(recipe[1], Column::Pigment("R254".into()));
-        assert_eq!(recipe[2], Column::Passed);
+        assert_eq!(recipe[2], Column::Ignored);
     }
 }

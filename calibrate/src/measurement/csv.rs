@@ -1,22 +1,25 @@
-//! Reading a measurement CSV, and a CSV of recipes.
+//! Reading a measurement CSV, and the rows of a CSV of recipes.
 
 use std::sync::Arc;
 
 use spectra::Grid;
 use spectra::instrument::decode_text;
 
-use super::column::{Column, Wanted, columns};
+use super::column::{Column, TableKind, columns};
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::{CellPlace, CsvTableError};
 
+/// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
+const LARGEST_REFLECTANCE: f64 = 2.0;
+
 impl MeasurementTable {
-    /// The readings in `bytes`, the content of `file`.
+    /// Reads the measurement table in `bytes`, the content of `file`.
     ///
     /// # Errors
-    /// [`MeasurementError`], with row and column.
+    /// [`MeasurementError`] with row and column.
     pub fn from_csv(
         file: &str,
         bytes: &[u8],
@@ -25,11 +28,11 @@ impl MeasurementTable {
         Self::read(file, bytes, scale, false)
     }
 
-    /// The spectra alone: whatever stands in other columns is passed over, and
-    /// the table has no pigments.
+    /// Reads only the spectra of the table: all other columns but the names are ignored, and the table has
+    /// no pigments.
     ///
     /// # Errors
-    /// As [`MeasurementTable::from_csv`].
+    /// [`MeasurementError`] with row and column.
     pub fn spectra_from_csv(
         file: &str,
         bytes: &[u8],
@@ -44,10 +47,10 @@ impl MeasurementTable {
         scale: ScaleChoice,
         spectra_only: bool,
     ) -> Result<Self, MeasurementError> {
-        let sheet = Sheet { spectra_only, ..Sheet::open(file, bytes, Wanted::Readings)? };
-        let mut readings = sheet.readings()?;
-        let scale = sheet.scaled(&mut readings, scale)?;
-        let wavelengths = sheet.columns.iter().filter_map(|column| match column {
+        let table = CsvRows { spectra_only, ..CsvRows::open(file, bytes, TableKind::Readings)? };
+        let mut readings = table.readings()?;
+        let scale = table.scaled(&mut readings, scale)?;
+        let wavelengths = table.columns.iter().filter_map(|column| match column {
             Column::Wavelength(nm) => Some(*nm),
             _ => None,
         });
@@ -58,14 +61,14 @@ impl MeasurementTable {
             let values = std::mem::take(&mut reading.reflectance);
             reading.reflectance = on_grid(grid, &wavelengths, values);
         }
-        let pigments = if spectra_only { Vec::new() } else { sheet.pigments() };
-        let remarks = if spectra_only { Vec::new() } else { sheet.remarks() };
+        let pigments = if spectra_only { Vec::new() } else { table.pigments() };
+        let remarks = if spectra_only { Vec::new() } else { table.remarks() };
         Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
     }
 }
 
-/// Whether a text is the CSV of this module rather than some instrument's: its first line names a
-/// column `sample`.
+/// Whether a text is the CSV of this module rather than an instrument's file: its first line has a column
+/// `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
     [',', ';', '\t'].into_iter().any(|separator| names_sample(first_line(text), separator))
@@ -80,24 +83,28 @@ fn names_sample(header: &str, separator: char) -> bool {
     header.split(separator).any(|cell| plain(cell) == "sample")
 }
 
-/// Beyond it sums of amounts lose their small parts.
+/// Largest amount of a pigment; beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
-/// A sheet: its header row, what the columns mean, and the rows below.
-pub(super) struct Sheet {
+/// A CSV table: its header row, the meaning of each column, and the rows below.
+pub(super) struct CsvRows {
     pub(super) file: Arc<str>,
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<csv::StringRecord>,
-    /// Numbers have a decimal comma. Only where a comma does not part cells.
+    /// Whether numbers have a decimal comma. Only possible where commas do not separate cells.
     decimal_comma: bool,
     spectra_only: bool,
 }
 
-impl Sheet {
-    /// The sheet in `bytes`. Cells are parted by commas, or by semicolons or tabs as
-    /// spreadsheets do where a comma is the decimal sign.
-    pub(super) fn open(file: &str, bytes: &[u8], wanted: Wanted) -> Result<Self, MeasurementError> {
+impl CsvRows {
+    /// Opens the table in `bytes`. Cells are separated by commas, or by semicolons or tabs, as
+    /// spreadsheets write them where the comma is the decimal sign.
+    pub(super) fn open(
+        file: &str,
+        bytes: &[u8],
+        kind: TableKind,
+    ) -> Result<Self, MeasurementError> {
         let (text, _) = decode_text(bytes);
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
@@ -114,19 +121,20 @@ impl Sheet {
             .trim(csv::Trim::All)
             .delimiter(separator)
             .from_reader(text.as_bytes());
-        let mut records = reader.records().map(|r| r.expect("decoded text is always records"));
+        let mut records =
+            reader.records().map(|r| r.expect("decoded text can always be split into records"));
         let header = records.next().unwrap_or_default();
-        // `400,5` is a wavelength where commas do not part cells.
+        // `400,5` is a wavelength where commas do not separate cells.
         let plain = |name: &str| {
             let pointed = name.replace(',', ".");
             if pointed.parse::<f64>().is_ok() { pointed } else { name.to_owned() }
         };
         let mut headers: Vec<String> = header.iter().map(plain).collect();
-        // Spreadsheets like to leave empty columns at the right.
+        // Spreadsheets often leave empty columns at the right.
         let width =
             headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
         headers.truncate(width);
-        let columns = columns(file, &headers, wanted)?;
+        let columns = columns(file, &headers, kind)?;
         let rows: Vec<csv::StringRecord> =
             records.filter(|record| record.iter().any(|cell| !cell.is_empty())).collect();
         if rows.is_empty() {
@@ -143,7 +151,7 @@ impl Sheet {
         Ok(Self { file, headers, columns, rows, decimal_comma, spectra_only: false })
     }
 
-    /// The names of the pigment columns.
+    /// Names of the pigment columns.
     pub(super) fn pigments(&self) -> Vec<String> {
         let names = self.columns.iter().filter_map(|column| match column {
             Column::Pigment(name) => Some(name.clone()),
@@ -152,24 +160,24 @@ impl Sheet {
         names.collect()
     }
 
-    /// What was passed over.
+    /// Remark on the columns that are ignored, if there are any.
     pub(super) fn remarks(&self) -> Vec<String> {
         let named = self.headers.iter().zip(&self.columns);
-        let passed: Vec<&str> = named
-            .filter(|(_, column)| **column == Column::Passed)
+        let ignored: Vec<&str> = named
+            .filter(|(_, column)| **column == Column::Ignored)
             .map(|(name, _)| name.as_str())
             .collect();
         let what = || {
             format!(
-                "{}: columns that name no pigment are passed over: {}",
+                "{}: columns that name no pigment are ignored: {}",
                 self.file,
-                passed.join(", ")
+                ignored.join(", ")
             )
         };
-        (!passed.is_empty()).then(what).into_iter().collect()
+        (!ignored.is_empty()).then(what).into_iter().collect()
     }
 
-    /// A reading for every row.
+    /// One reading for every row.
     pub(super) fn readings(&self) -> Result<Vec<Reading>, MeasurementError> {
         self.rows.iter().map(|row| self.reading(row)).collect()
     }
@@ -204,7 +212,7 @@ impl Sheet {
                 })
             };
             let number = |wanted| {
-                // With decimal commas a point may part thousands.
+                // With decimal commas, a point may separate thousands.
                 let value = match self.decimal_comma {
                     true if cell.contains('.') => None,
                     true => cell.replace(',', ".").parse::<f64>().ok(),
@@ -234,7 +242,7 @@ impl Sheet {
                     }
                     reading.thickness_mm = Some(thickness);
                 }
-                Column::Replicate | Column::Passed | Column::Reading => {}
+                Column::Replicate | Column::Ignored | Column::Reading => {}
                 Column::Pigment(_) if self.spectra_only => {}
                 Column::Pigment(_) if cell.is_empty() => reading.amounts.push(0.0),
                 Column::Pigment(_) => {
@@ -250,7 +258,7 @@ impl Sheet {
         Ok(reading)
     }
 
-    /// Makes fractions of the readings, and says what they were.
+    /// Converts the readings to fractions, and returns the unit that they had.
     fn scaled(
         &self,
         readings: &mut [Reading],
@@ -258,10 +266,10 @@ impl Sheet {
     ) -> Result<Scale, MeasurementError> {
         let largest = |reading: &Reading| reading.reflectance.iter().copied().fold(0.0, f64::max);
         let scale = match choice {
-            ScaleChoice::Told(scale) => scale,
+            ScaleChoice::Known(scale) => scale,
             ScaleChoice::ByFile => {
                 let scale = Scale::of_largest(readings.iter().map(largest).fold(0.0, f64::max));
-                // No film, not even bone black, reflects below 1 % throughout.
+                // No film reflects below 1 % at every wavelength, not even bone black.
                 let mixed = readings.iter().find(|r| scale == Scale::Percent && largest(r) <= 1.0);
                 if let Some(reading) = mixed {
                     return Err(MeasurementError::MixedScale {
@@ -282,7 +290,7 @@ impl Sheet {
         for reading in readings {
             for (value, name) in reading.reflectance.iter_mut().zip(&names) {
                 let fraction = *value * scale.to_fraction();
-                if !(0.0..=2.0).contains(&fraction) {
+                if !(0.0..=LARGEST_REFLECTANCE).contains(&fraction) {
                     return Err(MeasurementError::Reflectance {
                         place: CellPlace::new(&self.file, reading.row, name),
                         range: scale.range(),

@@ -1,229 +1,230 @@
-//! What can be wrong with a measurement file, and where.
+//! Faults of measurement files, each with its place.
 
+use spectra::hint::{Explain, Hint};
 use spectra::instrument::MeasuredQuantity;
 
 use spectra::csv_table::{CellPlace, CsvTableError};
 
-/// Why readings cannot be used. Every variant says where.
+/// Readings that cannot be used. Every variant names the place of the fault.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
-    /// The sheet is faulty.
+    /// A cell, row or column of the table is faulty.
     #[error(transparent)]
     Sheet(CsvTableError),
-    /// The file holds nothing.
+    /// The file holds no readings.
     #[error("{file}: the file holds no readings")]
     Empty {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
     },
     /// A column has no header.
     #[error("{file}, row 1: column number {number} has no header")]
     UnnamedColumn {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// Counted from 1.
+        /// Column number, counted from 1.
         number: usize,
     },
-    /// Two columns have one header.
+    /// Two columns have the same header.
     #[error("{place} stands twice, as column number {first} and {second}")]
     RepeatedColumn {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
-        /// Counted from 1.
+        /// First column number, counted from 1.
         first: usize,
-        /// Counted from 1.
+        /// Second column number, counted from 1.
         second: usize,
     },
-    /// A wavelength stands twice.
+    /// A wavelength occurs twice.
     #[error("{place}: the wavelength {nm} nm stands twice")]
     RepeatedWavelength {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
-        /// The wavelength.
+        /// Wavelength in nm.
         nm: f64,
     },
-    /// Wavelengths fall.
+    /// The wavelengths of the columns do not rise.
     #[error("{place}: wavelengths must rise, found {nm} nm after {before} nm")]
     FallingWavelength {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
-        /// The one before.
+        /// Wavelength of the column before, in nm.
         before: f64,
-        /// The one found.
+        /// Wavelength of this column, in nm.
         nm: f64,
     },
-    /// A header is a number that is no wavelength of light.
+    /// A header is a number outside the wavelengths at which paint is measured.
     #[error("{place} is no wavelength from 200 to 2500 nm")]
     WavelengthRange {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
     },
-    /// A reading below 0 or far above white.
+    /// A reading is negative or far above white.
     #[error("{place}: a reflectance {range} is wanted, found `{value}`")]
     Reflectance {
-        /// Where; the column is the wavelength.
+        /// File and row; the column is the wavelength.
         place: CellPlace,
-        /// The allowed range, in the file's unit.
+        /// Allowed range in the file's unit.
         range: &'static str,
-        /// What was found.
+        /// Value that was read, in the file's unit.
         value: f64,
     },
-    /// Most readings of a spectrum are below 0 or far above white.
+    /// Most readings of a spectrum are negative or far above white.
     #[error(
         "{file}, line {line}: readings of {sample} must be {range}, most of its {count} are not, found `{bad}`"
     )]
     Noise {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// Where the spectrum begins.
+        /// Line on which the spectrum begins.
         line: u64,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// The allowed range, in the file's unit.
+        /// Allowed range in the file's unit.
         range: &'static str,
-        /// How many readings it has.
+        /// Number of readings in the spectrum.
         count: usize,
-        /// How many are out of range.
+        /// Number of readings that are out of range.
         bad: usize,
     },
-    /// One reading looks like fractions in a file of percent.
+    /// A reading looks like a fraction in a file of percent.
     #[error(
         "{file}, row {row}: the file is in percent, but no value of this reading exceeds `{largest}`, as if it were a fraction"
     )]
     MixedScale {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The row.
+        /// Row in the file, the header being row 1.
         row: u64,
-        /// The largest value of the reading.
+        /// Largest value of the reading, in the file's unit.
         largest: f64,
     },
-    /// Two readings of one sample carry different recipes.
+    /// Two readings of one sample have different recipes.
     #[error(
         "{place}: sample {sample} has another amount than in {first_file}, row {first_row}: `{amount}`"
     )]
     Contradiction {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// Where the other amount stands.
+        /// File that holds the other amount.
         first_file: String,
-        /// Its row there.
+        /// Row of the other amount.
         first_row: u64,
-        /// The amount found.
+        /// Amount in this row.
         amount: f64,
     },
-    /// A film has no recipe.
+    /// A film of paint has no recipe.
     #[error("{file}, row {row}: sample {sample} is paint, but no pigment has an amount")]
     NoRecipe {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The row.
+        /// Row in the file, the header being row 1.
         row: u64,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
     },
-    /// A reading lies below what the surface alone reflects.
+    /// A reading is below the surface's own reflection.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, below k1 = {k1}: the surface alone would reflect more"
     )]
     BelowSurface {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The row.
+        /// Row in the file, the header being row 1.
         row: u64,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// The wavelength.
+        /// Wavelength in nm.
         nm: f64,
-        /// The reading, as a fraction.
+        /// Measured reflectance, as a fraction.
         measured: f64,
-        /// The surface's share.
+        /// Share of light that the surface reflects.
         k1: f64,
-        /// Its other share.
+        /// Share of light that the surface turns back inside.
         k2: f64,
-        /// The least reading of the whole file, as a fraction.
+        /// Least reading of all files, as a fraction.
         least: f64,
     },
-    /// A reading above what a white film under this surface can reflect.
+    /// A reading is above the greatest value under this surface.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, above a perfect white"
     )]
     AboveWhite {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The row.
+        /// Row in the file, the header being row 1.
         row: u64,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// The wavelength.
+        /// Wavelength in nm.
         nm: f64,
-        /// The reading, as a fraction.
+        /// Measured reflectance, as a fraction.
         measured: f64,
     },
-    /// A film on a known backing whose bare reading is missing.
+    /// The backing of a film was not measured bare.
     #[error(
         "{file}, row {row}: sample {sample} lies on `{backing}`, of which there is no bare reading"
     )]
     NoBareBacking {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The row.
+        /// Row in the file, the header being row 1.
         row: u64,
-        /// The sample.
+        /// Name of the sample.
         sample: String,
-        /// The backing.
+        /// Name of the backing.
         backing: String,
     },
-    /// Two files on different wavelengths.
+    /// Two files have different wavelengths.
     #[error(
         "{file}: all files must have one set of wavelengths; {first} has {wanted}, found `{found}`"
     )]
     Grid {
-        /// The later file.
+        /// File that differs.
         file: String,
-        /// Its wavelengths.
+        /// Wavelengths of that file.
         found: String,
-        /// The first file.
+        /// First file.
         first: String,
-        /// Its wavelengths.
+        /// Wavelengths of the first file.
         wanted: String,
     },
-    /// Another kind of file.
+    /// The file is of another kind.
     #[error("{file}: a table of readings (CSV) is wanted, found `{found}`")]
     NoTable {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// What it seems to be.
+        /// Kind of file that it seems to be.
         found: &'static str,
     },
-    /// No spectrum of a file is one of reflectance.
+    /// No spectrum of a file is a reflectance.
     #[error("{file}, line {line}: {sample} is {quantity}; reflectance is wanted")]
     NoReflectance {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The line.
+        /// Line in the file, counted from 1.
         line: u64,
-        /// The first spectrum.
+        /// Name of the first spectrum.
         sample: String,
-        /// What it is.
+        /// Quantity of that spectrum.
         quantity: MeasuredQuantity,
     },
-    /// A spectrum has no wavelength that a reading of paint has.
+    /// A spectrum has no wavelength at which paint is measured.
     #[error(
         "{file}, line {line}: {sample} is measured from {first_nm} to {last_nm} nm; wavelengths from 200 to 2500 nm are wanted"
     )]
     Band {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The line.
+        /// Line in the file, counted from 1.
         line: u64,
-        /// The spectrum.
+        /// Name of the spectrum.
         sample: String,
-        /// Its shortest wavelength.
+        /// Shortest wavelength in nm.
         first_nm: f64,
-        /// Its longest.
+        /// Longest wavelength in nm.
         last_nm: f64,
     },
     /// Two spectra of one file have no wavelength in common.
@@ -231,27 +232,25 @@ pub enum MeasurementError {
         "{file}: the spectra must overlap; {first} ends at {end_nm} nm, and {second} begins at {start_nm} nm"
     )]
     Apart {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// One spectrum.
+        /// Name of the first spectrum.
         first: String,
-        /// Its longest wavelength.
+        /// Longest wavelength of the first, in nm.
         end_nm: f64,
-        /// Another.
+        /// Name of the second spectrum.
         second: String,
-        /// Its shortest wavelength.
+        /// Shortest wavelength of the second, in nm.
         start_nm: f64,
     },
-    /// Bare cards only.
+    /// The files hold bare cards only.
     #[error("no row is a film of paint")]
     NoFilms,
 }
 
-impl MeasurementError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        Some(match self {
+impl Explain for MeasurementError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Sheet(CsvTableError::MissingColumn { .. }) => {
                 "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
             }
@@ -270,52 +269,63 @@ impl MeasurementError {
             Self::Sheet(CsvTableError::Cell { text, .. }) if text.contains(',') => {
                 "numbers take a decimal point, not a comma".into()
             }
-            Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. }) if text.is_empty() => {
+            Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. })
+                if text.is_empty() =>
+            {
                 "fill in the reading, or remove the row of a sample that was not read".into()
             }
             Self::Sheet(CsvTableError::Cell { wanted: "an amount of pigment", .. }) => {
                 "a column that is neither known nor a wavelength is read as a pigment; remove it if it is none".into()
             }
             Self::NoTable { .. } => {
-                "a pigment library goes to mix, quadrature and library; fit, validate and color read CSV".into()
+                "a pigment library is read by mix, quadrature and library; fit, validate and color read CSV".into()
             }
             Self::Contradiction { .. } => {
                 "one name is one sample; rename one of the two, or give both the same amounts".into()
             }
-            Self::WavelengthRange { .. } => {
-                "a pigment's name must not be a number".into()
-            }
+            Self::WavelengthRange { .. } => "a pigment's name must not be a number".into(),
             Self::Grid { .. } => "fit files of different wavelengths one by one".into(),
             Self::MixedScale { .. } => {
-                "write all readings in one unit, or say `--percent` if this sample really is that dark".into()
+                "write all readings in one unit, or set [percent] if this sample really is that dark".into()
             }
             Self::Reflectance { .. } => {
-                "say `--percent` or `--fraction` if the unit was told apart wrongly; a dark reading below 0 means that the instrument's zero is off".into()
+                "set [percent] or [fraction] if the unit was recognised wrongly; a dark reading below 0 means that the instrument's zero is off".into()
             }
             Self::Noise { .. } => {
-                "the file may hold a detector's counts (--white FILE --dark FILE), or another unit (`--percent`, `--fraction`)".into()
+                "the file may hold a detector's counts ([white=FILE] [dark=FILE]), or another unit ([percent], [fraction])".into()
             }
             Self::BelowSurface { least, k2, .. } => format!(
-                "give a k1 below every reading, such as `--saunderson {:.3},{k2}`, or `--below-surface floor` to read such samples as black",
+                "give a k1 below every reading, such as [saunderson={:.3},{k2}], or read such samples as black: [below_surface=floor]",
                 (least * 0.95 * 1000.0).floor() / 1000.0
             ),
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
             ),
-            Self::NoFilms => "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into(),
+            Self::NoFilms => {
+                "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into()
+            }
             Self::NoRecipe { .. } => {
-                "write the amounts in the pigment columns, or in a file of recipes (--recipes FILE.csv); film `none` is a bare card".into()
+                "write the amounts in the pigment columns, or in a file of recipes ([recipes=FILE.csv]); film `none` is a bare card".into()
             }
             Self::NoReflectance { quantity, .. } => match quantity {
-                MeasuredQuantity::Counts => "counts need a white and a dark reading: --white FILE --dark FILE",
-                MeasuredQuantity::Power => "the light of a lamp goes to --illuminant FILE",
-                MeasuredQuantity::Transmittance => "if it was read over a white tile, say --as-reflectance",
+                MeasuredQuantity::Counts => {
+                    "counts need a white and a dark reading: [white=FILE] [dark=FILE]"
+                }
+                MeasuredQuantity::Power => "the light of a lamp is read by [illuminant=FILE]",
+                MeasuredQuantity::Transmittance => {
+                    "if it was read over a white tile, set [as_reflectance]"
+                }
                 _ => "export reflectance from the instrument's program",
             }
             .into(),
             Self::Apart { .. } => "read them as files of their own".into(),
-            Self::AboveWhite { .. } => "say `--percent` or `--fraction` if the unit was told apart wrongly".into(),
-            _ => return None,
-        })
+            Self::AboveWhite { .. } => {
+                "set [percent] or [fraction] if the unit was recognised wrongly".into()
+            }
+            Self::Sheet(CsvTableError::Cell { .. })
+            | Self::Empty { .. }
+            | Self::UnnamedColumn { .. }
+            | Self::Band { .. } => return None,
+        }))
     }
 }

@@ -1,60 +1,61 @@
-//! Recipes apart from readings: which pigments a sample holds, joined to the readings by name.
+//! Recipes in a file of their own, joined to the readings by the names of samples.
 
 use std::collections::BTreeMap;
 
-use super::column::{Column, Wanted};
-use super::csv::Sheet;
+use spectra::hint::{Explain, Hint};
+
+use super::column::{Column, TableKind};
+use super::csv::CsvRows;
 use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::CellPlace;
 
-/// How many names an error lists.
+/// Most names that an error lists.
 const NAMES: usize = 12;
 
-/// The recipes of a CSV: one row a sample, or a reading of it.
+/// Recipes from a CSV: one row for each sample, or for each reading of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipes {
-    /// The pigments, in order of their columns.
+    /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
     file: String,
-    /// In order of the file: the reading's name, and the row.
+    /// Name of the reading and its row, in order of the file.
     rows: Vec<(String, Reading)>,
-    /// Which of film, backing and thickness the file has a column for.
-    tells: Tells,
+    /// Which of film, backing and thickness the file states.
+    columns: StatedColumns,
     remarks: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Tells {
+struct StatedColumns {
     film: bool,
     backing: bool,
     thickness: bool,
 }
 
 impl Recipes {
-    /// The recipes in `bytes`, the content of `file`: columns `sample`, then optionally `film`,
-    /// `backing`, `thickness_mm`, and one per pigment. Where one sample was read several times,
-    /// over two backings or bare, a column `reading` holds the name of each in the measurement
-    /// file.
+    /// Reads the recipes in `bytes`, the content of `file`. Columns are `sample`, then optionally `film`,
+    /// `backing`, `thickness_mm`, and one for each pigment. Where one sample was read several times, over
+    /// two backings or bare, a column `reading` holds the name of each reading in the measurement file.
     ///
     /// # Errors
-    /// [`RecipesError`], with the row.
+    /// [`RecipesError`] with the row.
     pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, RecipesError> {
-        let sheet = Sheet::open(file, bytes, Wanted::Recipes)?;
-        let position = |wanted: Column| sheet.columns.iter().position(|c| *c == wanted);
+        let table_rows = CsvRows::open(file, bytes, TableKind::Recipes)?;
+        let position = |wanted: Column| table_rows.columns.iter().position(|c| *c == wanted);
         let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
-        if let Some(index) = sheet.columns.iter().position(is_wavelength) {
-            let place = CellPlace::new(file, 1, &sheet.headers[index]);
+        if let Some(index) = table_rows.columns.iter().position(is_wavelength) {
+            let place = CellPlace::new(file, 1, &table_rows.headers[index]);
             return Err(RecipesError::Wavelength { place });
         }
-        let pigments = sheet.pigments();
+        let pigments = table_rows.pigments();
         if pigments.is_empty() {
             return Err(RecipesError::NoPigments { file: file.to_owned() });
         }
         let reading = position(Column::Reading);
         let mut rows: Vec<(String, Reading)> = Vec::new();
         let mut places: BTreeMap<String, u64> = BTreeMap::new();
-        for (cells, row) in sheet.rows.iter().zip(sheet.readings()?) {
+        for (cells, row) in table_rows.rows.iter().zip(table_rows.readings()?) {
             let key = reading.and_then(|index| cells.get(index)).filter(|name| !name.is_empty());
             let key = key.unwrap_or(&row.sample).to_owned();
             if let Some(&first) = places.get(&key) {
@@ -64,21 +65,21 @@ impl Recipes {
             places.insert(key.clone(), row.row);
             rows.push((key, row));
         }
-        let tells = Tells {
+        let columns = StatedColumns {
             film: position(Column::Film).is_some(),
             backing: position(Column::Backing).is_some(),
             thickness: position(Column::Thickness).is_some(),
         };
-        let remarks = sheet.remarks();
-        Ok(Self { pigments, file: file.to_owned(), rows, tells, remarks })
+        let remarks = table_rows.remarks();
+        Ok(Self { pigments, file: file.to_owned(), rows, columns, remarks })
     }
 
-    /// `table` with these recipes: readings of paint without one are left out, and that is said in
-    /// its remarks, as are recipes without a reading.
+    /// Adds these recipes to `table`. Readings of paint without a recipe are left out, which a remark of
+    /// the table says, and so are recipes without a reading.
     ///
     /// # Errors
-    /// [`RecipesError::Twice`] if the table has pigments of its own,
-    /// [`RecipesError::NoneMatched`] if no name stands in both.
+    /// [`RecipesError::Twice`] if the table has pigments of its own, [`RecipesError::NoneMatched`] if no
+    /// name occurs in both files.
     pub fn joined_to(&self, table: MeasurementTable) -> Result<MeasurementTable, RecipesError> {
         if !table.pigments.is_empty() {
             return Err(RecipesError::Twice {
@@ -106,7 +107,7 @@ impl Recipes {
             .collect();
         let mut remarks = table.remarks;
         remarks.extend(self.remarks.clone());
-        // A bare card needs none.
+        // A bare card needs no recipe.
         let painted = |name: &&str| {
             table.readings.iter().any(|r| r.sample == **name && r.film == Film::Paint)
         };
@@ -126,9 +127,9 @@ impl Recipes {
             };
             Some(Reading {
                 sample: row.sample.clone(),
-                film: if self.tells.film { row.film } else { reading.film },
-                backing: if self.tells.backing { row.backing.clone() } else { reading.backing },
-                thickness_mm: if self.tells.thickness {
+                film: if self.columns.film { row.film } else { reading.film },
+                backing: if self.columns.backing { row.backing.clone() } else { reading.backing },
+                thickness_mm: if self.columns.thickness {
                     row.thickness_mm
                 } else {
                     reading.thickness_mm
@@ -152,13 +153,13 @@ impl Recipes {
     }
 }
 
-/// The names once each, in order.
+/// Each name once, in order of first appearance.
 fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut seen = std::collections::BTreeSet::new();
     names.filter(|name| seen.insert(*name)).map(str::to_owned).collect()
 }
 
-/// The first names.
+/// The first names as a list, and the number of the others.
 fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     let count = names.len();
     let shown: Vec<&str> = names.take(NAMES).collect();
@@ -167,7 +168,7 @@ fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     shown.join(", ") + &rest
 }
 
-/// Why recipes cannot be used.
+/// Recipes that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecipesError {
     /// The table is faulty.
@@ -176,63 +177,68 @@ pub enum RecipesError {
     /// A column is a wavelength.
     #[error("{place} is a wavelength; recipes hold no readings")]
     Wavelength {
-        /// Where.
+        /// File, row and column.
         place: CellPlace,
     },
     /// No column is a pigment.
     #[error("{file}, row 1: no column is a pigment")]
     NoPigments {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
     },
-    /// Two rows are of one reading.
+    /// Two rows name the same reading.
     #[error("{file}, row {second}: a recipe of `{name}` stands in row {first} already")]
     Repeated {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The name.
+        /// Name of the reading.
         name: String,
-        /// The first row.
+        /// First row with this name.
         first: u64,
-        /// The second.
+        /// Second row with this name.
         second: u64,
     },
-    /// The readings have recipes of their own.
+    /// The measurement file has recipes of its own.
     #[error("{file}: the measurement file has amounts of its own, of `{pigments}`")]
     Twice {
-        /// The measurement file.
+        /// Name of the measurement file.
         file: String,
-        /// Its pigments.
+        /// Pigments of the measurement file.
         pigments: String,
     },
-    /// No name stands in both files.
+    /// No name occurs in both files.
     #[error(
         "{file}: no recipe has the name of a reading; recipes: {recipes}; readings: {readings}"
     )]
     NoneMatched {
-        /// The file of recipes.
+        /// Name of the file of recipes.
         file: String,
-        /// Its first names.
+        /// First names in the file of recipes.
         recipes: String,
-        /// The first names of the measurement file.
+        /// First names in the measurement file.
         readings: String,
     },
 }
 
-impl RecipesError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        Some(
-            match self {
-                Self::Table(error) => return error.hint(),
-                Self::Wavelength { .. } => "give a file that has both as FILE, without --recipes",
-                Self::NoPigments { .. } => "columns of recipes: sample, then optionally reading, film, backing, thickness_mm, then one per pigment",
-                Self::Repeated { .. } => "remove one; where a sample was read several times, name each reading in a column `reading`",
-                Self::Twice { .. } => "leave out --recipes, or take the columns of pigments out of the measurement file",
-                Self::NoneMatched { .. } => "names must be written alike in both; a column `reading` of the recipes may hold those of the measurement file",
+impl Explain for RecipesError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Table(error) => return error.hint(),
+            Self::Wavelength { .. } => {
+                "a file that holds both is a measurement file; leave out [recipes]"
             }
-            .to_owned(),
-        )
+            Self::NoPigments { .. } => {
+                "columns of recipes: sample, then optionally reading, film, backing, thickness_mm, then one per pigment"
+            }
+            Self::Repeated { .. } => {
+                "remove one; where a sample was read several times, name each reading in a column `reading`"
+            }
+            Self::Twice { .. } => {
+                "leave out [recipes], or remove the pigment columns from the measurement file"
+            }
+            Self::NoneMatched { .. } => {
+                "names must be spelled alike in both; a column `reading` of the recipes may hold those of the measurement file"
+            }
+        }))
     }
 }

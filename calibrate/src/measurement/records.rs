@@ -5,45 +5,48 @@ use std::ops::RangeInclusive;
 use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
+use super::column::MEASURABLE_NM;
 use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::CellPlace;
 
-/// Wavelengths that a table of readings may have, in nm, as in a CSV.
-const BAND: RangeInclusive<f64> = 200.0..=2500.0;
+/// Wavelengths in nm that a table of readings may have.
+const BAND: RangeInclusive<f64> = MEASURABLE_NM;
 
-/// Wavelengths where a reading must be sound, in nm: they make nearly all of the colour. Beyond,
-/// lamps and detectors grow weak, and exports hold noise.
+/// Wavelengths in nm at which a reading must be valid: they determine nearly all of the colour. Beyond
+/// them lamps and detectors are weak, and exported files hold noise.
 const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 
-/// A reading above minus this is 0 with an instrument's noise: dark paint under little light, or a
-/// dark reading a little too high.
+/// A negative reading above minus this fraction counts as 0 with noise: dark paint under little light,
+/// or a dark reading a little too high. Chosen by eye.
 const NOISE_BELOW_ZERO: f64 = 0.02;
 
-/// How an instrument's spectra are taken.
+/// Greatest reflectance that a surface can have, as a fraction; a reading above is a mistaken unit.
+const LARGEST_REFLECTANCE: f64 = 2.0;
+/// Treatment of an instrument's spectra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RecordChoice {
-    /// Percent or fractions; if not told, what the file says, else by the file as a whole.
+    /// Percent or fraction; by default what the file states, else what its largest value suggests.
     pub scale: ScaleChoice,
-    /// Transmittance is reflectance: the instrument's program was not told that it looks at a
-    /// surface over a white tile.
+    /// Whether transmittance counts as reflectance, for programs that were not told that the
+    /// spectrometer looks at a surface over a white tile.
     pub transmittance_is_reflectance: bool,
 }
 
 impl MeasurementTable {
-    /// The readings in `records`, the spectra of `file`: those of reflectance, and those of which
-    /// the file does not say what they are. The sample is the record's name; records of one name
-    /// are one sample, read again. There are no pigments and no backings.
+    /// Reads `records`, the spectra of `file`, as readings of paint. Used are spectra of reflectance and
+    /// those of which the file does not state the quantity. The name of a record is the sample; records
+    /// of one name are repeated readings. The table has no pigments and no backings.
     ///
-    /// Wavelengths beyond 200 to 2500 nm are cut off, and so are, beyond 400 to 700 nm, the ends
-    /// of a spectrum up to its last value that no surface reflects. Values down to -2 % count as 0,
-    /// which is said. A spectrum of which most values no surface reflects, or that has none from 400 to 700 nm, is refused. Spectra on different
-    /// wavelengths are brought by straight lines to the grid of the coarsest, where all overlap.
+    /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
+    /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
+    /// spectrum is refused if most of its values are impossible, or one from 400 to 700 nm is. Spectra on
+    /// different wavelengths are interpolated linearly to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
-    /// [`MeasurementError`], with the line on which the spectrum begins.
+    /// [`MeasurementError`] with the line on which the spectrum begins.
     pub fn from_records(
         file: &str,
         records: &[MeasuredSpectrum],
@@ -89,23 +92,23 @@ impl MeasurementTable {
     }
 }
 
-/// A name fit for a table: without control characters.
+/// Name for a table: without control characters, and not empty.
 fn name(raw: &str) -> String {
     let plain: String = raw.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let plain = plain.trim();
     if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
 }
 
-/// A record on its way to a reading.
+/// A record on its way to becoming a reading.
 struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
-    /// What the record's values are written in; that of `values` until they are fractions.
+    /// Unit of the record's values; `values` have this unit until they are made fractions.
     scale: Scale,
 }
 
-/// The records that are readings; the others are said, or refused where there is nothing else.
+/// Selects the records that are readings. The others are named in `remarks`, or refused if all are.
 fn reflectances<'a>(
     file: &str,
     records: &'a [MeasuredSpectrum],
@@ -137,10 +140,10 @@ fn reflectances<'a>(
     for record in &kept {
         for remark in &record.remarks {
             let of_all = kept.iter().all(|record| record.remarks.contains(remark));
-            let said =
+            let text =
                 if of_all { remark.clone() } else { format!("{}: {remark}", name(&record.name)) };
-            if !remarks.contains(&said) {
-                remarks.push(said);
+            if !remarks.contains(&text) {
+                remarks.push(text);
             }
         }
     }
@@ -153,24 +156,24 @@ fn reflectances<'a>(
     Ok(kept.into_iter().map(spectrum).collect())
 }
 
-/// Finds the unit of every spectrum; gives that of the first.
+/// Determines the unit of every spectrum; returns that of the first.
 fn scale(
     file: &str,
     spectra: &mut [Spectrum<'_>],
     choice: ScaleChoice,
 ) -> Result<Scale, MeasurementError> {
-    let told = |record: &MeasuredSpectrum| match (choice, record.unit) {
-        (ScaleChoice::Told(scale), _) => Some(scale),
+    let stated = |record: &MeasuredSpectrum| match (choice, record.unit) {
+        (ScaleChoice::Known(scale), _) => Some(scale),
         (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
         (ScaleChoice::ByFile, Unit::Fraction) => Some(Scale::Fraction),
         (ScaleChoice::ByFile, Unit::Unstated) => None,
     };
-    let untold = spectra.iter().filter(|s| told(s.record).is_none()).map(Spectrum::largest);
-    let found = Scale::of_largest(untold.fold(0.0, f64::max));
+    let unstated = spectra.iter().filter(|s| stated(s.record).is_none()).map(Spectrum::largest);
+    let found = Scale::of_largest(unstated.fold(0.0, f64::max));
     for spectrum in &mut *spectra {
         let largest = spectrum.largest();
-        spectrum.scale = told(spectrum.record).unwrap_or(found);
-        if told(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
+        spectrum.scale = stated(spectrum.record).unwrap_or(found);
+        if stated(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
             let (file, row) = (file.to_owned(), spectrum.record.line as u64);
             return Err(MeasurementError::MixedScale { file, row, largest });
         }
@@ -179,7 +182,7 @@ fn scale(
 }
 
 impl Spectrum<'_> {
-    /// The largest value where it must be sound; of all, where it has none there.
+    /// Largest value where readings must be valid; of all values, if it has none there.
     fn largest(&self) -> f64 {
         let all = || self.wavelengths_nm.iter().zip(&self.values);
         let sound = all().filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
@@ -187,7 +190,7 @@ impl Spectrum<'_> {
         largest.unwrap_or_else(|| self.values.iter().copied().fold(0.0, f64::max))
     }
 
-    /// Keeps the points from `from` up to, but without, `to`.
+    /// Keeps the points of indices `from` up to, but not including, `to`.
     fn keep(&mut self, from: usize, to: usize) {
         self.wavelengths_nm = self.wavelengths_nm[from..to].to_vec();
         self.values = self.values[from..to].to_vec();
@@ -215,12 +218,13 @@ impl Spectrum<'_> {
         }
     }
 
-    /// Makes fractions of the values. Cuts off the ends up to their last value that is no
-    /// reflectance, where it need not be sound.
+    /// Converts the values to fractions. Cuts off the ends up to their last impossible value, outside the
+    /// band in which readings must be valid.
     fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
         let factor = self.scale.to_fraction();
-        let is_sound = |value: f64| (-NOISE_BELOW_ZERO..=2.0).contains(&(value * factor));
-        let bad = self.values.iter().filter(|value| !is_sound(**value)).count();
+        let is_valid =
+            |value: f64| (-NOISE_BELOW_ZERO..=LARGEST_REFLECTANCE).contains(&(value * factor));
+        let bad = self.values.iter().filter(|value| !is_valid(**value)).count();
         if 2 * bad > self.values.len() {
             return Err(MeasurementError::Noise {
                 file: file.to_owned(),
@@ -234,7 +238,7 @@ impl Spectrum<'_> {
         let (mut from, mut to) = (0, self.values.len());
         let has_middle = self.wavelengths_nm.iter().any(|nm| SOUND.contains(nm));
         for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
-            if is_sound(value) {
+            if is_valid(value) {
                 continue;
             } else if has_middle && nm < *SOUND.start() {
                 from = index + 1;
@@ -270,7 +274,7 @@ impl Spectrum<'_> {
     }
 }
 
-/// The grid of the coarsest spectrum where all overlap, and how many wavelengths it has there.
+/// Grid of the coarsest spectrum where all spectra overlap, and its number of wavelengths there.
 fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), MeasurementError> {
     let first_nm = |s: &Spectrum<'_>| s.wavelengths_nm[0];
     let last_nm = |s: &Spectrum<'_>| s.wavelengths_nm[s.wavelengths_nm.len() - 1];

@@ -1,25 +1,25 @@
-//! Percent or fractions: told apart by the file as a whole.
+//! Unit of reflectance in a file: percent or fraction.
 
 use serde::{Deserialize, Serialize};
 
-/// The unit in which a file writes reflectance.
+/// Unit in which a file writes reflectance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
-    /// White near 100.
+    /// A white reads about 100.
     Percent,
-    /// White near 1.
+    /// A white reads about 1.
     Fraction,
 }
 
-/// How the unit is found.
+/// How the unit of a file is determined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ScaleChoice {
-    /// By the largest value of the whole file: above 2 it is percent.
+    /// By the largest value of the whole file: above 2 the unit is percent.
     #[default]
     ByFile,
-    /// As told.
-    Told(Scale),
+    /// The unit is known.
+    Known(Scale),
 }
 
 impl Scale {
@@ -27,7 +27,7 @@ impl Scale {
         if largest > 2.0 { Self::Percent } else { Self::Fraction }
     }
 
-    /// The factor that makes fractions.
+    /// Factor that converts values to fractions.
     pub(super) fn to_fraction(self) -> f64 {
         match self {
             Self::Percent => 0.01,

@@ -1,4 +1,4 @@
-//! Readings of paint, all on one grid.
+//! Readings of paint and of bare backings, all on one grid.
 
 use std::sync::Arc;
 
@@ -7,62 +7,61 @@ use spectra::Grid;
 use super::error::MeasurementError;
 use super::scale::Scale;
 
-/// What lies under the instrument.
+/// Kind of surface that a reading is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Film {
-    /// Paint on a backing.
+    /// A film of paint on a backing.
     Paint,
-    /// The bare backing.
+    /// The bare backing without paint.
     None,
 }
 
-/// One reading.
+/// One reading of reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// The file, as the user named it.
+    /// File name as the caller gave it.
     pub file: Arc<str>,
-    /// Its row in the file, the header being 1.
+    /// Row in the file, the header being row 1.
     pub row: u64,
-    /// The sample's name.
+    /// Name of the sample.
     pub sample: String,
-    /// Paint or bare backing.
+    /// Whether paint or a bare backing was read.
     pub film: Film,
-    /// The backing's name; empty if the file does not say.
+    /// Name of the backing; empty if the file does not state it.
     pub backing: String,
-    /// Thickness in mm, where given.
+    /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
     /// Amount of each pigment of the table, 0 and up.
     pub amounts: Vec<f64>,
-    /// Reflectance as a fraction, at each wavelength of the table's grid.
+    /// Measured reflectance as a fraction, at each wavelength of the table's grid.
     pub reflectance: Vec<f64>,
 }
 
-/// All readings of a file, or of several.
+/// All readings of one file, or of several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasurementTable {
-    /// The pigments, in order of their columns.
+    /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
-    /// The wavelengths of every reading.
+    /// Wavelengths of every reading.
     pub grid: Grid,
-    /// How many irregular wavelengths the file had, if the readings had to be
-    /// brought to the grid (by straight lines).
+    /// Number of irregular wavelengths in the file, if the readings were interpolated (linearly) to the
+    /// grid.
     pub resampled_from: Option<usize>,
-    /// The unit the file was written in.
+    /// Unit in which the file is written.
     pub scale: Scale,
-    /// The readings in order of the file; at least one.
+    /// Readings in order of the file; at least one.
     pub readings: Vec<Reading>,
-    /// What had to be decided in reading them, in words for the user.
+    /// Decisions that reading the file required, in words for the user.
     pub remarks: Vec<String>,
 }
 
 impl MeasurementTable {
-    /// The readings of several files as one table. A pigment is one column
-    /// wherever it stands; a sample that occurs in two files is one sample, read
-    /// again.
+    /// Joins the readings of several files in one table. Pigments are identified by name; a sample that
+    /// occurs in two files is one sample with repeated readings.
     ///
     /// # Errors
-    /// [`MeasurementError::Grid`] if the wavelengths differ,
-    /// [`MeasurementError::Empty`] without a table.
+    /// [`MeasurementError::Grid`] if the wavelengths differ, [`MeasurementError::Empty`] without a
+    /// table.
     pub fn joined(tables: Vec<Self>) -> Result<Self, MeasurementError> {
         let mut tables = tables.into_iter();
         let mut all =

@@ -1,42 +1,41 @@
-//! The design of most information, by exchange.
+//! The design of greatest information, by Fedorov's exchange.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::information::Information;
 
-/// Sweeps over the design; it settles in fewer.
+/// Most sweeps over the design; fewer are needed in practice.
 const SWEEPS: usize = 30;
-/// The least gain of log det, over all wavelengths and unknowns, worth a change.
+/// Least gain of log det, summed over wavelengths, for which a recipe is exchanged; above rounding.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// A design of as many recipes as `start`, each taken once, that no exchange of
-/// one recipe for another improves; the `kept` first of `start` stay. In order
-/// of the pool, the kept ones first.
+/// Improves a design, a list of indices into the pool, until no exchange of one recipe for another gains
+/// information. The result has as many recipes as `start`, each once; the first `kept` recipes of `start`
+/// stay. The others are in order of the pool.
 ///
-/// Fedorov's exchange: each recipe in turn gives way to the one that adds most
-/// to log det of the information, from two starts, `start` itself and a greedy
-/// one; the better end is kept, so that the answer is never worse than `start`.
-/// Nothing is random.
+/// Fedorov's exchange (1972): each recipe in turn is replaced by the one that adds most to log det of the
+/// information. There are two starts, `start` itself and a greedy design, of which the better result is
+/// returned, so it is never worse than `start`. Nothing is random.
 #[must_use]
 pub fn optimal(information: &Information, start: &[usize], kept: usize) -> Vec<usize> {
     let mut greedy = start[..kept].to_vec();
     let mut state = State::of(information, &greedy);
     while greedy.len() < start.len() {
-        let (best, _) = state.best(&greedy).expect("the pool holds the start");
+        let (best, _) = state.best(&greedy).expect("the pool contains the start");
         state.change(best, 1.0);
         greedy.push(best);
     }
-    let mut ends = [start.to_vec(), greedy].map(|design| exchanged(information, design, kept));
-    ends.iter_mut().for_each(|design| design[kept..].sort_unstable());
-    let [first, second] = ends;
+    let mut results = [start.to_vec(), greedy].map(|design| exchanged(information, design, kept));
+    results.iter_mut().for_each(|design| design[kept..].sort_unstable());
+    let [first, second] = results;
     let better = information.log_determinant(&second) > information.log_determinant(&first);
     if better { second } else { first }
 }
 
 fn exchanged(information: &Information, mut design: Vec<usize>, kept: usize) -> Vec<usize> {
     for _ in 0..SWEEPS {
-        // Anew each sweep, so that rounding does not add up.
+        // Computed anew in each sweep, so that rounding errors do not add up.
         let mut state = State::of(information, &design);
         let mut changed = false;
         for place in kept..design.len() {
@@ -61,7 +60,7 @@ fn exchanged(information: &Information, mut design: Vec<usize>, kept: usize) -> 
     design
 }
 
-/// A design's covariances, kept up to date.
+/// Covariances of a design, updated with each exchange.
 struct State<'a> {
     information: &'a Information,
     covariances: Vec<DMatrix<f64>>,
@@ -72,8 +71,7 @@ impl<'a> State<'a> {
         Self { information, covariances: information.covariances(design) }
     }
 
-    /// By how much recipe `index` would raise log det: the matrix determinant
-    /// lemma, at each wavelength.
+    /// Gain of log det by adding recipe `index`, from the matrix determinant lemma at each wavelength.
     fn gain(&self, index: usize) -> f64 {
         let places = &self.information.slopes.places[index];
         let at_wavelength = |(at, covariance): (usize, &DMatrix<f64>)| {
@@ -89,7 +87,7 @@ impl<'a> State<'a> {
         self.covariances.iter().enumerate().map(at_wavelength).sum()
     }
 
-    /// The recipe outside `design` of most gain; the first of equals.
+    /// Recipe outside `design` with the greatest gain, and that gain; the first of equals.
     fn best(&self, design: &[usize]) -> Option<(usize, f64)> {
         let pool = self.information.slopes.places.len();
         let gains: Vec<Option<f64>> = (0..pool)
@@ -100,8 +98,7 @@ impl<'a> State<'a> {
         gains.reduce(|best, next| if next.1 > best.1 { next } else { best })
     }
 
-    /// Adds recipe `index` (`sign` 1) or takes it away (-1): Sherman and
-    /// Morrison 1950.
+    /// Adds recipe `index` (`sign` 1) or removes it (-1), by the formula of Sherman and Morrison (1950).
     fn change(&mut self, index: usize, sign: f64) {
         let slopes = &self.information.slopes;
         let places = &slopes.places[index];

@@ -1,60 +1,62 @@
-//! What a design tells of K and S, by a library of paint like it.
+//! Information that a design gives on K and S, estimated from a library of similar paint.
 
 use nalgebra::DMatrix;
+use spectra::Grid;
 
-use super::palette::Palette;
-use super::recipe::Recipe;
-use crate::fit::{Belief, ExpectedNoise, PRIOR_INFORMATION, Slopes};
+use super::paints::PaintSet;
+use super::swatch_recipe::SwatchRecipe;
+use crate::fit::{AssumedPaints, ExpectedNoise, PRIOR_INFORMATION, Slopes};
 use pigment::evaluate::percentile;
 use pigment::library::PigmentLibrary;
+use pigment::{Curves, PigmentId};
 
-/// The information that each recipe of a pool has on log K and log S of every
-/// paint, over a library's wavelengths.
+/// Information that each recipe of a pool gives on log K and log S of every paint, over a library's
+/// wavelengths.
 ///
-/// Fisher information of the fit's own residuals: reflectance of films that
-/// hide, the surface included, under its noise model, on top of the little that
-/// the fit's prior holds. Smoothness over wavelength is left out, so that
-/// deviations are on the safe side.
+/// It is the Fisher information of the fit's own residuals: reflectances of films that hide, surface
+/// included, under its noise model, plus the little information of the fit's prior. Smoothness over
+/// wavelength is left out, so that predicted deviations are rather too large.
 #[derive(Debug, Clone)]
 pub struct Information {
     pub(super) slopes: Slopes,
     paints: usize,
+    grid: Grid,
 }
 
-/// Predicted standard deviations of one paint's K and S, as shares of K and S
-/// (deviations of their logarithms): the median over wavelength.
+/// Predicted standard deviations of one paint's K and S, relative to K and S (that is, of their
+/// logarithms); the median over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeDeviation {
-    /// Of K.
+    /// Relative standard deviation of K.
     pub absorption: f64,
-    /// Of S; `None` for the white, whose S is the unit.
+    /// Relative standard deviation of S; `None` for the white, whose S is 1.
     pub scattering: Option<f64>,
 }
 
 impl Information {
-    /// That of `pool`, whose paint number i is pigment `pigments[i]` of
-    /// `library`.
+    /// Computes the information of `pool`. Paint i of the pool is assumed to have the K and S of
+    /// `pigments[i]` of `library`.
     #[must_use]
     pub fn new(
         library: &PigmentLibrary,
-        pigments: &[usize],
-        pool: &[Recipe],
+        pigments: &[PigmentId],
+        pool: &[SwatchRecipe],
         noise: ExpectedNoise,
     ) -> Self {
-        let of = |index: &usize| &library.pigments[*index];
-        let belief = Belief {
-            grid: library.grid,
+        let paints = AssumedPaints {
             surface: library.saunderson,
-            reference: Palette::WHITE,
-            absorption: pigments.iter().map(|i| of(i).absorption.as_slice()).collect(),
-            scattering: pigments.iter().map(|i| of(i).scattering.as_slice()).collect(),
+            reference: PaintSet::WHITE,
+            curves: pigments.iter().map(|id| library.curves(*id)).collect(),
         };
-        let recipes: Vec<Vec<(usize, f64)>> = pool.iter().map(Recipe::shares).collect();
-        Self { slopes: Slopes::of(&belief, &recipes, noise), paints: pigments.len() }
+        let shares = |recipe: &SwatchRecipe| -> Vec<(usize, f64)> {
+            recipe.shares().iter().map(|&(paint, share)| (paint.index(), share)).collect()
+        };
+        let recipes = pool.iter().map(shares).collect();
+        let slopes = Slopes::of(&paints, recipes, noise);
+        Self { slopes, paints: pigments.len(), grid: library.grid }
     }
 
-    /// By wavelength, the inverse of the information of `design`: the
-    /// covariance of log K and log S.
+    /// Covariance of log K and log S by wavelength: the inverse of the information of `design`.
     pub(super) fn covariances(&self, design: &[usize]) -> Vec<DMatrix<f64>> {
         (0..self.slopes.wavelengths())
             .map(|at| {
@@ -64,8 +66,7 @@ impl Information {
             .collect()
     }
 
-    /// log det of the information of `design`, summed over wavelengths and
-    /// divided by the number of unknowns: its mean per unknown.
+    /// Mean per unknown of log det of the information of `design`, a list of indices into the pool.
     #[must_use]
     pub fn log_determinant(&self, design: &[usize]) -> f64 {
         let wavelengths = self.slopes.wavelengths();
@@ -79,39 +80,41 @@ impl Information {
         sum / (wavelengths * self.slopes.unknowns()) as f64
     }
 
-    /// D-efficiency of `design` against `other`: the share of readings with
-    /// which `other` would tell as much, if both could be repeated in part.
+    /// D-efficiency of `design` against `other`: the fraction of its readings with which `other` would
+    /// give the same information, if both could be repeated in part.
     #[must_use]
     pub fn efficiency(&self, design: &[usize], other: &[usize]) -> f64 {
         (self.log_determinant(design) - self.log_determinant(other)).exp()
     }
 
-    /// Standard deviations of log K and log S that `design` should give, by
-    /// paint and wavelength; 0 for the white's S.
+    /// Standard deviations of log K and log S that `design` should give, by paint; 0 for the S of the
+    /// white.
     #[must_use]
-    pub fn log_deviations(&self, design: &[usize]) -> [Vec<Vec<f64>>; 2] {
+    pub fn log_deviations(&self, design: &[usize]) -> Vec<Curves> {
         let covariances = self.covariances(design);
         let by_wavelength = |place: Option<usize>| -> Vec<f64> {
             let sd = |c: &DMatrix<f64>| place.map_or(0.0, |place| c[(place, place)].sqrt());
             covariances.iter().map(sd).collect()
         };
-        [
-            (0..self.paints).map(|paint| by_wavelength(Some(paint))).collect(),
-            (0..self.paints).map(|paint| by_wavelength(self.slopes.scattering(paint))).collect(),
-        ]
+        let of_paint = |paint: usize| Curves {
+            grid: self.grid,
+            absorption: by_wavelength(Some(paint)),
+            scattering: by_wavelength(self.slopes.scattering(paint)),
+        };
+        (0..self.paints).map(of_paint).collect()
     }
 
-    /// The same in two numbers a paint.
+    /// Median over wavelength of these standard deviations, by paint.
     #[must_use]
     pub fn deviations(&self, design: &[usize]) -> Vec<RelativeDeviation> {
-        let [absorption, scattering] = self.log_deviations(design);
-        let paints = absorption.iter().zip(&scattering).enumerate();
-        paints
-            .map(|(paint, (absorption, scattering))| RelativeDeviation {
+        let median = |(paint, Curves { absorption, scattering, .. }): (usize, &Curves)| {
+            let is_white = paint == PaintSet::WHITE.index();
+            RelativeDeviation {
                 absorption: percentile(absorption, 50.0),
-                scattering: (paint != Palette::WHITE).then(|| percentile(scattering, 50.0)),
-            })
-            .collect()
+                scattering: (!is_white).then(|| percentile(scattering, 50.0)),
+            }
+        };
+        self.log_deviations(design).iter().enumerate().map(median).collect()
     }
 
     fn matrix(&self, design: &[usize], at: usize) -> DMatrix<f64> {

@@ -1,13 +1,14 @@
-//! Which swatches to prepare, so that K and S of every pigment can be told.
+//! Plans of swatches: which mixtures to prepare, so that a fit identifies K and S of every pigment.
 //!
-//! A design is a list of indices into one pool of recipes, [`candidates`]. The
-//! [`usual`] design needs no knowledge of the paint; the [`optimal`] one is
-//! chosen for [`Information`] on a library of paint like it (D-optimality:
-//! Fedorov 1972, Theory of Optimal Experiments).
+//! A design is a list of indices into one pool of recipes, [`candidates`]. The [`usual`] design needs no
+//! knowledge of the paint. The [`optimal`] one is chosen for its [`Information`], estimated from a library
+//! of similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). [`plan`] does it all.
 
-mod palette;
+mod error;
 
-mod recipe;
+mod paints;
+
+mod swatch_recipe;
 
 mod candidates;
 
@@ -19,13 +20,17 @@ mod information;
 
 mod exchange;
 
-mod sheet;
+mod form;
+
+mod planned;
 
 pub use candidates::candidates;
+pub use error::PlanError;
 pub use exchange::optimal;
+pub use form::MeasurementForm;
 pub use information::{Information, RelativeDeviation};
-pub use palette::{Palette, PlanError};
-pub use recipe::{Purpose, Recipe};
-pub use sheet::{Sheet, sample_names};
+pub use paints::PaintSet;
+pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan};
+pub use swatch_recipe::{Purpose, SwatchRecipe};
 pub use usual::{usual, usual_count};
 pub use weighing::Weighing;

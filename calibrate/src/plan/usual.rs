@@ -1,78 +1,89 @@
-//! The design for paint of which nothing is known.
+//! The design for paints of which nothing is known.
 
-use super::palette::{Palette, PlanError};
-use super::recipe::{Purpose, Recipe};
+use super::error::PlanError;
+use super::paints::PaintSet;
+use super::swatch_recipe::{Purpose, SwatchRecipe};
+use pigment::PigmentId;
 
-/// A design of `swatches` recipes of `pool`, the one of
-/// [`super::candidates`], as indices in order of weight: masstones, then a tint
-/// of every paint at 1:4, then one at 1:19 (or the weakest that can be
-/// weighed), then a shade with black at 9:1, then each colour with its
-/// neighbour 1:1, then what is left of the pool from the strong tints on.
+/// Parts in all of the first tint, 1:4.
+const FIRST_TINT: u32 = 5;
+/// Most parts in all of the second tint, 1:19.
+const SECOND_TINT: u32 = 20;
+/// Most parts of the colour to one of black in the shade.
+const SHADE: u32 = 9;
+
+/// Selects `swatches` recipes of `pool`, the one of [`super::candidates`], as indices into it, the most
+/// informative first: masstones, a tint of every paint at 1:4, one at 1:19 (or the weakest that can be
+/// weighed), a shade with black at 9:1, each colour with its neighbour 1:1, then the rest of the pool
+/// from the strong tints on.
 ///
-/// The ratios come from the Van Gogh oils: let to choose two tints of one
-/// pigment with zinc white, the optimal design took 4:1, 1:4 and 1:19 most often,
-/// and shades of 4:1 and 9:1 with bone black. With masstones and the two tints
-/// 11 of 17 pigments had a D-efficiency above 0.9; weak ones, which ask for 4:1,
+/// The ratios were measured on the Van Gogh oils. Of two tints of one pigment with zinc white, the optimal
+/// design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With masstones
+/// and the two tints, 11 of 17 pigments had a D-efficiency above 0.9; weak ones, for which 4:1 is better,
 /// had 0.56 to 0.72.
 ///
 /// # Errors
-/// [`PlanError::Swatches`] for fewer than there are unknowns a wavelength, or
-/// more than the pool holds.
-pub fn usual(palette: &Palette, pool: &[Recipe], swatches: usize) -> Result<Vec<usize>, PlanError> {
-    let (least, most) = (palette.unknowns(), pool.len());
+/// [`PlanError::Swatches`] for fewer swatches than unknowns per wavelength, or more than the pool holds.
+pub fn usual(
+    paints: &PaintSet,
+    pool: &[SwatchRecipe],
+    swatches: usize,
+) -> Result<Vec<usize>, PlanError> {
+    let (least, most) = (paints.unknowns(), pool.len());
     if !(least..=most).contains(&swatches) {
-        return Err(PlanError::Swatches { paints: palette.names.len(), least, most, swatches });
+        return Err(PlanError::Swatches { paints: paints.names.len(), least, most, swatches });
     }
-    let mut design = rounds(palette, pool);
+    let mut design = rounds(paints, pool);
     let rest: Vec<usize> = (0..pool.len()).filter(|index| !design.contains(index)).collect();
     design.extend(rest);
     design.truncate(swatches);
     Ok(design)
 }
 
-/// How many swatches the usual design has where no number is asked for.
+/// Number of swatches of the usual design where no number is requested.
 #[must_use]
-pub fn usual_count(palette: &Palette, pool: &[Recipe]) -> usize {
-    rounds(palette, pool).len().max(palette.unknowns()).min(pool.len())
+pub fn usual_count(paints: &PaintSet, pool: &[SwatchRecipe]) -> usize {
+    rounds(paints, pool).len().max(paints.unknowns()).min(pool.len())
 }
 
-fn rounds(palette: &Palette, pool: &[Recipe]) -> Vec<usize> {
+/// Indices of the recipes that come before the rest of the pool, in order.
+fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
     let weakest = pool
         .iter()
-        .filter(|recipe| recipe.purpose == Purpose::Tint && recipe.total() <= 20)
-        .map(Recipe::total)
+        .filter(|recipe| recipe.purpose == Purpose::Tint && recipe.total() <= SECOND_TINT)
+        .map(SwatchRecipe::total)
         .max();
-    let weakest = weakest.unwrap_or(5);
-    let shade = |recipe: &Recipe| recipe.parts[0].1;
-    let shades = pool.iter().filter(|r| r.purpose == Purpose::Shade && shade(r) <= 9);
+    let weakest = weakest.unwrap_or(FIRST_TINT);
+    let shade = |recipe: &SwatchRecipe| recipe.parts[0].1;
+    let shades = pool.iter().filter(|r| r.purpose == Purpose::Shade && shade(r) <= SHADE);
     let strongest_shade = shades.map(shade).max();
-    let colors: Vec<usize> = palette.colors().collect();
-    // A ring of two would be one pair twice.
+    let colors: Vec<PigmentId> = paints.colors().collect();
+    // A ring of two would contain one pair twice.
     let links = if colors.len() > 2 { colors.len() } else { colors.len().saturating_sub(1) };
-    let ring: Vec<[usize; 2]> = (0..links)
+    let ring: Vec<[PigmentId; 2]> = (0..links)
         .map(|i| {
             let mut pair = [colors[i], colors[(i + 1) % colors.len()]];
             pair.sort_unstable();
             pair
         })
         .collect();
-    let tint = |recipe: &Recipe, total: u32| {
+    let tint = |recipe: &SwatchRecipe, total: u32| {
         recipe.purpose == Purpose::Tint && recipe.parts[0].1 == 1 && recipe.total() == total
     };
-    let linked = |recipe: &Recipe| {
+    let linked = |recipe: &SwatchRecipe| {
         recipe.purpose == Purpose::Cross
             && recipe.total() == 2
             && ring.contains(&[recipe.parts[0].0, recipe.parts[1].0])
     };
-    let wanted: [&dyn Fn(&Recipe) -> bool; 5] = [
+    let rounds: [&dyn Fn(&SwatchRecipe) -> bool; 5] = [
         &|recipe| recipe.purpose == Purpose::Masstone,
-        &|recipe| tint(recipe, 5),
-        &|recipe| weakest > 5 && tint(recipe, weakest),
+        &|recipe| tint(recipe, FIRST_TINT),
+        &|recipe| weakest > FIRST_TINT && tint(recipe, weakest),
         &|recipe| recipe.purpose == Purpose::Shade && Some(shade(recipe)) == strongest_shade,
         &linked,
     ];
-    let of_round = |wanted: &dyn Fn(&Recipe) -> bool| -> Vec<usize> {
-        (0..pool.len()).filter(|&index| wanted(&pool[index])).collect()
+    let of_round = |selects: &dyn Fn(&SwatchRecipe) -> bool| -> Vec<usize> {
+        (0..pool.len()).filter(|&index| selects(&pool[index])).collect()
     };
-    wanted.into_iter().flat_map(of_round).collect()
+    rounds.into_iter().flat_map(of_round).collect()
 }

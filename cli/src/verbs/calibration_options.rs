@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use calibrate::PigmentId;
 use calibrate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
 use calibrate::calibration::{Calibration, calibrate};
 use calibrate::evaluate::Viewing;
@@ -97,7 +98,7 @@ pub(super) struct Job {
 /// What the amounts mean, with what only that kind needs.
 pub(super) enum Kind {
     /// The reference white's index, and the surface.
-    Relative(usize, Surface),
+    Relative(PigmentId, Surface),
     Absolute(UnevenFilm),
 }
 
@@ -130,7 +131,7 @@ impl CalibrationOptions {
         let kind = match self.amounts {
             Amounts::Relative => {
                 let reference = self.reference(&set)?;
-                console.remark(format!("reference white: {}", set.pigments[reference]))?;
+                console.remark(format!("reference white: {}", set.pigments[reference.index()]))?;
                 Kind::Relative(reference, self.surface.surface_or_usual()?)
             }
             Amounts::Absolute => {
@@ -177,9 +178,9 @@ impl CalibrationOptions {
         Ok(set.retaining(|swatch| !excluded.contains(&&swatch.sample)))
     }
 
-    fn reference(&self, set: &SwatchSet) -> anyhow::Result<usize> {
+    fn reference(&self, set: &SwatchSet) -> anyhow::Result<PigmentId> {
         if let Some(name) = &self.reference {
-            return named(&set.pigments, name, "pigment");
+            return named(&set.pigments, name, "pigment").map(PigmentId);
         }
         let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
         let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
@@ -187,12 +188,14 @@ impl CalibrationOptions {
             // The first of equals, so that the order of columns decides.
             indices.into_iter().rev().max_by_key(|&index| samples(index))
         };
-        commonest((0..set.pigments.len()).filter(called_white).collect()).ok_or_else(|| {
-            Refusal::data(
-                "no pigment is called white, so none can be the reference whose S is 1",
-                format!("name it: --reference \"{}\"", set.pigments.first().map_or("", |p| p)),
-            )
-        })
+        commonest((0..set.pigments.len()).filter(called_white).collect()).map(PigmentId).ok_or_else(
+            || {
+                Refusal::data(
+                    "no pigment is called white, so none can be the reference whose S is 1",
+                    format!("name it: --reference \"{}\"", set.pigments.first().map_or("", |p| p)),
+                )
+            },
+        )
     }
 
     fn film(
@@ -209,7 +212,7 @@ impl CalibrationOptions {
                 unevenness: unevenness.unwrap_or(0.0),
             });
         }
-        let (problem, _) = films(set)?;
+        let problem = films(set)?;
         let progress =
             Progress::new(CHOICE_FITS, "choosing the film model", console.screen.progress);
         let film = chosen_film(&problem, plain, &|| progress.step())?;

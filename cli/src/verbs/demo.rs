@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context;
+use calibrate::PigmentId;
 use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::FitSettings;
@@ -12,12 +13,11 @@ use calibrate::measurement::{MeasurementTable, ScaleChoice};
 use calibrate::observation::BelowSurface;
 use calibrate::swatch::SwatchSet;
 use clap::Args;
-use spectra::color::Lab;
 use spectra::optics::{Specular, Surface};
 
 use super::{fit_report, library};
 use crate::console::Console;
-use crate::input::{input, srgb};
+use crate::input::input;
 use crate::output::Output;
 
 const NAME: &str = "measurements/van-gogh-oils.csv";
@@ -86,7 +86,7 @@ impl Demo {
 fn fitted(viewing: &Viewing) -> anyhow::Result<PigmentLibrary> {
     let table = MeasurementTable::from_csv(NAME, OILS, ScaleChoice::ByFile)?;
     let set = SwatchSet::from_table(&table)?;
-    let white = set.pigments.iter().position(|p| p == "Zinc White");
+    let white = set.pigments.iter().position(|p| p == "Zinc White").map(PigmentId);
     let surface = Surface::new(0.03, 0.6, Specular::Included)?;
     let settings = FitSettings { below_surface: BelowSurface::Floor, ..FitSettings::default() };
     let white = white.context("the shipped oils have a zinc white")?;
@@ -103,16 +103,11 @@ fn print_mixtures(
     viewing: &Viewing,
     console: &mut Console<'_>,
 ) -> anyhow::Result<()> {
-    let weights = viewing.weights(library.grid)?;
     let width = MIXTURES.iter().map(|(title, _)| title.len()).max().unwrap_or(0);
     for (title, recipe) in MIXTURES {
-        let parts = recipe
-            .iter()
-            .map(|(name, part)| Ok((library.find(name)?, *part)))
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        let xyz = weights.xyz(&library.mix(&parts)?.hiding(library.saunderson));
-        let [l, a, b] = Lab::from_xyz(xyz, weights.white()).to_array();
-        let rgb = srgb(xyz, weights.white());
+        let color = library.color(recipe.iter().copied(), viewing)?;
+        let [l, a, b] = color.lab.to_array();
+        let rgb = color.srgb;
         let words: Vec<String> =
             recipe.iter().map(|(name, part)| format!("{part} {name}")).collect();
         console.line(format!(

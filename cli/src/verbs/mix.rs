@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
-use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::library::AmountKind;
+use calibrate::{FilmOver, MixtureColor};
 use clap::Args;
 use serde_json::json;
-use spectra::color::{Lab, RgbSpace};
+use spectra::color::RgbSpace;
 
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::ground::ground;
-use crate::input::{ViewingOptions, color_weights, library, srgb};
+use crate::input::{ViewingOptions, library};
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
@@ -42,64 +43,39 @@ impl Mix {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
-        let recipe = parsed_recipe(&library, &self.recipe)?;
-        let mixture = library.mix(&recipe)?;
+        let parts = parsed_recipe(&self.recipe)?;
         let absolute = library.amounts == AmountKind::Absolute;
-        let thickness = match self.thickness {
-            Some(t) if !(t > 0.0 && t <= 1e9) => {
-                return Err(Refusal::usage(
-                    format!("--thickness must be above 0 and up to 1e9, found `{t}`"),
-                    "leave it out for a film that hides",
-                ));
-            }
-            None if absolute => Some(1.0),
-            None if self.over.is_some() => {
-                return Err(Refusal::usage(
-                    "a film that hides shows no ground",
-                    "give --over a --thickness, such as 1",
-                ));
-            }
-            given => given,
-        };
-        let reflectance = match thickness {
-            None => mixture.hiding(library.saunderson),
-            Some(thickness) => {
-                let ground = ground(self.over.as_deref().unwrap_or("white"), &library, console)?;
-                mixture.film(thickness, &ground, library.film())
-            }
-        };
-        for (index, _) in &recipe {
-            let pigment = &library.pigments[*index];
-            if pigment.guessed {
-                let notes = pigment.notes.join("; ");
-                console.warnings(&[format!("{}: {notes}", pigment.name)])?;
-            }
+        let hides = self.thickness.is_none() && !absolute;
+        if hides && self.over.is_some() {
+            return Err(Refusal::usage(
+                "a film that hides shows no ground",
+                "give --over a --thickness, such as 1",
+            ));
         }
-        for (index, _) in recipe.iter().filter(|_| recipe.len() > 1) {
-            let pigment = &library.pigments[*index];
-            if !pigment.identified {
-                let notes = pigment.notes.join("; ");
-                console.warnings(&[format!("{}: {notes}", pigment.name)])?;
-            }
-        }
-        let weights = color_weights(&viewing, library.grid, console)?;
-        let xyz = weights.xyz(&reflectance);
-        let lab = Lab::from_xyz(xyz, weights.white());
-        let rgb = srgb(xyz, weights.white());
+        let ground = self.over.as_deref().map(|text| ground(text, console)).transpose()?;
+        let color = if hides {
+            library.color(parts, &viewing)?
+        } else {
+            let thickness = self.thickness.unwrap_or(1.0);
+            let film = FilmOver { thickness, ground: ground.unwrap_or_default() };
+            library.film_color(parts, &film, &viewing)?
+        };
+        console.remarks(&color.remarks)?;
+        let MixtureColor { recipe, reflectance, xyz, lab, srgb: rgb, .. } = color;
         if self.json {
             let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
             return console.json(&json!({
                 "wavelengths_nm": wavelengths,
-                "reflectance": reflectance,
+                "reflectance": reflectance.values(),
                 "xyz": xyz.to_array(),
                 "lab": lab.to_array(),
                 "srgb": rgb.0,
                 "hex": rgb.to_hex(),
             }));
         }
-        let total: f64 = recipe.iter().map(|(_, part)| part).sum();
-        for (index, part) in &recipe {
-            let name = &library.pigments[*index].name;
+        let total = recipe.total();
+        for &(id, part) in &recipe {
+            let name = &library[id].name;
             if absolute {
                 console.line(format!("{part:8} {name}"))?;
             } else {
@@ -116,7 +92,7 @@ impl Mix {
             viewing.illuminant.name(),
             viewing.observer
         ))?;
-        for (nm, value) in library.grid.wavelengths_nm().zip(&reflectance) {
+        for (nm, value) in library.grid.wavelengths_nm().zip(reflectance.values()) {
             console.line(format!("{nm:6} nm {value:.4}"))?;
         }
         Ok(())
@@ -128,8 +104,8 @@ pub(super) fn gamut_note(inside: bool) -> String {
     if inside { String::new() } else { format!(" (nearest; outside {:?})", RgbSpace::Srgb) }
 }
 
-/// `NAME=PARTS` of each pigment.
-fn parsed_recipe(library: &PigmentLibrary, texts: &[String]) -> anyhow::Result<Vec<(usize, f64)>> {
+/// Names and parts of `NAME=PARTS`.
+fn parsed_recipe(texts: &[String]) -> anyhow::Result<Vec<(&str, f64)>> {
     texts
         .iter()
         .map(|text| {
@@ -140,8 +116,7 @@ fn parsed_recipe(library: &PigmentLibrary, texts: &[String]) -> anyhow::Result<V
                 )
             };
             let (name, parts) = text.rsplit_once('=').ok_or_else(wrong)?;
-            let parts: f64 = parts.trim().parse().map_err(|_| wrong())?;
-            Ok((library.find(name)?, parts))
+            Ok((name, parts.trim().parse().map_err(|_| wrong())?))
         })
         .collect()
 }

@@ -2,16 +2,12 @@
 
 use std::path::PathBuf;
 
-use calibrate::fit::{ExpectedNoise, unidentified};
-use calibrate::library::PigmentLibrary;
-use calibrate::plan::{
-    Information, Palette, Recipe, Sheet, Weighing, candidates, optimal, sample_names, usual,
-    usual_count,
-};
+use calibrate::fit::ExpectedNoise;
+use calibrate::plan::{MeasurementForm, PaintSet, PlanOptions};
 use clap::Args;
 use spectra::Grid;
 
-use super::plan_report::{self, Forecast};
+use super::plan_report;
 use crate::console::Console;
 use crate::failure::Refusal;
 use crate::input::library;
@@ -70,7 +66,7 @@ pub(crate) struct Plan {
 
 impl Plan {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let sheet = Sheet { grid: self.grid()?, replicates: self.replicates()? };
+        let form = MeasurementForm { grid: self.grid()?, replicates: self.replicates()? };
         let noise = self.noise()?;
         let inputs: Vec<PathBuf> = self.prior.iter().cloned().collect();
         let open = |path: &PathBuf| {
@@ -86,67 +82,42 @@ impl Plan {
         };
         let output = self.output.as_ref().map(open).transpose()?;
         let prior = self.prior.as_deref().map(library).transpose()?;
-        let palette = self.palette(prior.as_ref())?;
-        let weighing = Weighing::new(self.grams, self.balance)?;
-
-        let pool = candidates(&palette, weighing.least_share());
-        let count = self.swatches.unwrap_or_else(|| usual_count(&palette, &pool));
-        let start = usual(&palette, &pool, count)?;
-        let (design, forecast) = match &prior {
-            Some(prior) => {
-                let (design, forecast) = best(prior, &palette, &pool, &start, noise, console)?;
-                (design, Some(forecast))
-            }
-            None => (start, None),
+        let options = PlanOptions {
+            black: self.black.clone(),
+            prior,
+            swatches: self.swatches,
+            grams: self.grams,
+            balance: self.balance,
+            noise,
         };
-        let recipes: Vec<Recipe> = design.iter().map(|&index| pool[index].clone()).collect();
-        check_identified(&palette, &recipes)?;
-        let samples = sample_names(&palette, &recipes);
-        let grams: Vec<Vec<(usize, f64)>> = recipes.iter().map(|r| weighing.grams(r)).collect();
+        let plan = calibrate::plan(&self.pigments, &self.white, &options)?;
+        console.remarks(&plan.remarks)?;
         if let Some(output) = output {
-            output.write(sheet.csv(&palette, &samples, &grams))?;
+            output.write(plan.form(&form))?;
         }
         if self.json {
-            return console.json(&plan_report::as_json(
-                &palette,
-                &recipes,
-                &samples,
-                &grams,
-                forecast.as_ref(),
-            ));
+            return console.json(&plan_report::as_json(&plan));
         }
-        plan_report::print_swatches(&palette, &recipes, &samples, &grams, console)?;
-        plan_report::print_totals(&palette, &grams, console)?;
+        plan_report::print_swatches(&plan, console)?;
+        plan_report::print_totals(&plan, console)?;
         console.line("")?;
         console.line(format!(
             "{} swatches for {} unknowns a wavelength; every pigment is identified",
-            recipes.len(),
-            palette.unknowns()
+            plan.swatches.len(),
+            plan.paints.unknowns()
         ))?;
-        if let Some(forecast) = &forecast {
-            plan_report::print_forecast(&palette, forecast, console)?;
+        if let Some(forecast) = &plan.forecast {
+            plan_report::print_forecast(&plan.paints, forecast, console)?;
         }
         match &self.output {
             Some(path) => console.remark(format!(
                 "written: {}; fill it in, then impasto fit {} --reference \"{}\"",
                 path.display(),
                 path.display(),
-                palette.names[Palette::WHITE]
+                plan.paints.name(PaintSet::WHITE)
             )),
             None => console.remark("give --output FILE.csv for the measurement file to fill in"),
         }
-    }
-
-    fn palette(&self, prior: Option<&PigmentLibrary>) -> anyhow::Result<Palette> {
-        let full = |name: &String| -> anyhow::Result<String> {
-            Ok(match prior {
-                Some(prior) => prior.pigments[prior.find(name)?].name.clone(),
-                None => name.trim().to_owned(),
-            })
-        };
-        let colors = self.pigments.iter().map(full).collect::<anyhow::Result<Vec<_>>>()?;
-        let black = self.black.as_ref().map(full).transpose()?;
-        Ok(Palette::new(&colors, &full(&self.white)?, black.as_deref())?)
     }
 
     fn replicates(&self) -> anyhow::Result<usize> {
@@ -200,59 +171,4 @@ impl Plan {
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     numbers?.try_into().ok()
-}
-
-/// The design of most information by `prior`, and what to expect of it.
-fn best(
-    prior: &PigmentLibrary,
-    palette: &Palette,
-    pool: &[Recipe],
-    start: &[usize],
-    noise: Option<ExpectedNoise>,
-    console: &mut Console<'_>,
-) -> anyhow::Result<(Vec<usize>, Forecast)> {
-    let pigments =
-        palette.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
-    for &index in &pigments {
-        let pigment = &prior.pigments[index];
-        if !pigment.identified {
-            console.warnings(&[format!(
-                "{}: the prior does not know its scattering, so that its swatches are chosen by a guess",
-                pigment.name
-            )])?;
-        }
-    }
-    let left = prior.evidence.as_ref().map_or(0.01, |evidence| evidence.rms.max(1e-4));
-    let noise = noise.unwrap_or(ExpectedNoise { constant: 0.002, even: left });
-    let information = Information::new(prior, &pigments, pool, noise);
-    // The first of the usual design is the white by itself, which is always read.
-    let design = optimal(&information, start, 1);
-    let forecast = Forecast {
-        usual_efficiency: information.efficiency(start, &design),
-        deviations: information.deviations(&design),
-        usual_deviations: information.deviations(start),
-        noise,
-    };
-    Ok((design, forecast))
-}
-
-/// Refuses a plan that a fit would not identify.
-fn check_identified(palette: &Palette, recipes: &[Recipe]) -> anyhow::Result<()> {
-    let shares: Vec<Vec<f64>> = recipes
-        .iter()
-        .map(|recipe| {
-            let mut shares = vec![0.0; palette.names.len()];
-            recipe.shares().into_iter().for_each(|(paint, share)| shares[paint] = share);
-            shares
-        })
-        .collect();
-    let unknown = unidentified(&shares, Palette::WHITE);
-    if unknown.is_empty() {
-        return Ok(());
-    }
-    let names: Vec<&str> = unknown.iter().map(|u| palette.names[u.pigment].as_str()).collect();
-    Err(Refusal::data(
-        format!("these swatches would not identify `{}`", names.join(", ")),
-        "give more --swatches",
-    ))
 }

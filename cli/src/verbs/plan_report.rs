@@ -1,65 +1,36 @@
-//! A plan in words, and as JSON.
+//! Report of a plan: text and JSON.
 
-use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{Palette, Recipe, RelativeDeviation};
+use calibrate::plan::{Forecast, PaintSet, Plan, RelativeDeviation};
+use calibrate::{PigmentId, Recipe};
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 
-/// What a prior library says of the plan.
-pub(super) struct Forecast {
-    /// D-efficiency of the usual design against this one.
-    pub(super) usual_efficiency: f64,
-    pub(super) deviations: Vec<RelativeDeviation>,
-    pub(super) usual_deviations: Vec<RelativeDeviation>,
-    pub(super) noise: ExpectedNoise,
-}
-
-pub(super) fn print_swatches(
-    palette: &Palette,
-    recipes: &[Recipe],
-    samples: &[String],
-    grams: &[Vec<(usize, f64)>],
-    console: &mut Console<'_>,
-) -> anyhow::Result<()> {
-    let width = samples.iter().map(|sample| sample.chars().count()).max().unwrap_or(0);
-    let words: Vec<String> = grams
-        .iter()
-        .map(|grams| {
-            let word =
-                |&(paint, grams): &(usize, f64)| format!("{grams} g {}", palette.names[paint]);
-            grams.iter().map(word).collect::<Vec<_>>().join(" + ")
-        })
-        .collect();
+pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> anyhow::Result<()> {
+    let word =
+        |&(paint, grams): &(PigmentId, f64)| format!("{grams} g {}", plan.paints.name(paint));
+    let words = |grams: &Recipe| grams.iter().map(word).collect::<Vec<_>>().join(" + ");
+    let words: Vec<String> = plan.swatches.iter().map(|swatch| words(&swatch.grams)).collect();
+    let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
     let wide = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
-    for ((recipe, sample), word) in recipes.iter().zip(samples).zip(&words) {
-        console.line(format!("{sample:width$}  {word:wide$}  {}", recipe.purpose.why()))?;
+    for (swatch, word) in plan.swatches.iter().zip(&words) {
+        let (name, purpose) = (&swatch.name, swatch.recipe.purpose);
+        console.line(format!("{name:width$}  {word:wide$}  {}", purpose.why()))?;
     }
     Ok(())
 }
 
-/// Grams of each paint over all swatches.
-fn totals(palette: &Palette, grams: &[Vec<(usize, f64)>]) -> Vec<f64> {
-    let mut totals = vec![0.0; palette.names.len()];
-    grams.iter().flatten().for_each(|(paint, grams)| totals[*paint] += grams);
-    totals
-}
-
-pub(super) fn print_totals(
-    palette: &Palette,
-    grams: &[Vec<(usize, f64)>],
-    console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+pub(super) fn print_totals(plan: &Plan, console: &mut Console<'_>) -> anyhow::Result<()> {
     console.line("")?;
     console.line("Paint for all of them:")?;
-    for (name, total) in palette.names.iter().zip(totals(palette, grams)) {
+    for (name, total) in plan.paints.names.iter().zip(plan.totals_g()) {
         console.line(format!("{total:9.2} g {name}"))?;
     }
     Ok(())
 }
 
 pub(super) fn print_forecast(
-    palette: &Palette,
+    paints: &PaintSet,
     forecast: &Forecast,
     console: &mut Console<'_>,
 ) -> anyhow::Result<()> {
@@ -72,7 +43,7 @@ pub(super) fn print_forecast(
         "Predicted standard deviations, in percent of K and S, median over wavelength (noise {}, {:.3}):",
         forecast.noise.constant, forecast.noise.even
     ))?;
-    let width = palette.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let width = paints.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
     console.line(format!("{:width$}       K       S   usual K  usual S", ""))?;
     let percent = |value: f64| match 100.0 * value {
         large if large > 999.0 => ">999".to_owned(),
@@ -80,7 +51,7 @@ pub(super) fn print_forecast(
     };
     let of_white = || "unit".to_owned();
     let pairs = forecast.deviations.iter().zip(&forecast.usual_deviations);
-    for (name, (own, usual)) in palette.names.iter().zip(pairs) {
+    for (name, (own, usual)) in paints.names.iter().zip(pairs) {
         console.line(format!(
             "{name:width$} {:>7} {:>7}  {:>8} {:>8}",
             percent(own.absorption),
@@ -92,38 +63,35 @@ pub(super) fn print_forecast(
     Ok(())
 }
 
-pub(super) fn as_json(
-    palette: &Palette,
-    recipes: &[Recipe],
-    samples: &[String],
-    grams: &[Vec<(usize, f64)>],
-    forecast: Option<&Forecast>,
-) -> Value {
-    let name = |paint: usize| palette.names[paint].clone();
-    let swatches = recipes.iter().zip(samples).zip(grams).map(|((recipe, sample), grams)| {
+pub(super) fn as_json(plan: &Plan) -> Value {
+    let name = |paint: PigmentId| plan.paints.name(paint).to_owned();
+    let swatches = plan.swatches.iter().map(|swatch| {
+        let parts = swatch.recipe.parts.iter();
         let parts: Map<String, Value> =
-            recipe.parts.iter().map(|&(paint, parts)| (name(paint), json!(parts))).collect();
+            parts.map(|&(paint, parts)| (name(paint), json!(parts))).collect();
+        let grams = swatch.grams.iter();
         let grams: Map<String, Value> =
-            grams.iter().map(|&(paint, grams)| (name(paint), json!(grams))).collect();
+            grams.map(|&(paint, grams)| (name(paint), json!(grams))).collect();
         json!({
-            "sample": sample,
-            "purpose": recipe.purpose.word(),
+            "sample": swatch.name,
+            "purpose": swatch.recipe.purpose.word(),
             "parts": parts,
             "grams": grams,
-            "why": recipe.purpose.why(),
+            "why": swatch.recipe.purpose.why(),
         })
     });
     let swatches: Vec<Value> = swatches.collect();
     // Sums of steps of a balance, without the noise of adding.
     let rounded = |total: f64| (1e6 * total).round() / 1e6;
-    let totals: Map<String, Value> = totals(palette, grams)
-        .into_iter()
-        .enumerate()
+    let totals: Map<String, Value> = plan
+        .paints
+        .ids()
+        .zip(plan.totals_g())
         .map(|(paint, total)| (name(paint), json!(rounded(total))))
         .collect();
-    let prior = forecast.map(|forecast| {
+    let prior = plan.forecast.as_ref().map(|forecast| {
         let of = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
-            let pairs = deviations.iter().enumerate().map(|(paint, deviation)| {
+            let pairs = plan.paints.ids().zip(deviations).map(|(paint, deviation)| {
                 let pair = json!({
                     "absorption": deviation.absorption,
                     "scattering": deviation.scattering,
@@ -142,7 +110,7 @@ pub(super) fn as_json(
     json!({
         "swatches": swatches,
         "totals_g": totals,
-        "unknowns": palette.unknowns(),
+        "unknowns": plan.paints.unknowns(),
         "identified": true,
         "prior": prior,
     })

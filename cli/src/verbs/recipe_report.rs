@@ -1,42 +1,27 @@
-//! How recipes are told: by `match`, for people and for programs.
+//! Report of recipes by `match`: text and JSON.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{FilmKind, MatchRequest, Recipe, Target};
+use calibrate::matching::{FilmKind, MatchRequest, RecipeMatch, RecipeMatches};
 use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb};
 
 use crate::console::Console;
 use crate::input::srgb;
 
-/// A difference above this is plain to see side by side.
+/// CIEDE2000 above which a difference is plain to see side by side; chosen by eye.
 const REACHED: f64 = 1.0;
 
-/// A target and its recipes, the best first; at least one.
-pub(super) struct Matched {
-    pub(super) target: Target,
-    pub(super) recipes: Vec<Recipe>,
-    /// For a target far out of reach, the nearest by CIE 1976.
-    pub(super) by_cie1976: Vec<Recipe>,
-}
-
-/// What all recipes of a run share.
-pub(super) struct Sheet<'a> {
+/// Settings that all recipes of a run share.
+pub(super) struct RecipeReport<'a> {
     pub(super) library: &'a PigmentLibrary,
     pub(super) request: &'a MatchRequest,
-    /// The mass to be shared out.
+    /// Mass of the mixture in grams.
     pub(super) grams: Option<f64>,
 }
 
-impl Matched {
-    /// The least distance of any recipe.
-    pub(super) fn nearest(&self) -> f64 {
-        self.recipes.iter().map(|recipe| recipe.distance).fold(f64::INFINITY, f64::min)
-    }
-}
-
-impl Sheet<'_> {
+impl RecipeReport<'_> {
     fn lights(&self) -> impl Iterator<Item = &str> {
-        self.request.sights.iter().map(|sight| sight.viewing.illuminant.name())
+        self.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
     }
 
     /// The display colour of `lab` under the first light.
@@ -51,14 +36,18 @@ impl Sheet<'_> {
     }
 
     /// The amount of one share: grams, or absolute amounts.
-    fn amount(&self, recipe: &Recipe, share: f64) -> Option<f64> {
+    fn amount(&self, recipe: &RecipeMatch, share: f64) -> Option<f64> {
         match (self.grams, recipe.thickness) {
             (_, Some(thickness)) if self.absolute() => Some(share * thickness),
             (grams, _) => grams.map(|grams| share * grams),
         }
     }
 
-    pub(super) fn print(&self, matched: &Matched, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn print(
+        &self,
+        matched: &RecipeMatches,
+        console: &mut Console<'_>,
+    ) -> anyhow::Result<()> {
         let target = &matched.target;
         let wanted = target.lab[0];
         let rgb = self.shown(wanted);
@@ -89,7 +78,7 @@ impl Sheet<'_> {
     fn print_recipe(
         &self,
         rank: &str,
-        recipe: &Recipe,
+        recipe: &RecipeMatch,
         console: &mut Console<'_>,
     ) -> anyhow::Result<()> {
         // Under the light's name, which may be the path of a lamp's file.
@@ -116,8 +105,8 @@ impl Sheet<'_> {
     }
 
     /// A line for each pigment of a recipe.
-    fn parts(&self, recipe: &Recipe) -> Vec<String> {
-        let names = recipe.shares.iter().map(|(index, _)| &self.library.pigments[*index]);
+    fn parts(&self, recipe: &RecipeMatch) -> Vec<String> {
+        let names = recipe.shares.iter().map(|(id, _)| &self.library[*id]);
         let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
         let mut lines = Vec::new();
         for (place, ((_, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
@@ -138,8 +127,8 @@ impl Sheet<'_> {
         lines
     }
 
-    pub(super) fn json(&self, matched: &Matched) -> Value {
-        let list = |recipes: &[Recipe]| -> Vec<Value> {
+    pub(super) fn json(&self, matched: &RecipeMatches) -> Value {
+        let list = |recipes: &[RecipeMatch]| -> Vec<Value> {
             recipes.iter().map(|recipe| self.recipe_json(recipe)).collect()
         };
         let lab = |labs: &[Lab]| self.by_light(labs.iter().map(|lab| json!(lab.to_array())));
@@ -154,16 +143,16 @@ impl Sheet<'_> {
         })
     }
 
-    fn recipe_json(&self, recipe: &Recipe) -> Value {
-        let pigments = recipe.shares.iter().enumerate().map(|(place, (index, share))| {
-            let mut entry = json!({ "name": self.library.pigments[*index].name, "share": share });
+    fn recipe_json(&self, recipe: &RecipeMatch) -> Value {
+        let pigments = recipe.shares.iter().enumerate().map(|(place, (id, share))| {
+            let mut entry = json!({ "name": self.library[*id].name, "share": share });
             if let Some(parts) = &recipe.parts {
                 entry["parts"] = json!(parts[place]);
             }
             if let Some(amount) = self.amount(recipe, *share) {
                 entry[if self.absolute() { "amount" } else { "grams" }] = json!(amount);
             }
-            if self.library.pigments[*index].guessed {
+            if self.library[*id].guessed {
                 entry["guessed"] = json!(true);
             }
             entry

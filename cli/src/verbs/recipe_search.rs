@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{FilmKind, MatchRequest, Metric, Sight, Target, Thickness, recipes};
+use calibrate::matching::{MatchOptions, RequiredName, Thickness, ViewingCondition};
 use clap::Args;
 use serde_json::Value;
 
-use super::recipe_report::{Matched, Sheet};
+use super::recipe_report::RecipeReport;
 use crate::console::Console;
-use crate::costs::costs;
+use crate::costs::prices;
 use crate::failure::Refusal;
 use crate::ground::ground;
-use crate::input::{color_weights, library, viewing};
+use crate::input::{library, viewing};
 use crate::progress::Progress;
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
@@ -85,76 +85,41 @@ pub(crate) struct Match {
 
 impl Match {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
-        let sights = self.sights()?;
         let library = library(&self.library)?;
-        let request = self.request(&library, &sights, console)?;
-        for sight in &sights {
-            color_weights(&sight.viewing, library.grid, console)?;
-        }
-        let mut wanted: Vec<Target> = Vec::new();
+        let options = self.options(&library, console)?;
+        let search = library.recipe_search(&options)?;
+        console.remarks(&search.remarks)?;
+        let mut wanted = Vec::new();
         for text in &self.targets {
-            wanted.extend(targets(text, &sights, &self.reading, console)?);
+            wanted.extend(targets(text, &self.reading, console)?);
         }
-        let sheet = Sheet { library: &library, request: &request, grams: self.grams };
+        let report =
+            RecipeReport { library: &library, request: &search.request, grams: self.grams };
         let progress = Progress::new(wanted.len(), "matching", console.screen.progress);
-        let mut matched = Vec::new();
-        for target in wanted {
-            matched.push(matched_with(&library, target, &request)?);
+        let mut found = Vec::new();
+        for target in &wanted {
+            found.push(search.recipes_for(target)?);
             progress.step();
         }
         progress.done();
         if self.json {
-            let list: Vec<Value> = matched.iter().map(|matched| sheet.json(matched)).collect();
+            let list: Vec<Value> = found.iter().map(|matches| report.json(matches)).collect();
             return console.json(&Value::from(list));
         }
-        for (index, matched) in matched.iter().enumerate() {
+        for (index, matches) in found.iter().enumerate() {
             if index > 0 {
                 console.line("")?;
             }
-            sheet.print(matched, console)?;
+            report.print(matches, console)?;
         }
         Ok(())
     }
 
-    fn sights(&self) -> anyhow::Result<Vec<Sight>> {
-        let sight = |text: &String| {
-            let told = text.rsplit_once('=').and_then(|(light, weight)| {
-                let weight: f64 = weight.parse().ok()?;
-                Some((light, weight))
-            });
-            let (light, weight) = told.unwrap_or((text, 1.0));
-            Ok(Sight { viewing: viewing(light, &self.observer)?, weight })
-        };
-        let sights = self.illuminant.iter().map(sight).collect::<anyhow::Result<Vec<Sight>>>()?;
-        let name = |sight: &Sight| sight.viewing.illuminant.name().to_owned();
-        let twice = |(at, sight)| sights[..at].iter().any(|before| name(before) == name(sight));
-        if let Some(repeated) = sights.iter().enumerate().find(|&pair| twice(pair)) {
-            return Err(Refusal::usage(
-                format!("the light {} is given twice", name(repeated.1)),
-                "give each light once, with its weight: --illuminant D65=2 --illuminant A",
-            ));
-        }
-        Ok(sights)
-    }
-
-    fn request(
+    fn options(
         &self,
         library: &PigmentLibrary,
-        sights: &[Sight],
         console: &mut Console<'_>,
-    ) -> anyhow::Result<MatchRequest> {
-        let film = self.film(library, console)?;
-        let mut request = MatchRequest::new(library, sights.to_vec(), film);
-        self.choose_pigments(library, &mut request, console)?;
-        request.at_most = self.at_most;
-        request.least_share = share("--least", &self.least)?;
-        request.whole_parts = self.parts;
-        request.tolerance = self.tolerance;
-        request.count = self.count;
-        request.costs = costs(&self.cost, library, &request.allowed)?;
-        if self.count == 0 {
-            return Err(Refusal::usage("--count is 1 or more", "leave it out for 5 recipes"));
-        }
+    ) -> anyhow::Result<MatchOptions> {
         if let Some(grams) = self.grams.filter(|grams| !(*grams > 0.0 && *grams < 1e9)) {
             return Err(Refusal::usage(
                 format!("--grams must be above 0, found `{grams}`"),
@@ -167,128 +132,62 @@ impl Match {
                 "leave it out: the recipe tells each amount on the library's area",
             ));
         }
-        Ok(request)
+        let conditions = self.illuminant.iter().map(|text| self.condition(text));
+        let with = self.with.iter().map(|text| required(text, library));
+        Ok(MatchOptions {
+            conditions: conditions.collect::<anyhow::Result<_>>()?,
+            thickness: self.thickness.as_deref().map(thickness).transpose()?,
+            over: self.over.as_deref().map(|text| ground(text, console)).transpose()?,
+            only: self.only.clone(),
+            with: with.collect::<anyhow::Result<_>>()?,
+            without: self.without.clone(),
+            at_most: self.at_most,
+            least_share: share("--least", &self.least)?,
+            whole_parts: self.parts,
+            prices: prices(&self.cost)?,
+            tolerance: self.tolerance,
+            count: self.count,
+        })
     }
 
-    fn film(
-        &self,
-        library: &PigmentLibrary,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<FilmKind> {
-        if self.thickness.is_none()
-            && self.over.is_some()
-            && library.amounts == AmountKind::Relative
-        {
-            return Err(Refusal::usage(
-                "a film that hides shows no ground",
-                "give --over a --thickness, such as 1 or 0.2:3",
-            ));
-        }
-        if self.thickness.is_none() && library.amounts == AmountKind::Relative {
-            return Ok(FilmKind::Hiding);
-        }
-        if self.over.is_none() {
-            console.remark("over a perfect white; give the paper or ground by --over")?;
-        }
-        let ground = ground(self.over.as_deref().unwrap_or("white"), library, console)?;
-        let Some(text) = &self.thickness else {
-            return Ok(MatchRequest::usual_film(library, ground));
-        };
-        let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= 1e9);
-        let thickness = match text.split_once(':') {
-            Some((least, most)) => number(least).zip(number(most)).filter(|(l, m)| l < m),
-            None => number(text).map(|thickness| (thickness, thickness)),
-        };
-        let (least, most) = thickness.ok_or_else(|| {
-            Refusal::usage(
-                format!("--thickness is T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
-                "try --thickness 1 or --thickness 0.2:3",
-            )
-        })?;
-        let thickness =
-            if least < most { Thickness::Between(least, most) } else { Thickness::Fixed(least) };
-        Ok(FilmKind::Over { ground, thickness })
-    }
-
-    /// Who may take part, who must, and who is left out.
-    fn choose_pigments(
-        &self,
-        library: &PigmentLibrary,
-        request: &mut MatchRequest,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
-        let find = |names: &[String]| -> anyhow::Result<Vec<usize>> {
-            names.iter().map(|name| Ok(library.find(name)?)).collect()
-        };
-        if !self.only.is_empty() {
-            request.allowed = find(&self.only)?;
-        }
-        for text in &self.with {
-            // A pigment's own name may hold an equals sign.
-            let (name, told) = match text.rsplit_once('=') {
-                Some((name, told)) if library.find(text).is_err() => (name, Some(told)),
-                _ => (text.as_str(), None),
-            };
-            let share = told.map(|told| share("--with", told)).transpose()?;
-            let pigment = library.find(name)?;
-            request.required.retain(|(known, _)| *known != pigment);
-            request.required.push((pigment, share));
-            request.allowed.push(pigment);
-        }
-        let without = find(&self.without)?;
-        if let Some((pigment, _)) = request.required.iter().find(|(p, _)| without.contains(p)) {
-            return Err(Refusal::usage(
-                format!("{} stands under --with and --without", library.pigments[*pigment].name),
-                "leave out one of the two",
-            ));
-        }
-        request.allowed.retain(|pigment| !without.contains(pigment));
-        request.allowed.sort_unstable();
-        request.allowed.dedup();
-        let unknown = |chosen: bool| -> Vec<&str> {
-            let pigments = library.pigments.iter().enumerate();
-            let of_those = pigments.filter(|(index, pigment)| {
-                !pigment.identified
-                    && request.allowed.contains(index) == chosen
-                    && !without.contains(index)
-            });
-            of_those.map(|(_, pigment)| pigment.name.as_str()).collect()
-        };
-        let (used, left_out) = (unknown(true), unknown(false));
-        if !used.is_empty() {
-            console.warnings(&[format!(
-                "S is not known of {}; recipes with it are a guess",
-                used.join(", ")
-            )])?;
-        }
-        if !left_out.is_empty() && self.only.is_empty() {
-            console.remark(format!("left out, their S is not known: {}", left_out.join(", ")))?;
-        }
-        Ok(())
+    /// Viewing condition of `LIGHT` or `LIGHT=WEIGHT`.
+    fn condition(&self, text: &str) -> anyhow::Result<ViewingCondition> {
+        let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
+            let weight: f64 = weight.parse().ok()?;
+            Some((light, weight))
+        });
+        let (light, weight) = weighted.unwrap_or((text, 1.0));
+        Ok(ViewingCondition { viewing: viewing(light, &self.observer)?, weight })
     }
 }
 
-/// CIEDE2000 is made for differences up to about this many units.
-const FAR: f64 = 5.0;
+/// Thickness of `T` or `LEAST:MOST`.
+fn thickness(text: &str) -> anyhow::Result<Thickness> {
+    let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= 1e9);
+    let thickness = match text.split_once(':') {
+        Some((least, most)) => number(least)
+            .zip(number(most))
+            .filter(|(least, most)| least < most)
+            .map(|(least, most)| Thickness::Between(least, most)),
+        None => number(text).map(Thickness::Fixed),
+    };
+    thickness.ok_or_else(|| {
+        Refusal::usage(
+            format!("--thickness is T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
+            "try --thickness 1 or --thickness 0.2:3",
+        )
+    })
+}
 
-fn matched_with(
-    library: &PigmentLibrary,
-    target: Target,
-    request: &MatchRequest,
-) -> anyhow::Result<Matched> {
-    let found = recipes(library, &target, request)?;
-    if found.is_empty() {
-        return Err(Refusal::data(
-            "no recipe fits inside these limits",
-            "allow more pigments (--at-most), more parts (--parts) or a smaller --least",
-        ));
-    }
-    let mut matched = Matched { target, recipes: found, by_cie1976: Vec::new() };
-    if matched.nearest() > FAR {
-        let request = MatchRequest { metric: Metric::Cie1976, count: 1, ..request.clone() };
-        matched.by_cie1976 = recipes(library, &matched.target, &request)?;
-    }
-    Ok(matched)
+/// Pigment and fixed share of `PIGMENT` or `PIGMENT=SHARE`.
+fn required(text: &str, library: &PigmentLibrary) -> anyhow::Result<RequiredName> {
+    // A pigment's own name may hold an equals sign.
+    let (name, fixed) = match text.rsplit_once('=') {
+        Some((name, fixed)) if library.find(text).is_err() => (name, Some(fixed)),
+        _ => (text, None),
+    };
+    let share = fixed.map(|fixed| share("--with", fixed)).transpose()?;
+    Ok(RequiredName { name: name.to_owned(), share })
 }
 
 /// A share from 0 to 1: a number, or a fraction such as 1/50.

@@ -106,8 +106,8 @@ fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
     };
     let (layer, names) = text.split_once(':').ok_or_else(wrong)?;
     let (from, to) = names.split_once('=').ok_or_else(wrong)?;
-    let from = painting.library().find(from)?;
-    let to = painting.library().find(to)?;
+    let from = painting.library().find(from)?.index();
+    let to = painting.library().find(to)?.index();
     let coatings = match layer.trim() {
         "wet" => vec![LayerRef::Wet],
         "all" => {

@@ -68,7 +68,7 @@ impl Report {
             && first == second
         {
             return Err(Refusal::usage(
-                format!("--pair takes two pigments, found {} twice", library.pigments[first].name),
+                format!("--pair takes two pigments, found {} twice", library[first].name),
                 "name another pigment beside it",
             ));
         }

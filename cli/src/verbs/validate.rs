@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use calibrate::observation::Observation;
-use calibrate::validation::{Validation, ValidationPlan, validate, validate_absolute};
+use calibrate::validation::{Validation, ValidationPlan, leave_out, leave_out_films};
 use clap::Args;
 
 use super::calibration_options::{CalibrationOptions, Job, Kind};
@@ -60,11 +60,11 @@ impl Validate {
         let validation = match job.kind {
             Kind::Relative(reference, surface) => {
                 let chosen = |o: &Observation| is_chosen(&o.shares);
-                validate(&job.set, reference, surface, &plan, chosen)?
+                leave_out(&job.set, reference, surface, &plan, chosen)?
             }
             Kind::Absolute(film) => {
                 let plan = ValidationPlan { folds: self.folds.or(Some(10)), ..plan };
-                validate_absolute(&job.set, film, &plan)?
+                leave_out_films(&job.set, film, &plan)?
             }
         };
         progress.done();

@@ -11,6 +11,7 @@ use paint::light::{Light, Mixer};
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{picture, scene};
 use paint::shade::{RowHeights, TopMaterial, shade_row};
+use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use rand::{RngExt, SeedableRng};
@@ -110,7 +111,8 @@ fn three_layers(bencher: Bencher) {
 fn mixer(bencher: Bencher) {
     let library = library();
     let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
-    let mixer = Mixer::new(&library, &light, &[(1, 1.0)], &[(15, 1.0)]).expect("two pigments");
+    let mixer = Mixer::new(&library, &light, &[(PigmentId(1), 1.0)], &[(PigmentId(15), 1.0)])
+        .expect("two pigments");
     let shares: Vec<f32> = (0..4096u16).map(|i| f32::from(i) / 4095.0).collect();
     let mut out = vec![[0.0; 3]; shares.len()];
     bencher

@@ -1,5 +1,6 @@
 //! Section on graded mixtures from one paint to another, computed in several ways.
 
+use calibrate::PigmentId;
 use calibrate::palette::{
     GradedMixture, MeasuredSample, MixingRow, PainterRules, Palette, default_pairs, graded,
 };
@@ -33,7 +34,7 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
         Some(pair) => vec![pair],
         None => default_pairs(&palette, &measured),
     };
-    let unknown = |p: &usize| !palette.paints().contains(p);
+    let unknown = |p: &PigmentId| !palette.paints().contains(p);
     if let Some(left_out) = pairs.iter().flat_map(|(a, b)| [*a, *b]).find(unknown) {
         return section.with_paragraph(format!(
             "{} takes no part in mixtures: its scattering is not known.",
@@ -67,7 +68,7 @@ fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
 fn figure(
     subject: &Subject<'_>,
     palette: &Palette<'_>,
-    (number, pair): (usize, (usize, usize)),
+    (number, pair): (usize, (PigmentId, PigmentId)),
     measured: &[MeasuredSample],
     rules: &PainterRules,
 ) -> Figure {

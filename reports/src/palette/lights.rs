@@ -38,7 +38,7 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
 fn shifts(subject: &Subject<'_>, palette: &Palette<'_>, lights: &[TestLight]) -> Figure {
     let paints = palette.paints();
     let recipes: Vec<Recipe> =
-        paints.iter().flat_map(|&p| [vec![(p, 1.0)], palette.tint(p, TINT)]).collect();
+        paints.iter().flat_map(|&p| [Recipe::single(p), palette.tint(p, TINT)]).collect();
     let shifts = color_shifts(palette, lights, &recipes);
     let first = &lights[0].name;
     let own = [

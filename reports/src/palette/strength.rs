@@ -2,7 +2,8 @@
 
 use calibrate::library::AmountKind;
 use calibrate::palette::{
-    HIDING_CONTRAST, Hides, Palette, TINT_DEPTH, TINT_PARTS, hiding_powers, tinting_strengths,
+    HIDING_CONTRAST, Hides, Palette, Recipe, TINT_DEPTH, TINT_PARTS, hiding_powers,
+    tinting_strengths,
 };
 
 use super::bars::{Bar, bars};
@@ -44,7 +45,12 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         };
         let thickness = power.hides.thickness();
         data.push([name.as_str().into(), Cell::from(thickness), Cell::from(contrast)]);
-        Bar { name, value: thickness, label, appearance: palette.look(&[(power.paint, 1.0)]) }
+        Bar {
+            name,
+            value: thickness,
+            label,
+            appearance: palette.color(&Recipe::single(power.paint)),
+        }
     });
     let all: Vec<Bar> = all.collect();
     let caption = format!(
@@ -85,7 +91,7 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         ]);
         let parts = strength.white_parts.map(|parts| format!("; 1 : {}", digits(parts, 1)));
         let label = format!("{} %{}", digits(strength.percent, 1), parts.unwrap_or_default());
-        let appearance = palette.look(&palette.tint(strength.paint, 3.0));
+        let appearance = palette.color(&palette.tint(strength.paint, 3.0));
         Bar { name, value: Some(strength.percent), label, appearance }
     });
     let all: Vec<Bar> = all.collect();

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 use pigment::palette::Appearance;
 use render::layer::SLOTS;
@@ -19,7 +20,7 @@ pub(super) struct Colors {
     light: Arc<Light>,
     weights: TristimulusWeights,
     /// The pigment that lightens.
-    white: Option<usize>,
+    white: Option<PigmentId>,
 }
 
 impl Colors {
@@ -38,27 +39,26 @@ impl Colors {
     }
 
     /// The reference white, or the lightest pigment that can be mixed.
-    fn lightener(&self) -> Option<usize> {
-        let pigments = &self.library.pigments;
-        let mixed = || (0..pigments.len()).filter(|&index| pigments[index].identified);
-        let reference = self.library.reference.as_deref();
-        mixed().find(|&index| Some(pigments[index].name.as_str()) == reference).or_else(|| {
-            let luminance = |&index: &usize| {
-                let film = self.film(&[(index, 1.0)]);
+    fn lightener(&self) -> Option<PigmentId> {
+        let mixed = || self.library.ids().filter(|id| self.library[*id].identified);
+        let reference = self.library.reference_id();
+        mixed().find(|&id| Some(id) == reference).or_else(|| {
+            let luminance = |&id: &PigmentId| {
+                let film = self.film(&[(id, 1.0)]);
                 film.map_or(0.0, |reflectance| self.weights.xyz(&reflectance).y)
             };
             mixed().max_by(|a, b| luminance(a).total_cmp(&luminance(b)))
         })
     }
 
-    fn film(&self, recipe: &[(usize, f64)]) -> Option<Vec<f64>> {
+    fn film(&self, recipe: &[(PigmentId, f64)]) -> Option<Vec<f64>> {
         let mixture = self.library.mix(recipe).ok()?;
         Some(mixture.hiding(self.library.saunderson))
     }
 
     /// sRGB of a recipe, adapted from the light to the screen; none without
     /// parts.
-    pub(super) fn of(&self, recipe: &[(usize, f64)]) -> Option<[u8; 3]> {
+    pub(super) fn of(&self, recipe: &[(PigmentId, f64)]) -> Option<[u8; 3]> {
         let xyz = self.weights.xyz(&self.film(recipe)?);
         Some(Appearance::of(xyz, self.weights.white()).srgb.to_bytes())
     }
@@ -66,21 +66,22 @@ impl Colors {
     /// sRGB of parts by slot.
     pub(super) fn of_slots(&self, slots: &Slots, parts: &[f64; SLOTS]) -> Option<[u8; 3]> {
         let filled = slots.iter().zip(parts).filter(|(_, part)| **part > 0.0);
-        let recipe: Vec<_> = filled.filter_map(|(slot, &part)| Some(((*slot)?, part))).collect();
+        let recipe: Vec<_> =
+            filled.filter_map(|(slot, &part)| Some((PigmentId((*slot)?), part))).collect();
         self.of(&recipe)
     }
 
     /// Each slot's pigment alone.
     pub(super) fn masstones(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
-        slots.map(|slot| self.of(&[(slot?, 1.0)]))
+        slots.map(|slot| self.of(&[(PigmentId(slot?), 1.0)]))
     }
 
     /// Each slot's pigment, one part in ten of white; none for one whose
     /// scattering nobody knows.
     pub(super) fn tints(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| {
-            let (pigment, white) = (slot?, self.white?);
-            let identified = self.library.pigments[pigment].identified;
+            let (pigment, white) = (PigmentId(slot?), self.white?);
+            let identified = self.library[pigment].identified;
             identified.then(|| self.of(&[(pigment, 1.0), (white, TINT)]))?
         })
     }
@@ -88,7 +89,7 @@ impl Colors {
 
 #[cfg(test)]
 mod tests {
-    use pigment::palette::{Cards, Palette};
+    use pigment::palette::{Cards, Palette, Recipe};
 
     use super::*;
     use pigment::library::PigmentLibrary;
@@ -101,14 +102,14 @@ mod tests {
         let blue = library.find("Prussian Blue").unwrap();
         let unknown = library.pigments.iter().position(|pigment| !pigment.identified).unwrap();
         let mut slots = [None; SLOTS];
-        (slots[2], slots[5]) = (Some(blue), Some(unknown));
+        (slots[2], slots[5]) = (Some(blue.index()), Some(unknown));
         let cards = Cards::standard(library.grid);
         let palette = Palette::new(&library, &light.viewing, cards).unwrap();
         let masstones = colors.masstones(&slots);
-        assert_eq!(masstones[2], Some(palette.look(&[(blue, 1.0)]).srgb.to_bytes()));
+        assert_eq!(masstones[2], Some(palette.color(&Recipe::single(blue)).srgb.to_bytes()));
         assert!(masstones[5].is_some(), "a masstone is known without the scattering");
         let tints = colors.tints(&slots);
-        assert_eq!(tints[2], Some(palette.look(&palette.tint(blue, TINT)).srgb.to_bytes()));
+        assert_eq!(tints[2], Some(palette.color(&palette.tint(blue, TINT)).srgb.to_bytes()));
         assert_eq!((tints[0], tints[5]), (None, None), "an empty slot; no known scattering");
         let green = |color: Option<[u8; 3]>| color.map(|color| color[1]);
         assert!(green(tints[2]) > green(masstones[2]), "white lightens");
@@ -123,6 +124,9 @@ mod tests {
         let mut parts = [0.0; SLOTS];
         assert_eq!(colors.of_slots(&slots, &parts), None, "no paint has no colour");
         (parts[1], parts[4]) = (3.0, 1.0);
-        assert_eq!(colors.of_slots(&slots, &parts), colors.of(&[(1, 0.75), (4, 0.25)]));
+        assert_eq!(
+            colors.of_slots(&slots, &parts),
+            colors.of(&[(PigmentId(1), 0.75), (PigmentId(4), 0.25)])
+        );
     }
 }

@@ -160,8 +160,8 @@ fn json(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
 }
 
 fn library(name: &str, text: &str) -> Result<Opened, Problem> {
-    let library = PigmentLibrary::from_json(name, text)
-        .map_err(|error| Problem::with_hint(&error, error.hint()))?;
+    let library =
+        PigmentLibrary::from_json(name, text).map_err(|error| Problem::from_error(&error))?;
     Ok(Opened::Library(Box::new(library)))
 }
 
@@ -205,7 +205,7 @@ fn named_library(
     let bytes = spectra::file::read(&path)?;
     let text = String::from_utf8_lossy(&bytes);
     PigmentLibrary::from_json(&path.display().to_string(), &text)
-        .map_err(|error| Problem::with_hint(&error, error.hint()))
+        .map_err(|error| Problem::from_error(&error))
 }
 
 #[cfg(test)]

@@ -30,11 +30,6 @@ impl Problem {
         Self { hint, ..Self::without_hint(error) }
     }
 
-    /// The message of an error with all its causes, and the hint that it gives.
-    pub(crate) fn with_hint(error: &dyn Error, hint: Option<impl Into<String>>) -> Self {
-        Self { hint: hint.map(Into::into), ..Self::without_hint(error) }
-    }
-
     /// The message of an error that has no hint, with all its causes.
     pub(crate) fn without_hint(error: &dyn Error) -> Self {
         let mut text = error.to_string();

@@ -8,8 +8,9 @@ use std::sync::Arc;
 
 use eframe::egui::{Key, OutputCommand, Role, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use pigment::PigmentId;
 use pigment::evaluate::Viewing;
-use pigment::matching::{FilmKind, MatchRequest, Recipe, Sight, Target, recipes};
+use pigment::matching::{FilmKind, MatchRequest, RecipeMatch, Target, ViewingCondition, recipes};
 use render::layer::SLOTS;
 use render::paint::document::Lighting;
 use render::paint::strokes::{Action, SurfaceId};
@@ -29,7 +30,7 @@ fn stage(painting: PaintingState) -> Stage<Eyedropper> {
 /// A pick of wet paint (three parts white, one part ultramarine) over dry yellow.
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
-    let find = |name: &str| library.find(name).unwrap();
+    let find = |name: &str| library.find(name).unwrap().index();
     let layer = |paint: &[(usize, f64)], vehicle: f64| {
         let mut layer =
             PickedLayer { slots: [None; SLOTS], amounts_mm: [0.0; SLOTS + 1], opacity: 1.0 };
@@ -40,7 +41,7 @@ fn picked(painting: &PaintingState) -> Picked {
         layer
     };
     let (white, blue) = (find("Zinc White"), find("Ultramarine"));
-    let mixture = library.mix(&[(white, 3.0), (blue, 1.0)]).unwrap();
+    let mixture = library.mix([(PigmentId(white), 3.0), (PigmentId(blue), 1.0)]).unwrap();
     Picked {
         surface: SurfaceId::Canvas,
         x_mm: 103.24,
@@ -122,17 +123,21 @@ fn the_eyedropper_button_toggles_the_tool() {
 }
 
 /// Recipes that the library search finds for the painting's palette in up to 40 parts.
-fn by_calibrate(painting: &PaintingState, target: &Target, sights: Vec<Sight>) -> Vec<Recipe> {
-    let mut request = MatchRequest::new(&painting.library, sights, FilmKind::Hiding);
-    request.allowed = painting.slots.iter().copied().flatten().collect();
+fn by_calibrate(
+    painting: &PaintingState,
+    target: &Target,
+    conditions: Vec<ViewingCondition>,
+) -> Vec<RecipeMatch> {
+    let mut request = MatchRequest::new(&painting.library, conditions, FilmKind::Hiding);
+    request.allowed = painting.slots.iter().copied().flatten().map(PigmentId).collect();
     request.allowed.sort_unstable();
     request.whole_parts = Some(40);
     request.count = 3;
     recipes(&painting.library, target, &request).unwrap()
 }
 
-fn sights(painting: &PaintingState) -> Vec<Sight> {
-    vec![Sight { viewing: painting.light.viewing.clone(), weight: 1.0 }]
+fn conditions(painting: &PaintingState) -> Vec<ViewingCondition> {
+    vec![ViewingCondition { viewing: painting.light.viewing.clone(), weight: 1.0 }]
 }
 
 fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
@@ -163,16 +168,16 @@ fn a_typed_color_gets_the_recipes_of_the_library_search() {
     answered(&mut stage);
     stage.save("eyedropper-match");
     let painting = stage.scene().painting.clone();
-    let sights = sights(&painting);
+    let conditions = conditions(&painting);
     let lab = Lab { lightness: 48.0, a: -4.0, b: -22.0 };
-    let wanted = by_calibrate(&painting, &Target::from_lab("", lab, &sights), sights);
+    let wanted = by_calibrate(&painting, &Target::from_lab("", lab, &conditions), conditions);
     assert_eq!(wanted.len(), 3);
     for recipe in &wanted {
         let told = format!("\u{2206}E {:.2}", recipe.delta_e[0]);
         assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
     }
     for (index, recipe) in wanted.iter().enumerate() {
-        let name = |at: usize| painting.library.pigments[recipe.shares[at].0].name.clone();
+        let name = |at: usize| painting.library[recipe.shares.parts()[at].0].name.clone();
         let parts = recipe.parts.as_ref().unwrap();
         let all = parts.iter().enumerate().map(|(at, part)| (name(at), f64::from(*part)));
         let all = all.collect();
@@ -221,7 +226,7 @@ fn pigments_missing_on_the_palette_can_be_added() {
     let mut painting = made_painting();
     // Greens need a pigment that is not on the palette.
     painting.slots = [None; SLOTS];
-    painting.slots[0] = Some(painting.library.find("Zinc White").unwrap());
+    painting.slots[0] = Some(painting.library.find("Zinc White").unwrap().index());
     let mut stage = stage(painting);
     stage.click("Library");
     assert!(stage.commands().is_empty(), "nothing is wanted yet");
@@ -238,7 +243,8 @@ fn pigments_missing_on_the_palette_can_be_added() {
     let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     assert_eq!(names, ["Zinc White", &name]);
-    let slots = [0, 1].map(|at| stage.scene().painting.library.find(names[at]).ok());
+    let slots =
+        [0, 1].map(|at| stage.scene().painting.library.find(names[at]).ok().map(PigmentId::index));
     stage.scene().painting.slots[..2].copy_from_slice(&slots);
     stage.run();
     let gone = stage.harness.query_by_label(&format!("Add {name}")).is_none();
@@ -249,7 +255,7 @@ fn pigments_missing_on_the_palette_can_be_added() {
 fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let mut painting = made_painting();
     let library = Arc::clone(&painting.library);
-    let green = library.find("Viridian").unwrap();
+    let green = library.find("Viridian").unwrap().index();
     let others: Vec<usize> =
         (0..library.pigments.len()).filter(|&pigment| pigment != green).collect();
     for (slot, pigment) in painting.slots.iter_mut().zip(&others) {
@@ -259,7 +265,7 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let mut stage = stage(painting);
     stage.click("Library");
     // The target is pure Viridian.
-    let mixture = library.mix(&[(green, 1.0)]).unwrap().hiding(library.saunderson);
+    let mixture = library.mix([(PigmentId(green), 1.0)]).unwrap().hiding(library.saunderson);
     let light = Arc::clone(&stage.scene().painting.light);
     let weights = light.viewing.weights(library.grid).unwrap();
     let [l, a, b] = Lab::from_xyz(weights.xyz(&mixture), weights.white()).to_array();
@@ -290,9 +296,9 @@ fn a_reference_color_starts_a_search_that_a_newer_one_replaces() {
     let wanted = stage.scene().panel.target().unwrap().clone();
     assert_eq!(wanted.color, Color::Screen([0.18; 3]));
     let painting = stage.scene().painting.clone();
-    let sights = sights(&painting);
-    let target = wanted.match_target(painting.library.grid, &sights);
-    let best = by_calibrate(&painting, &target, sights);
+    let conditions = conditions(&painting);
+    let target = wanted.match_target(painting.library.grid, &conditions);
+    let best = by_calibrate(&painting, &target, conditions);
     let told = format!("\u{2206}E {:.2}", best[0].delta_e[0]);
     assert!(stage.harness.query_by_label(&told).is_some(), "{told}, of the newer colour");
 }
@@ -309,13 +315,16 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
     stage.click("Find recipes");
     answered(&mut stage);
     let painting = stage.scene().painting.clone();
-    let mut sights = sights(&painting);
+    let mut conditions = conditions(&painting);
     let illuminant = Illuminant::named("A").unwrap();
     let viewing = Viewing { illuminant, observer: Observer::default() };
-    sights.push(Sight { viewing, weight: 1.0 });
+    conditions.push(ViewingCondition { viewing, weight: 1.0 });
     let wanted = stage.scene().panel.target().unwrap().clone();
-    let best =
-        by_calibrate(&painting, &wanted.match_target(painting.library.grid, &sights), sights);
+    let best = by_calibrate(
+        &painting,
+        &wanted.match_target(painting.library.grid, &conditions),
+        conditions,
+    );
     // The search finds the mixture itself: three parts white and one part blue.
     assert_eq!(best[0].parts, Some(vec![3, 1]));
     assert!(best[0].delta_e.iter().all(|difference| *difference < 0.01), "{best:?}");

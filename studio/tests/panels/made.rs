@@ -6,9 +6,10 @@ use std::sync::{Arc, OnceLock};
 use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
-use pigment::palette::{Cards, Palette, TINT_PARTS};
+use pigment::palette::{Cards, Palette, Recipe, TINT_PARTS};
 use render::layer::SLOTS;
 use render::light::Light;
 use render::paint::brush::HeadShape;
@@ -41,12 +42,12 @@ pub(crate) fn painting() -> PaintingState {
     });
     let mut slots: Slots = [None; SLOTS];
     for (slot, name) in slots.iter_mut().zip(PIGMENTS) {
-        *slot = Some(library.find(name).unwrap());
+        *slot = Some(library.find(name).unwrap().index());
     }
     let cards = Cards::standard(library.grid);
     let palette = Palette::new(library, &light.viewing, cards).unwrap();
-    let srgb = |recipe: &[(usize, f64)]| {
-        let encoded = palette.look(recipe).srgb;
+    let srgb = |recipe: &Recipe| {
+        let encoded = palette.color(recipe).srgb;
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
     PaintingState {
@@ -56,8 +57,8 @@ pub(crate) fn painting() -> PaintingState {
         cell_mm: 0.1,
         library: Arc::clone(library),
         slots,
-        masstones: slots.map(|slot| Some(srgb(&[(slot?, 1.0)]))),
-        tints: slots.map(|slot| Some(srgb(&palette.tint(slot?, TINT_PARTS)))),
+        masstones: slots.map(|slot| Some(srgb(&Recipe::single(PigmentId(slot?))))),
+        tints: slots.map(|slot| Some(srgb(&palette.tint(PigmentId(slot?), TINT_PARTS)))),
         layers: vec![layer(slots, 1.0), layer(slots, 0.5)],
         lighting: Lighting::default(),
         light: Arc::clone(light),
@@ -70,7 +71,12 @@ pub(crate) fn painting() -> PaintingState {
         history_done: 3,
         undo_bytes: (96 << 20, 512 << 20),
         brushes: vec![
-            brush("round", HeadShape::Round, 6.0, Some(srgb(&[(slots[2].unwrap(), 1.0)]))),
+            brush(
+                "round",
+                HeadShape::Round,
+                6.0,
+                Some(srgb(&Recipe::single(PigmentId(slots[2].unwrap())))),
+            ),
             brush("flat", HeadShape::Flat, 10.0, None),
             brush("knife", HeadShape::Knife, 14.0, None),
         ],

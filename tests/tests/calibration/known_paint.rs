@@ -7,9 +7,10 @@ use calibrate::fit::{
 };
 use calibrate::observation::Observation;
 use calibrate::synthetic::SyntheticMixtures;
+use calibrate::{Curves, PigmentId};
 
 fn problem(made: &SyntheticMixtures) -> Problem {
-    Problem::new(made.grid, made.surface, &made.observations, 0).unwrap()
+    Problem::new(made.grid, made.surface, &made.observations, PigmentId(0)).unwrap()
 }
 
 fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
@@ -18,8 +19,8 @@ fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
 }
 
 /// The largest error of log K and log S where the pigment shows at all.
-fn largest_log_error(found: &[Vec<f64>], truth: &[Vec<f64>]) -> f64 {
-    let pairs = found.iter().flatten().zip(truth.iter().flatten());
+fn largest_log_error(found: &[Curves], truth: &[Curves], curve: fn(&Curves) -> &[f64]) -> f64 {
+    let pairs = found.iter().flat_map(curve).zip(truth.iter().flat_map(curve));
     pairs.filter(|(_, t)| **t > 1e-2).map(|(f, t)| (f / t).ln().abs()).fold(0.0, f64::max)
 }
 
@@ -31,11 +32,11 @@ fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
     let fits = [
         ("qp", fit_qp(&problem).unwrap(), 0.05),
         ("weighted", fit_weighted(&problem).unwrap(), 0.05),
-        ("refined", [refined.absorption, refined.scattering], 0.05),
+        ("refined", refined.curves, 0.05),
     ];
-    for (name, [absorption, scattering], bound) in fits {
-        let k = largest_log_error(&absorption, &made.absorption);
-        let s = largest_log_error(&scattering, &made.scattering);
+    for (name, curves, bound) in fits {
+        let k = largest_log_error(&curves, &made.curves, |c| &c.absorption);
+        let s = largest_log_error(&curves, &made.curves, |c| &c.scattering);
         assert!(k < bound && s < bound, "{name}: log K off by {k}, log S by {s}");
     }
 }
@@ -44,7 +45,7 @@ fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
 fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
     for seed in [11, 12] {
         let made = SyntheticMixtures::paper_size(seed, 0.002);
-        let rms = |fit: &Refined| made.rms_to_truth(&fit.absorption, &fit.scattering);
+        let rms = |fit: &Refined| made.rms_to_truth(&fit.curves);
         // The floor without smoothness is 0.002 sqrt(21 / 71) = 0.00109.
         let rough = rms(&refined(&made, Smoothness::None));
         assert!(rough < 0.00115, "seed {seed}: {rough}");
@@ -57,18 +58,19 @@ fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
 fn standard_deviations_are_of_the_size_of_the_errors() {
     let made = SyntheticMixtures::paper_size(21, 0.002);
     let fit = refined(&made, Smoothness::None);
+    let deviations = fit.deviations.as_ref().expect("a whole fit has deviations");
     let mut pulls = Vec::new();
-    for pigment in 1..made.scattering.len() {
+    for pigment in 1..made.curves.len() {
         for at in 0..made.grid.count() {
-            let error = fit.scattering[pigment][at] - made.scattering[pigment][at];
-            pulls.push((error / fit.scattering_sd[pigment][at]).powi(2));
+            let error = fit.curves[pigment].scattering[at] - made.curves[pigment].scattering[at];
+            pulls.push((error / deviations[pigment].scattering[at]).powi(2));
         }
     }
     pulls.sort_by(f64::total_cmp);
     // The median of a squared normal deviate is 0.455.
     let median = pulls[pulls.len() / 2];
     assert!((0.2..1.0).contains(&median), "median squared error in deviations: {median}");
-    assert!(fit.scattering_sd[0].iter().all(|sd| *sd == 0.0), "the reference's S is given");
+    assert!(deviations[0].scattering.iter().all(|sd| *sd == 0.0), "the reference's S is given");
 }
 
 #[test]
@@ -76,8 +78,8 @@ fn the_program_ends_at_its_optimum() {
     // At the minimum of a convex program over the nonnegative orthant the
     // gradient is 0 along what is positive, and not negative along what is 0.
     let made = SyntheticMixtures::paper_size(5, 0.002);
-    let [absorption, scattering] = fit_qp(&problem(&made)).unwrap();
-    let pigments = absorption.len();
+    let curves = fit_qp(&problem(&made)).unwrap();
+    let pigments = curves.len();
     for at in (0..made.grid.count()).step_by(10) {
         let mut gradient = vec![0.0; 2 * pigments];
         let mut size = vec![1e-300f64; 2 * pigments];
@@ -90,8 +92,8 @@ fn the_program_ends_at_its_optimum() {
                 .chain(observation.shares.iter().map(|c| -q * c))
                 .collect();
             let values = (0..pigments)
-                .map(|p| absorption[p][at])
-                .chain((0..pigments).map(|p| scattering[p][at]));
+                .map(|p| curves[p].absorption[at])
+                .chain((0..pigments).map(|p| curves[p].scattering[at]));
             let residual: f64 = row.iter().zip(values.clone()).map(|(r, v)| r * v).sum();
             let scale: f64 = row.iter().zip(values).map(|(r, v)| (r * v).abs()).sum();
             for (place, r) in row.iter().enumerate() {
@@ -102,9 +104,9 @@ fn the_program_ends_at_its_optimum() {
         for place in (0..2 * pigments).filter(|&p| p != pigments) {
             let slope = gradient[place] / size[place];
             let value = if place < pigments {
-                absorption[place][at]
+                curves[place].absorption[at]
             } else {
-                scattering[place - pigments][at]
+                curves[place - pigments].scattering[at]
             };
             assert!(slope > -1e-5, "unknown {place} at {at} falls further: {slope}");
             assert!(value < 1e-6 || slope < 1e-5, "unknown {place} = {value} at {at}: {slope}");
@@ -123,10 +125,11 @@ fn any_number_of_wavelengths_will_do() {
             ..o.clone()
         };
         let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
-        let problem = Problem::new(grid, made.surface, &observations, 0).unwrap();
+        let problem = Problem::new(grid, made.surface, &observations, PigmentId(0)).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let fit = fit_refined(&problem, &weights, Refinement::whole(Smoothness::Auto)).unwrap();
-        assert!(fit.absorption.iter().flatten().all(|v| v.is_finite() && *v >= 0.0), "{count}");
+        let all = fit.curves.iter().flat_map(|curves| &curves.absorption);
+        assert!(all.into_iter().all(|v| v.is_finite() && *v >= 0.0), "{count}");
     }
 }
 
@@ -135,13 +138,13 @@ fn wrong_shapes_are_refused() {
     let made = SyntheticMixtures::paper_size(1, 0.0);
     let mut observations = made.observations.clone();
     observations[3].ratio.pop();
-    let error = Problem::new(made.grid, made.surface, &observations, 0).unwrap_err();
+    let error = Problem::new(made.grid, made.surface, &observations, PigmentId(0)).unwrap_err();
     assert!(matches!(&error, FitError::Shape { sample, .. } if sample == "S03"), "{error}");
-    let none = Problem::new(made.grid, made.surface, &[], 0).unwrap_err();
+    let none = Problem::new(made.grid, made.surface, &[], PigmentId(0)).unwrap_err();
     assert_eq!(none, FitError::Empty);
     let only_black: Vec<Observation> =
         made.observations.iter().filter(|o| o.shares[0] == 0.0).cloned().collect();
-    let lost = Problem::new(made.grid, made.surface, &only_black, 0).unwrap_err();
+    let lost = Problem::new(made.grid, made.surface, &only_black, PigmentId(0)).unwrap_err();
     assert_eq!(lost, FitError::Reference);
 }
 
@@ -159,8 +162,8 @@ fn pigments_always_mixed_alike_lower_the_rank() {
         })
         .collect();
     let rank = |observations: &[Observation]| {
-        let problem = Problem::new(made.grid, made.surface, observations, 0).unwrap();
-        condition(&problem, &made.absorption, &made.scattering).rank
+        let problem = Problem::new(made.grid, made.surface, observations, PigmentId(0)).unwrap();
+        condition(&problem, &made.curves).rank
     };
     assert_eq!(rank(&made.observations), 21);
     // K of the two always adds up, and so does S: two unknowns fewer.

@@ -5,7 +5,8 @@ use calibrate::fit::{FitSettings, Method, Smoothness};
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
-use calibrate::validation::{ValidationPlan, validate};
+use calibrate::validation::{ValidationPlan, leave_out};
+use spectra::hint::Explain;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, settings, swatches};
 
@@ -43,8 +44,8 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         progress: &|| (),
     };
     // White with black together are four mixtures more, all predicted well.
-    let found = validate(&set, white, SURFACE, &plan, |o| {
-        (o.shares[white] > 0.0) != (o.shares[black] > 0.0)
+    let found = leave_out(&set, white, SURFACE, &plan, |o| {
+        (o.shares[white.index()] > 0.0) != (o.shares[black] > 0.0)
     })
     .unwrap();
     assert_eq!(found.per_sample.len(), 52);
@@ -67,7 +68,7 @@ fn leaving_out_in_groups_predicts_every_mixture_once() {
         folds: Some(5),
         progress: &|| (),
     };
-    let found = validate(&set, white, SURFACE, &plan, |_| true).unwrap();
+    let found = leave_out(&set, white, SURFACE, &plan, |_| true).unwrap();
     let mut names: Vec<&str> = found.per_sample.iter().map(|s| s.sample.as_str()).collect();
     names.extend(found.needed.iter().map(String::as_str));
     names.sort_unstable();
@@ -113,7 +114,7 @@ fn a_k1_above_a_reading_is_refused_with_sample_and_wavelength() {
     };
     assert_eq!((sample.as_str(), *nm, *row), ("11A", 520.0, 202));
     assert!((least - 0.0206).abs() < 1e-12, "{least}");
-    assert!(error.hint().unwrap().contains("--saunderson 0.019"), "{:?}", error.hint());
+    assert!(error.hint().unwrap().to_string().contains("`saunderson 0.019"), "{:?}", error.hint());
     let lower = Surface { k1: 0.019, ..SURFACE };
     assert!(observations(&set, lower, BelowSurface::Refuse).is_ok());
 }

@@ -1,5 +1,6 @@
 //! A few wavelengths for the oils.
 
+use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::Method;
 use calibrate::library::PigmentLibrary;
@@ -109,7 +110,7 @@ fn names_are_found_exactly_then_without_case_then_by_their_start() {
     let (red, lake) = (2, 5);
     library.pigments[lake].name = "Red Lake".to_owned();
     library.pigments[red].name = "Red".to_owned();
-    assert_eq!(library.find("Red"), Ok(red));
-    assert_eq!(library.find("red"), Ok(red));
-    assert_eq!(library.find("red l"), Ok(lake));
+    assert_eq!(library.find("Red"), Ok(PigmentId(red)));
+    assert_eq!(library.find("red"), Ok(PigmentId(red)));
+    assert_eq!(library.find("red l"), Ok(PigmentId(lake)));
 }

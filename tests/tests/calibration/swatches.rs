@@ -34,7 +34,7 @@ fn repeated_readings_are_averaged_and_their_spread_kept() {
 #[test]
 fn percent_is_told_from_the_whole_file_and_can_be_forced() {
     assert_eq!(table("sample,W,400\na,1,50\nb,1,1.5\n").scale, Scale::Percent);
-    let forced = ScaleChoice::Told(Scale::Percent);
+    let forced = ScaleChoice::Known(Scale::Percent);
     let dark = MeasurementTable::from_csv("t", b"sample,W,400\na,1,0.5\n", forced).unwrap();
     assert_eq!(dark.readings[0].reflectance, [0.005]);
 }

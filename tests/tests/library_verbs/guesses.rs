@@ -1,5 +1,6 @@
 //! Pigments made up from colours.
 
+use calibrate::PigmentId;
 use calibrate::curation::{Body, guessed_pigment};
 use calibrate::evaluate::Viewing;
 use rand::{RngExt, SeedableRng};
@@ -30,7 +31,7 @@ fn a_thousand_colors_come_back_from_mixing() {
         };
         library.pigments.truncate(1);
         library.pigments.push(guess.pigment);
-        let mixture = library.mix(&[(1, 1.0)]).unwrap();
+        let mixture = library.mix([(PigmentId(1), 1.0)]).unwrap();
         let film = match body {
             Body::Hiding => mixture.hiding(library.saunderson),
             Body::Glaze => mixture.film(1.0, &[1.0; 31], library.film()),

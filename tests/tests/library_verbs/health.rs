@@ -29,8 +29,8 @@ fn what_was_made_doubtful_is_found() {
         library.licence = " ".into();
         library.source = String::new();
         let viridian = library.find("Viridian").unwrap();
-        library.pigments[viridian].scattering[12] *= 2.0;
-        library.pigments[viridian].absorption[3] = 0.0;
+        library[viridian].scattering[12] *= 2.0;
+        library[viridian].absorption[3] = 0.0;
         let mut twin = library.pigments[6].clone();
         twin.name = "Red lead".into();
         twin.absorption_sd.iter_mut().for_each(|sd| *sd *= 20.0);
@@ -67,7 +67,7 @@ fn a_faulty_library_ends_with_status_one() {
     let shelf = Shelf::new();
     let faulty = shelf.changed("faulty.json", &oils(), |library| {
         let white = library.find("Zinc White").unwrap();
-        library.pigments[white].scattering[5] = 1.25;
+        library[white].scattering[5] = 1.25;
         library.pigments[0].scattering[7] = 0.0;
         library.pigments[0].absorption[7] = 0.0;
     });
@@ -99,7 +99,7 @@ fn a_batch_that_differs_is_told_and_fails() {
         let cobalt = library.find("Cobalt").unwrap();
         // The same masstone, but half as strong in mixtures.
         for curve in [0, 1] {
-            let pigment = &mut library.pigments[cobalt];
+            let pigment = &mut library[cobalt];
             let curve = [&mut pigment.absorption, &mut pigment.scattering].into_iter().nth(curve);
             curve.unwrap().iter_mut().for_each(|v| *v *= 0.5);
         }

@@ -16,7 +16,7 @@ fn another_reference_keeps_every_mixture_and_back_is_the_same() {
     assert!(run.err.contains("thickness of others now counts from Lead White"), "{}", run.err);
     let (first, other) = (read(&oils()), read(&lead));
     assert_eq!(other.reference.as_deref(), Some("Lead White"));
-    let white = &other.pigments[other.find("Lead White").unwrap()];
+    let white = &other[other.find("Lead White").unwrap()];
     assert!(white.scattering.iter().all(|s| *s == 1.0), "{:?}", white.scattering);
     assert!(white.scattering_sd.iter().all(|s| *s == 0.0), "known by definition");
     assert_ne!(first.pigments[4].absorption, other.pigments[4].absorption);
@@ -86,14 +86,14 @@ fn two_pigments_of_one_name_need_a_choice() {
     let shelf = Shelf::new();
     let batch = shelf.changed("batch.json", &oils(), |library| {
         let viridian = library.find("Viridian").unwrap();
-        library.pigments[viridian].absorption.iter_mut().for_each(|k| *k *= 1.5);
+        library[viridian].absorption.iter_mut().for_each(|k| *k *= 1.5);
         library.licence = "CC BY 4.0".into();
     });
     let merged = shelf.path("merged.json");
     let clash = ["merge", &oils(), &batch, "--output", &merged];
     refused(&clash, 1, &["`Viridian`", "--prefer first", "library rename"]);
     assert!(!std::path::Path::new(&merged).exists(), "nothing half written");
-    let k = |path: &str| read(path).pigments[read(path).find("Viridian").unwrap()].absorption[0];
+    let k = |path: &str| read(path)[read(path).find("Viridian").unwrap()].absorption[0];
     done(&[&clash[..], &["--prefer", "first"]].concat());
     assert_eq!(k(&merged), k(&oils()));
     done(&[&clash[..], &["--prefer", "last"]].concat());

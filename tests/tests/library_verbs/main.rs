@@ -79,9 +79,8 @@ fn furthest(first: &PigmentLibrary, second: &PigmentLibrary) -> f64 {
         .collect();
     assert!(known.len() > 1, "pigments in common: {known:?}");
     let film = |library: &PigmentLibrary, names: [&str; 2]| {
-        let parts: Vec<(usize, f64)> =
-            names.iter().map(|name| (library.find(name).unwrap(), 1.0)).collect();
-        library.mix(&parts).unwrap().hiding(library.saunderson)
+        let recipe = library.recipe(names.map(|name| (name, 1.0))).unwrap();
+        library.mix(recipe).unwrap().hiding(library.saunderson)
     };
     let mut largest: f64 = 0.0;
     for a in &known {

@@ -1,6 +1,7 @@
 //! Colour of paint: what eight wavelengths keep of the spectrum, and what paint
 //! does that light alone does not.
 
+use calibrate::PigmentId;
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use render::light::{Light, Mixer};
 use render::paint::document::{Document, DryLayer};
@@ -126,7 +127,9 @@ fn a_mixer_mixes_as_the_library_does() {
     for name in ["D65", "A"] {
         let light = light(&library, name);
         for (first, second) in [(1, 15), (12, 10), (4, 7)] {
-            let (first_recipe, second_recipe) = ([(first, 2.0)], [(second, 1.0), (9, 1.0)]);
+            let (first, second) = (PigmentId(first), PigmentId(second));
+            let (first_recipe, second_recipe) =
+                ([(first, 2.0)], [(second, 1.0), (PigmentId(9), 1.0)]);
             let mixer = Mixer::new(&library, &light, &first_recipe, &second_recipe).unwrap();
             let shares: Vec<f32> = (0..=100u8).map(|i| f32::from(i) / 100.0).collect();
             let mut found = vec![[0.0; 3]; shares.len()];
@@ -134,7 +137,7 @@ fn a_mixer_mixes_as_the_library_does() {
             for (share, found) in shares.into_iter().zip(found) {
                 assert_eq!(found, mixer.mix(share));
                 let t = f64::from(share);
-                let parts = [(first, 1.0 - t), (second, 0.5 * t), (9, 0.5 * t)];
+                let parts = [(first, 1.0 - t), (second, 0.5 * t), (PigmentId(9), 0.5 * t)];
                 let mut mixture = library.mix(&parts).unwrap();
                 for values in [&mut mixture.absorption, &mut mixture.scattering] {
                     *values = light.quadrature.at_nodes(library.grid, values);

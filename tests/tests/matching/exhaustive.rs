@@ -3,11 +3,12 @@
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{FilmKind, MatchRequest, Target, recipes};
+use calibrate::{PigmentId, Recipe};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::{Lab, delta_e_cie76, delta_e_ciede2000};
 
-use super::{oils, sights};
+use super::{conditions, oils};
 
 const PIGMENTS: usize = 12;
 const STEPS: usize = 20;
@@ -28,7 +29,7 @@ fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
 }
 
 /// Every set of one to four of the pigments.
-fn sets(pigments: &[usize]) -> Vec<Vec<usize>> {
+fn sets(pigments: &[PigmentId]) -> Vec<Vec<PigmentId>> {
     let masks = 1..1u32 << pigments.len();
     let of = |mask: u32| {
         let chosen = pigments.iter().enumerate().filter(|(place, _)| mask >> place & 1 == 1);
@@ -38,13 +39,13 @@ fn sets(pigments: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// The colour of every recipe on the grid.
-fn colors(library: &PigmentLibrary, pigments: &[usize]) -> Vec<Lab> {
-    let weights = sights(&["D65"])[0].viewing.weights(library.grid).unwrap();
+fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
+    let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
     let by_count: Vec<Vec<Vec<usize>>> = (1..=4).map(|count| shares(count, STEPS)).collect();
     let mut colors = Vec::new();
     for set in sets(pigments) {
         for steps in &by_count[set.len() - 1] {
-            let parts: Vec<(usize, f64)> =
+            let parts: Recipe =
                 set.iter().zip(steps).map(|(&pigment, &step)| (pigment, step as f64)).collect();
             let mixture = library.mix(&parts).unwrap();
             colors.push(lab(&weights, &mixture.hiding(library.saunderson)));
@@ -54,9 +55,9 @@ fn colors(library: &PigmentLibrary, pigments: &[usize]) -> Vec<Lab> {
 }
 
 /// Half of them colours of random mixtures, half anywhere in CIELAB.
-fn targets(library: &PigmentLibrary, pigments: &[usize], count: usize) -> Vec<Lab> {
+fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(2004);
-    let weights = sights(&["D65"])[0].viewing.weights(library.grid).unwrap();
+    let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
     let target = |number: usize| {
         if number.is_multiple_of(2) {
             let mut within =
@@ -67,7 +68,7 @@ fn targets(library: &PigmentLibrary, pigments: &[usize], count: usize) -> Vec<La
                 b: within(-60.0, 80.0),
             };
         }
-        let parts: Vec<(usize, f64)> = (0..random.random_range(2..6))
+        let parts: Recipe = (0..random.random_range(2..6))
             .map(|_| (pigments[random.random_range(0..pigments.len())], random.random()))
             .collect();
         lab(&weights, &library.mix(&parts).unwrap().hiding(library.saunderson))
@@ -78,8 +79,8 @@ fn targets(library: &PigmentLibrary, pigments: &[usize], count: usize) -> Vec<La
 #[test]
 fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     let library = oils();
-    let sights = sights(&["D65"]);
-    let mut request = MatchRequest::new(&library, sights.clone(), FilmKind::Hiding);
+    let conditions = conditions(&["D65"]);
+    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
     request.allowed.truncate(PIGMENTS);
     request.least_share = 1.0 / STEPS as f64;
     request.tolerance = 0.0;
@@ -87,7 +88,7 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     let every = colors(&library, &request.allowed);
     let mut reached = 0;
     for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
-        let target = Target::from_lab("", wanted, &sights);
+        let target = Target::from_lab("", wanted, &conditions);
         let found = recipes(&library, &target, &request).unwrap()[0].distance;
         // CIEDE2000 is never below a twelfth of CIE 1976 at these chromas; the
         // rest need not be computed.
@@ -104,17 +105,17 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
 #[test]
 fn whole_parts_are_as_near_as_every_whole_recipe() {
     let library = oils();
-    let sights = sights(&["D65"]);
-    let weights = sights[0].viewing.weights(library.grid).unwrap();
-    let mut request = MatchRequest::new(&library, sights.clone(), FilmKind::Hiding);
-    request.allowed = vec![1, 4, 7, 11, 12];
+    let conditions = conditions(&["D65"]);
+    let weights = conditions[0].viewing.weights(library.grid).unwrap();
+    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+    request.allowed = [1, 4, 7, 11, 12].map(PigmentId).to_vec();
     request.whole_parts = Some(9);
     request.tolerance = 0.0;
     let mut every = Vec::new();
     for set in sets(&request.allowed) {
         for total in set.len()..=9 {
             for parts in shares(set.len(), total) {
-                let recipe: Vec<(usize, f64)> =
+                let recipe: Recipe =
                     set.iter().zip(&parts).map(|(&p, &part)| (p, part as f64)).collect();
                 let mixture = library.mix(&recipe).unwrap();
                 every.push(lab(&weights, &mixture.hiding(library.saunderson)));
@@ -122,7 +123,8 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
         }
     }
     for wanted in targets(&library, &request.allowed, 60) {
-        let found = recipes(&library, &Target::from_lab("", wanted, &sights), &request).unwrap();
+        let found =
+            recipes(&library, &Target::from_lab("", wanted, &conditions), &request).unwrap();
         let parts = found[0].parts.as_ref().unwrap();
         assert!(parts.iter().sum::<u32>() <= 9 && parts.iter().all(|part| *part > 0), "{parts:?}");
         let nearest = every.iter().map(|&color| delta_e_ciede2000(wanted, color));

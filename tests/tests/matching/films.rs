@@ -4,24 +4,24 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{FilmKind, MatchError, MatchRequest, Thickness, recipes};
 use spectra::color::Lab;
 
-use super::{oils, sights, target_of};
+use super::{conditions, oils, target_of};
 
 #[test]
 fn a_glaze_over_a_ground_is_found_with_its_thickness() {
     let library = oils();
-    let sights = sights(&["D65", "A"]);
+    let conditions = conditions(&["D65", "A"]);
     let (white, blue) = (library.find("Zinc White").unwrap(), library.find("Cobalt Blue").unwrap());
     let ground: Vec<f64> = library.grid.wavelengths_nm().map(|nm| 0.3 + nm / 1400.0).collect();
     let recipe = [(white, 0.7), (blue, 0.3)];
     let film = library.mix(&recipe).unwrap().film(0.6, &ground, library.film());
-    let target = target_of(&library, &film, &sights);
+    let target = target_of(&library, &film, &conditions);
     let kind = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Between(0.05, 5.0) };
-    let mut request = MatchRequest::new(&library, sights.clone(), kind);
+    let mut request = MatchRequest::new(&library, conditions.clone(), kind);
     request.allowed = vec![white, blue];
     let found = recipes(&library, &target, &request).unwrap().remove(0);
     assert!(found.distance < 1e-3, "{found:?}");
     assert!((found.thickness.unwrap() - 0.6).abs() < 1e-3, "{:?}", found.thickness);
-    assert!((found.shares[0].1 - 0.7).abs() < 1e-3, "{:?}", found.shares);
+    assert!((found.shares.parts()[0].1 - 0.7).abs() < 1e-3, "{:?}", found.shares);
 
     request.film = FilmKind::Over { ground, thickness: Thickness::Fixed(2.0) };
     let other = recipes(&library, &target, &request).unwrap().remove(0);
@@ -32,13 +32,13 @@ fn a_glaze_over_a_ground_is_found_with_its_thickness() {
 #[test]
 fn the_reflectance_told_is_that_of_the_recipe() {
     let library = oils();
-    let sights = sights(&["D65"]);
+    let conditions = conditions(&["D65"]);
     let wanted = Lab { lightness: 40.0, a: 20.0, b: 10.0 };
-    let target = calibrate::matching::Target::from_lab("", wanted, &sights);
+    let target = calibrate::matching::Target::from_lab("", wanted, &conditions);
     let ground = vec![0.5; library.grid.count()];
     let over = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Fixed(0.8) };
     for film in [FilmKind::Hiding, over] {
-        let request = MatchRequest::new(&library, sights.clone(), film.clone());
+        let request = MatchRequest::new(&library, conditions.clone(), film.clone());
         for recipe in recipes(&library, &target, &request).unwrap() {
             let mixture = library.mix(&recipe.shares).unwrap();
             let mixed = match film {
@@ -60,13 +60,13 @@ fn absolute() -> PigmentLibrary {
 #[test]
 fn absolute_amounts_are_found_over_paper() {
     let library = absolute();
-    let sights = sights(&["D65", "FL11"]);
+    let conditions = conditions(&["D65", "FL11"]);
     let paper = vec![0.85; library.grid.count()];
     let (red, blue) = (library.find("Vermilion").unwrap(), library.find("Ultramarine").unwrap());
     let wash = library.mix(&[(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
-    let target = target_of(&library, &wash, &sights);
+    let target = target_of(&library, &wash, &conditions);
     let film = MatchRequest::usual_film(&library, paper);
-    let mut request = MatchRequest::new(&library, sights, film);
+    let mut request = MatchRequest::new(&library, conditions, film);
     request.allowed = vec![red, blue];
     let found = recipes(&library, &target, &request).unwrap().remove(0);
     let amounts: Vec<f64> =
@@ -79,15 +79,16 @@ fn absolute_amounts_are_found_over_paper() {
 #[test]
 fn absolute_amounts_cost_what_is_laid() {
     let library = absolute();
-    let sights = sights(&["D65"]);
+    let conditions = conditions(&["D65"]);
     let film = MatchRequest::usual_film(&library, vec![0.85; library.grid.count()]);
-    let mut request = MatchRequest::new(&library, sights.clone(), film);
+    let mut request = MatchRequest::new(&library, conditions.clone(), film);
     request.costs = (0..library.pigments.len()).map(|index| 1.0 + index as f64).collect();
     let wanted = Lab { lightness: 60.0, a: -5.0, b: -20.0 };
-    let target = calibrate::matching::Target::from_lab("", wanted, &sights);
+    let target = calibrate::matching::Target::from_lab("", wanted, &conditions);
     for recipe in recipes(&library, &target, &request).unwrap() {
         let amount = recipe.thickness.unwrap();
-        let parts = recipe.shares.iter().map(|(pigment, share)| share * request.costs[*pigment]);
+        let parts =
+            recipe.shares.iter().map(|(pigment, share)| share * request.costs[pigment.index()]);
         let wanted = amount * parts.sum::<f64>();
         assert!((amount - 1.0).abs() > 1e-3, "the amount tells nothing: {amount}");
         assert!((recipe.cost.unwrap() - wanted).abs() < 1e-9, "{recipe:?}");

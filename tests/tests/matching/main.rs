@@ -14,26 +14,31 @@ mod watched;
 
 use calibrate::evaluate::{Viewing, lab};
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{Sight, Target};
+use calibrate::matching::{Target, ViewingCondition};
 use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
 use suite::oils::library as oils;
 
-/// Lights by name, counting alike.
-fn sights(lights: &[&str]) -> Vec<Sight> {
-    let sight = |name: &&str| Sight {
+/// Lights by name, with equal weights.
+fn conditions(lights: &[&str]) -> Vec<ViewingCondition> {
+    let condition = |name: &&str| ViewingCondition {
         viewing: Viewing {
             illuminant: Illuminant::named(name).unwrap(),
             observer: Observer::default(),
         },
         weight: 1.0,
     };
-    lights.iter().map(sight).collect()
+    lights.iter().map(condition).collect()
 }
 
-/// The colour of a reflectance on the library's grid under each sight.
-fn target_of(library: &PigmentLibrary, reflectance: &[f64], sights: &[Sight]) -> Target {
-    let color =
-        |sight: &Sight| -> Lab { lab(&sight.viewing.weights(library.grid).unwrap(), reflectance) };
-    Target { name: "a mixture".to_owned(), lab: sights.iter().map(color).collect() }
+/// The colour of a reflectance on the library's grid under each condition.
+fn target_of(
+    library: &PigmentLibrary,
+    reflectance: &[f64],
+    conditions: &[ViewingCondition],
+) -> Target {
+    let color = |condition: &ViewingCondition| -> Lab {
+        lab(&condition.viewing.weights(library.grid).unwrap(), reflectance)
+    };
+    Target { name: "a mixture".to_owned(), lab: conditions.iter().map(color).collect() }
 }

@@ -49,7 +49,7 @@ pub(crate) fn daylight() -> Light {
 
 /// The index of a pigment.
 pub(crate) fn pigment(name: &str) -> usize {
-    oils().find(name).unwrap()
+    oils().find(name).unwrap().index()
 }
 
 fn ground(json: &str, width: usize, height: usize) -> Ground {

@@ -1,5 +1,6 @@
 //! The figures of a palette.
 
+use calibrate::PigmentId;
 use calibrate::library::AmountKind;
 use calibrate::palette::{
     Cards, MixingRow, PainterRules, Palette, graded, hiding_powers, mixing_chart,
@@ -29,7 +30,7 @@ const NAMES: [&str; 12] = [
     "metamers",
 ];
 
-fn report_of(library: &PigmentLibrary, pair: Option<(usize, usize)>) -> Report {
+fn report_of(library: &PigmentLibrary, pair: Option<(PigmentId, PigmentId)>) -> Report {
     let viewing = Viewing::default();
     let subject = Subject::of_library(library, &viewing, "impasto report").unwrap();
     let subject = Subject { pair, ..subject };
@@ -122,7 +123,7 @@ fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
 #[test]
 fn the_users_pair_is_drawn_in_the_order_given() {
     let five = five();
-    let report = report_of(&five, Some((3, 1)));
+    let report = report_of(&five, Some((PigmentId(3), PigmentId(1))));
     let names: Vec<&str> = report.figures().map(|figure| figure.name.as_str()).collect();
     assert!(names.contains(&"graded-mixture-1") && !names.contains(&"graded-mixture-2"));
     assert_eq!(figure(&report, "graded-mixture-1").title, "blue to red");
@@ -133,7 +134,7 @@ fn the_users_pair_is_drawn_in_the_order_given() {
 fn a_pair_that_cannot_be_mixed_and_what_is_left_out_are_said() {
     let mut five = five();
     five.pigments[3].identified = false;
-    let report = report_of(&five, Some((3, 1)));
+    let report = report_of(&five, Some((PigmentId(3), PigmentId(1))));
     let said = |title: &str| {
         let mut sections = report.sections.iter();
         sections.find(|section| section.title == title).unwrap().paragraphs.join(" ")

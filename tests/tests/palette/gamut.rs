@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
 use calibrate::library::AmountKind;
 use calibrate::palette::{
@@ -17,10 +18,10 @@ fn the_outline_reaches_every_masstone_and_every_pair() {
     let palette = oils.palette();
     let gamut = sampled_gamut(&palette);
     let outline = gamut.in_lab([0.0, 100.0], 72);
-    let masstones = palette.paints().iter().map(|&p| vec![(p, 1.0)]);
-    let pairs = palette.pairs().map(|(a, b)| vec![(a, 0.5), (b, 0.5)]);
+    let masstones = palette.paints().iter().map(|&p| Recipe::single(p));
+    let pairs = palette.pairs().map(|(a, b)| Recipe::from([(a, 0.5), (b, 0.5)]));
     for recipe in masstones.chain(pairs) {
-        let lab = palette.look(&recipe).lab;
+        let lab = palette.color(&recipe).lab;
         assert!(outline.reaches([lab.a, lab.b]), "{} is outside", palette.recipe_label(&recipe));
     }
 }
@@ -37,7 +38,7 @@ fn every_sample_is_a_mixture_of_the_palette() {
         assert!(sample.recipe.iter().all(|(p, s)| palette.paints().contains(p) && *s >= 0.0));
     }
     let last = gamut.samples.last().unwrap();
-    assert_eq!(last.color, palette.look(&last.recipe));
+    assert_eq!(last.color, palette.color(&last.recipe));
 }
 
 #[test]
@@ -129,8 +130,8 @@ fn cell(sample: &GamutSample) -> [i32; 3] {
 }
 
 /// One half of each recipe, by paint, in shares of 1e-9.
-fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<usize, i64> {
-    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<PigmentId, i64> {
+    let mut shares: BTreeMap<PigmentId, f64> = BTreeMap::new();
     for &(paint, share) in first.iter().chain(second) {
         *shares.entry(paint).or_default() += share / 2.0;
     }
@@ -182,6 +183,10 @@ fn no_mixture_holds_a_pigment_that_is_not_identified() {
     for sample in &samples {
         let total: f64 = sample.recipe.iter().map(|(_, share)| share).sum();
         assert!((total - 1.0).abs() < 1e-9, "{:?}", sample.recipe);
-        assert!(sample.recipe.iter().all(|(paint, _)| *paint != 1), "{:?}", sample.recipe);
+        assert!(
+            sample.recipe.iter().all(|(paint, _)| *paint != PigmentId(1)),
+            "{:?}",
+            sample.recipe
+        );
     }
 }

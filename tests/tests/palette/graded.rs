@@ -1,6 +1,7 @@
 //! Mixtures graded from one paint to the other.
 
 use calibrate::palette::{MixingRow, PainterRules, default_pairs, graded};
+use calibrate::{PigmentId, Recipe};
 use spectra::color::delta_e_ciede2000;
 use suite::near::assert_near;
 
@@ -15,14 +16,14 @@ fn the_ends_are_the_masstones_in_every_row_that_keeps_the_spectrum() {
     let mixture = graded(&palette, pair, &[], &rules);
     assert_eq!(mixture.steps.len(), 11);
     for (step, paint) in [(&mixture.steps[0], pair.0), (&mixture.steps[10], pair.1)] {
-        let masstone = palette.look(&[(paint, 1.0)]);
+        let masstone = palette.color(&Recipe::single(paint));
         for row in [MixingRow::Spectrum, MixingRow::LinearRgb] {
             let color = step.colors[row as usize].unwrap();
             let off = delta_e_ciede2000(color.lab, masstone.lab);
-            assert!(off < 1e-9, "{} of {paint}: {off}", row.name());
+            assert!(off < 1e-9, "{} of {paint:?}: {off}", row.name());
         }
         let eight = step.colors[MixingRow::EightNodes as usize].unwrap();
-        assert!(delta_e_ciede2000(eight.lab, masstone.lab) < 1.0, "{paint} at 8 wavelengths");
+        assert!(delta_e_ciede2000(eight.lab, masstone.lab) < 1.0, "{paint:?} at 8 wavelengths");
     }
 }
 
@@ -63,7 +64,7 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
     assert_eq!(steps.len(), 13);
     assert!(steps.windows(2).all(|pair| pair[0].share < pair[1].share));
     let half = steps.iter().find(|s| s.sample.as_deref() == Some("13C")).unwrap();
-    let mixture = oils.library.mix(&[(pair.0, 50.7), (pair.1, 49.3)]).unwrap();
+    let mixture = oils.library.mix([(pair.0, 50.7), (pair.1, 49.3)]).unwrap();
     let wanted = palette.appearance(&mixture.hiding(oils.library.saunderson));
     let spectrum = half.colors[MixingRow::Spectrum as usize].unwrap();
     assert!(delta_e_ciede2000(spectrum.lab, wanted.lab) < 1e-9);
@@ -111,6 +112,6 @@ fn the_pairs_of_most_steps_come_first_then_a_yellow_and_a_blue() {
     assert!(["Cobalt Blue", "Ultramarine"].contains(&names[2][1].as_str()), "{names:?}");
 }
 
-fn find(oils: &Oils, name: &str) -> usize {
+fn find(oils: &Oils, name: &str) -> PigmentId {
     oils.library.find(name).unwrap()
 }

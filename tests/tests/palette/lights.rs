@@ -3,6 +3,7 @@
 use calibrate::evaluate::Viewing;
 use calibrate::library::AmountKind;
 use calibrate::palette::{Cards, Palette, color_shifts, metamers, test_lights};
+use calibrate::{PigmentId, Recipe};
 use spectra::Illuminant;
 use spectra::color::{delta_e_ciede2000, metamerism_index};
 use suite::near::assert_near;
@@ -17,12 +18,12 @@ fn a_grey_keeps_its_color_and_a_band_does_not() {
     let lights = test_lights(&palette);
     let names: Vec<&str> = lights.iter().map(|light| light.name.as_str()).collect();
     assert_eq!(names, ["D65", "A", "FL11"]);
-    let recipes: Vec<_> = [4, 3].map(|paint| vec![(paint, 1.0)]).into();
+    let recipes: Vec<_> = [4, 3].map(|paint| Recipe::single(PigmentId(paint))).into();
     let shifts = color_shifts(&palette, &lights, &recipes);
     assert_near("black", &shifts[0].shifts, &[0.0, 0.0, 0.0], 1e-6);
     assert_eq!(shifts[1].shifts[0], 0.0);
     assert!(shifts[1].shifts[1] > 2.0, "blue in lamplight: {:?}", shifts[1].shifts);
-    assert_eq!(shifts[1].colors[0], palette.look(&[(3, 1.0)]));
+    assert_eq!(shifts[1].colors[0], palette.color(&Recipe::single(PigmentId(3))));
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn metamers_match_in_daylight_and_part_worst_first() {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
         assert!(worst <= before && worst > 2.0, "{worst} after {before}");
         before = worst;
-        let paints = |i: usize| -> std::collections::BTreeSet<usize> {
+        let paints = |i: usize| -> std::collections::BTreeSet<PigmentId> {
             pair.recipes[i].iter().map(|(p, _)| *p).collect()
         };
         assert_ne!(paints(0), paints(1), "{:?}", pair.names);

@@ -5,6 +5,7 @@ use calibrate::evaluate::Viewing;
 use calibrate::fit::Method;
 use calibrate::library::{AmountKind, Pigment, PigmentLibrary};
 use calibrate::palette::{MeasuredSample, Palette};
+use calibrate::{PigmentId, Recipe};
 use spectra::Grid;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, swatches};
@@ -91,4 +92,9 @@ impl Oils {
     pub(crate) fn measured(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
         self.comparable.with(&self.library, &self.viewing).unwrap().measured_samples(palette)
     }
+}
+
+/// Recipe of pigments by place.
+pub(crate) fn recipe<const N: usize>(parts: [(usize, f64); N]) -> Recipe {
+    parts.into_iter().map(|(place, part)| (PigmentId(place), part)).collect()
 }

@@ -1,5 +1,6 @@
 //! Tinting strength.
 
+use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, Pigment};
 use calibrate::palette::{Cards, Palette, TintingStrength, tinting_strengths};
@@ -10,7 +11,7 @@ use crate::made::{Oils, band, even, grid, library};
 fn strengths(
     pigments: Vec<Pigment>,
     amounts: AmountKind,
-    standard: Option<usize>,
+    standard: Option<PigmentId>,
 ) -> Vec<TintingStrength> {
     let library = library(pigments, amounts);
     let viewing = Viewing::default();
@@ -75,7 +76,7 @@ fn a_paint_that_only_lightens_has_no_strength_and_no_such_tint() {
 
 #[test]
 fn a_named_standard_is_the_whole() {
-    let found = strengths(four(), AmountKind::Relative, Some(1));
+    let found = strengths(four(), AmountKind::Relative, Some(PigmentId(1)));
     assert_near("standard", &[found[0].percent], &[100.0], 1e-9);
     assert!(found[1].percent > 190.0, "{found:?}");
 }

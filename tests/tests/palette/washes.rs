@@ -6,10 +6,11 @@ use calibrate::palette::{
     Cards, MixingRow, PainterRules, Palette, graded, hiding_powers, mixing_chart, sampled_gamut,
     tint_ladders,
 };
+use calibrate::{PigmentId, Recipe};
 use spectra::color::delta_e_ciede2000;
 use suite::near::assert_near;
 
-use crate::made::{band, even, grid, library};
+use crate::made::{band, even, grid, library, recipe};
 
 fn watercolors() -> PigmentLibrary {
     let pigments = vec![
@@ -27,11 +28,11 @@ fn a_wash_goes_nine_tenths_of_the_way_where_it_absorbs_most() {
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
     // Without scattering the card is seen through exp(-2 K d) = 1/10.
-    assert_near("red", &[palette.wash(0)], &[10f64.ln() / 2.0 / 120.01], 1e-9);
-    assert_near("water", &[palette.wash(3)], &[1.0], 0.0);
+    assert_near("red", &[palette.wash(PigmentId(0))], &[10f64.ln() / 2.0 / 120.01], 1e-9);
+    assert_near("water", &[palette.wash(PigmentId(3))], &[1.0], 0.0);
     let at = 3;
-    let yellow = palette.reflectance(&[(1, 1.0)])[at];
-    let mixture = library.mix(&[(1, 1.0)]).unwrap();
+    let yellow = palette.reflectance(&recipe([(1, 1.0)]))[at];
+    let mixture = library.mix(recipe([(1, 1.0)])).unwrap();
     let hiding = mixture.hiding(library.saunderson)[at];
     assert_near("yellow", &[yellow], &[0.8 + 0.9 * (hiding - 0.8)], 1e-9);
 }
@@ -42,12 +43,12 @@ fn water_thins_a_wash_to_the_paper() {
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
     assert_eq!(palette.white(), None);
-    assert_eq!(palette.tint(0, 3.0), vec![(0, 0.25)]);
+    assert_eq!(palette.tint(PigmentId(0), 3.0), recipe([(0, 0.25)]));
     let paper = palette.appearance(&palette.cards().white);
     for ladder in tint_ladders(&palette) {
         let far: Vec<f64> =
             ladder.colors.iter().map(|c| delta_e_ciede2000(c.lab, paper.lab)).collect();
-        assert!(far.windows(2).all(|w| w[1] <= w[0] + 1e-9), "{}: {far:?}", ladder.paint);
+        assert!(far.windows(2).all(|w| w[1] <= w[0] + 1e-9), "{:?}: {far:?}", ladder.paint);
     }
 }
 
@@ -57,15 +58,16 @@ fn charts_and_graded_mixtures_are_washes_over_the_white_card() {
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
     let chart = mixing_chart(&palette);
-    let amounts = [(0, 0.5 * palette.wash(0)), (2, 0.5 * palette.wash(2))];
+    let amounts =
+        recipe([(0, 0.5 * palette.wash(PigmentId(0))), (2, 0.5 * palette.wash(PigmentId(2)))]);
     let film = library.mix(&amounts).unwrap().film(1.0, &palette.cards().white, library.film());
-    assert_near("red and blue", &palette.reflectance(&[(0, 0.5), (2, 0.5)]), &film, 1e-12);
+    assert_near("red and blue", &palette.reflectance(&recipe([(0, 0.5), (2, 0.5)])), &film, 1e-12);
     assert_eq!(chart.colors[0][2], palette.appearance(&film));
     let rules = PainterRules::of(&palette).unwrap();
-    let mixture = graded(&palette, (1, 2), &[], &rules);
+    let mixture = graded(&palette, (PigmentId(1), PigmentId(2)), &[], &rules);
     let middle = &mixture.steps[5];
     let spectrum = middle.colors[MixingRow::Spectrum as usize].unwrap();
-    assert_eq!(spectrum, palette.look(&[(1, 0.5), (2, 0.5)]));
+    assert_eq!(spectrum, palette.color(&recipe([(1, 0.5), (2, 0.5)])));
     assert!(middle.errors.iter().flatten().all(|error| error.is_finite()), "{middle:?}");
 }
 
@@ -79,7 +81,7 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let yellow = powers[1].hides.thickness().unwrap();
     assert!(yellow > 0.05 && yellow < 10.0, "{yellow}");
     let gamut = sampled_gamut(&palette);
-    let most = |recipe: &[(usize, f64)]| recipe.iter().map(|(_, share)| share).sum::<f64>();
+    let most = |recipe: &Recipe| recipe.iter().map(|(_, share)| share).sum::<f64>();
     let deepest = gamut.samples.iter().map(|s| most(&s.recipe)).fold(0.0, f64::max);
     assert!((deepest - 8.0).abs() < 1e-9, "washes lie {deepest} deep at most");
     assert!(gamut.samples.iter().all(|s| s.color.lab.a.is_finite()));

@@ -19,7 +19,7 @@ fn chosen(picture: &Picture) -> ChosenPalette {
 
 /// Tints and shades of one pigment, from the oils.
 fn tints(name: &str) -> Picture {
-    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
+    let find = |name: &str| Some(STUDIO.library.find(name).unwrap().index());
     let mut slots: Slots = [None; SLOTS];
     slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);

@@ -6,7 +6,8 @@ use calibrate::fit::{
 };
 use calibrate::library::PigmentLibrary;
 use calibrate::observation::{BLACK, Hiding, Observation};
-use calibrate::plan::{Information, Palette, Recipe, candidates, optimal, usual};
+use calibrate::plan::{Information, PaintSet, SwatchRecipe, candidates, optimal, usual};
+use calibrate::{PigmentId, Recipe};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -19,21 +20,21 @@ const NOISE: f64 = 0.004;
 
 struct Bench {
     oils: PigmentLibrary,
-    palette: Palette,
-    pigments: Vec<usize>,
-    pool: Vec<Recipe>,
+    paints: PaintSet,
+    pigments: Vec<PigmentId>,
+    pool: Vec<SwatchRecipe>,
     information: Information,
 }
 
 fn bench() -> Bench {
     let oils = oils();
     let colors = ["Cobalt Blue", "Viridian", "Vermilion", "Chrome Yellow"].map(str::to_owned);
-    let palette = Palette::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
-    let pigments: Vec<usize> = palette.names.iter().map(|n| oils.find(n).unwrap()).collect();
-    let pool = candidates(&palette, 0.05);
+    let paints = PaintSet::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
+    let pigments: Vec<PigmentId> = paints.names.iter().map(|n| oils.find(n).unwrap()).collect();
+    let pool = candidates(&paints, 0.05);
     let noise = ExpectedNoise { constant: NOISE, even: 0.0 };
     let information = Information::new(&oils, &pigments, &pool, noise);
-    Bench { oils, palette, pigments, pool, information }
+    Bench { oils, paints, pigments, pool, information }
 }
 
 impl Bench {
@@ -45,8 +46,10 @@ impl Bench {
             .iter()
             .map(|&index| {
                 let mut shares = vec![0.0; self.pigments.len()];
-                self.pool[index].shares().into_iter().for_each(|(p, share)| shares[p] = share);
-                let parts: Vec<(usize, f64)> =
+                for &(paint, share) in &self.pool[index].shares() {
+                    shares[paint.index()] = share;
+                }
+                let parts: Recipe =
                     self.pigments.iter().copied().zip(shares.iter().copied()).collect();
                 let truth = self.oils.mix(&parts).unwrap().hiding(surface);
                 let read = |value: &f64| {
@@ -70,7 +73,8 @@ impl Bench {
                 }
             })
             .collect();
-        let problem = Problem::new(self.oils.grid, surface, &observations, Palette::WHITE).unwrap();
+        let problem =
+            Problem::new(self.oils.grid, surface, &observations, PaintSet::WHITE).unwrap();
         let weights = Viewing::default().weights(self.oils.grid).unwrap();
         fit_refined(&problem, &weights, Refinement::prediction(Smoothness::None, None)).unwrap()
     }
@@ -79,16 +83,17 @@ impl Bench {
     /// deviation predicted of `design`; the white's S left out.
     fn errors(&self, design: &[usize], seed: u64) -> Vec<(f64, f64)> {
         let fit = self.fit(design, seed);
-        let [of_k, of_s] = self.information.log_deviations(design);
+        let deviations = self.information.log_deviations(design);
         let mut errors = Vec::new();
         for (paint, &pigment) in self.pigments.iter().enumerate() {
-            let truth = &self.oils.pigments[pigment];
+            let truth = &self.oils[pigment];
             for at in 0..self.oils.grid.count() {
-                let k = (fit.absorption[paint][at] / truth.absorption[at].max(1e-5)).ln();
-                errors.push((k, of_k[paint][at]));
-                if paint != Palette::WHITE {
-                    let s = (fit.scattering[paint][at] / truth.scattering[at].max(1e-5)).ln();
-                    errors.push((s, of_s[paint][at]));
+                let k = (fit.curves[paint].absorption[at] / truth.absorption[at].max(1e-5)).ln();
+                errors.push((k, deviations[paint].absorption[at]));
+                if PigmentId(paint) != PaintSet::WHITE {
+                    let s =
+                        (fit.curves[paint].scattering[at] / truth.scattering[at].max(1e-5)).ln();
+                    errors.push((s, deviations[paint].scattering[at]));
                 }
             }
         }
@@ -118,7 +123,7 @@ impl Bench {
 #[test]
 fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_chance() {
     let bench = bench();
-    let start = usual(&bench.palette, &bench.pool, 20).unwrap();
+    let start = usual(&bench.paints, &bench.pool, 20).unwrap();
     let best = optimal(&bench.information, &start, 1);
     let random: Vec<Vec<usize>> = (0..6).map(|seed| bench.random(20, seed)).collect();
     let chance = random.iter().map(|design| bench.typical_error(design)).sum::<f64>() / 6.0;
@@ -135,7 +140,7 @@ fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_ch
 #[test]
 fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     let bench = bench();
-    let start = usual(&bench.palette, &bench.pool, 24).unwrap();
+    let start = usual(&bench.paints, &bench.pool, 24).unwrap();
     for design in [optimal(&bench.information, &start, 1), start] {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
         // Beyond a third of its size a logarithm's error is no longer linear.
@@ -153,7 +158,7 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
 #[test]
 fn no_single_exchange_improves_the_optimal_plan() {
     let bench = bench();
-    let start = usual(&bench.palette, &bench.pool, 14).unwrap();
+    let start = usual(&bench.paints, &bench.pool, 14).unwrap();
     let best = optimal(&bench.information, &start, 1);
     let reached = bench.information.log_determinant(&best);
     assert!(reached > bench.information.log_determinant(&start), "{reached}");
@@ -174,17 +179,25 @@ fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
     let bench = bench();
     let shares = |design: &[usize]| -> Vec<Vec<f64>> {
         let of = |&index: &usize| {
-            let mut shares = vec![0.0; bench.palette.names.len()];
-            bench.pool[index].shares().into_iter().for_each(|(p, share)| shares[p] = share);
+            let mut shares = vec![0.0; bench.paints.names.len()];
+            for &(paint, share) in &bench.pool[index].shares() {
+                shares[paint.index()] = share;
+            }
             shares
         };
         design.iter().map(of).collect()
     };
-    for count in bench.palette.unknowns()..40 {
-        let start = usual(&bench.palette, &bench.pool, count).unwrap();
+    for count in bench.paints.unknowns()..40 {
+        let start = usual(&bench.paints, &bench.pool, count).unwrap();
         assert_eq!(start.len(), count);
-        assert!(unidentified(&shares(&start), Palette::WHITE).is_empty(), "usual of {count}");
+        assert!(
+            unidentified(shares(&start).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
+            "usual of {count}"
+        );
         let best = optimal(&bench.information, &start, 1);
-        assert!(unidentified(&shares(&best), Palette::WHITE).is_empty(), "optimal of {count}");
+        assert!(
+            unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
+            "optimal of {count}"
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! Swatches painted and read by the oils' own K and S.
 
+use calibrate::Recipe;
 use calibrate::library::PigmentLibrary;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -31,7 +32,7 @@ pub(crate) fn filled(empty: &str, oils: &PigmentLibrary, sd: f64, seed: u64) -> 
         assert!(cells[first_nm..].iter().all(|cell| cell.is_empty()), "{line}");
         let card = if cells[2] == "white" { WHITE_CARD } else { BLACK_CARD };
         let card = vec![card; oils.grid.count()];
-        let recipe: Vec<(usize, f64)> = (4..first_nm)
+        let recipe: Recipe = (4..first_nm)
             .filter(|&column| !cells[column].is_empty())
             .map(|column| (oils.find(header[column]).unwrap(), cells[column].parse().unwrap()))
             .collect();

@@ -1,8 +1,9 @@
 //! The verb `plan`, and its empty file on the way through `fit`.
 
+use calibrate::PigmentId;
 use calibrate::fit::ExpectedNoise;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
-use calibrate::plan::{Information, Palette, candidates, usual};
+use calibrate::plan::{Information, PaintSet, candidates, usual};
 use suite::program::{impasto, repository};
 
 use crate::painted::{OILS, filled, oils};
@@ -130,21 +131,23 @@ fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     let found = std::fs::read_to_string(&found).unwrap();
     let found = calibrate::library::PigmentLibrary::from_json("found", &found).unwrap();
     let colors = PAINTS[..3].iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
-    let palette = Palette::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
-    let pigments: Vec<usize> = palette.names.iter().map(|n| truth.find(n).unwrap()).collect();
-    let pool = candidates(&palette, 0.05);
-    let design = usual(&palette, &pool, 19).unwrap();
+    let paints = PaintSet::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
+    let pigments: Vec<PigmentId> = paints.names.iter().map(|n| truth.find(n).unwrap()).collect();
+    let pool = candidates(&paints, 0.05);
+    let design = usual(&paints, &pool, 19).unwrap();
     // Two readings over each card.
     let noise = ExpectedNoise { constant: sd / 2f64.sqrt(), even: 0.0 };
-    let [of_k, of_s] = Information::new(&truth, &pigments, &pool, noise).log_deviations(&design);
+    let deviations = Information::new(&truth, &pigments, &pool, noise).log_deviations(&design);
     let mut pulls = Vec::new();
-    for (paint, name) in palette.names.iter().enumerate() {
-        let got = &found.pigments[found.find(name).unwrap()];
-        let wanted = &truth.pigments[pigments[paint]];
+    for (paint, name) in paints.names.iter().enumerate() {
+        let got = &found[found.find(name).unwrap()];
+        let wanted = &truth[pigments[paint]];
         for at in 0..truth.grid.count() {
             let k = (got.absorption[at] / wanted.absorption[at]).ln();
             let s = (got.scattering[at] / wanted.scattering[at]).ln();
-            for (error, deviation) in [(k, of_k[paint][at]), (s, of_s[paint][at])] {
+            for (error, deviation) in
+                [(k, deviations[paint].absorption[at]), (s, deviations[paint].scattering[at])]
+            {
                 if deviation > 0.0 && deviation < 0.3 {
                     pulls.push((error / deviation).powi(2));
                 }

@@ -17,7 +17,7 @@ fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (S
 #[test]
 fn names_and_short_names_become_indices() {
     let library = library();
-    let index = |name: &str| library.find(name).unwrap();
+    let index = |name: &str| library.find(name).unwrap().index();
     let (white, blue, green) = (index("Zinc White"), index("Prussian Blue"), index("Viridian"));
     let found = resolved("\"W\": 3", "\"zinc white\": 3").unwrap();
     assert_eq!(found.slots[..3], [Some(white), Some(blue), None]);

@@ -1,5 +1,4 @@
-//! How far apart two libraries of the same pigments are: quality control of
-//! batches.
+//! Colour differences between two libraries of the same pigments, as in quality control of batches.
 
 use rand::SeedableRng;
 use rand::seq::index;
@@ -9,48 +8,49 @@ use spectra::color::{Lab, delta_e_ciede2000};
 
 use crate::evaluate::{Viewing, lab};
 use crate::library::PigmentLibrary;
+use crate::recipe::{PigmentId, Recipe};
 
-/// Shares of a tint: one part in ten of the white.
+/// Parts of the pigment and of the white in a tint.
 const TINT: [f64; 2] = [1.0, 9.0];
 
-/// The colour difference of one pigment, CIEDE2000.
+/// Colour difference of one pigment between two libraries, in CIEDE2000.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentDifference {
-    /// Its name, the same in both.
+    /// Name of the pigment, equal in both libraries.
     pub name: String,
-    /// Between the masstones.
+    /// Difference of the masstones.
     pub masstone: f64,
-    /// Between the tints 1:9 in the common white; none where S is not known or
-    /// there is no common white.
+    /// Difference of the tints 1:9 in the common white; `None` where S is unknown or there is no
+    /// common white.
     pub tint: Option<f64>,
 }
 
-/// The colour difference of two pigments mixed.
+/// Colour difference of a mixture of two pigments between two libraries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentPair {
-    /// Their names.
+    /// Names of the two pigments.
     pub names: [String; 2],
-    /// CIEDE2000 of 1:1, or 1:1:1 with the common white.
+    /// CIEDE2000 of the mixture 1:1, or 1:1:1 with the common white.
     pub delta_e: f64,
 }
 
-/// What differs between two libraries under one light, in films that hide.
+/// Differences between two libraries under one light, for films that hide.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// The white of tints and pairs: the reference of the first, if both have it.
+    /// White of the tints and pairs: the reference of the first library, if both have it.
     pub white: Option<String>,
-    /// By pigment, in the first's order.
+    /// Differences by pigment, in the order of the first library.
     pub pigments: Vec<PigmentDifference>,
-    /// Pairs of common pigments whose S is known.
+    /// Differences of pairs of common pigments whose S is known.
     pub pairs: Vec<PigmentPair>,
-    /// Pigments of the first alone.
+    /// Names of pigments that only the first library has.
     pub only_first: Vec<String>,
-    /// Pigments of the second alone.
+    /// Names of pigments that only the second library has.
     pub only_second: Vec<String>,
 }
 
 impl Difference {
-    /// The largest of all differences; 0 if nothing is common.
+    /// Largest of all differences; 0 if there is no common pigment.
     #[must_use]
     pub fn largest(&self) -> f64 {
         let of_pigments = self.pigments.iter().flat_map(|p| [Some(p.masstone), p.tint]);
@@ -59,9 +59,8 @@ impl Difference {
     }
 }
 
-/// The differences of pigments of the same name, and of up to `pairs` mixtures of
-/// two, drawn with `seed` from all there are. Each library is seen on its own grid
-/// and under its own surface.
+/// Compares pigments of equal name, and up to `pairs` mixtures of two, drawn with `seed` from all
+/// possible pairs. Each library is evaluated on its own grid and under its own surface.
 #[must_use]
 pub fn difference(
     first: &PigmentLibrary,
@@ -121,7 +120,7 @@ pub fn difference(
     }
 }
 
-/// One of the two.
+/// One of the two libraries, with the weights for its grid.
 struct Side<'a> {
     library: &'a PigmentLibrary,
     weights: TristimulusWeights,
@@ -129,23 +128,22 @@ struct Side<'a> {
 
 impl<'a> Side<'a> {
     fn new(library: &'a PigmentLibrary, viewing: &Viewing) -> Self {
-        let weights = viewing.weights(library.grid).expect("a method for the grid");
+        let weights = viewing.weights(library.grid).expect("the method fits the grid");
         Self { library, weights }
     }
 
-    fn index(&self, name: &str) -> usize {
-        let mut pigments = self.library.pigments.iter();
-        pigments.position(|pigment| pigment.name == name).expect("a common pigment")
+    fn id(&self, name: &str) -> PigmentId {
+        let mut ids = self.library.ids();
+        ids.find(|id| self.library[*id].name == name).expect("both libraries have the pigment")
     }
 
     fn identified(&self, name: &str) -> bool {
-        self.library.pigments[self.index(name)].identified
+        self.library[self.id(name)].identified
     }
 
     fn lab(&self, recipe: &[(&str, f64)]) -> Lab {
-        let parts: Vec<(usize, f64)> =
-            recipe.iter().map(|(name, part)| (self.index(name), *part)).collect();
-        let mixture = self.library.mix(&parts).expect("parts above 0");
+        let parts: Recipe = recipe.iter().map(|(name, part)| (self.id(name), *part)).collect();
+        let mixture = self.library.mix(parts).expect("parts above 0");
         lab(&self.weights, &mixture.hiding(self.library.saunderson))
     }
 }

@@ -1,193 +1,192 @@
-//! Why a library cannot be changed as asked.
+//! Reasons why a library cannot be changed as requested.
 
 use spectra::InterpolateError;
+use spectra::hint::{Explain, Hint};
 
 use crate::library::RecipeError;
 
-/// A change of libraries that the data forbid.
+/// A change of libraries that the data do not allow.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurationError {
-    /// A name that is no pigment's.
+    /// A name does not denote one pigment.
     #[error("{file}: {error}")]
     Pigment {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// What is wrong with the name.
+        /// Reason why the name denotes no pigment.
         error: RecipeError,
     },
-    /// A reference whose S is not known.
+    /// The new reference white has an unknown S.
     #[error("{file}: the scattering of `{pigment}` is not known, so it cannot be the reference")]
     UnknownScattering {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// The pigment.
+        /// Name of the pigment.
         pigment: String,
     },
-    /// A reference without S at a wavelength.
+    /// The new reference white has S = 0 at a wavelength.
     #[error("{file}: the reference needs S above 0, and S of {pigment} at {nm} nm is `{value}`")]
     NoScattering {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// The pigment.
+        /// Name of the pigment.
         pigment: String,
-        /// Where.
+        /// Wavelength in nm.
         nm: f64,
-        /// The S there.
+        /// S at that wavelength.
         value: f64,
     },
-    /// Wavelengths beyond the library's.
+    /// The new grid cannot be reached from the library's.
     #[error("{file}: {error}")]
     Grid {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// Which, and how far the library reaches.
+        /// Wavelength that is out of reach, and the library's band.
         error: InterpolateError,
     },
-    /// Shares and amounts on an area do not mix.
+    /// One library holds shares, the other amounts on an area.
     #[error("{file} holds {found} amounts and {first} {wanted} ones, which mean different things")]
     Amounts {
-        /// The first library's file.
+        /// File of the first library.
         first: String,
-        /// What that holds.
+        /// Kind of amounts in the first library.
         wanted: &'static str,
-        /// The other library's file.
+        /// File of the other library.
         file: String,
-        /// What the other holds.
+        /// Kind of amounts in the other library.
         found: &'static str,
     },
-    /// Two libraries of absolute amounts, whose unit no file tells.
-    #[error("{first} and {file}: K and S are per unit of amount, and no file says of which unit")]
+    /// Both libraries hold absolute amounts, whose unit no file states.
+    #[error("{first} and {file}: K and S are per unit of amount, and no file states the unit")]
     Units {
-        /// The first library's file.
+        /// File of the first library.
         first: String,
-        /// The other library's file.
+        /// File of the other library.
         file: String,
     },
-    /// K and S found under different surfaces or film models.
+    /// K and S were found under different surfaces or film models.
     #[error("{file}: {what} differs, {wanted} in {first}, found `{found}`")]
     Surface {
-        /// What differs.
+        /// Name of the property that differs.
         what: &'static str,
-        /// The first library's file.
+        /// File of the first library.
         first: String,
-        /// What that has.
+        /// Value in the first library.
         wanted: String,
-        /// The other library's file.
+        /// File of the other library.
         file: String,
-        /// What the other has.
+        /// Value in the other library.
         found: String,
     },
     /// The first library has no reference white.
     #[error("{file}: the library has no reference white, so nothing can be scaled to it")]
     NoReference {
-        /// The library's file.
+        /// File of the library.
         file: String,
     },
-    /// No pigment is the reference of the first.
+    /// The other library lacks the reference white of the first.
     #[error("{file}: no pigment is called `{reference}`, the reference of {first}")]
     NoCommonPigment {
-        /// The first library's file.
+        /// File of the first library.
         first: String,
-        /// The other library's file.
+        /// File of the other library.
         file: String,
-        /// The reference.
+        /// Name of the reference white.
         reference: String,
     },
-    /// One name for two pigments.
+    /// One name stands for two different pigments.
     #[error(
         "{first} and {file} both have `{pigment}` with figures that differ, {delta_e:.2} CIEDE2000 between the masstones"
     )]
     Clash {
-        /// The file of the one.
+        /// File of the first pigment.
         first: String,
-        /// The file of the other.
+        /// File of the second pigment.
         file: String,
-        /// The name.
+        /// Name of both pigments.
         pigment: String,
-        /// How far the masstones are apart.
+        /// CIEDE2000 between their masstones.
         delta_e: f64,
     },
-    /// A name that is taken, or none.
+    /// A new name is empty or already taken.
     #[error("{file}: a pigment needs a name of its own, found `{name}`")]
     Name {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// The name.
+        /// The new name.
         name: String,
     },
-    /// A subset without its reference.
+    /// A subset would lose its reference white.
     #[error("{file}: the reference `{reference}` would be left out")]
     ReferenceLeftOut {
-        /// The library's file.
+        /// File of the library.
         file: String,
-        /// The reference.
+        /// Name of the reference white.
         reference: String,
     },
-    /// Nothing left.
+    /// A subset would be empty.
     #[error("{file}: no pigment would be left")]
     Empty {
-        /// The library's file.
+        /// File of the library.
         file: String,
     },
-    /// A colour that no paint under the library's surface has.
+    /// No paint under the library's surface has the requested colour.
     #[error(
         "no paint under this surface (k1 = {k1}, k2 = {k2}) has this colour; the nearest is {delta_e:.2} CIEDE2000 off, found `{nearest}`"
     )]
     OutOfReach {
-        /// Of the surface.
+        /// Share of arriving light that the surface reflects.
         k1: f64,
-        /// Of the surface.
+        /// Share of diffuse light that the surface turns back inside.
         k2: f64,
-        /// The nearest colour as sRGB.
+        /// Nearest possible colour as `#rrggbb` of sRGB.
         nearest: String,
-        /// How far it is.
+        /// CIEDE2000 from the requested colour to the nearest.
         delta_e: f64,
     },
-    /// A guess for a library of absolute amounts.
+    /// A pigment was to be guessed for a library of absolute amounts.
     #[error("a guessed pigment has no unit of amount, and this library is of absolute amounts")]
     GuessedAmount,
 }
 
-impl CurationError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        Some(match self {
+impl Explain for CurationError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Pigment { error, .. } => return error.hint(),
             Self::UnknownScattering { .. } | Self::NoScattering { .. } => {
                 "name a pigment that was measured in mixtures and scatters, such as a white".into()
             }
             Self::Grid { error: InterpolateError::TooFew { .. }, .. } => {
-                "straight lines need two wavelengths only: --interpolation linear".into()
+                "straight lines need only two wavelengths: [interpolation=linear]".into()
             }
             Self::Grid { .. } => {
-                "take wavelengths within the library's, or hold its end values: --hold-ends".into()
+                "choose wavelengths within the library's, or hold its end values: [hold_ends]".into()
             }
             Self::Amounts { .. } => {
-                "bring the absolute one to shares first: impasto library convert FILE --reference WHITE --output RELATIVE.json".into()
+                "first convert the absolute library to shares: `impasto library convert` with [reference=WHITE]".into()
             }
             Self::Units { .. } => {
-                "if both were measured in the same unit on the same area: --same-unit".into()
+                "if both were measured in the same unit on the same area: [same_unit]".into()
             }
             Self::Surface { .. } => {
-                "K and S hold under the surface they were found with; fit both with one --saunderson, or take the first's: --any-surface".into()
+                "K and S hold under the surface they were found with; fit both with one [saunderson], or use the first's: [any_surface]".into()
             }
-            Self::NoReference { .. } => "name one of its pigments: --reference WHITE".into(),
+            Self::NoReference { .. } => "name one of its pigments: [reference=WHITE]".into(),
             Self::NoCommonPigment { reference, .. } => {
-                format!("if it has {reference} under another name: --as NAME")
+                format!("if it has {reference} under another name: [as=NAME]")
             }
             Self::Clash { pigment, file, .. } => format!(
-                "choose: --prefer first or --prefer last; or rename: impasto library rename {file} \"{pigment}={pigment} (2)\" --output RENAMED.json"
+                "choose one: [prefer=first] or [prefer=last]; or rename one: impasto library rename {file} \"{pigment}={pigment} (2)\" [output=RENAMED.json]"
             ),
             Self::Name { .. } => "choose another name".into(),
             Self::ReferenceLeftOut { reference, .. } => {
-                format!("keep {reference}, or choose a new reference: --reference WHITE")
+                format!("keep {reference}, or choose a new reference: [reference=WHITE]")
             }
             Self::Empty { .. } => "name a pigment to keep".into(),
-            Self::OutOfReach { .. } => "take the nearest: --nearest".into(),
+            Self::OutOfReach { .. } => "accept the nearest colour: [nearest]".into(),
             Self::GuessedAmount => {
-                "bring the library to shares first: impasto library convert".into()
+                "first convert the library to shares: `impasto library convert` with [reference=WHITE]".into()
             }
-        })
+        }))
     }
 }

@@ -1,4 +1,4 @@
-//! A pigment made up from a colour.
+//! A pigment guessed from a colour.
 
 use spectra::color::RgbSpace;
 use spectra::color::{Adaptation, Lab, Xyz, delta_e_ciede2000};
@@ -10,42 +10,41 @@ use crate::evaluate::Viewing;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::smooth_reflectance::smoothest_reflectance;
 
-/// Scattering of a glaze, relative to the reference white: it hides little.
+/// S of a glaze, relative to the reference white: it hides little. Chosen by eye.
 const GLAZE_SCATTERING: f64 = 0.02;
-/// A colour this near to the one asked for is that colour, in CIEDE2000.
+/// A colour within this CIEDE2000 of the requested one counts as equal; the rounding of a file stays
+/// far below it.
 const SAME_COLOR: f64 = 0.05;
 
-/// What kind of paint a guessed pigment makes.
+/// Kind of paint that a guessed pigment makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
-    /// It hides, S = 1 as the reference white: a film that hides has the colour.
+    /// A paint that hides, with S = 1 as the reference white: a film that hides has the colour.
     Hiding,
-    /// It hardly scatters, S = 0.02: a film of unit thickness over white has the
-    /// colour.
+    /// A paint that hardly scatters, with S = 0.02: a film of unit thickness over white has the colour.
     Glaze,
 }
 
-/// A guessed pigment, and how far its colour is from what was asked.
+/// A guessed pigment, with the difference between its colour and the requested one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guess {
-    /// The pigment, marked as guessed.
+    /// The pigment, with its mark `guessed` set.
     pub pigment: Pigment,
-    /// CIEDE2000 from the colour asked for, as the file's six digits have it.
+    /// CIEDE2000 from the requested colour, with K and S rounded as in a file.
     pub delta_e: f64,
-    /// The colour that it has, in sRGB.
+    /// Colour of the film as `#rrggbb` of sRGB.
     pub hex: String,
 }
 
-/// A pigment for `library`'s grid and surface whose colour under D65 for the 1931
-/// observer is `wanted`: K and S from the smoothest reflectance of that colour
-/// ([`smoothest_reflectance`]). `color` is that colour in the user's words.
+/// Makes a pigment for `library`'s grid and surface whose colour under D65 for the CIE 1931 observer is
+/// `wanted`: K and S follow from the smoothest reflectance of that colour
+/// ([`smoothest_reflectance`]). `color` describes the colour in the pigment's notes.
 ///
-/// Nothing tells how such a paint mixes: that is what measuring is for.
+/// How such a paint mixes is unknown; only measurements can show it.
 ///
 /// # Errors
-/// [`CurationError`] for a library of absolute amounts, and where no paint under
-/// the library's surface comes within 0.05 CIEDE2000 of the colour, unless
-/// `nearest` will do.
+/// [`CurationError`] for a library of absolute amounts, and where no paint under the library's surface
+/// comes within 0.05 CIEDE2000 of the colour, unless `nearest` accepts the nearest colour.
 pub fn guessed_pigment(
     library: &PigmentLibrary,
     (name, color): (&str, &str),
@@ -100,8 +99,8 @@ pub fn guessed_pigment(
     Ok(Guess { pigment, delta_e, hex })
 }
 
-/// The K of a film of unit thickness with `scattering` that reflects `internal`
-/// over white: it falls as K rises, so the logarithm of K is halved in on.
+/// Returns the K of a film of unit thickness with S = `scattering` that reflects `internal` over white,
+/// by bisection in the logarithm of K, since the reflectance falls with K.
 fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
     let (mut low, mut high) = (-25.0f64, 15.0f64);
     for _ in 0..80 {

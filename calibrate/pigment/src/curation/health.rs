@@ -1,75 +1,85 @@
-//! What is good and what is doubtful in a library.
+//! Checks of a library: faults and doubtful values.
 
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, delta_e_ciede2000};
 
 use crate::evaluate::{Viewing, lab, percentile};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
+use crate::recipe::Recipe;
+use crate::visible_band::BandCoverage;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The library does not do what it says.
+    /// The library contradicts itself.
     Fault,
-    /// Worth a look.
+    /// A value that deserves a look.
     Warning,
 }
 
-/// One thing found.
+/// One fault or doubtful value of a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// How bad it is.
+    /// Severity of the finding.
     pub severity: Severity,
-    /// The pigment, if it is of one.
+    /// Name of the pigment concerned; `None` where the whole library is.
     pub pigment: Option<String>,
-    /// What was found.
+    /// Description of the finding.
     pub what: String,
 }
 
-/// One pigment in figures.
+/// Key figures of one pigment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentHealth {
-    /// Its name.
+    /// Name of the pigment.
     pub name: String,
-    /// Smallest and largest K.
+    /// Least and largest K.
     pub absorption: [f64; 2],
-    /// Smallest and largest S.
+    /// Least and largest S.
     pub scattering: [f64; 2],
-    /// Median of sd / K over wavelength, where K is known apart from 0.
+    /// Median over wavelength of the standard deviation of K divided by K, where K is above 0.
     pub absorption_uncertainty: Option<f64>,
-    /// Median of sd / S.
+    /// Median over wavelength of the standard deviation of S divided by S.
     pub scattering_uncertainty: Option<f64>,
-    /// The colour of a film that hides.
+    /// Colour of a film that hides.
     pub masstone: Lab,
 }
 
-/// A library in figures, and what was found in it, faults first.
+/// Key figures of a library, with its faults and doubtful values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Health {
-    /// By pigment.
+    /// Key figures by pigment, in the library's order.
     pub pigments: Vec<PigmentHealth>,
-    /// Faults, then warnings.
+    /// Findings, faults before warnings.
     pub findings: Vec<Finding>,
 }
 
 impl Health {
-    /// Whether there is a fault.
+    /// Whether at least one finding is a fault.
     #[must_use]
     pub fn faulty(&self) -> bool {
         self.findings.iter().any(|finding| finding.severity == Severity::Fault)
     }
 }
 
-/// A figure that stands out from both neighbours by this factor is a jump.
+/// Steps of the grid in nm that are coarser than the bands of most pigments; chosen by eye.
+const COARSE_STEP_NM: f64 = 20.0;
+/// Mean CIEDE2000 of a fit above which it is poor; chosen by eye.
+const POOR_FIT: f64 = 3.0;
+/// Rounding of the reference's S in a file of six digits, with some room.
+const UNIT_ROUNDING: f64 = 1e-5;
+/// A value above or below both its neighbours by more than this factor counts as a jump; chosen by
+/// eye.
 const JUMP: f64 = 1.5;
-/// A relative deviation that leaves a figure little but its order of size.
+/// A relative standard deviation above this leaves little more than the order of magnitude; chosen by
+/// eye.
 const UNCERTAIN: f64 = 0.5;
-/// Nobody sees a smaller difference, in CIEDE2000.
+/// Colour difference in CIEDE2000 that nobody sees; chosen by eye.
 const ALIKE: f64 = 0.3;
-/// A masstone this near to the surface's own reflection reads as black.
+/// A masstone within this reflectance of the surface's own reflection counts as black; chosen by eye.
 const BLACK: f64 = 0.0005;
 
-/// The health of `library`; colours are told under `viewing`.
+/// Checks `library`; colours are computed under `viewing`.
 #[must_use]
 pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
     let weights = viewing.weights(library.grid).expect("a method for the grid");
@@ -79,13 +89,13 @@ pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
     }
     near_pairs(library, &weights, &mut findings);
     findings.sort_by_key(|finding| finding.severity);
-    let pigments = library.pigments.iter().enumerate().map(|(index, pigment)| PigmentHealth {
+    let pigments = library.ids().zip(&library.pigments).map(|(id, pigment)| PigmentHealth {
         name: pigment.name.clone(),
         absorption: range(&pigment.absorption),
         scattering: range(&pigment.scattering),
         absorption_uncertainty: uncertainty(&pigment.absorption, &pigment.absorption_sd),
         scattering_uncertainty: uncertainty(&pigment.scattering, &pigment.scattering_sd),
-        masstone: lab(&weights, &hiding(library, &[(index, 1.0)])),
+        masstone: lab(&weights, &hiding(library, &Recipe::single(id))),
     });
     Health { pigments: pigments.collect(), findings }
 }
@@ -96,13 +106,17 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
         findings.push(Finding { severity, pigment: None, what });
     };
     let (start, end) = (library.grid.start_nm(), library.grid.end_nm());
-    if end < 400.0 || start > 700.0 {
-        found(Severity::Fault, format!("{start} to {end} nm is no visible light"));
-    } else if start > 420.0 || end < 680.0 {
-        let what = format!("{start} to {end} nm leaves out a part of the visible band");
-        found(Severity::Warning, what);
+    match BandCoverage::of(library.grid) {
+        BandCoverage::Full => {}
+        BandCoverage::Partial => found(
+            Severity::Warning,
+            format!("{start} to {end} nm leaves out a part of the visible band"),
+        ),
+        BandCoverage::Missing => {
+            found(Severity::Fault, format!("{start} to {end} nm is no visible light"));
+        }
     }
-    if library.grid.step_nm() > 20.0 {
+    if library.grid.step_nm() > COARSE_STEP_NM {
         let what = format!("steps of {} nm are coarse for colour", library.grid.step_nm());
         found(Severity::Warning, what);
     }
@@ -111,15 +125,14 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
             found(Severity::Warning, format!("no {what} is told"));
         }
     }
-    let reference = library.reference.as_ref();
-    let white = reference.and_then(|name| library.pigments.iter().find(|p| p.name == *name));
+    let white = library.reference_id().map(|id| &library[id]);
     match (library.amounts, white) {
         (AmountKind::Relative, None) => {
             let what = "no reference white: nothing says what S = 1 is";
             found(Severity::Warning, what.to_owned());
         }
         (AmountKind::Relative, Some(white)) => {
-            let off = white.scattering.iter().position(|s| (s - 1.0).abs() > 1e-5);
+            let off = white.scattering.iter().position(|s| (s - 1.0).abs() > UNIT_ROUNDING);
             if let Some(at) = off {
                 let (nm, s) = (library.grid.nm(at), white.scattering[at]);
                 let what = format!("S of the reference {} is {s} at {nm} nm, not 1", white.name);
@@ -130,7 +143,7 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
     }
     match &library.evidence {
         None => found(Severity::Warning, "no evidence of how well the figures fit".to_owned()),
-        Some(evidence) if evidence.delta_e.mean > 3.0 => found(
+        Some(evidence) if evidence.delta_e.mean > POOR_FIT => found(
             Severity::Warning,
             format!("the fit is off by {:.2} CIEDE2000 on average", evidence.delta_e.mean),
         ),
@@ -202,16 +215,16 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     }
 }
 
-/// Pigments that look alike, alone and with the white.
+/// Adds findings for pigments that look alike, alone and with the white.
 fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: &mut Vec<Finding>) {
-    let white = library.reference.as_deref();
-    let white = white.and_then(|name| library.pigments.iter().position(|p| p.name == name));
-    let colors: Vec<[Lab; 2]> = (0..library.pigments.len())
-        .map(|index| {
-            let tint = white.map_or(vec![(index, 1.0)], |white| vec![(index, 1.0), (white, 9.0)]);
-            [vec![(index, 1.0)], tint].map(|recipe| lab(weights, &hiding(library, &recipe)))
-        })
-        .collect();
+    let white = library.reference_id();
+    let look = |recipe: Recipe| lab(weights, &hiding(library, &recipe));
+    let masstone_and_tint = |id| {
+        let masstone = Recipe::single(id);
+        let tint = white.map_or(masstone.clone(), |white| Recipe::from([(id, 1.0), (white, 9.0)]));
+        [masstone, tint].map(look)
+    };
+    let colors: Vec<[Lab; 2]> = library.ids().map(masstone_and_tint).collect();
     for (second, pigment) in library.pigments.iter().enumerate() {
         for (first, other) in library.pigments[..second].iter().enumerate() {
             let plain = |name: &str| {
@@ -237,7 +250,7 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
     }
 }
 
-fn hiding(library: &PigmentLibrary, recipe: &[(usize, f64)]) -> Vec<f64> {
+fn hiding(library: &PigmentLibrary, recipe: &Recipe) -> Vec<f64> {
     library.mix(recipe).expect("parts above 0").hiding(library.saunderson)
 }
 
@@ -245,16 +258,16 @@ fn range(curve: &[f64]) -> [f64; 2] {
     [curve.iter().copied().fold(f64::INFINITY, f64::min), curve.iter().copied().fold(0.0, f64::max)]
 }
 
-/// The median of deviation over figure; none without deviations.
+/// Median of standard deviation divided by value; `None` without deviations.
 fn uncertainty(curve: &[f64], sd: &[f64]) -> Option<f64> {
     let pairs = curve.iter().zip(sd).filter(|(value, _)| **value > 0.0);
     let shares: Vec<f64> = pairs.map(|(value, sd)| sd / value).collect();
     (!shares.is_empty()).then(|| percentile(&shares, 50.0))
 }
 
-/// Where a figure stands out from both its neighbours.
+/// Index of the first value that differs from both its neighbours by more than [`JUMP`].
 fn jump(curve: &[f64]) -> Option<usize> {
-    // Near 0 a factor means nothing.
+    // Near 0 a factor is meaningless.
     let least = 1e-3 * range(curve)[1];
     let log = |index: usize| curve[index].max(least).ln();
     (1..curve.len().saturating_sub(1)).find(|&at| {

@@ -1,4 +1,4 @@
-//! One library of several.
+//! Merging several libraries into one.
 
 use spectra::{Extrapolation, Interpolation};
 
@@ -6,75 +6,75 @@ use super::error::CurationError;
 use super::resample::on_grid;
 use super::rescale::with_reference;
 use super::select::renamed;
+use crate::curves::hiding_film;
 use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 
-/// Two batches of one white are nearer than this, in CIEDE2000.
+/// Two batches of one white differ by less than this, in CIEDE2000; chosen by eye.
 const SAME_WHITE: f64 = 1.0;
 
-/// A library and the file that it stands in.
+/// A library with the name of its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
-    /// As the user named it.
+    /// File name as the caller gave it.
     pub file: String,
-    /// What stands in it.
+    /// Content of the file.
     pub library: PigmentLibrary,
 }
 
-/// Which of two different pigments of one name stays.
+/// Choice between two different pigments of one name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Prefer {
-    /// That of the library named first.
+    /// Keep the pigment of the library named first.
     First,
-    /// That of the library named last.
+    /// Keep the pigment of the library named last.
     Last,
 }
 
-/// How libraries are joined.
+/// Settings of a merge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MergeSettings {
-    /// The white that all libraries share, as the first calls it; its reference
-    /// if not told.
+    /// Name of the white that all libraries share, as the first library spells it; by default the
+    /// reference of the first.
     pub reference: Option<String>,
-    /// What other libraries call that white.
+    /// Names of that white in other libraries.
     pub aliases: Vec<String>,
-    /// Which of two different pigments of one name stays; if not told, two such
-    /// pigments are an error, but for the white, of which the first stays.
+    /// Choice between two different pigments of one name. Without a choice they are an error, except
+    /// for the white, of which the first is kept.
     pub prefer: Option<Prefer>,
-    /// How other grids are brought to the first's; the best for each if not told.
+    /// Interpolation from other grids to the first's; by default the best one for each grid.
     pub interpolation: Option<Interpolation>,
-    /// What stands beyond another library's band.
+    /// Treatment of wavelengths beyond another library's band.
     pub ends: Extrapolation,
-    /// Take pigments found under another surface, as if it were the first's.
+    /// Accept pigments found under another surface as if it were the first's.
     pub any_surface: bool,
-    /// Absolute amounts are in one unit on one area.
+    /// Assume that absolute amounts of all libraries count one unit on one area.
     pub same_unit: bool,
-    /// The light and observer of differences.
+    /// Light and observer of colour differences.
     pub viewing: Viewing,
 }
 
-/// Several libraries as one.
+/// Result of a merge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merged {
-    /// On the first's grid, relative to its reference; without evidence, which is
-    /// that of one fit.
+    /// Merged library on the first's grid and relative to its reference. It has no evidence, which
+    /// belongs to a single fit.
     pub library: PigmentLibrary,
-    /// Pigments that stood in two libraries: name, file of the second, CIEDE2000
-    /// between the masstones.
+    /// Pigments found in two libraries: name, file of the second, CIEDE2000 between the masstones.
     pub common: Vec<(String, String, f64)>,
-    /// What a user must know of it.
+    /// Reservations about the merged library, in words for the user.
     pub warnings: Vec<String>,
 }
 
-/// The pigments of `first` and `others` as one library.
+/// Merges the pigments of `first` and `others` into one library.
 ///
-/// Relative libraries are scaled to one reference white ([`with_reference`]): the
-/// same paint has S = 1 in all. Each pigment gets a note of where it is from and
-/// how well that fit did; inputs, licences and sources are united.
+/// Relative libraries are scaled to one reference white ([`with_reference`]), so that one paint has
+/// S = 1 in all of them. Each pigment gets a note that names its library and the error of that fit.
+/// Inputs, licences and sources are united.
 ///
 /// # Errors
-/// [`CurationError`] where libraries cannot stand side by side, or one name means
-/// two pigments and neither is preferred.
+/// [`CurationError`] where libraries cannot be combined, or one name stands for two pigments and
+/// [`MergeSettings::prefer`] is `None`.
 pub fn merged(
     first: &Source,
     others: &[Source],
@@ -116,7 +116,7 @@ pub fn merged(
 }
 
 impl Merged {
-    /// `other` with the reference and the grid of what there is.
+    /// `other` scaled to the reference and resampled to the grid of the merged library.
     fn fitted(
         &mut self,
         first: &Source,
@@ -132,7 +132,7 @@ impl Merged {
             let same = library.pigments.iter().find(|p| p.name.to_lowercase() == lower);
             let alias = || settings.aliases.iter().find_map(|alias| library.find(alias).ok());
             let name = same.map(|pigment| pigment.name.clone());
-            let name = name.or_else(|| alias().map(|index| library.pigments[index].name.clone()));
+            let name = name.or_else(|| alias().map(|id| library[id].name.clone()));
             let name = name.ok_or_else(|| CurationError::NoCommonPigment {
                 first: first.file.clone(),
                 file: file.clone(),
@@ -167,7 +167,8 @@ impl Merged {
         pigments: Vec<Pigment>,
         settings: &MergeSettings,
     ) -> Result<(), CurationError> {
-        let weights = settings.viewing.weights(self.library.grid).expect("a method for the grid");
+        let weights =
+            settings.viewing.weights(self.library.grid).expect("the method fits the grid");
         for mut pigment in pigments {
             pigment.notes.push(origin(other));
             let stands = self.library.pigments.iter().position(|p| p.name == pigment.name);
@@ -177,9 +178,7 @@ impl Merged {
             };
             let before = &mut self.library.pigments[index];
             let hiding = |pigment: &Pigment| {
-                let part = (1.0, pigment.absorption.as_slice(), pigment.scattering.as_slice());
-                crate::mixture::Mixture::of(pigment.absorption.len(), [part])
-                    .hiding(first.library.saunderson)
+                hiding_film(&pigment.absorption, &pigment.scattering, first.library.saunderson)
             };
             let delta_e = delta_e(&weights, &hiding(before), &hiding(&pigment));
             self.common.push((pigment.name.clone(), other.file.clone(), delta_e));
@@ -234,7 +233,7 @@ fn check_amounts(
     Ok(())
 }
 
-/// A warning where another surface is taken for the first's.
+/// Returns a warning where another surface is accepted as the first's.
 fn check_surface(
     base: &PigmentLibrary,
     first: &Source,
@@ -264,7 +263,7 @@ fn check_surface(
     Err(CurationError::Surface { what, first, wanted, file, found })
 }
 
-/// Alike to the rounding of a file.
+/// Whether K and S are equal to the rounding of a file.
 fn same_figures(a: &Pigment, b: &Pigment) -> bool {
     let near = |a: &[f64], b: &[f64]| {
         a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2e-5 * a.abs().max(b.abs()))
@@ -284,7 +283,7 @@ fn origin(source: &Source) -> String {
     }
 }
 
-/// Adds `part` to a list parted by semicolons, once.
+/// Appends `part` to a list separated by semicolons, unless it is there already.
 fn unite(whole: &mut String, part: &str) {
     if whole.is_empty() {
         part.clone_into(whole);

@@ -1,5 +1,5 @@
-//! Keeping pigment libraries: one of several, another reference white, another
-//! grid, other names, their health, and how far two are apart.
+//! Changes and checks of pigment libraries: merging, another reference white or grid, other names,
+//! health, and the difference of two libraries.
 
 mod error;
 

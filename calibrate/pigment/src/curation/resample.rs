@@ -1,4 +1,4 @@
-//! Another wavelength grid.
+//! Resampling a library to another wavelength grid.
 
 use spectra::{Absorption, Extrapolation, Grid, InterpolateError, Interpolation, Spectrum};
 
@@ -6,16 +6,16 @@ use super::error::CurationError;
 use crate::digits::rounded;
 use crate::library::{Pigment, PigmentLibrary};
 
-/// The library on `grid`: K and S by `method` (cut off at 0), deviations by straight
-/// lines. The evidence stays, with a word that it is told of the old grid.
+/// Resamples the library to `grid`: K and S by `method` (clipped at 0), standard deviations by straight
+/// lines. The evidence is kept, with a note that it belongs to the old grid.
 ///
-/// What is lost: the oils, thinned to 20 nm and brought back to 10, change by 0.05
-/// CIEDE2000 on average by Sprague's polynomial and by 0.39 on straight lines (100
-/// mixtures with white, `library diff`).
+/// Loss: the Van Gogh oils, thinned to 20 nm and brought back to 10 nm, change by 0.05 CIEDE2000 on
+/// average with Sprague's polynomial and by 0.39 with straight lines (100 mixtures with white, as
+/// compared by `library diff`).
 ///
 /// # Errors
-/// [`CurationError::Grid`] beyond the library's band, unless its ends are held,
-/// and for Sprague on fewer than six wavelengths.
+/// [`CurationError::Grid`] beyond the library's band, unless its end values are held, and for Sprague's
+/// polynomial on fewer than six wavelengths.
 pub fn on_grid(
     file: &str,
     library: &PigmentLibrary,
@@ -50,7 +50,7 @@ pub fn on_grid(
     Ok(PigmentLibrary { grid, pigments, evidence, ..library.clone() })
 }
 
-/// One curve of 0 and up; one that is missing stays so.
+/// Resamples one curve of values from 0 up; an empty curve stays empty.
 fn curve(
     from: Grid,
     values: &[f64],

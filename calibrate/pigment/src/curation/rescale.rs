@@ -1,31 +1,30 @@
-//! Another reference white.
+//! Scaling a library to another reference white.
 
 use super::error::CurationError;
 use crate::digits::rounded;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 
-/// The library with K and S relative to the S of `reference`, found as
-/// [`PigmentLibrary::find`] finds it; absolute amounts become shares.
+/// Scales K and S to the S of `reference`, a name that [`PigmentLibrary::find`] accepts. Absolute amounts
+/// become shares.
 ///
-/// Every K and S is divided by the reference's S at that wavelength, so every
-/// mixture keeps its K/S, and with it the colour of every film that hides. Films
-/// that do not hide change: their thickness now counts from another white.
-/// Deviations are divided too, as far as they are known apart; the old and the
-/// new reference exchange theirs. A pigment whose S was never known keeps its K/S
-/// with S = 1. The unevenness of absolute amounts, which means nothing to films
-/// that hide, is dropped, and so is their evidence.
+/// Every K and S is divided by the reference's S at that wavelength, so every mixture keeps its K/S and
+/// every film that hides keeps its colour. Films that do not hide change, because their thickness then
+/// counts from another white. Standard deviations are divided too, except that the old and the new
+/// reference exchange theirs. A pigment whose S was never known keeps its K/S with S = 1. The
+/// unevenness and the evidence of absolute amounts are dropped, since they mean nothing for films that
+/// hide.
 ///
 /// # Errors
-/// [`CurationError`] if there is no such pigment or its S is not known, or 0.
+/// [`CurationError`] if there is no such pigment, or its S is unknown or 0.
 pub fn with_reference(
     file: &str,
     library: &PigmentLibrary,
     reference: &str,
 ) -> Result<PigmentLibrary, CurationError> {
-    let index = library
+    let id = library
         .find(reference)
         .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
-    let white = &library.pigments[index];
+    let white = &library[id];
     if library.reference.as_ref() == Some(&white.name) {
         return Ok(library.clone());
     }
@@ -55,7 +54,7 @@ pub fn with_reference(
         if pigment.name == white.name {
             scattering_sd.fill(0.0);
         } else if library.reference.as_ref() == Some(&pigment.name) {
-            // 1 / S is known as well as S, relatively.
+            // The relative deviation of 1 / S is that of S.
             let pairs = white.scattering_sd.iter().zip(&white.scattering);
             scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
         }

@@ -1,13 +1,14 @@
-//! Other names, and fewer pigments.
+//! Renaming pigments and selecting a subset.
 
 use super::error::CurationError;
 use crate::library::PigmentLibrary;
+use crate::recipe::PigmentId;
 
-/// The library with each `(old, new)` name changed, all at once, so that two may
-/// be exchanged; everything else is as it was, the words of the evidence too.
+/// Renames pigments by `(old, new)` pairs, all at once, so that two names can be exchanged. Everything
+/// else stays, including the words of the evidence.
 ///
 /// # Errors
-/// [`CurationError`] for an unknown name, and for a new one that is empty or taken.
+/// [`CurationError`] for an unknown name, and for a new name that is empty or taken.
 pub fn renamed(
     file: &str,
     library: &PigmentLibrary,
@@ -15,14 +16,14 @@ pub fn renamed(
 ) -> Result<PigmentLibrary, CurationError> {
     let mut result = library.clone();
     for (old, new) in names {
-        let index = find(file, library, old)?;
+        let id = find(file, library, old)?;
         let new = new.trim();
         if new.is_empty() || new.contains(char::is_control) {
             let name = new.escape_default().to_string();
             return Err(CurationError::Name { file: file.to_owned(), name });
         }
-        new.clone_into(&mut result.pigments[index].name);
-        if library.reference.as_ref() == Some(&library.pigments[index].name) {
+        new.clone_into(&mut result.pigments[id.index()].name);
+        if library.reference.as_ref() == Some(&library[id].name) {
             result.reference = Some(new.to_owned());
         }
     }
@@ -35,8 +36,7 @@ pub fn renamed(
     Ok(result)
 }
 
-/// The library with the Colour Index name of each `(pigment, name)`; an empty name
-/// takes it away.
+/// Sets the Colour Index name of pigments by `(pigment, name)` pairs; an empty name removes it.
 ///
 /// # Errors
 /// [`CurationError`] for an unknown pigment.
@@ -49,38 +49,35 @@ pub fn with_color_indices(
     for (pigment, index_name) in indices {
         let name = index_name.trim();
         let color_index = (!name.is_empty()).then(|| name.to_owned());
-        result.pigments[find(file, library, pigment)?].color_index = color_index;
+        result.pigments[find(file, library, pigment)?.index()].color_index = color_index;
     }
     Ok(result)
 }
 
-/// The library with the pigments of `keep` alone (all, if empty) but for those of
-/// `without`, in the library's order.
+/// Selects the pigments of `keep` (all, if empty) except those of `without`, in the library's order.
 ///
-/// The errors of single samples go, since no library says what was in a sample;
-/// the summary stays, with a word that it is of the whole fit.
+/// The errors of single samples are dropped, since no library records what a sample contained. The
+/// summary stays, with a note that it belongs to the whole fit.
 ///
 /// # Errors
-/// [`CurationError`] for an unknown name, if nothing is left, and if the reference
-/// would go.
+/// [`CurationError`] for an unknown name, if no pigment is left, and if the reference would be left out.
 pub fn subset(
     file: &str,
     library: &PigmentLibrary,
     keep: &[String],
     without: &[String],
 ) -> Result<PigmentLibrary, CurationError> {
-    let found = |names: &[String]| -> Result<Vec<usize>, CurationError> {
+    let found = |names: &[String]| -> Result<Vec<PigmentId>, CurationError> {
         names.iter().map(|name| find(file, library, name)).collect()
     };
     let (kept, dropped) = (found(keep)?, found(without)?);
-    let stays =
-        |index: &usize| (keep.is_empty() || kept.contains(index)) && !dropped.contains(index);
-    let indices: Vec<usize> = (0..library.pigments.len()).filter(stays).collect();
-    if indices.is_empty() {
+    let stays = |id: &PigmentId| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id);
+    let ids: Vec<PigmentId> = library.ids().filter(stays).collect();
+    if ids.is_empty() {
         return Err(CurationError::Empty { file: file.to_owned() });
     }
     if let Some(reference) = &library.reference
-        && !indices.iter().any(|&index| library.pigments[index].name == *reference)
+        && !ids.iter().any(|&id| library[id].name == *reference)
     {
         return Err(CurationError::ReferenceLeftOut {
             file: file.to_owned(),
@@ -89,19 +86,19 @@ pub fn subset(
     }
     let mut evidence = library.evidence.clone();
     if let Some(evidence) = &mut evidence
-        && indices.len() < library.pigments.len()
+        && ids.len() < library.pigments.len()
     {
         evidence.per_sample.clear();
         evidence.warnings.push(format!(
             "{} of {} pigments: the errors are those of the whole fit",
-            indices.len(),
+            ids.len(),
             library.pigments.len()
         ));
     }
-    let pigments = indices.iter().map(|&index| library.pigments[index].clone()).collect();
+    let pigments = ids.iter().map(|&id| library[id].clone()).collect();
     Ok(PigmentLibrary { pigments, evidence, ..library.clone() })
 }
 
-fn find(file: &str, library: &PigmentLibrary, name: &str) -> Result<usize, CurationError> {
+fn find(file: &str, library: &PigmentLibrary, name: &str) -> Result<PigmentId, CurationError> {
     library.find(name).map_err(|error| CurationError::Pigment { file: file.to_owned(), error })
 }

@@ -1,46 +1,47 @@
-//! K and S as a CSV: one row a curve, columns `pigment`, `quantity` and the
+//! K and S as a CSV table: one row per curve, with the columns `pigment`, `quantity` and the
 //! wavelengths in nm.
 
 use spectra::Grid;
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
 use super::error::CurationError;
 use crate::digits::rounded;
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
 
-/// The names of the curves, in the order in which they are written; the last is
-/// all that is known of a pigment whose S was not identified.
+/// Names of the curves in the order in which they are written. The last one is used for pigments whose
+/// S was not identified.
 const QUANTITIES: [&str; 5] =
     ["absorption", "scattering", "absorption_sd", "scattering_sd", "absorption_over_scattering"];
 
-/// What a library says of its pigments, and no table of curves does.
+/// The properties of a library that a table of curves lacks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LibraryFrame {
-    /// What the library is.
+    /// Title of the library.
     pub title: String,
-    /// Licence of the figures.
+    /// Licence of the values.
     pub licence: String,
-    /// Where they come from.
+    /// Source of the measurements.
     pub source: String,
-    /// Whether K and S are relative to a white.
+    /// Whether K and S are relative to a white or per unit of amount.
     pub amounts: AmountKind,
-    /// The white; if not told, the only pigment whose S is 1 throughout.
+    /// Name of the reference white; by default the only pigment with S = 1 at every wavelength.
     pub reference: Option<String>,
-    /// The surface of the measured films.
+    /// Surface of the measured films.
     pub saunderson: Surface,
 }
 
-/// The curves of `library`; deviations where there are any.
+/// Writes the curves of `library`, with standard deviations where there are any.
 ///
 /// # Panics
-/// Never: memory takes what is written.
+/// Never: writing to memory does not fail.
 #[must_use]
 pub fn to_csv(library: &PigmentLibrary) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = vec!["pigment".to_owned(), "quantity".to_owned()];
     header.extend(library.grid.wavelengths_nm().map(|nm| nm.to_string()));
-    writer.write_record(&header).expect("memory takes a record");
+    writer.write_record(&header).expect("writing to memory does not fail");
     for pigment in &library.pigments {
         let ratio = || pigment.absorption.iter().zip(&pigment.scattering).map(|(k, s)| k / s);
         let curves = if pigment.identified {
@@ -52,19 +53,18 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
             let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];
             record.extend(curve.iter().map(f64::to_string));
-            writer.write_record(&record).expect("memory takes a record");
+            writer.write_record(&record).expect("writing to memory does not fail");
         }
     }
-    let bytes = writer.into_inner().expect("memory takes all records");
-    String::from_utf8(bytes).expect("records of text are text")
+    let bytes = writer.into_inner().expect("writing to memory does not fail");
+    String::from_utf8(bytes).expect("records of text are valid UTF-8")
 }
 
-/// The library whose curves stand in `text`, the content of `file`, as
-/// [`to_csv`] writes them; `K`, `S` and `K/S` are read for the words. A pigment of
-/// which only K/S stands there is one whose S is not known.
+/// Reads a library from `text`, the content of `file`, in the form that [`to_csv`] writes. `K`, `S` and
+/// `K/S` are accepted as names of the quantities. A pigment with K/S only becomes one of unknown S.
 ///
 /// # Errors
-/// [`TableError`], with row and column.
+/// [`TableError`] with row and column.
 pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLibrary, TableError> {
     let text = text.trim_start_matches('\u{feff}');
     let mut reader =
@@ -131,7 +131,7 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
     framed(file, grid, pigments.collect::<Result<_, _>>()?, frame)
 }
 
-/// The grid, and the columns of pigment and quantity.
+/// Grid of the wavelength columns, and the columns of pigment and quantity.
 fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize)), TableError> {
     let column = |wanted: &'static str| {
         let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
@@ -226,10 +226,10 @@ fn framed(
     }
     library.reference = match (frame.reference, whites.as_slice()) {
         (Some(name), _) => {
-            let index = library
+            let id = library
                 .find(&name)
                 .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
-            let name = library.pigments[index].name.clone();
+            let name = library[id].name.clone();
             if !whites.contains(&name) {
                 let relative = super::rescale::with_reference(file, &library, &name)?;
                 return Ok(relative);
@@ -239,80 +239,90 @@ fn framed(
         (None, [only]) => Some(only.clone()),
         (None, _) => return Err(TableError::NoReference { file: file.to_owned(), whites }),
     };
-    // What comes from a program's own file has been checked the same way.
+    // Reading the JSON form back applies the checks of every library file.
     Ok(PigmentLibrary::from_json(file, &library.to_json())?)
 }
 
 /// Why a table of curves cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// The sheet is faulty.
+    /// A cell, row or column of the table is faulty.
     #[error(transparent)]
     Sheet(CsvTableError),
-    /// No CSV.
+    /// The text is no CSV.
     #[error("{file}: {reason}")]
     Syntax {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// What the parser said.
+        /// Message of the CSV parser.
         reason: String,
     },
-    /// Wavelengths at no constant step.
+    /// The wavelengths do not rise at a constant step.
     #[error("{file}, row 1: wavelengths must rise at a constant step")]
     Irregular {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
     },
-    /// A pigment without K or S.
+    /// A pigment lacks its K or S.
     #[error("{file}: pigment {pigment} has no row of `{quantity}`")]
     MissingCurve {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The pigment.
+        /// Name of the pigment.
         pigment: String,
-        /// What it lacks.
+        /// Name of the missing curve.
         quantity: &'static str,
     },
-    /// No rows.
+    /// The table has no rows.
     #[error("{file}: the table holds no pigment")]
     Empty {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
     },
-    /// No pigment, or several, with S = 1.
+    /// None or several pigments have S = 1 at every wavelength.
     #[error("{file}: one pigment with S = 1 at every wavelength is wanted, found `{}`", whites.len())]
     NoReference {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// Those with S = 1.
+        /// Names of the pigments with S = 1.
         whites: Vec<String>,
     },
-    /// Scaling to the reference.
+    /// The library cannot be scaled to the reference.
     #[error(transparent)]
     Curation(#[from] CurationError),
-    /// No library.
+    /// The values make no valid library.
     #[error(transparent)]
     Library(#[from] LibraryError),
 }
 
-impl TableError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        Some(match self {
-            Self::Sheet(CsvTableError::MissingColumn { .. } | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. }) => {
-                "the columns are pigment, quantity, then wavelengths such as 400; `library export --to csv` writes one".into()
-            }
+impl Explain for TableError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Sheet(
+                CsvTableError::MissingColumn { .. }
+                | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. },
+            ) => "the columns are pigment, quantity, then wavelengths such as 400; `impasto library export` writes such a table with [to=csv]".into(),
             Self::Irregular { .. } => "resample the curves to a regular grid first".into(),
-            Self::Sheet(CsvTableError::RowLength { .. }) => "numbers take a decimal point, not a comma".into(),
+            Self::Sheet(CsvTableError::RowLength { .. }) => {
+                "numbers take a decimal point, not a comma".into()
+            }
             Self::NoReference { whites, .. } if whites.is_empty() => {
-                "name the white to scale by, --reference WHITE, or say --amounts absolute".into()
+                "name the white to scale by, [reference=WHITE], or set [amounts=absolute]".into()
             }
             Self::NoReference { whites, .. } => {
-                format!("name it, --reference WHITE: {}", whites.join(", "))
+                format!("name it, [reference=WHITE]: {}", whites.join(", "))
             }
             Self::Curation(error) => return error.hint(),
-            _ => return None,
-        })
+            Self::Library(error) => return error.hint(),
+            Self::Sheet(CsvTableError::Cell { .. }) | Self::Syntax { .. } => return None,
+            Self::MissingCurve { .. } | Self::Empty { .. } => return None,
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Library(error) => error.fault(),
+            _ => Fault::Input,
+        }
     }
 }

@@ -1,6 +1,10 @@
-//! The library as a JSON file.
+//! Reading and writing the library as a JSON file.
+
+use std::path::Path;
 
 use serde_json::{Map, Value};
+use spectra::file::{FileError, read, write_whole};
+use spectra::hint::{Explain, Fault, Hint};
 
 use super::json::to_text;
 use super::pigment_library::PigmentLibrary;
@@ -9,10 +13,28 @@ const FORMAT: &str = "impasto-pigment-library";
 const VERSION: u64 = 1;
 
 impl PigmentLibrary {
-    /// The library as JSON text; the same library gives the same bytes.
+    /// Reads a library from its JSON file.
+    ///
+    /// # Errors
+    /// [`LibraryError`] if the file cannot be read or is not a valid library.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, LibraryError> {
+        let path = path.as_ref();
+        let bytes = read(path)?;
+        Self::from_json(&path.display().to_string(), &String::from_utf8_lossy(&bytes))
+    }
+
+    /// Writes the library to a JSON file, completely or not at all.
+    ///
+    /// # Errors
+    /// [`FileError`] if the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
+        write_whole(path.as_ref(), self.to_json().as_bytes())
+    }
+
+    /// Writes the library as JSON text; equal libraries give equal bytes.
     ///
     /// # Panics
-    /// Never: a library holds only what JSON can say.
+    /// Never: every value of a library has a JSON form.
     #[must_use]
     pub fn to_json(&self) -> String {
         let mut file = Map::new();
@@ -25,11 +47,11 @@ impl PigmentLibrary {
         to_text(&Value::Object(file))
     }
 
-    /// The library in `text`, the content of `file`.
+    /// Reads the library from `text`, the content of `file`, which is only named in errors.
     ///
     /// # Errors
-    /// [`LibraryError`]: no JSON, another format, a newer version, an unknown or
-    /// missing key, or figures that are no K and S.
+    /// [`LibraryError`] if the text is no JSON, has another format or version, an unknown or missing
+    /// key, or values that no K and S can have.
     pub fn from_json(file: &str, text: &str) -> Result<Self, LibraryError> {
         let text = text.trim_start_matches('\u{feff}');
         if !text.trim_start().starts_with('{') {
@@ -57,7 +79,7 @@ impl PigmentLibrary {
             }
         }
         let version = object.remove("version").unwrap_or(Value::Null);
-        // Older versions will be upgraded here, one step each.
+        // Files of older versions will be upgraded here, one step each.
         if version != VERSION {
             return Err(LibraryError::Version {
                 file: file.to_owned(),
@@ -119,57 +141,66 @@ impl PigmentLibrary {
     }
 }
 
-/// Why a file is no library.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+/// Why a file is not a valid pigment library.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LibraryError {
-    /// No JSON, or keys that do not fit.
+    /// The file could not be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The text is no JSON, or its keys are not those of a library.
     #[error("{file}: {reason}")]
     Syntax {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// What the parser said.
+        /// Message of the JSON parser.
         reason: String,
     },
-    /// Another kind of file.
+    /// The key `format` does not name a pigment library.
     #[error("{file}: `format` must be \"impasto-pigment-library\", found `{found}`")]
     Format {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// What stands there.
+        /// Value of the key `format`, or what the file begins with.
         found: String,
     },
-    /// Another version.
+    /// The file's version is newer than this program.
     #[error("{file}: this program reads pigment libraries up to version {newest}, found `{found}`")]
     Version {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// Its version.
+        /// Version of the file.
         found: String,
-        /// The newest known.
+        /// Newest version that can be read.
         newest: u64,
     },
-    /// Figures that cannot be.
+    /// A value is impossible, or values are missing.
     #[error("{file}: pigment {pigment}: {what}")]
     Figures {
-        /// The file.
+        /// File name as the caller gave it.
         file: String,
-        /// The pigment.
+        /// Name of the pigment; empty where the fault is the library's.
         pigment: String,
-        /// What is wrong.
+        /// Description of the fault.
         what: String,
     },
 }
 
-impl LibraryError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
+impl Explain for LibraryError {
+    fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Format { .. } => {
-                Some("`impasto fit READINGS.csv --output LIBRARY.json` makes a pigment library")
-            }
-            Self::Version { .. } => Some("a newer impasto may read it"),
-            _ => None,
+            Self::File(error) => error.hint(),
+            Self::Format { .. } => Some(Hint::new(
+                "`impasto fit READINGS.csv [output=LIBRARY.json]` makes a pigment library",
+            )),
+            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
+            Self::Syntax { .. } | Self::Figures { .. } => None,
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            _ => Fault::Input,
         }
     }
 }

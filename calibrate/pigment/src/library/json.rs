@@ -1,9 +1,8 @@
-//! JSON that people can read and compare: one key a line, a row of numbers on
-//! one line.
+//! JSON that people can read and compare: one key per line, a row of numbers on one line.
 
 use serde_json::Value;
 
-/// `value` as text, indented by two spaces, ending in a new line.
+/// Writes `value` as text, indented by two spaces and ending in a new line.
 #[must_use]
 pub fn to_text(value: &Value) -> String {
     let mut text = String::new();
@@ -44,7 +43,7 @@ fn write(value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// A short record, such as one sample's error, stays on one line.
+/// Writes a flat record, such as one sample's error, on one line.
 fn write_inline_if_flat(value: &Value, depth: usize, text: &mut String) {
     match value {
         Value::Object(map) if map.values().all(|v| !v.is_object() && !v.is_array()) => {

@@ -1,15 +1,16 @@
-//! The pigment library: what a fit is for.
+//! The pigment library: its data, its JSON file and the library that ships.
 
-mod file;
+mod recipe_error;
+
+mod pigment_library;
 
 mod json;
 
-mod pigment_library;
+mod file;
 
 mod shipped;
 
 pub use file::LibraryError;
 pub use json::to_text;
-pub use pigment_library::{
-    AmountKind, Evidence, Input, Pigment, PigmentLibrary, RecipeError, SampleEvidence,
-};
+pub use pigment_library::{AmountKind, Evidence, Input, Pigment, PigmentLibrary, SampleEvidence};
+pub use recipe_error::RecipeError;

@@ -1,50 +1,59 @@
-//! Calibrated pigments on one grid.
+//! A library of calibrated pigments on one wavelength grid.
+
+use std::ops::{Index, IndexMut};
 
 use serde::{Deserialize, Serialize};
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm};
 
+use super::recipe_error::RecipeError;
+use crate::curves::Curves;
 use crate::fit_settings::FitSettings;
-use crate::mixture::Mixture;
+use crate::recipe::{PigmentId, Recipe};
 
-/// What the amounts of a recipe mean.
+/// Range of a part that can be mixed; beyond it sums lose their small terms.
+const PARTS: std::ops::RangeInclusive<f64> = 0.0..=1e12;
+/// Least sum of parts that can be normalised.
+const LEAST_TOTAL: f64 = 1e-12;
+
+/// Meaning of the amounts in a recipe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AmountKind {
-    /// Shares of a mixture; only their ratios count. K and S are relative to
-    /// the S of the reference white.
+    /// Shares of a mixture, of which only the ratios count. K and S are relative to the S of the
+    /// reference white.
     #[default]
     Relative,
-    /// Amounts laid on a fixed area; K and S are per unit of amount.
+    /// Amounts on a fixed area. K and S are per unit of amount.
     Absolute,
 }
 
-/// One calibrated pigment.
+/// One calibrated pigment of a library.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pigment {
-    /// Its name; no two of a library are alike.
+    /// Name of the pigment, unique in its library.
     pub name: String,
-    /// Colour Index name, such as `PB29`, if known.
+    /// Colour Index name, such as `PB29`; `None` if unknown.
     #[serde(rename = "colour_index", default, skip_serializing_if = "Option::is_none")]
     pub color_index: Option<String>,
-    /// K at each wavelength, 0 and up.
+    /// K at each wavelength of the library's grid, 0 and up.
     pub absorption: Vec<f64>,
-    /// S at each wavelength, 0 and up.
+    /// S at each wavelength of the library's grid, 0 and up.
     pub scattering: Vec<f64>,
-    /// Standard deviation of K.
+    /// Standard deviation of K at each wavelength; empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorption_sd: Vec<f64>,
-    /// Standard deviation of S.
+    /// Standard deviation of S at each wavelength; empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scattering_sd: Vec<f64>,
-    /// Whether S is known; if not, `scattering` is a stand-in (see `notes`).
+    /// Whether S is known; if not, `scattering` is 1 in its place, and `notes` say so.
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub identified: bool,
-    /// Whether K and S were made up from a colour rather than measured.
+    /// Whether K and S were guessed from a colour rather than measured.
     #[serde(default, skip_serializing_if = "is_no")]
     pub guessed: bool,
-    /// What a user must know of it, such as an S that was not identified.
+    /// Reservations that users of the pigment should know, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -68,100 +77,109 @@ fn is_no(value: &bool) -> bool {
     !*value
 }
 
-/// A file that the library was made from.
+/// A file from which the library was made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
-    /// As the user named it.
+    /// Path of the file, as the user named it.
     pub path: String,
-    /// SHA-256 of its bytes, in hexadecimal.
+    /// SHA-256 of the bytes, in hexadecimal.
     pub sha256: String,
 }
 
-/// How well a fit reproduces one sample.
+/// Error of a fit for one sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampleEvidence {
-    /// The sample.
+    /// Name of the sample.
     pub sample: String,
-    /// CIEDE2000 between measured and fitted.
+    /// CIEDE2000 between measured and fitted colour.
     pub delta_e: f64,
 }
 
-/// How well a fit reproduces its samples.
+/// Errors of a fit over all its samples.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Evidence {
-    /// The light of the colour errors.
+    /// Name of the light under which colour errors are computed.
     pub illuminant: String,
-    /// The observer of the colour errors.
+    /// Name of the observer for which colour errors are computed.
     pub observer: String,
-    /// Root mean square residual of measured reflectance.
+    /// Root mean square error of measured reflectance.
     pub rms: f64,
-    /// Mean, median, 90th percentile and largest CIEDE2000.
+    /// Summary of the colour errors in CIEDE2000.
     pub delta_e: crate::evaluate::Summary,
-    /// By sample, in order of the file.
+    /// Colour error of each sample, in order of the file.
     pub per_sample: Vec<SampleEvidence>,
-    /// What the data could not tell, in words.
+    /// Quantities that the data do not identify, and inconsistent data, in words.
     pub warnings: Vec<String>,
 }
 
-/// Pigments that can be mixed, with where they come from.
+/// Calibrated pigments that can be mixed, with their sources.
+///
+/// ```
+/// use pigment::{PigmentLibrary, Viewing};
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
+/// assert_eq!(color.hex(), "#6e9cc4");
+/// # Ok::<(), pigment::ColorError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PigmentLibrary {
-    /// What the library is.
+    /// Title of the library.
     pub title: String,
-    /// Licence of the figures.
+    /// Licence of the values.
     pub licence: String,
-    /// Where the measurements come from.
+    /// Source of the measurements.
     pub source: String,
-    /// The wavelengths of every K and S.
+    /// Wavelengths of all K and S.
     pub grid: Grid,
-    /// What recipes are written in.
+    /// Meaning of the amounts in a recipe.
     #[serde(default)]
     pub amounts: AmountKind,
-    /// The pigment whose S is 1 at every wavelength; none for absolute amounts.
+    /// Name of the pigment whose S is 1 at every wavelength; `None` for absolute amounts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
-    /// The surface of the measured films.
+    /// Surface of the measured films (Saunderson correction).
     pub saunderson: Surface,
-    /// How uneven the measured films were, see [`UnevenFilm`]; only absolute
-    /// amounts can tell.
+    /// Unevenness of the measured films, see [`UnevenFilm`]; 0 to 2. Only absolute amounts reveal
+    /// it.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unevenness: f64,
-    /// The measurement files.
+    /// Measurement files from which the library was made.
     #[serde(default)]
     pub inputs: Vec<Input>,
-    /// How the fit was made; none for a library made otherwise.
+    /// Settings of the fit; `None` for a library made otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<FitSettings>,
-    /// The pigments.
+    /// The pigments; at least one, no two with the same name.
     pub pigments: Vec<Pigment>,
-    /// How well the fit reproduces its samples.
+    /// Errors of the fit; `None` for a library made otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
 }
 
 impl PigmentLibrary {
-    /// The index of the pigment called `name`: exactly, else without regard to
-    /// case, else the only one whose name starts so.
+    /// Finds a pigment by `name`: the exact name, else without regard to case, else the only pigment
+    /// whose name starts so.
     ///
     /// # Errors
-    /// [`RecipeError`] if none or several fit.
-    pub fn find(&self, name: &str) -> Result<usize, RecipeError> {
+    /// [`RecipeError`] if no pigment or several match.
+    pub fn find(&self, name: &str) -> Result<PigmentId, RecipeError> {
         let name = name.trim();
         let lower = name.to_lowercase();
         let lowered: Vec<String> = self.pigments.iter().map(|p| p.name.to_lowercase()).collect();
         if let Some(index) = self.pigments.iter().position(|p| p.name == name) {
-            return Ok(index);
+            return Ok(PigmentId(index));
         }
         if let Some(index) = lowered.iter().position(|n| *n == lower) {
-            return Ok(index);
+            return Ok(PigmentId(index));
         }
         let mut starting = (0..lowered.len()).filter(|&i| lowered[i].starts_with(&lower));
         match (starting.next(), starting.next()) {
-            (Some(index), None) => Ok(index),
+            (Some(index), None) => Ok(PigmentId(index)),
             (Some(first), Some(second)) => Err(RecipeError::Ambiguous {
                 name: name.to_owned(),
                 first: self.pigments[first].name.clone(),
@@ -174,72 +192,81 @@ impl PigmentLibrary {
         }
     }
 
-    /// The film that this library's mixtures make.
+    /// All pigments of the library by their place, in order.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = PigmentId> + Clone + use<> {
+        (0..self.pigments.len()).map(PigmentId)
+    }
+
+    /// Place of the reference white; `None` if the library has none.
+    #[must_use]
+    pub fn reference_id(&self) -> Option<PigmentId> {
+        let name = self.reference.as_ref()?;
+        self.ids().find(|&id| self[id].name == *name)
+    }
+
+    /// K and S of one pigment, with their grid.
+    ///
+    /// # Panics
+    /// If `pigment` belongs to a larger library.
+    #[must_use]
+    pub fn curves(&self, pigment: PigmentId) -> Curves {
+        let Pigment { absorption, scattering, .. } = self[pigment].clone();
+        Curves { grid: self.grid, absorption, scattering }
+    }
+
+    /// Film model that predicts the measured films: their surface and unevenness.
     #[must_use]
     pub fn film(&self) -> UnevenFilm {
         UnevenFilm { surface: self.saunderson, unevenness: self.unevenness }
     }
 
-    /// The mixture of `(pigment index, parts)`. Parts of a relative library are
-    /// normalised to sum 1, so that its thickness keeps its meaning.
+    /// Recipe of pigments by name, each with its parts. Names are looked up by [`Self::find`].
     ///
     /// # Errors
-    /// [`RecipeError`] unless every part is 0 to 1e12 and they sum to 1e-12 or
-    /// more.
-    pub fn mix(&self, parts: &[(usize, f64)]) -> Result<Mixture, RecipeError> {
-        if let Some((_, part)) = parts.iter().find(|(_, part)| !(0.0..=1e12).contains(part)) {
+    /// [`RecipeError`] for a name that matches no pigment or several.
+    pub fn recipe<N: AsRef<str>>(
+        &self,
+        parts: impl IntoIterator<Item = (N, f64)>,
+    ) -> Result<Recipe, RecipeError> {
+        parts.into_iter().map(|(name, part)| Ok((self.find(name.as_ref())?, part))).collect()
+    }
+
+    /// K and S of a recipe. Parts of a relative library are normalised to sum 1, so that the thickness
+    /// of its films keeps its meaning.
+    ///
+    /// # Errors
+    /// [`RecipeError::Parts`] unless every part is 0 to 1e12 and they sum to 1e-12 or more.
+    ///
+    /// # Panics
+    /// If a pigment belongs to a larger library.
+    pub fn mix(&self, recipe: impl AsRef<[(PigmentId, f64)]>) -> Result<Curves, RecipeError> {
+        let parts = recipe.as_ref();
+        if let Some((_, part)) = parts.iter().find(|(_, part)| !PARTS.contains(part)) {
             return Err(RecipeError::Parts { parts: *part });
         }
         let total: f64 = parts.iter().map(|(_, part)| part).sum();
-        if total < 1e-12 {
+        if total < LEAST_TOTAL {
             return Err(RecipeError::Parts { parts: total });
         }
         let scale = if self.amounts == AmountKind::Relative { 1.0 / total } else { 1.0 };
-        let weighted = parts.iter().map(|&(index, part)| {
-            let pigment = &self.pigments[index];
+        let weighted = parts.iter().map(|&(id, part)| {
+            let pigment = &self[id];
             (part * scale, pigment.absorption.as_slice(), pigment.scattering.as_slice())
         });
-        Ok(Mixture::of(self.grid.count(), weighted))
+        Ok(Curves::weighted_sum(self.grid, weighted))
     }
 }
 
-/// A recipe that cannot be mixed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RecipeError {
-    /// No pigment has this name.
-    #[error("the library has no pigment called `{name}`")]
-    UnknownPigment {
-        /// The name given.
-        name: String,
-        /// The names there are.
-        known: Vec<String>,
-    },
-    /// Several pigments start with this name.
-    #[error("{first} and {second} both start with `{name}`")]
-    Ambiguous {
-        /// The name given.
-        name: String,
-        /// One pigment.
-        first: String,
-        /// Another.
-        second: String,
-    },
-    /// Parts that make no mixture.
-    #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{parts}`")]
-    Parts {
-        /// What was given.
-        parts: f64,
-    },
+impl Index<PigmentId> for PigmentLibrary {
+    type Output = Pigment;
+
+    fn index(&self, pigment: PigmentId) -> &Pigment {
+        &self.pigments[pigment.0]
+    }
 }
 
-impl RecipeError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        match self {
-            Self::UnknownPigment { known, .. } => Some(format!("pigments: {}", known.join(", "))),
-            Self::Ambiguous { .. } => Some("write more of the name".to_owned()),
-            Self::Parts { .. } => None,
-        }
+impl IndexMut<PigmentId> for PigmentLibrary {
+    fn index_mut(&mut self, pigment: PigmentId) -> &mut Pigment {
+        &mut self.pigments[pigment.0]
     }
 }

@@ -1,12 +1,12 @@
-//! The library that ships: the oils of Van Gogh's palette.
+//! The library that ships with impasto: the oils of Van Gogh's palette.
 
 use super::pigment_library::PigmentLibrary;
 
-/// The library that `impasto fit` makes of `measurements/van-gogh-oils.csv`.
+/// Output of `impasto fit` for `measurements/van-gogh-oils.csv`.
 const VAN_GOGH_OILS: &str = include_str!("../../../../measurements/van-gogh-oils.pigments.json");
 
 impl PigmentLibrary {
-    /// The oils of Van Gogh's palette: 20 pigments, calibrated from the readings of
+    /// The library that ships: 20 oil paints of Van Gogh's palette, calibrated from the readings of
     /// Geldof and others (2018, CC0).
     ///
     /// # Panics
@@ -23,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shipped_library_is_valid_and_has_its_pigments() {
+    fn the_shipped_library_is_valid_and_has_20_pigments() {
         let oils = PigmentLibrary::van_gogh_oils();
         assert_eq!(oils.pigments.len(), 20);
         assert!(oils.find("Zinc White").is_ok(), "the reference white");

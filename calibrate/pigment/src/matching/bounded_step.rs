@@ -1,27 +1,28 @@
-//! The best step of a quadratic model inside bounds, where shares keep their sum.
+//! The best step of a quadratic model within bounds, where shares keep their sum.
 //!
-//! The primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at
-//! most nine unknowns, on the stack.
+//! The primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns,
+//! which are kept on the stack.
 
-/// The most unknowns: eight shares, and the logarithm of the thickness.
-pub const UNKNOWNS: usize = 9;
+/// Most pigments of one recipe; it sets the size of the arrays below.
+pub const MAX_PIGMENTS: usize = 8;
+/// Most unknowns of one descent: the shares of eight pigments, and the logarithm of the thickness.
+pub const UNKNOWNS: usize = MAX_PIGMENTS + 1;
 
-/// Bounds of each unknown, and how many of them, from the first, are shares
-/// whose sum stays.
+/// Bounds of each unknown. The first `shares` unknowns keep their sum.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {
-    /// How many unknowns there are.
+    /// Number of unknowns, up to [`UNKNOWNS`].
     pub count: usize,
-    /// How many of them, from the first, keep their sum.
+    /// Number of unknowns, from the first, that keep their sum.
     pub shares: usize,
-    /// The least of each.
+    /// Lower bound of each unknown.
     pub lower: [f64; UNKNOWNS],
-    /// The most of each.
+    /// Upper bound of each unknown.
     pub upper: [f64; UNKNOWNS],
 }
 
-/// The step d from `point`, inside the bounds, that minimises g d + d H d / 2.
-/// `matrix` must be positive definite and `point` inside the bounds.
+/// Returns the step d from `point` that minimises g d + d H d / 2 within the bounds. `matrix` must be
+/// positive definite and `point` within the bounds.
 pub(super) fn bounded_step(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     gradient: &[f64; UNKNOWNS],
@@ -36,7 +37,7 @@ pub(super) fn bounded_step(
         let (down, up) = room(i);
         *held = down >= 0.0 || up <= 0.0;
     }
-    // Each round holds or frees one unknown; far more rounds than ever needed.
+    // Each round fixes or frees one unknown; far more rounds than ever needed.
     for _ in 0..8 * UNKNOWNS {
         let slope: [f64; UNKNOWNS] = std::array::from_fn(|i| {
             gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
@@ -68,8 +69,7 @@ pub(super) fn bounded_step(
     step
 }
 
-/// The minimum over the unknowns that are not held, and the multiplier of the
-/// sum of shares.
+/// Minimum over the unknowns that are not held, and Lagrange's multiplier for the sum of shares.
 fn free_step(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     slope: &[f64; UNKNOWNS],
@@ -117,7 +117,7 @@ fn free_step(
     (step, multiplier)
 }
 
-/// The held unknown that would lower the model most if it were free.
+/// Index of the held unknown that would lower the model most if it were free.
 fn wrongly_held(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     gradient: &[f64; UNKNOWNS],
@@ -129,8 +129,8 @@ fn wrongly_held(
 ) -> Option<usize> {
     let slope =
         |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
-    // Without a free share the sum allows none of them to move alone: free the
-    // one that pulls hardest against the others' mean.
+    // Without a free share none of them can move alone: free the one whose slope differs most from
+    // the mean of the others.
     let shared = multiplier.unwrap_or_else(|| {
         let shares = bounds.shares.max(1);
         -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64
@@ -142,7 +142,7 @@ fn wrongly_held(
             continue;
         }
         let pull = slope(i) + if i < bounds.shares { shared } else { 0.0 };
-        // At the lower bound a falling slope pulls inward, at the upper a rising one.
+        // At the lower bound a falling slope points inwards, at the upper bound a rising one.
         let gain = if step[i] <= down { -pull } else { pull };
         if gain > worst.0 {
             worst = (gain, Some(i));
@@ -155,7 +155,7 @@ fn wrongly_held(
 mod tests {
     use super::*;
 
-    /// The model's least value over a fine grid of three shares.
+    /// Least value of the model over a fine grid of three shares.
     fn by_grid(matrix: [[f64; 3]; 3], gradient: [f64; 3], point: [f64; 3], least: f64) -> f64 {
         let value = |d: [f64; 3]| -> f64 {
             (0..3)
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn the_step_is_the_best_of_a_fine_grid() {
+    fn the_step_is_as_good_as_the_best_of_a_fine_grid() {
         let point = [0.02, 0.3, 0.68];
         let least = 0.02;
         let cases = [
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn an_upper_bound_holds() {
+    fn an_upper_bound_is_kept() {
         let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
         (matrix[0][0], matrix[1][1]) = (1.0, 2.0);
         let mut gradient = [0.0; UNKNOWNS];
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_beside_the_shares_moves_by_itself() {
+    fn an_unknown_that_is_no_share_moves_independently() {
         let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
         (matrix[0][0], matrix[1][1]) = (1.0, 2.0);
         let mut gradient = [0.0; UNKNOWNS];

@@ -8,25 +8,24 @@ use super::bounded_descent::Cost;
 use super::bounded_step::UNKNOWNS;
 use super::film::FilmKind;
 use super::request::MatchRequest;
-use super::sight::{Metric, Target};
+use super::target::Target;
+use super::viewing_condition::Metric;
 use crate::library::PigmentLibrary;
+use crate::recipe::PigmentId;
 
-/// The most pigments of a recipe.
-pub(super) const MOST_PIGMENTS: usize = UNKNOWNS - 1;
-
-/// A library, a film and lights, ready for many recipes.
+/// A library, a film and viewing conditions, prepared for many recipes.
 pub(super) struct Forward<'a> {
     pub(super) library: &'a PigmentLibrary,
     film: UnevenFilm,
     metric: Metric,
-    /// The ground below its surface; `None` under a film that hides.
+    /// Internal reflectance of the ground; `None` for a film that hides.
     ground: Option<Vec<f64>>,
     pub(super) weights: Vec<TristimulusWeights>,
-    /// The square root of each light's share of all weights.
+    /// Square root of each condition's weight divided by the sum of weights.
     roots: Vec<f64>,
 }
 
-/// Room for one evaluation.
+/// Buffers that one evaluation reuses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
     reflectance: Vec<f64>,
@@ -40,7 +39,7 @@ impl<'a> Forward<'a> {
         library: &'a PigmentLibrary,
         request: &MatchRequest,
     ) -> Result<Self, InterpolateError> {
-        let sights = &request.sights;
+        let conditions = &request.conditions;
         let ground = match &request.film {
             FilmKind::Hiding => None,
             FilmKind::Over { ground, .. } => {
@@ -49,23 +48,29 @@ impl<'a> Forward<'a> {
                 Some(ground.iter().map(|bare| below(bare).min(1.0)).collect())
             }
         };
-        let total: f64 = sights.iter().map(|sight| sight.weight).sum();
+        let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
         Ok(Self {
             library,
             film: library.film(),
             metric: request.metric,
             ground,
-            weights: sights
+            weights: conditions
                 .iter()
-                .map(|sight| sight.viewing.weights(library.grid))
+                .map(|condition| condition.viewing.weights(library.grid))
                 .collect::<Result<_, _>>()?,
-            roots: sights.iter().map(|sight| (sight.weight / total).sqrt()).collect(),
+            roots: conditions.iter().map(|condition| (condition.weight / total).sqrt()).collect(),
         })
     }
 
-    /// Measured reflectance of `shares` of `pigments` at a thickness, left in
-    /// `scratch` with its slopes over K d and S d (K and S for a film that hides).
-    fn reflect(&self, pigments: &[usize], shares: &[f64], thickness: f64, scratch: &mut Scratch) {
+    /// Computes the measured reflectance of `shares` of `pigments` at a thickness. Leaves it in
+    /// `scratch`, with its slopes over K d and S d (over K and S for a film that hides).
+    fn reflect(
+        &self,
+        pigments: &[PigmentId],
+        shares: &[f64],
+        thickness: f64,
+        scratch: &mut Scratch,
+    ) {
         let count = self.library.grid.count();
         let Scratch { reflectance, over_absorption, over_scattering, .. } = scratch;
         for plane in [&mut *reflectance, &mut *over_absorption, &mut *over_scattering] {
@@ -73,7 +78,7 @@ impl<'a> Forward<'a> {
             plane.resize(count, 0.0);
         }
         for (&pigment, &share) in pigments.iter().zip(shares) {
-            let pigment = &self.library.pigments[pigment];
+            let pigment = &self.library[pigment];
             let amount = share * thickness;
             for (sum, k) in over_absorption.iter_mut().zip(&pigment.absorption) {
                 *sum += amount * k;
@@ -97,10 +102,10 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// Measured reflectance of a recipe.
+    /// Measured reflectance of a recipe on the library's grid.
     pub(super) fn reflectance(
         &self,
-        pigments: &[usize],
+        pigments: &[PigmentId],
         shares: &[f64],
         thickness: f64,
         scratch: &mut Scratch,
@@ -109,11 +114,11 @@ impl<'a> Forward<'a> {
         scratch.reflectance.clone()
     }
 
-    /// The weighted root mean square of the differences over the lights.
+    /// Weighted root mean square of the colour differences over all viewing conditions.
     pub(super) fn distance(
         &self,
         target: &Target,
-        pigments: &[usize],
+        pigments: &[PigmentId],
         shares: &[f64],
         thickness: f64,
         scratch: &mut Scratch,
@@ -128,12 +133,12 @@ impl<'a> Forward<'a> {
         squares.sum::<f64>().sqrt()
     }
 
-    /// The cost of `unknowns`, a share for each of `pigments`, then, where
-    /// `chooses_thickness`, the logarithm of the thickness.
+    /// Cost at `unknowns`: a share for each of `pigments`, followed by the logarithm of the
+    /// thickness where `chooses_thickness`.
     pub(super) fn cost(
         &self,
         target: &Target,
-        pigments: &[usize],
+        pigments: &[PigmentId],
         unknowns: &[f64],
         thickness: f64,
         chooses_thickness: bool,
@@ -147,7 +152,7 @@ impl<'a> Forward<'a> {
         by_unknown.clear();
         by_unknown.resize(columns * count, 0.0);
         for (column, &pigment) in by_unknown.chunks_exact_mut(count).zip(pigments) {
-            let pigment = &self.library.pigments[pigment];
+            let pigment = &self.library[pigment];
             for (at, value) in column.iter_mut().enumerate() {
                 *value = thickness
                     * (over_absorption[at] * pigment.absorption[at]
@@ -155,7 +160,7 @@ impl<'a> Forward<'a> {
             }
         }
         if chooses_thickness {
-            // d/d log t is the sum of every share's own slope.
+            // The slope over log t is the sum of shares times their own slopes.
             let (by_share, by_thickness) = by_unknown.split_at_mut(pigments.len() * count);
             for (column, share) in by_share.chunks_exact(count).zip(shares) {
                 for (sum, value) in by_thickness.iter_mut().zip(column) {
@@ -191,15 +196,16 @@ impl<'a> Forward<'a> {
     }
 }
 
-/// The residuals of a difference and their derivatives over X, Y and Z (rows by
-/// residual). CIELAB's slopes are exact, those of the difference formula are
-/// quotients over a thousandth of a unit.
+/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The
+/// slopes of CIELAB are exact, those of the difference formula are difference quotients.
 fn residuals_with_slopes(
     metric: Metric,
     wanted: Lab,
     xyz: Xyz,
     white: Xyz,
 ) -> ([f64; 3], [[f64; 3]; 3]) {
+    /// Step of the difference quotients in units of CIELAB: small against any colour difference,
+    /// large against rounding.
     const STEP: f64 = 1e-3;
     let lab = Lab::from_xyz(xyz, white);
     let residuals = metric.residuals(wanted, lab);
@@ -218,9 +224,9 @@ fn residuals_with_slopes(
     (residuals, over_xyz)
 }
 
-/// The reflectance of a film that hides, with its slopes over K and S.
+/// Reflectance of a film that hides, with its slopes over K and S.
 fn infinite_film_with_slopes(k: f64, s: f64) -> [f64; 3] {
-    // At K = 0 the slope over K is infinite; a hair above it is only steep.
+    // At K = 0 the slope over K is infinite; slightly above, it is finite and steep.
     let k = k.max(1e-9 * s).max(1e-300);
     let alpha = (k * (k + 2.0 * s)).sqrt();
     let rest = k + s + alpha;
@@ -232,7 +238,8 @@ mod tests {
     use super::*;
     use crate::evaluate::Viewing;
     use crate::library::Pigment;
-    use crate::matching::{Sight, Thickness};
+    use crate::matching::film::Thickness;
+    use crate::matching::viewing_condition::ViewingCondition;
     use spectra::{Grid, Illuminant, Observer};
 
     fn library() -> PigmentLibrary {
@@ -274,36 +281,37 @@ mod tests {
     }
 
     #[test]
-    fn slopes_of_the_cost_are_those_of_difference_quotients() {
+    fn slopes_of_the_cost_agree_with_difference_quotients() {
         let library = library();
-        let sight = |name: &str, weight| Sight {
+        let under = |name: &str, weight| ViewingCondition {
             viewing: Viewing {
                 illuminant: Illuminant::named(name).unwrap(),
                 observer: Observer::default(),
             },
             weight,
         };
-        let sights = vec![sight("D65", 1.0), sight("A", 0.5)];
+        let conditions = vec![under("D65", 1.0), under("A", 0.5)];
         let wanted = Lab { lightness: 48.0, a: 22.0, b: -9.0 };
-        let target = Target::from_lab("", wanted, &sights);
+        let target = Target::from_lab("", wanted, &conditions);
         let thickness = Thickness::Between(0.1, 9.0);
         let over = FilmKind::Over { ground: vec![0.7; 16], thickness };
         for (film, count) in [(FilmKind::Hiding, 3), (over, 4)] {
             for metric in [Metric::Ciede2000, Metric::Cie1976] {
                 let request = MatchRequest {
                     metric,
-                    ..MatchRequest::new(&library, sights.clone(), film.clone())
+                    ..MatchRequest::new(&library, conditions.clone(), film.clone())
                 };
                 let forward = Forward::new(&library, &request).unwrap();
                 let mut scratch = Scratch::default();
+                let pigments = [0, 1, 2].map(PigmentId);
                 let point = [0.5, 0.2, 0.3, 0.4];
                 let mut cost = |point: &[f64]| {
                     let thickness = if count == 4 { point[3].exp() } else { 1.0 };
                     let chooses = count == 4;
                     let unknowns = &point[..count];
-                    forward.cost(&target, &[0, 1, 2], unknowns, thickness, chooses, &mut scratch)
+                    forward.cost(&target, &pigments, unknowns, thickness, chooses, &mut scratch)
                 };
-                let told = cost(&point).gradient;
+                let slopes = cost(&point).gradient;
                 for unknown in 0..count {
                     let mut moved = |by: f64| {
                         let mut near = point;
@@ -311,8 +319,8 @@ mod tests {
                         cost(&near).value
                     };
                     let quotient = (moved(1e-5) - moved(-1e-5)) / 2e-5;
-                    let off = (told[unknown] - quotient).abs() / quotient.abs().max(1.0);
-                    assert!(off < 1e-3, "{metric:?} {unknown}: {} for {quotient}", told[unknown]);
+                    let off = (slopes[unknown] - quotient).abs() / quotient.abs().max(1.0);
+                    assert!(off < 1e-3, "{metric:?} {unknown}: {} for {quotient}", slopes[unknown]);
                 }
             }
         }

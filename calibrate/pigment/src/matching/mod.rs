@@ -1,12 +1,13 @@
 //! Recipes for a colour.
 //!
-//! Which pigments of a library, and how much of each, come nearest to a target
-//! under one light or several? Every set of pigments is tried, from one pigment
-//! up to the wanted number; the shares of each are found by least squares in
-//! the colour difference itself, started from the best recipe of a set with one pigment
-//! fewer.
+//! The question: which pigments of a library, and how much of each, come nearest to a target under
+//! one light or several? Every set of pigments is tried, from one pigment up to the requested
+//! number. The shares of each set are found by least squares in the colour difference itself,
+//! starting from the best recipe of a set with one pigment fewer.
 
-mod sight;
+mod viewing_condition;
+
+mod target;
 
 mod film;
 
@@ -14,15 +15,17 @@ mod bounded_step;
 
 mod bounded_descent;
 
-mod forward;
-
-mod descent;
+mod error;
 
 mod request;
 
 mod candidate;
 
-mod watch;
+mod forward;
+
+mod descent;
+
+mod search_control;
 
 mod search;
 
@@ -30,11 +33,22 @@ mod whole_parts;
 
 mod ranking;
 
-pub use bounded_descent::{Cost, descend_inside};
-pub use bounded_step::{Bounds, UNKNOWNS};
+mod prices;
+
+mod options;
+
+mod recipe_search;
+
+pub use bounded_descent::{Cost, descend_within_bounds};
+pub use bounded_step::{Bounds, MAX_PIGMENTS, UNKNOWNS};
+pub use error::MatchError;
 pub use film::{FilmKind, Thickness};
-pub use ranking::{Recipe, recipes, recipes_watched};
-pub use request::{MatchError, MatchRequest};
-pub use sight::{Metric, Sight, Target};
-pub use watch::Watch;
+pub use options::{MatchOptions, RequiredName};
+pub use prices::{PriceError, PriceList, parse_price};
+pub use ranking::{RecipeMatch, recipes, recipes_with_control};
+pub use recipe_search::{RecipeMatches, RecipeSearch};
+pub use request::{MatchRequest, RequiredPigment};
+pub use search_control::SearchControl;
+pub use target::{ColorTarget, Target, TargetColor};
+pub use viewing_condition::{Metric, ViewingCondition};
 pub use whole_parts::few_parts;

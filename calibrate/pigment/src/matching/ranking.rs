@@ -1,90 +1,93 @@
-//! The recipes worth showing, in order.
+//! Selection and order of the recipes that are returned.
 
 use spectra::color::{Lab, delta_e_ciede2000};
 
 use super::candidate::Candidate;
+use super::error::MatchError;
 use super::film::FilmKind;
 use super::forward::{Forward, Scratch};
-use super::request::{MatchError, MatchRequest};
+use super::request::MatchRequest;
 use super::search::search;
-use super::sight::Target;
-use super::watch::Watch;
+use super::search_control::SearchControl;
+use super::target::Target;
 use super::whole_parts::in_whole_parts;
 use crate::evaluate::lab;
 use crate::library::{AmountKind, PigmentLibrary};
+use crate::recipe::Recipe;
 
-/// A recipe for a target.
+/// A recipe that was found for a target.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Recipe {
-    /// Pigments of the library with their shares (sum 1), the greatest first.
-    pub shares: Vec<(usize, f64)>,
-    /// The same as whole parts, where those were asked for.
+pub struct RecipeMatch {
+    /// Pigments of the library with their shares, sum 1, the greatest first.
+    pub shares: Recipe,
+    /// The shares as whole parts, in the same order, if the request asks for these.
     pub parts: Option<Vec<u32>>,
-    /// The film's thickness; `None` for one that hides.
+    /// Thickness of the film; `None` for a film that hides.
     pub thickness: Option<f64>,
-    /// CIEDE2000 under each sight.
+    /// CIEDE2000 from the target under each viewing condition.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square over the sights of the differences in the
-    /// request's metric.
+    /// Weighted root mean square over all viewing conditions of the differences in the request's metric.
     pub distance: f64,
-    /// The recipe's colour under each sight.
+    /// Colour of the recipe under each viewing condition.
     pub lab: Vec<Lab>,
-    /// Its measured reflectance on the library's grid.
+    /// Measured reflectance of the recipe on the library's grid.
     pub reflectance: Vec<f64>,
-    /// Cost of one unit of the mixture, or of absolute amounts together, where costs are known.
+    /// Price of one unit of the mixture, or of all absolute amounts together; `None` if prices are
+    /// unknown.
     pub cost: Option<f64>,
 }
 
-/// Recipes of `library` for `target`, the best first.
+/// Searches recipes of `library` for `target` and returns the best first.
 ///
-/// Recipes that are equally near (within the request's tolerance of the nearest)
-/// come cheapest first where costs are known, else with the fewest pigments, then
-/// with the largest smallest share. The others follow by distance. A recipe that
-/// adds a pigment to one that is shown, without coming nearer by more than the
-/// tolerance, is left out.
+/// Recipes that are equally near (within the request's tolerance of the nearest) are ordered by price
+/// where prices are known, then by the number of pigments, then by the largest smallest share. The
+/// others follow by distance. A recipe that adds a pigment to another one of the list without coming
+/// nearer by more than the tolerance is left out.
 ///
 /// # Errors
 /// [`MatchError`] if the request cannot be met.
 ///
 /// # Panics
-/// If an index of the request is no pigment of `library`, or a ground or target
-/// does not fit grid and sights.
+/// If a pigment of the request is not in the library, or a ground or target does not fit its grid and
+/// viewing conditions.
 pub fn recipes(
     library: &PigmentLibrary,
     target: &Target,
     request: &MatchRequest,
-) -> Result<Vec<Recipe>, MatchError> {
-    Ok(recipes_watched(library, target, request, &Watch::default())?.unwrap_or_default())
+) -> Result<Vec<RecipeMatch>, MatchError> {
+    let control = SearchControl::default();
+    Ok(recipes_with_control(library, target, request, &control)?.unwrap_or_default())
 }
 
-/// As [`recipes`], while others look on; `None` if one of them stopped it.
+/// Searches recipes like [`recipes`], under the control of another thread. Returns `None` if the search
+/// was cancelled.
 ///
 /// # Errors
-/// As [`recipes`].
+/// [`MatchError`] if the request cannot be met.
 ///
 /// # Panics
-/// As [`recipes`].
-pub fn recipes_watched(
+/// If a pigment of the request is not in the library, or a ground or target does not fit its grid and
+/// viewing conditions.
+pub fn recipes_with_control(
     library: &PigmentLibrary,
     target: &Target,
     request: &MatchRequest,
-    watch: &Watch,
-) -> Result<Option<Vec<Recipe>>, MatchError> {
+    control: &SearchControl,
+) -> Result<Option<Vec<RecipeMatch>>, MatchError> {
     request.check(library)?;
     let forward = Forward::new(library, request).expect("the method fits the grid");
-    let candidates = search(&forward, request, target, watch);
+    let candidates = search(&forward, request, target, control);
     let found: Vec<Found> = match request.whole_parts {
         None => candidates.into_iter().map(|candidate| (None, candidate)).collect(),
         Some(most) => {
-            // Some of the nearest are left out later, for adding nothing.
-            let wanted = 5 * request.count;
-            in_whole_parts(&forward, request, target, &candidates, (most, wanted), watch)
+            let wanted = SPARE_RECIPES * request.count;
+            in_whole_parts(&forward, request, target, &candidates, (most, wanted), control)
                 .into_iter()
                 .map(|(parts, candidate)| (Some(parts), candidate))
                 .collect()
         }
     };
-    if watch.stopped() {
+    if control.cancelled() {
         return Ok(None);
     }
     let cost = |candidate: &Candidate| cost(library, request, candidate);
@@ -93,6 +96,11 @@ pub fn recipes_watched(
     Ok(Some(recipes.collect()))
 }
 
+/// Recipes in whole parts that are searched for each one returned, since some of the nearest are left out
+/// later because they add nothing. Chosen by eye.
+const SPARE_RECIPES: usize = 5;
+
+/// A candidate with its whole parts, if these were asked for.
 type Found = (Option<Vec<u32>>, Candidate);
 
 fn ranked(
@@ -132,11 +140,11 @@ fn ranked(
     shown
 }
 
-/// 0 where no costs are known, so that they decide nothing.
+/// Price of a candidate; 0 where no prices are known, so that they decide nothing.
 fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate) -> f64 {
     let parts = candidate.pigments.iter().zip(&candidate.shares);
     let of_one: f64 =
-        parts.map(|(&pigment, share)| share * request.costs.get(pigment).unwrap_or(&0.0)).sum();
+        parts.map(|(p, share)| share * request.costs.get(p.index()).unwrap_or(&0.0)).sum();
     match library.amounts {
         AmountKind::Relative => of_one,
         // The thickness is the sum of all amounts.
@@ -150,14 +158,14 @@ fn recipe(
     target: &Target,
     (parts, candidate): Found,
     cost: &dyn Fn(&Candidate) -> f64,
-) -> Recipe {
+) -> RecipeMatch {
     let Candidate { pigments, shares, thickness, distance } = &candidate;
     let mut scratch = Scratch::default();
     let reflectance = forward.reflectance(pigments, shares, *thickness, &mut scratch);
     let labs: Vec<Lab> = forward.weights.iter().map(|w| lab(w, &reflectance)).collect();
     let mut order: Vec<usize> = (0..pigments.len()).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-    Recipe {
+    RecipeMatch {
         shares: order.iter().map(|&at| (pigments[at], shares[at])).collect(),
         parts: parts.map(|parts| order.iter().map(|&at| parts[at]).collect()),
         thickness: (request.film != FilmKind::Hiding).then_some(*thickness),

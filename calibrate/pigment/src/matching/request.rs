@@ -1,51 +1,76 @@
-//! What is asked of a recipe.
+//! A request for recipes, by pigments' places in a library.
 
+use super::bounded_step::MAX_PIGMENTS;
+use super::error::MatchError;
 use super::film::{FilmKind, Thickness};
-use super::forward::MOST_PIGMENTS;
-use super::sight::{Metric, Sight};
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::library::{AmountKind, PigmentLibrary};
+use crate::recipe::PigmentId;
 
-/// The limits of the recipes to be searched.
+/// Greatest weight of a viewing condition.
+const LARGEST_WEIGHT: f64 = 1e9;
+/// Greatest thickness of a film, in the library's unit.
+const THICKEST: f64 = 1e9;
+/// Range of whole parts of one recipe.
+const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
+/// Range of K d + S d, averaged over pigments and wavelengths, of the usual wash: from nearly clear to
+/// nearly hiding. Chosen by eye.
+const USUAL_WASH: [f64; 2] = [0.01, 10.0];
+
+/// A pigment that every recipe must contain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RequiredPigment {
+    /// Pigment of the library.
+    pub pigment: PigmentId,
+    /// Fixed share of the whole, above 0 and up to 1; `None` if the search chooses it.
+    pub share: Option<f64>,
+}
+
+/// Limits of the recipes to be searched, with pigments by their places in a library.
+///
+/// [`MatchOptions`](super::MatchOptions) states the same by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchRequest {
-    /// The lights; at least one.
-    pub sights: Vec<Sight>,
-    /// How colours are compared.
+    /// Lights under which recipes are judged; at least one.
+    pub conditions: Vec<ViewingCondition>,
+    /// Measure of colour difference.
     pub metric: Metric,
-    /// How the mixture will be laid.
+    /// Film that the recipe will make.
     pub film: FilmKind,
-    /// The pigments that may take part, by index in the library.
-    pub allowed: Vec<usize>,
-    /// Those of them that must take part, with their share (0..1) where it is
-    /// told.
-    pub required: Vec<(usize, Option<f64>)>,
-    /// The most pigments of one recipe, 1 to 8.
+    /// Pigments that may take part.
+    pub allowed: Vec<PigmentId>,
+    /// Pigments that must take part; each must also be allowed.
+    pub required: Vec<RequiredPigment>,
+    /// Most pigments of one recipe, 1 to 8.
     pub at_most: usize,
-    /// The least share of a pigment that takes part, 0..1: what can be weighed or
-    /// cut off with a knife.
+    /// Least share of a pigment that takes part, 0 to below 1: what can be weighed or cut off with a
+    /// knife.
     pub least_share: f64,
-    /// Recipes in whole parts, this many together at most.
+    /// Most parts of a recipe in whole parts, 1 to 1000; `None` for shares of any size.
     pub whole_parts: Option<u32>,
-    /// Cost of one unit of amount, by pigment of the library; empty if unknown.
+    /// Price of one unit of amount by pigment of the library, 0 and up; empty if unknown.
     pub costs: Vec<f64>,
-    /// Recipes whose distance exceeds the nearest one's by no more than this count
-    /// as equally near.
+    /// Recipes whose distance exceeds the nearest one's by no more than this count as equally near; 0
+    /// to 1000.
     pub tolerance: f64,
-    /// How many recipes are wanted.
+    /// Number of recipes to return.
     pub count: usize,
 }
 
 impl MatchRequest {
-    /// All identified pigments of `library`, up to four in a recipe, none below
-    /// 1/50, five recipes.
+    /// Request with all identified pigments of `library`, up to four in a recipe, shares from 1/50,
+    /// and five recipes.
     #[must_use]
-    pub fn new(library: &PigmentLibrary, sights: Vec<Sight>, film: FilmKind) -> Self {
-        let identified = |index: &usize| library.pigments[*index].identified;
+    pub fn new(
+        library: &PigmentLibrary,
+        conditions: Vec<ViewingCondition>,
+        film: FilmKind,
+    ) -> Self {
         Self {
-            sights,
+            conditions,
             metric: Metric::default(),
             film,
-            allowed: (0..library.pigments.len()).filter(identified).collect(),
+            allowed: library.ids().filter(|id| library[*id].identified).collect(),
             required: Vec::new(),
             at_most: 4,
             least_share: 0.02,
@@ -56,7 +81,7 @@ impl MatchRequest {
         }
     }
 
-    /// The least and the greatest thickness; 1 for a film that hides.
+    /// Least and greatest thickness; 1 for a film that hides.
     pub(super) fn thickness(&self) -> (f64, f64) {
         match &self.film {
             FilmKind::Hiding => (1.0, 1.0),
@@ -64,16 +89,16 @@ impl MatchRequest {
         }
     }
 
-    /// The least and the greatest share of a pigment that takes part.
-    pub(super) fn share_bounds(&self, pigment: usize) -> (f64, f64) {
-        match self.required.iter().find(|(required, _)| *required == pigment) {
-            Some((_, Some(share))) => (*share, *share),
+    /// Least and greatest share of a pigment that takes part.
+    pub(super) fn share_bounds(&self, pigment: PigmentId) -> (f64, f64) {
+        match self.required.iter().find(|required| required.pigment == pigment) {
+            Some(RequiredPigment { share: Some(share), .. }) => (*share, *share),
             _ => (self.least_share, 1.0),
         }
     }
 
     /// # Errors
-    /// [`MatchError`] if the request cannot be met by any recipe.
+    /// [`MatchError`] if no recipe can meet the request.
     pub(super) fn check(&self, library: &PigmentLibrary) -> Result<(), MatchError> {
         let invalid = |what: &'static str, value: f64, hint: &'static str| {
             Err(MatchError::Number { what, value, hint })
@@ -81,18 +106,19 @@ impl MatchRequest {
         if self.allowed.is_empty() {
             return Err(MatchError::NoPigments);
         }
-        if self.sights.is_empty() {
+        if self.conditions.is_empty() {
             return Err(MatchError::NoLight);
         }
-        if let Some(sight) = self.sights.iter().find(|s| !(s.weight > 0.0 && s.weight < 1e9)) {
+        let weighted = |c: &&ViewingCondition| !(c.weight > 0.0 && c.weight < LARGEST_WEIGHT);
+        if let Some(condition) = self.conditions.iter().find(weighted) {
             return invalid(
                 "a light's weight must be above 0",
-                sight.weight,
-                "give the weight behind the light: --illuminant D65 --illuminant A=0.5",
+                condition.weight,
+                "give the weight behind the light: [illuminant=D65] [illuminant=A=0.5]",
             );
         }
-        if !(1..=MOST_PIGMENTS).contains(&self.at_most) {
-            return invalid("a recipe has 1 to 8 pigments", self.at_most as f64, "try --at-most 4");
+        if !(1..=MAX_PIGMENTS).contains(&self.at_most) {
+            return invalid("a recipe has 1 to 8 pigments", self.at_most as f64, "try [at_most=4]");
         }
         if self.required.len() > self.at_most {
             return Err(MatchError::TooManyRequired {
@@ -104,35 +130,36 @@ impl MatchRequest {
             return invalid(
                 "the least share is 0 or more and below 1",
                 self.least_share,
-                "try --least 1/50",
+                "try [least=1/50]",
             );
         }
         if !(0.0..1e3).contains(&self.tolerance) {
-            return invalid("the tolerance is 0 or more", self.tolerance, "try --tolerance 0.05");
+            return invalid("the tolerance is 0 or more", self.tolerance, "try [tolerance=0.05]");
         }
         if let Some(cost) = self.costs.iter().find(|c| !(c.is_finite() && **c >= 0.0)) {
-            return invalid("a cost is 0 or more", *cost, "try --cost \"Cobalt Blue=0.9\"");
+            return invalid("a cost is 0 or more", *cost, "try [cost=\"Cobalt Blue=0.9\"]");
         }
-        let told: f64 = self.required.iter().filter_map(|(_, share)| *share).sum();
-        let all_told = !self.required.is_empty() && self.required.iter().all(|r| r.1.is_some());
-        let whole = told > 1.0 + 1e-9 || (told > 1.0 - 1e-9 && !all_told);
-        let wrong = self.required.iter().filter_map(|(_, s)| *s).find(|s| !(*s > 0.0 && *s <= 1.0));
-        if wrong.is_some() || whole {
-            return Err(MatchError::Shares { total: told });
+        let fixed = || self.required.iter().filter_map(|required| required.share);
+        let total: f64 = fixed().sum();
+        let all_fixed =
+            !self.required.is_empty() && self.required.iter().all(|r| r.share.is_some());
+        let whole = total > 1.0 + 1e-9 || (total > 1.0 - 1e-9 && !all_fixed);
+        if whole || fixed().any(|share| !(share > 0.0 && share <= 1.0)) {
+            return Err(MatchError::Shares { total });
         }
-        if self.whole_parts.is_some() && told > 0.0 {
+        if self.whole_parts.is_some() && total > 0.0 {
             return Err(MatchError::SharesInParts);
         }
-        if self.whole_parts.is_some_and(|parts| !(1..=1000).contains(&parts)) {
+        if self.whole_parts.is_some_and(|parts| !WHOLE_PARTS.contains(&parts)) {
             return invalid(
                 "whole parts are 1 to 1000",
                 f64::from(self.whole_parts.unwrap_or(0)),
-                "try --parts 12",
+                "try [parts=12]",
             );
         }
         let (thinnest, thickest) = self.thickness();
-        if !(thinnest > 0.0 && thinnest <= thickest && thickest <= 1e9) {
-            return invalid("a thickness is above 0", thinnest, "try --thickness 1");
+        if !(thinnest > 0.0 && thinnest <= thickest && thickest <= THICKEST) {
+            return invalid("a thickness is above 0", thinnest, "try [thickness=1]");
         }
         let absolute = library.amounts == AmountKind::Absolute;
         if absolute && self.film == FilmKind::Hiding {
@@ -141,10 +168,9 @@ impl MatchRequest {
         Ok(())
     }
 
-    /// The film of `library` where nothing is told: one that hides; for absolute
-    /// amounts a wash over `ground`, from nearly clear to nearly hiding (the mean
-    /// of K + S over pigments and wavelengths, times the thickness, from 0.01 to
-    /// 10).
+    /// Usual film of `library`: one that hides or, for absolute amounts, a wash over `ground` from nearly
+    /// clear to nearly hiding (the mean of K + S over pigments and wavelengths, times the thickness, is
+    /// 0.01 to 10).
     #[must_use]
     pub fn usual_film(library: &PigmentLibrary, ground: Vec<f64>) -> FilmKind {
         if library.amounts == AmountKind::Relative {
@@ -153,65 +179,7 @@ impl MatchRequest {
         let curves = library.pigments.iter().flat_map(|p| p.absorption.iter().zip(&p.scattering));
         let count = (library.pigments.len() * library.grid.count()) as f64;
         let mean = (curves.map(|(k, s)| k + s).sum::<f64>() / count).max(1e-9);
-        FilmKind::Over { ground, thickness: Thickness::Between(0.01 / mean, 10.0 / mean) }
-    }
-}
-
-/// Why there are no recipes.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MatchError {
-    /// No pigment may take part.
-    #[error("no pigment is left to mix with")]
-    NoPigments,
-    /// No light.
-    #[error("a recipe is judged under at least one light")]
-    NoLight,
-    /// A number out of its range.
-    #[error("{what}, found `{value}`")]
-    Number {
-        /// The range.
-        what: &'static str,
-        /// The number.
-        value: f64,
-        /// What to try.
-        hint: &'static str,
-    },
-    /// More pigments must take part than may.
-    #[error("{required} pigments must take part, but a recipe has `{at_most}` at most")]
-    TooManyRequired {
-        /// How many must.
-        required: usize,
-        /// How many may.
-        at_most: usize,
-    },
-    /// Shares that leave nothing for the others, or more than everything.
-    #[error(
-        "fixed shares are above 0 and leave room for the other pigments, found a sum of `{total}`"
-    )]
-    Shares {
-        /// Their sum.
-        total: f64,
-    },
-    /// A fixed share of whole parts.
-    #[error("recipes in whole parts take no fixed shares")]
-    SharesInParts,
-    /// Absolute amounts have no film that hides.
-    #[error("a library of absolute amounts makes films over a ground")]
-    AbsoluteHiding,
-}
-
-impl MatchError {
-    /// What to try, where there is something.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::NoPigments => Some("allow more of the library's pigments"),
-            Self::TooManyRequired { .. } => Some("raise --at-most, or require fewer pigments"),
-            Self::Shares { .. } => Some("let fixed shares sum to less than 1"),
-            Self::SharesInParts => Some("leave out --parts, or the share behind the pigment"),
-            Self::AbsoluteHiding => Some("give a --thickness"),
-            Self::Number { hint, .. } => Some(hint),
-            Self::NoLight => None,
-        }
+        let [clear, hiding] = USUAL_WASH;
+        FilmKind::Over { ground, thickness: Thickness::Between(clear / mean, hiding / mean) }
     }
 }

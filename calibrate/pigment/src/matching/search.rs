@@ -1,4 +1,4 @@
-//! Every set of pigments, and its nearest recipe.
+//! Search over all sets of pigments.
 
 use std::collections::BTreeMap;
 
@@ -8,42 +8,44 @@ use super::candidate::Candidate;
 use super::descent::descend;
 use super::forward::{Forward, Scratch};
 use super::request::MatchRequest;
-use super::sight::Target;
-use super::watch::Watch;
+use super::search_control::SearchControl;
+use super::target::Target;
+use crate::recipe::PigmentId;
 
-/// The most sets of one size that are tried: all sets of four out of 30. Of a
-/// greater library only the nearest smaller recipes are built upon.
+/// Most sets of one size that are tried: all sets of four out of 30 pigments. For a larger library
+/// only the nearest smaller recipes are extended.
 const MOST_SETS: usize = 30_000;
 
-/// The nearest recipe of each set of pigments that was tried, nearest first. A
-/// search that was stopped has not tried all.
+/// Returns the nearest recipe of each set of pigments that was tried, nearest first. A search that
+/// was cancelled has not tried all sets.
 pub(super) fn search(
     forward: &Forward<'_>,
     request: &MatchRequest,
     target: &Target,
-    watch: &Watch,
+    control: &SearchControl,
 ) -> Vec<Candidate> {
-    watch.expect(expected(request));
+    control.set_total(expected(request));
     let strength = strengths(forward);
     let mut found: Vec<Candidate> = Vec::new();
     let mut sets = first_sets(request);
     let mut size = sets.keys().next().map_or(0, Vec::len);
     loop {
-        let nearest = |(set, parent): (&Vec<usize>, &Option<Candidate>), scratch: &mut Scratch| {
-            if watch.stopped() {
+        let nearest = |(set, parent): (&Vec<PigmentId>, &Option<Candidate>),
+                       scratch: &mut Scratch| {
+            if control.cancelled() {
                 return None;
             }
-            watch.step();
+            control.step();
             let starts = starts(request, set, parent.as_ref(), &strength);
             let ends = starts.iter().map(|s| descend(forward, request, target, s, scratch));
             ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
         };
-        let tried: Vec<(Vec<usize>, Option<Candidate>)> = sets
+        let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
             .par_iter()
             .map_init(Scratch::default, |scratch, set| (set.0.clone(), nearest(set, scratch)))
             .collect();
         size += 1;
-        let goes_on = size <= request.at_most && !watch.stopped();
+        let goes_on = size <= request.at_most && !control.cancelled();
         let grown = if goes_on { grown(request, &tried) } else { BTreeMap::new() };
         found.extend(tried.into_iter().filter_map(|(_, candidate)| candidate));
         if grown.is_empty() {
@@ -57,7 +59,7 @@ pub(super) fn search(
     found
 }
 
-/// How many sets will be tried; twice where each is laid in whole parts too.
+/// Number of sets that will be tried, doubled where each is also rounded to whole parts.
 fn expected(request: &MatchRequest) -> usize {
     let fixed = request.required.len();
     let free = request.allowed.len() - fixed.min(request.allowed.len());
@@ -70,11 +72,12 @@ fn expected(request: &MatchRequest) -> usize {
     sizes.map(of_size).sum::<usize>() * if request.whole_parts.is_some() { 2 } else { 1 }
 }
 
-type Sets = BTreeMap<Vec<usize>, Option<Candidate>>;
+type Sets = BTreeMap<Vec<PigmentId>, Option<Candidate>>;
 
-/// What every recipe holds; each pigment by itself where nothing is required.
+/// The sets that the search starts from: all required pigments together, or every pigment by itself
+/// where none is required.
 fn first_sets(request: &MatchRequest) -> Sets {
-    let mut required: Vec<usize> = request.required.iter().map(|(pigment, _)| *pigment).collect();
+    let mut required: Vec<PigmentId> = request.required.iter().map(|r| r.pigment).collect();
     required.sort_unstable();
     required.dedup();
     if required.is_empty() {
@@ -84,7 +87,7 @@ fn first_sets(request: &MatchRequest) -> Sets {
 }
 
 /// Every set with one pigment more, each with its nearest smaller recipe.
-fn grown(request: &MatchRequest, tried: &[(Vec<usize>, Option<Candidate>)]) -> Sets {
+fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
     let distance = |candidate: &Option<Candidate>| {
         candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
     };
@@ -104,40 +107,46 @@ fn grown(request: &MatchRequest, tried: &[(Vec<usize>, Option<Candidate>)]) -> S
     sets
 }
 
-/// The mean of K + S over wavelength: how much a pigment's share tells.
+/// Least mean of K + S that is assumed for a pigment, so that its start share is finite.
+const LEAST_STRENGTH: f64 = 1e-6;
+/// Share at which a new pigment enters the recipe that it extends; chosen by eye.
+const ENTRY_SHARE: f64 = 0.01;
+/// Least share above its lower bound with which a pigment starts; chosen by eye.
+const LEAST_START: f64 = 1e-3;
+
+/// Mean of K + S over wavelength: how much a share of each pigment changes the colour.
 fn strengths(forward: &Forward<'_>) -> Vec<f64> {
     let mean = |pigment: &crate::library::Pigment| {
         let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
-        (sum / pigment.absorption.len() as f64).max(1e-6)
+        (sum / pigment.absorption.len() as f64).max(LEAST_STRENGTH)
     };
     forward.library.pigments.iter().map(mean).collect()
 }
 
-/// Where the descent of a set starts: the smaller recipe with a little of what is
-/// new, and shares of equal strength. None if bounds leave no recipe.
+/// Starts for the descent of a set: the smaller recipe with a little of the new pigment, and shares
+/// of equal strength. Empty if the bounds leave no recipe.
 fn starts(
     request: &MatchRequest,
-    set: &[usize],
+    set: &[PigmentId],
     parent: Option<&Candidate>,
     strength: &[f64],
 ) -> Vec<Candidate> {
     let (thinnest, thickest) = request.thickness();
     let middle = (thinnest * thickest).sqrt();
-    let even: Vec<f64> = set.iter().map(|&p| 1.0 / strength[p]).collect();
+    let even: Vec<f64> = set.iter().map(|&p| 1.0 / strength[p.index()]).collect();
     let mut starts: Vec<Candidate> = Vec::new();
     if let Some(parent) = parent {
-        let wished: Vec<f64> = set.iter().map(|&p| parent.share(p).max(0.01)).collect();
+        let wished: Vec<f64> = set.iter().map(|&p| parent.share(p).max(ENTRY_SHARE)).collect();
         starts.extend(candidate(request, set, &wished, parent.thickness));
     }
     starts.extend(candidate(request, set, &even, middle));
     starts
 }
 
-/// Shares inside their bounds, as near to the proportions of `wished` as those
-/// allow.
+/// Shares within their bounds, as near to the proportions of `wished` as those allow.
 fn candidate(
     request: &MatchRequest,
-    set: &[usize],
+    set: &[PigmentId],
     wished: &[f64],
     thickness: f64,
 ) -> Option<Candidate> {
@@ -149,7 +158,7 @@ fn candidate(
         .zip(&bounds)
         .map(
             |(wish, (least, most))| {
-                if least < most { (wish / total - least).max(1e-3) } else { 0.0 }
+                if least < most { (wish / total - least).max(LEAST_START) } else { 0.0 }
             },
         )
         .collect();

@@ -5,31 +5,31 @@ use rayon::prelude::*;
 use super::candidate::Candidate;
 use super::forward::{Forward, Scratch};
 use super::request::MatchRequest;
-use super::sight::Target;
-use super::watch::Watch;
+use super::search_control::SearchControl;
+use super::target::Target;
 
-/// Recipes of one set that are tried one by one, at most: four pigments in up to
-/// 19 parts.
+/// Most recipes of one set that are tried one by one: four pigments in up to 19 parts. It bounds
+/// the time of a search and was chosen by eye.
 const MOST_RECIPES: u64 = 4_000;
 
-/// The nearest recipe in whole parts, `most` together, of each candidate's
-/// pigments; candidates of which the least share allows none are gone, and all that
-/// come after the search was stopped.
+/// Returns the nearest recipe in whole parts, at most `most` together, for each candidate's pigments.
+/// Candidates for which the least share allows none are dropped, and so are all that follow once
+/// the search is cancelled.
 ///
-/// First the shares are rounded for every total and parts moved from pigment to
-/// pigment while that helps. Then every recipe is tried of those sets that could
-/// still be among the `wanted` nearest, since shares of any size come no farther
-/// than whole parts; unless a set has more than 4000 recipes.
+/// First the shares are rounded for every total, and single parts are moved from pigment to pigment
+/// while that helps. Then all recipes of those sets are tried that could still be among the `wanted`
+/// nearest, since whole parts never come nearer than free shares; sets with more than 4000 recipes
+/// are left as rounded.
 pub(super) fn in_whole_parts(
     forward: &Forward<'_>,
     request: &MatchRequest,
     target: &Target,
     candidates: &[Candidate],
     (most, wanted): (u32, usize),
-    watch: &Watch,
+    control: &SearchControl,
 ) -> Vec<(Vec<u32>, Candidate)> {
     let search = |scratch: &mut Scratch, candidate: &Candidate, every: bool| {
-        if watch.stopped() {
+        if control.cancelled() {
             return None;
         }
         let mut set = Set { forward, request, target, candidate, scratch };
@@ -42,7 +42,7 @@ pub(super) fn in_whole_parts(
     let rounded: Vec<Option<(Vec<u32>, Candidate)>> = candidates
         .par_iter()
         .map_init(Scratch::default, |scratch, candidate| {
-            watch.step();
+            control.step();
             search(scratch, candidate, false)
         })
         .collect();
@@ -57,14 +57,13 @@ pub(super) fn in_whole_parts(
     all.flatten().collect()
 }
 
-/// How many recipes `pigments` have in up to `most` parts: the binomial
-/// coefficient.
+/// Number of recipes of `pigments` pigments in up to `most` parts: the binomial coefficient.
 fn count(pigments: u32, most: u32) -> u64 {
     (0..u64::from(pigments))
         .fold(1, |count: u64, i| count.saturating_mul(u64::from(most).saturating_sub(i)) / (i + 1))
 }
 
-/// One set of pigments, to be laid in whole parts.
+/// One set of pigments, to be expressed in whole parts.
 struct Set<'a> {
     forward: &'a Forward<'a>,
     request: &'a MatchRequest,
@@ -113,7 +112,7 @@ impl Set<'_> {
         let mut best: Option<(Vec<u32>, f64)> = None;
         let pigments = self.candidate.pigments.len();
         for total in pigments as u32..=most {
-            // Every composition of the total, in order of the first parts.
+            // All compositions of the total, in order of the first parts.
             let mut parts = vec![1; pigments];
             parts[pigments - 1] = total - (pigments as u32 - 1);
             loop {
@@ -132,7 +131,7 @@ impl Set<'_> {
     }
 }
 
-/// Of equals the first stays: it has the fewest parts.
+/// Keeps the first of equally near recipes: it has the fewest parts.
 fn keep_nearer(best: &mut Option<(Vec<u32>, f64)>, parts: &[u32], distance: f64) {
     if best.as_ref().is_none_or(|(_, least)| distance < least - 1e-9) {
         *best = Some((parts.to_vec(), distance));
@@ -144,9 +143,8 @@ fn shares(parts: &[u32]) -> Vec<f64> {
     parts.iter().map(|part| f64::from(*part) / total).collect()
 }
 
-/// The fewest whole parts, together at most `most`, in proportion to `shares`
-/// (above 0, of any sum), so that no share is off by more than `tolerance` of the
-/// whole; `None` if there are none.
+/// Returns the fewest whole parts, together at most `most`, in proportion to `shares` (above 0, any
+/// sum) for which no share is off by more than `tolerance` of the whole; `None` if there are none.
 #[must_use]
 pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> {
     let sum: f64 = shares.iter().sum();
@@ -157,8 +155,8 @@ pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> 
     })
 }
 
-/// `total` parts in proportion to `shares`, at least one each, by largest
-/// remainder (Hamilton).
+/// `total` parts in proportion to `shares`, at least one each, by the largest-remainder method
+/// (Hamilton).
 fn rounded(shares: &[f64], total: u32) -> Vec<u32> {
     let wished: Vec<f64> = shares.iter().map(|share| share * f64::from(total)).collect();
     let mut parts: Vec<u32> = wished.iter().map(|w| (w.floor() as u32).max(1)).collect();
@@ -174,7 +172,7 @@ fn rounded(shares: &[f64], total: u32) -> Vec<u32> {
     parts
 }
 
-/// The recipes with one part moved from one pigment to another.
+/// Recipes with one part moved from one pigment to another.
 fn neighbours(parts: &[u32]) -> impl Iterator<Item = Vec<u32>> {
     let count = parts.len();
     let pairs = (0..count).flat_map(move |from| (0..count).map(move |to| (from, to)));
@@ -190,12 +188,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn recipes_are_counted() {
+    fn the_number_of_recipes_is_the_binomial_coefficient() {
         assert_eq!((count(1, 9), count(2, 9), count(4, 12), count(4, 3)), (9, 36, 495, 0));
     }
 
     #[test]
-    fn the_fewest_parts_near_enough_stand_for_shares() {
+    fn few_parts_are_the_fewest_within_the_tolerance() {
         assert_eq!(few_parts(&[0.6, 0.3, 0.1], 20, 1e-9), Some(vec![6, 3, 1]));
         assert_eq!(few_parts(&[3.0, 1.0], 20, 1e-9), Some(vec![3, 1]), "of any sum");
         assert_eq!(few_parts(&[0.334, 0.666], 20, 0.002), Some(vec![1, 2]));
@@ -204,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_rounded_to_their_sum() {
+    fn rounded_parts_keep_their_sum() {
         assert_eq!(rounded(&[0.5, 0.3, 0.2], 10), [5, 3, 2]);
         assert_eq!(rounded(&[0.98, 0.01, 0.01], 4), [2, 1, 1]);
         assert_eq!(rounded(&[0.22, 0.29, 0.49], 10), [2, 3, 5], "the largest remainders first");

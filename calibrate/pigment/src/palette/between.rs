@@ -1,19 +1,20 @@
-//! Mixtures between sampled ones, where there are gaps.
+//! Mixtures that fill gaps between sampled ones.
 
 use std::collections::BTreeMap;
 
-use super::paints::{Appearance, Palette, Recipe};
+use super::paints::Palette;
+use crate::appearance::Appearance;
+use crate::recipe::Recipe;
 
-/// Side of a cell in a* and b*.
+/// Side of a cell in a* and b*; chosen by eye.
 const CELL: f64 = 3.0;
-/// Height of a cell in L*.
+/// Height of a cell in L*; chosen by eye.
 const BAND: f64 = 10.0;
-/// A gap of two cells or three closes in later passes.
+/// Number of passes: a gap of two or three cells closes in later ones.
 const PASSES: usize = 4;
 
-/// Recipes for cells of CIELAB that no sample lies in, though both neighbours on
-/// opposite sides are filled: those two mixed, half and half. What is found
-/// serves the next pass.
+/// Returns recipes for cells of CIELAB that hold no sample although both neighbours on opposite sides
+/// do: those two mixed half and half. Mixtures found in one pass serve the next.
 pub(super) fn between<'a>(
     palette: &Palette<'_>,
     samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
@@ -26,7 +27,7 @@ pub(super) fn between<'a>(
     for _ in 0..PASSES {
         let mut added: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
         for (&[band, a, b], recipe) in &cells {
-            // Half of the directions: the other half are these, from the far side.
+            // Half of the directions; the others are these, seen from the far side.
             for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
                 let gap = [band, a + da, b + db];
                 let Some(other) = cells.get(&[band, a + 2 * da, b + 2 * db]) else { continue };
@@ -34,7 +35,7 @@ pub(super) fn between<'a>(
                     continue;
                 }
                 let mixed = halves(recipe, other);
-                let color = palette.look(&mixed);
+                let color = palette.color(&mixed);
                 added.entry(cell(&color)).or_insert_with(|| mixed.clone());
                 found.push((mixed, color));
             }
@@ -52,14 +53,9 @@ fn cell(color: &Appearance) -> [i32; 3] {
     [index(lab.lightness, BAND), index(lab.a, CELL), index(lab.b, CELL)]
 }
 
-/// One half of each, by shares.
+/// Mixture of one half of each recipe.
 fn halves(first: &Recipe, second: &Recipe) -> Recipe {
-    let mut mixed: Recipe = first.iter().map(|&(paint, share)| (paint, share / 2.0)).collect();
-    for &(paint, share) in second {
-        match mixed.iter_mut().find(|(known, _)| *known == paint) {
-            Some((_, sum)) => *sum += share / 2.0,
-            None => mixed.push((paint, share / 2.0)),
-        }
-    }
+    let mut mixed = first.scaled(0.5);
+    second.iter().for_each(|&(paint, share)| mixed.add(paint, 0.5 * share));
     mixed
 }

@@ -1,36 +1,38 @@
-//! How far a paint's colour shifts from one light to another.
+//! Colour shift of paints from one light to another.
 
 use spectra::color::{Adaptation, Lab, Xyz, adapt, delta_e_ciede2000};
 use spectra::{Illuminant, TristimulusWeights};
 
-use super::paints::{Appearance, Palette, Recipe};
+use super::paints::Palette;
+use crate::appearance::Appearance;
 use crate::evaluate::Viewing;
+use crate::recipe::Recipe;
 
-/// Lights that a palette is tried under, besides its own.
+/// Lights that a palette is shown under, besides its own.
 const LIGHTS: [&str; 3] = ["D65", "A", "FL11"];
 
-/// A light that a palette is tried under.
+/// A light that a palette is shown under.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TestLight {
-    /// Its name.
+    /// Name of the light.
     pub name: String,
-    /// Its weights on the library's grid, for the palette's observer.
+    /// Tristimulus weights on the library's grid, for the palette's observer.
     pub weights: TristimulusWeights,
 }
 
-/// The colours of one recipe under several lights.
+/// Colours of one recipe under several lights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColorShift {
-    /// What is mixed.
+    /// Paints with their shares.
     pub recipe: Recipe,
-    /// By light: how it looks, each adapted to its own white.
+    /// Colour under each light, relative to that light's white.
     pub colors: Vec<Appearance>,
-    /// By light: CIEDE2000 from the first light's colour to this one's, adapted
-    /// to the first light (Bradford); 0 for the first.
+    /// By light: CIEDE2000 between the colour under the first light and the colour under this one,
+    /// adapted to the first light (Bradford); 0 for the first.
     pub shifts: Vec<f64>,
 }
 
-/// The palette's own light, then those of D65, A and FL11 that it is not.
+/// The palette's own light, followed by those of D65, A and FL11 that differ from it.
 #[must_use]
 pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
     let own = palette.viewing();
@@ -45,10 +47,8 @@ pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
     std::iter::once(first).chain(others).collect()
 }
 
-/// The shift of each recipe from the first of `lights` to each.
-///
-/// The difference that remains after the eye has adapted: 0 for a paint whose
-/// colour is constant.
+/// Computes the shift of each recipe from the first of `lights` to each of them: the difference that
+/// remains after the eye has adapted, 0 for a paint of constant colour.
 #[must_use]
 pub fn color_shifts(
     palette: &Palette<'_>,

@@ -7,82 +7,84 @@ use rand_distr::{Distribution, Exp1};
 use spectra::color::{Adaptation, RgbSpace, Xyz, adapt};
 
 use super::between::between;
-use super::paints::{Appearance, Palette, Recipe};
+use super::paints::Palette;
+use crate::appearance::Appearance;
 use crate::evaluate::Viewing;
+use crate::recipe::{PigmentId, Recipe};
 
-/// Ratios of a pair: even in the logarithm of one part to the other, since a
-/// strong paint in a weak one turns quickly.
+/// Number of mixing ratios of a pair, even in the logarithm of the ratio, since a little of a strong
+/// paint changes a weak one quickly.
 const RATIOS: i32 = 21;
-/// The last ratio is this to one.
+/// Largest ratio of a pair; chosen by eye.
 const FURTHEST: f64 = 150.0;
-/// Parts of white to one of a pair.
+/// Parts of white to one of a pair; chosen by eye.
 const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
-/// Parts of black to one of a pair.
+/// Parts of black to one of a pair; chosen by eye.
 const BLACKS: [f64; 2] = [0.03, 0.2];
-/// Washes laid one on another, where the paper is the white.
+/// Washes laid on one another in a library of absolute amounts; chosen by eye.
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
-/// Mixtures of three or four paints, every other one with white.
+/// Number of random mixtures of three or four paints; every other one has white.
 const RANDOM: usize = 6000;
+/// Seed of the random mixtures.
 const SEED: u64 = 2004;
 
 /// One mixture and its colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GamutSample {
-    /// What is mixed.
+    /// Paints with their shares.
     pub recipe: Recipe,
-    /// How it looks.
+    /// Colour under the palette's light.
     pub color: Appearance,
 }
 
-/// Many mixtures of a palette.
+/// Many mixtures of a palette, with their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gamut {
-    /// The mixtures: masstones first, then those with white and black, then at
-    /// random, then those that fill gaps.
+    /// Mixtures in this order: masstones, mixtures with white and black, random ones, those that fill
+    /// gaps.
     pub samples: Vec<GamutSample>,
     white: Xyz,
 }
 
-/// The outermost samples around a centre.
+/// Outline of a gamut: the outermost sample in each of many equal sectors around a centre.
 ///
-/// What paints can mix has no convex outline, so none is laid around it: the
-/// plane is cut into equal sectors and each keeps its outermost sample. The
-/// outline through them runs inside the true one, by as much as mixtures that
-/// were not sampled reach beyond those that were.
+/// Gamuts of paints are not convex, so this is no convex hull. The outline lies inside the true one,
+/// by as much as mixtures that were not sampled reach beyond those that were.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
-    /// The centre of the sectors.
+    /// Centre of the sectors, in the plane's coordinates.
     pub center: [f64; 2],
-    /// By sector, counter-clockwise from the first axis: the place of the
-    /// outermost sample, and its index; none if the sector holds none.
+    /// By sector, counter-clockwise from the first axis: the outermost sample, `None` if the sector
+    /// holds no sample.
     pub sectors: Vec<Option<([f64; 2], usize)>>,
 }
 
-/// Samples of what a palette can mix: every paint and pair, alone and with parts
-/// of white or of the darkest paint (washes also up to eight on one another), and
-/// 6000 seeded mixtures of three or four, half of them with white; then mixtures
-/// of neighbours where a cell between them is empty.
+/// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or
+/// of the darkest paint (for washes, also several on one another), 6000 seeded mixtures of three or
+/// four paints, half of them with white, and mixtures of neighbours where a cell between them is
+/// empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
-    let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| vec![(p, 1.0)]).collect();
+    let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| Recipe::single(p)).collect();
     let masstones = recipes.clone();
-    let pairs =
-        palette.pairs().flat_map(|(a, b)| shares().map(move |s| vec![(a, s), (b, 1.0 - s)]));
+    let pairs = palette
+        .pairs()
+        .flat_map(|(a, b)| shares().map(move |s| Recipe::from([(a, s), (b, 1.0 - s)])));
     let black = palette.black();
     for recipe in masstones.into_iter().chain(pairs) {
         let plain = recipe.len() == 1;
         let whites = WHITES.iter().filter(|&&parts| !(plain && parts == 0.0));
         recipes.extend(whites.map(|&parts| palette.thinned(&recipe, parts)));
         if palette.white().is_none() {
-            let stronger = |&times: &f64| recipe.iter().map(|&(p, s)| (p, times * s)).collect();
+            let stronger = |&times: &f64| recipe.scaled(times);
             recipes.extend(STRONGER.iter().map(stronger));
         }
-        if recipe.iter().all(|(p, _)| *p != black) {
+        if recipe.pigments().all(|p| p != black) {
             recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
         }
     }
     recipes.extend(random_recipes(palette));
-    let sample = |recipe: Recipe| GamutSample { color: palette.look(&recipe), recipe };
+    let sample = |recipe: Recipe| GamutSample { color: palette.color(&recipe), recipe };
     let mut samples: Vec<GamutSample> = recipes.into_iter().map(sample).collect();
     let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
     samples.extend(filled.into_iter().map(|(recipe, color)| GamutSample { recipe, color }));
@@ -90,8 +92,8 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
 }
 
 impl Gamut {
-    /// The outline in a*, b* around grey, of samples whose L* lies in
-    /// `lightness` (both ends counted).
+    /// Outline in a* and b* around grey, of samples whose L* lies in `lightness` (both ends
+    /// included).
     #[must_use]
     pub fn in_lab(&self, lightness: [f64; 2], sectors: usize) -> Boundary {
         let [low, high] = lightness;
@@ -104,8 +106,8 @@ impl Gamut {
         Boundary::around([0.0, 0.0], sectors, places)
     }
 
-    /// The outline in chromaticity x, y around the light's white. Samples of Y
-    /// below 0.5, whose chromaticity says nothing, do not count.
+    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5, whose
+    /// chromaticity is meaningless, are left out.
     #[must_use]
     pub fn in_xy(&self, sectors: usize) -> Boundary {
         let white = chromaticity(self.white);
@@ -135,15 +137,15 @@ impl Boundary {
         boundary
     }
 
-    /// Whether the outline reaches as far out as `place` in its sector.
+    /// Whether the outline reaches at least as far out as `place` in the same sector.
     #[must_use]
     pub fn reaches(&self, place: [f64; 2]) -> bool {
         let outermost = self.sectors[self.sector(place, self.sectors.len())];
         outermost.is_some_and(|(kept, _)| self.distance(kept) >= self.distance(place))
     }
 
-    /// The outline as a closed polygon; it passes through the centre where three
-    /// sectors or more in a row hold no sample.
+    /// Outline as a closed polygon. It passes through the centre where three or more sectors in a row
+    /// hold no sample.
     #[must_use]
     pub fn polygon(&self) -> Vec<[f64; 2]> {
         let count = self.sectors.len();
@@ -166,7 +168,7 @@ impl Boundary {
         polygon
     }
 
-    /// The area within the polygon, in the square of the plane's unit.
+    /// Area of the polygon, in the square of the plane's unit.
     #[must_use]
     pub fn area(&self) -> f64 {
         let polygon = self.polygon();
@@ -179,7 +181,7 @@ impl Boundary {
         ((turn * count as f64) as usize).min(count - 1)
     }
 
-    /// 0 to one turn.
+    /// Angle of `place` around the centre, 0 to one turn.
     fn angle(&self, place: [f64; 2]) -> f64 {
         let angle = (place[1] - self.center[1]).atan2(place[0] - self.center[0]);
         if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
@@ -190,8 +192,8 @@ impl Boundary {
     }
 }
 
-/// Chromaticities x, y of the pure spectrum, 380 to 700 nm at 1 nm, with their
-/// wavelength in nm; where the observer's functions are 0 there is none.
+/// Chromaticities x, y of monochromatic light from 380 to 700 nm at 1 nm, each with its wavelength in
+/// nm. Wavelengths where the observer's functions are 0 are left out.
 #[must_use]
 pub fn spectral_locus(viewing: &Viewing) -> Vec<(f64, [f64; 2])> {
     let [x, y, z] = viewing.observer.functions();
@@ -203,8 +205,8 @@ pub fn spectral_locus(viewing: &Viewing) -> Vec<(f64, [f64; 2])> {
     .collect()
 }
 
-/// Chromaticities of sRGB's red, green and blue as they look under `white`
-/// (Bradford adaptation from the display's own).
+/// Chromaticities x, y of the sRGB primaries as they appear under `white` (Bradford adaptation from
+/// the display's white).
 #[must_use]
 pub fn srgb_primaries(white: Xyz) -> [[f64; 2]; 3] {
     let columns = RgbSpace::Srgb.xyz_from_linear();
@@ -221,22 +223,22 @@ fn chromaticity(xyz: Xyz) -> [f64; 2] {
     [xyz.x / total, xyz.y / total]
 }
 
-/// Shares of the first paint of a pair, rising.
+/// Shares of the first paint of a pair, in rising order.
 fn shares() -> impl Iterator<Item = f64> {
     let step = 2.0 * FURTHEST.ln() / f64::from(RATIOS - 1);
     (0..RATIOS).map(move |at| 1.0 / (1.0 + (FURTHEST.ln() - f64::from(at) * step).exp()))
 }
 
-/// `recipe` with `parts` parts of `paint` to one of it.
-fn with(recipe: &[(usize, f64)], paint: usize, parts: f64) -> Recipe {
+/// `recipe` with `parts` parts of `paint` to one part of it.
+fn with(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
     let own = 1.0 / (1.0 + parts);
-    let mut mixed: Recipe = recipe.iter().map(|&(p, share)| (p, own * share)).collect();
-    mixed.push((paint, parts * own));
+    let mut mixed = recipe.scaled(own);
+    mixed.add(paint, parts * own);
     mixed
 }
 
-/// Three or four paints each, shares uniform over all that sum to 1; every other
-/// one with 0.5 to 32 parts of white, even in their logarithm.
+/// Three or four paints each, with shares uniform over all that sum to 1. Every other recipe has 0.5
+/// to 32 parts of white, even in their logarithm.
 fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
     let paints = palette.paints();
     if paints.len() < 3 {
@@ -250,8 +252,8 @@ fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
                 .into_iter()
                 .map(|place| (paints[place], Exp1.sample(&mut random)))
                 .collect();
-            let total: f64 = parts.iter().map(|(_, part)| part).sum();
-            let recipe: Recipe = parts.into_iter().map(|(p, part)| (p, part / total)).collect();
+            let total = parts.total();
+            let recipe: Recipe = parts.iter().map(|&(p, part)| (p, part / total)).collect();
             let whites =
                 if number % 2 == 0 { 0.0 } else { random.random_range(-1.0..5.0f64).exp2() };
             palette.thinned(&recipe, whites)

@@ -1,46 +1,46 @@
-//! How thick a film must be to hide its ground.
+//! Hiding power: how thick a film must be to hide its ground.
 
 use super::paints::{Palette, crossing};
+use crate::recipe::PigmentId;
 
-/// The contrast ratio at which a film is said to hide (ISO 6504-3).
+/// Contrast ratio Yb / Yw from which a film is said to hide (ISO 6504-3).
 pub const HIDING_CONTRAST: f64 = 0.98;
 
-/// And the difference of luminance factors that no eye sees: 0.02 of Y = 100 is
-/// 0.2 of L* where a film is black, and a ratio says nothing there.
+/// A film also hides if the luminance factors over both cards differ by less than this: 0.02 of
+/// Y = 100 is 0.2 of L* for a black film, which no eye sees, and there the ratio is meaningless.
 const UNSEEN: f64 = 0.02;
 
-/// Films from here on are called too thick to be a film: K d + S d of the
-/// strongest paint is this.
+/// Value of K d + S d of the strongest paint above which a layer is no longer called a film; chosen
+/// by eye.
 const THICKEST: f64 = 1e5;
-/// Thicknesses tried, this many to each tenfold.
+/// Number of thicknesses tried per decade.
 const STEPS: usize = 8;
-/// Tenfolds tried.
+/// Number of decades tried.
 const DECADES: usize = 9;
 
-/// Whether a film can hide.
+/// Whether a film can hide its ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hides {
-    /// From this thickness on, in the library's unit (an amount, for absolute
-    /// amounts).
+    /// It hides from this thickness on, in the library's unit (for absolute amounts, an amount).
     From(f64),
-    /// At no thickness that is still a film; the contrast ratio of the thickest.
+    /// It does not hide at any thickness that is tried.
     Never {
-        /// Yb / Yw there.
+        /// Contrast ratio Yb / Yw of the thickest film.
         contrast: f64,
     },
 }
 
-/// The hiding power of one paint.
+/// Hiding power of one paint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HidingPower {
-    /// The paint.
-    pub paint: usize,
-    /// The thickness that hides.
+    /// Pigment of the library.
+    pub paint: PigmentId,
+    /// Least thickness that hides.
     pub hides: Hides,
 }
 
 impl Hides {
-    /// The thickness, if there is one.
+    /// Thickness from which on the film hides, if there is one.
     #[must_use]
     pub fn thickness(self) -> Option<f64> {
         match self {
@@ -50,23 +50,22 @@ impl Hides {
     }
 }
 
-/// The hiding power of every paint: the least thickness from which on the film
-/// over the black card has at least 0.98 of its luminance over the white card,
-/// Yb / Yw (ISO 6504-3:2019), under the palette's light and observer.
+/// Computes the hiding power of every paint: the least thickness from which on the luminance of the
+/// film over the black card is at least 0.98 of that over the white card, Yb / Yw (ISO 6504-3:2019),
+/// under the palette's light and observer.
 ///
-/// A film so dark that the two differ by less than 0.02 of Y hides as well.
-/// Thicknesses are tried from the thickest down, eight to a tenfold, then the
-/// crossing is halved: the ratio need not rise all the way in a film that is
-/// clear at some wavelengths.
+/// A film so dark that the two differ by less than 0.02 of Y hides as well. Thicknesses are tried
+/// from the thickest down, eight per decade, and the crossing is then bisected, because the ratio
+/// may fall with thickness in a film that is clear at some wavelengths.
 #[must_use]
 pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
-    let power = |&paint: &usize| HidingPower { paint, hides: hides(palette, paint) };
+    let power = |&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) };
     palette.paints().iter().map(power).collect()
 }
 
-fn hides(palette: &Palette<'_>, paint: usize) -> Hides {
+fn hides(palette: &Palette<'_>, paint: PigmentId) -> Hides {
     let library = palette.library();
-    let mixture = library.mix(&[(paint, 1.0)]).expect("one part is a mixture");
+    let mixture = library.mix([(paint, 1.0)]).expect("one part is a mixture");
     let film = library.film();
     let luminance = |thickness: f64, card: &[f64]| {
         palette.weights().xyz(&mixture.film(thickness, card, film)).y
@@ -92,7 +91,7 @@ fn hides(palette: &Palette<'_>, paint: usize) -> Hides {
     match (0..=STEPS * DECADES).find(|&index| !hiding(step(index))) {
         Some(0) => Hides::Never { contrast: contrast(thickest) },
         Some(index) => Hides::From(crossing(step(index), step(index - 1), hiding)),
-        // The cards themselves are alike.
+        // The film hides at every thickness: the two cards themselves are alike.
         None => Hides::From(0.0),
     }
 }

@@ -1,48 +1,49 @@
-//! Pairs of paints that match under one light and part under another.
+//! Pairs of mixtures that match under one light and differ under another.
 
 use spectra::color::{Lab, Xyz, delta_e_cie76, delta_e_ciede2000, metamerism_index};
 
 use super::constancy::TestLight;
-use super::paints::{Appearance, Palette, Recipe};
+use super::paints::Palette;
 use super::samples::MeasuredSample;
+use crate::appearance::Appearance;
+use crate::recipe::{PigmentId, Recipe};
 
-/// Pairs of paints are tried at these shares of the first.
+/// Shares of the first paint at which each pair is tried; chosen by eye.
 const SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-/// And with these parts of white.
+/// Parts of white with which each mixture is tried; chosen by eye.
 const WHITES: [f64; 3] = [0.0, 1.5, 6.0];
 
-/// Two colours nearly alike under the first light.
+/// Two colours that nearly match under the first light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metamers {
-    /// What they are: a measured sample, or a recipe in words.
+    /// Name of each: a measured sample, or a recipe in words.
     pub names: [String; 2],
-    /// Their recipes.
+    /// Recipe of each.
     pub recipes: [Recipe; 2],
-    /// By light: how the two look.
+    /// By light: the colours of the two.
     pub colors: Vec<[Appearance; 2]>,
-    /// By light: CIEDE2000 between the two as they are.
+    /// By light: CIEDE2000 between the two, uncorrected.
     pub differences: Vec<f64>,
-    /// By light: the special metamerism index (CIE 15:2018, section 9.2), the
-    /// second corrected for what they differ by under the first light; 0 there.
+    /// By light: the special metamerism index (CIE 15:2018, section 9.2), in which the second colour
+    /// is corrected for the difference under the first light; 0 for the first light.
     pub indices: Vec<f64>,
 }
 
 struct Candidate {
     name: String,
     recipe: Recipe,
-    paints: Vec<usize>,
+    paints: Vec<PigmentId>,
     xyz: Vec<Xyz>,
     lab: Lab,
 }
 
-/// The pairs nearer than `alike` CIEDE2000 under the first of `lights` that part
-/// most under any other, by metamerism index; `count` at most, the worst first,
-/// no colour twice.
+/// Finds pairs that differ by less than `alike` CIEDE2000 under the first of `lights` and differ most
+/// under another one by the metamerism index. Returns at most `count` pairs, the worst first; no
+/// colour occurs twice.
 ///
-/// Tried are the measured samples, every paint, and every two paints at five
-/// ratios, with and without white. Two mixtures of the same pigments do not
-/// count. Black pairs (L* below 5), where the index rests on noise, do not
-/// either.
+/// Candidates are the measured samples, every paint, and every two paints at five ratios, with and
+/// without white. Two mixtures of the same pigments do not count, and neither do pairs with L* below
+/// 5, for which the index is dominated by noise.
 #[must_use]
 pub fn metamers(
     palette: &Palette<'_>,
@@ -53,8 +54,8 @@ pub fn metamers(
 ) -> Vec<Metamers> {
     let mut candidates = candidates(palette, lights, measured);
     candidates.retain(|candidate| candidate.lab.lightness >= 5.0);
-    // In order of lightness, only a window of each needs to be looked at:
-    // CIEDE2000 is at least the lightness difference over its largest weight.
+    // Sorted by lightness, each colour needs to be compared with a window of others only: CIEDE2000
+    // is at least the lightness difference divided by its largest weight.
     candidates.sort_by(|a, b| a.lab.lightness.total_cmp(&b.lab.lightness));
     let window = 1.8 * alike;
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
@@ -85,8 +86,8 @@ pub fn metamers(
     chosen
 }
 
-/// CIEDE2000 within `alike`. The Euclidean distance, which is cheap, sieves
-/// first: it is less than eight times CIEDE2000 but for the most vivid blues.
+/// Whether two colours differ by `alike` CIEDE2000 or less. The cheap Euclidean distance is tested
+/// first: it is less than eight times CIEDE2000, except for the most vivid blues.
 fn near_in_lab(first: Lab, second: Lab, alike: f64) -> bool {
     delta_e_cie76(first, second) <= 8.0 * alike && delta_e_ciede2000(first, second) <= alike
 }
@@ -122,7 +123,7 @@ fn candidates(
     measured: &[MeasuredSample],
 ) -> Vec<Candidate> {
     let candidate = |name: String, recipe: Recipe, reflectance: &[f64]| {
-        let mut paints: Vec<usize> = recipe.iter().map(|(p, _)| *p).collect();
+        let mut paints: Vec<PigmentId> = recipe.pigments().collect();
         paints.sort_unstable();
         let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(reflectance)).collect();
         let lab = Lab::from_xyz(xyz[0], lights[0].weights.white());
@@ -134,7 +135,7 @@ fn candidates(
     }
     for (a, b) in palette.pairs() {
         for share in SHARES {
-            let pair = [(a, share), (b, 1.0 - share)];
+            let pair = Recipe::from([(a, share), (b, 1.0 - share)]);
             recipes.extend(WHITES.iter().map(|&parts| palette.thinned(&pair, parts)));
         }
     }

@@ -1,26 +1,28 @@
-//! Mixtures that painters chart: every two paints, tints, drawdowns.
+//! Charts of mixtures as painters make them: mixing charts, tints, drawdowns.
 
-use super::paints::{Appearance, Palette};
+use super::paints::Palette;
+use crate::appearance::Appearance;
+use crate::recipe::{PigmentId, Recipe};
 
 /// Parts of white (or of water) to one of paint in a ladder of tints.
 pub const TINTS: [f64; 5] = [0.0, 1.0, 3.0, 9.0, 27.0];
 
-/// Parts of white (or of water) to one of the mixture in the tinted half of a
-/// chart, where dark mixtures show their hue.
+/// Parts of white (or of water) to one of the mixture in the tinted half of a chart, where dark
+/// mixtures show their hue.
 pub const CHART_TINT: f64 = 3.0;
 
-/// Every paint with every other, one part to one.
+/// Colours of every paint mixed with every other, one part to one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MixingChart {
     /// The paints, in the library's order.
-    pub paints: Vec<usize>,
-    /// By row and column of `paints`; symmetric, the masstones on the diagonal.
+    pub paints: Vec<PigmentId>,
+    /// Colours by row and column of `paints`; symmetric, with the masstones on the diagonal.
     pub colors: Vec<Vec<Appearance>>,
-    /// The same, each with [`CHART_TINT`] parts of white to one.
+    /// Colours of the same mixtures with [`CHART_TINT`] parts of white to one.
     pub tinted: Vec<Vec<Appearance>>,
 }
 
-/// The chart of a palette.
+/// Computes the mixing chart of a palette.
 #[must_use]
 pub fn mixing_chart(palette: &Palette<'_>) -> MixingChart {
     MixingChart {
@@ -35,33 +37,31 @@ fn every_pair(palette: &Palette<'_>, whites: f64) -> Vec<Vec<Appearance>> {
     let mut colors: Vec<Vec<Appearance>> = Vec::with_capacity(paints.len());
     for (row, &first) in paints.iter().enumerate() {
         let mut line: Vec<Appearance> = colors.iter().map(|above| above[row]).collect();
-        line.push(palette.look(&palette.tint(first, whites)));
-        line.extend(
-            paints[row + 1..].iter().map(|&second| {
-                palette.look(&palette.thinned(&[(first, 0.5), (second, 0.5)], whites))
-            }),
-        );
+        line.push(palette.color(&palette.tint(first, whites)));
+        line.extend(paints[row + 1..].iter().map(|&second| {
+            palette.color(&palette.thinned(&Recipe::from([(first, 0.5), (second, 0.5)]), whites))
+        }));
         colors.push(line);
     }
     colors
 }
 
-/// One paint from the masstone to its palest tint.
+/// Tints of one paint from the masstone to the palest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TintLadder {
-    /// The paint.
-    pub paint: usize,
-    /// By step of [`TINTS`].
+    /// Pigment of the library.
+    pub paint: PigmentId,
+    /// Colours by step of [`TINTS`].
     pub colors: Vec<Appearance>,
 }
 
-/// The tints of every paint but the white.
+/// Computes the tints of every paint but the white.
 #[must_use]
 pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
     let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
-    let ladder = |&paint: &usize| TintLadder {
+    let ladder = |&paint: &PigmentId| TintLadder {
         paint,
-        colors: TINTS.iter().map(|&parts| palette.look(&palette.tint(paint, parts))).collect(),
+        colors: TINTS.iter().map(|&parts| palette.color(&palette.tint(paint, parts))).collect(),
     };
     paints.map(ladder).collect()
 }
@@ -69,33 +69,33 @@ pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
 /// A film of one thickness over both cards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawdownStep {
-    /// In the library's unit; for absolute amounts, in washes of that paint.
+    /// Thickness in the library's unit; for absolute amounts, in washes of the paint.
     pub thickness: f64,
-    /// Over the black card.
+    /// Colour over the black card.
     pub over_black: Appearance,
-    /// Over the white card.
+    /// Colour over the white card.
     pub over_white: Appearance,
 }
 
-/// A paint drawn down over a black-and-white card.
+/// A paint drawn down in several thicknesses over a black-and-white card.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawdown {
-    /// The paint.
-    pub paint: usize,
-    /// Thin to thick: from the undertone to the masstone.
+    /// Pigment of the library.
+    pub paint: PigmentId,
+    /// Films from thin to thick, that is from undertone to masstone.
     pub steps: Vec<DrawdownStep>,
-    /// The film that hides.
+    /// Colour of the film that hides.
     pub masstone: Appearance,
 }
 
-/// Every paint at each of `thicknesses` (0 and up, in the library's unit; for
-/// absolute amounts, in washes of that paint).
+/// Computes drawdowns of every paint at each of `thicknesses` (0 and up, in the library's unit; for
+/// absolute amounts, in washes of the paint).
 #[must_use]
 pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
     let film = palette.library().film();
     let cards = palette.cards();
-    let drawdown = |&paint: &usize| {
-        let mixture = palette.mixture(&[(paint, 1.0)]);
+    let drawdown = |&paint: &PigmentId| {
+        let mixture = palette.mixture(&Recipe::single(paint));
         let over =
             |thickness: f64, card: &[f64]| palette.appearance(&mixture.film(thickness, card, film));
         let step = |&thickness: &f64| DrawdownStep {

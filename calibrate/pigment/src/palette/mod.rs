@@ -1,12 +1,10 @@
-//! What a palette can do: how its paints hide, tint, mix, and change with the
-//! light.
+//! Properties of a palette: how its paints hide, tint, mix, and change with the light.
 //!
-//! Every recipe here is a list of `(pigment index, share)`. In a library of
-//! relative amounts a recipe is a film that hides. In one of absolute amounts
-//! the paper is the white: shares are of each pigment's own wash (see
-//! [`Palette::wash`]), and a recipe of shares below 1 is thinned with water.
+//! In a library of relative amounts a recipe stands for a film that hides. In one of absolute amounts
+//! the paper is the white: shares count each pigment's own wash (see [`Palette::wash`]), and a recipe
+//! whose shares sum to less than 1 is thinned with water.
 //!
-//! A pigment whose scattering is not identified takes no part in any mixture.
+//! Pigments whose scattering is not identified take no part in any mixture.
 
 mod cards;
 
@@ -30,6 +28,8 @@ mod metamers;
 
 mod graded;
 
+pub use crate::appearance::Appearance;
+pub use crate::recipe::Recipe;
 pub use cards::Cards;
 pub use constancy::{ColorShift, TestLight, color_shifts, test_lights};
 pub use gamut::{Boundary, Gamut, GamutSample, sampled_gamut, spectral_locus, srgb_primaries};
@@ -40,6 +40,6 @@ pub use mixing_chart::{
     CHART_TINT, Drawdown, DrawdownStep, MixingChart, TINTS, TintLadder, drawdowns, mixing_chart,
     tint_ladders,
 };
-pub use paints::{Appearance, Palette, PaletteError, Recipe};
+pub use paints::{Palette, PaletteError};
 pub use samples::MeasuredSample;
 pub use tinting_strength::{TINT_DEPTH, TINT_PARTS, TintingStrength, tinting_strengths};

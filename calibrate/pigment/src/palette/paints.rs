@@ -1,61 +1,37 @@
-//! The paints of a library that can be mixed, and how mixtures of them look.
+//! The paints of a library that can be mixed, and the colours of their mixtures.
 
 use spectra::TristimulusWeights;
-use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::hint::{Explain, Hint};
 
 use super::cards::Cards;
+use crate::appearance::Appearance;
+use crate::curves::{Curves, film_over, hiding_film};
 use crate::evaluate::Viewing;
 use crate::library::{AmountKind, PigmentLibrary};
-use crate::mixture::Mixture;
+use crate::recipe::{PigmentId, Recipe};
 
-/// How far a wash goes from the paper to hiding, where it absorbs most.
+/// Depth of a wash: the fraction of the way from the bare paper to a film that hides, at the wavelength
+/// of greatest absorption. Chosen by eye.
 const WASH_DEPTH: f64 = 0.9;
 
-/// Pigments of a library by index, with their shares.
-pub type Recipe = Vec<(usize, f64)>;
-
-/// A colour under one light.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Appearance {
-    /// Tristimulus values, Y = 100 for the white.
-    pub xyz: Xyz,
-    /// CIELAB under the light's own white.
-    pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford); outside
-    /// 0..1 where sRGB cannot show the colour.
-    pub srgb: Rgb,
-}
-
-impl Appearance {
-    /// The appearance of `xyz` under the white `white`.
-    #[must_use]
-    pub fn of(xyz: Xyz, white: Xyz) -> Self {
-        Self {
-            xyz,
-            lab: Lab::from_xyz(xyz, white),
-            srgb: RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford),
-        }
-    }
-}
-
-/// A library under one light and observer, with the cards its films lie on.
+/// A library under one light and observer, with the cards on which its films lie.
 #[derive(Debug, Clone)]
 pub struct Palette<'a> {
     library: &'a PigmentLibrary,
     viewing: &'a Viewing,
     weights: TristimulusWeights,
     cards: Cards,
-    paints: Vec<usize>,
-    white: Option<usize>,
+    paints: Vec<PigmentId>,
+    white: Option<PigmentId>,
     washes: Vec<f64>,
 }
 
 impl<'a> Palette<'a> {
-    /// The paints of `library` whose scattering is identified, in its order.
+    /// Palette of the pigments of `library` whose scattering is identified, in its order.
     ///
     /// # Errors
-    /// [`PaletteError::NothingToMix`] if there is none,
-    /// [`PaletteError::Cards`] if the cards stand on another grid.
+    /// [`PaletteError::NothingToMix`] if there is no such pigment, [`PaletteError::Cards`] if the cards
+    /// stand on another grid.
     pub fn new(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,
@@ -68,8 +44,7 @@ impl<'a> Palette<'a> {
             return Err(PaletteError::Cards { wanted: count, found });
         }
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
-        let all = 0..library.pigments.len();
-        let paints: Vec<usize> = all.filter(|&p| library.pigments[p].identified).collect();
+        let paints: Vec<PigmentId> = library.ids().filter(|&p| library[p].identified).collect();
         if paints.is_empty() {
             return Err(PaletteError::NothingToMix { pigments: library.pigments.len() });
         }
@@ -78,62 +53,60 @@ impl<'a> Palette<'a> {
         match library.amounts {
             AmountKind::Relative => palette.white = Some(palette.white_paint()),
             AmountKind::Absolute => {
-                palette.washes =
-                    (0..library.pigments.len()).map(|p| palette.solve_wash(p)).collect();
+                palette.washes = library.ids().map(|p| palette.solve_wash(p)).collect();
             }
         }
         Ok(palette)
     }
 
-    /// The library.
+    /// Library of the palette.
     #[must_use]
     pub fn library(&self) -> &'a PigmentLibrary {
         self.library
     }
 
-    /// Light and observer.
+    /// Light and observer of all colours.
     #[must_use]
     pub fn viewing(&self) -> &'a Viewing {
         self.viewing
     }
 
-    /// The weights of light and observer on the library's grid.
+    /// Tristimulus weights of light and observer on the library's grid.
     #[must_use]
     pub fn weights(&self) -> &TristimulusWeights {
         &self.weights
     }
 
-    /// The cards.
+    /// Black and white card.
     #[must_use]
     pub fn cards(&self) -> &Cards {
         &self.cards
     }
 
-    /// The pigments that can be mixed, by their index in the library.
+    /// Pigments that can be mixed, in the library's order.
     #[must_use]
-    pub fn paints(&self) -> &[usize] {
+    pub fn paints(&self) -> &[PigmentId] {
         &self.paints
     }
 
-    /// The pigments left out, whose scattering is not identified.
+    /// Pigments that are left out because their scattering is not identified.
     #[must_use]
-    pub fn left_out(&self) -> Vec<usize> {
-        let all = 0..self.library.pigments.len();
-        all.filter(|&p| !self.library.pigments[p].identified).collect()
+    pub fn left_out(&self) -> Vec<PigmentId> {
+        self.library.ids().filter(|&p| !self.library[p].identified).collect()
     }
 
-    /// The name of a pigment, with a mark if its K and S are guessed.
+    /// Name of a pigment, marked if its K and S are guessed.
     #[must_use]
-    pub fn label(&self, pigment: usize) -> String {
-        let pigment = &self.library.pigments[pigment];
+    pub fn label(&self, pigment: PigmentId) -> String {
+        let pigment = &self.library[pigment];
         let mark = if pigment.guessed { " (guessed)" } else { "" };
         format!("{}{mark}", pigment.name)
     }
 
-    /// A recipe in words: parts in percent, or by name alone for one pigment.
+    /// Recipe of shares in words: percentages with names, or only the name for a single pigment.
     #[must_use]
-    pub fn recipe_label(&self, recipe: &[(usize, f64)]) -> String {
-        if let [(only, share)] = recipe
+    pub fn recipe_label(&self, recipe: &Recipe) -> String {
+        if let [(only, share)] = recipe.parts()
             && (share - 1.0).abs() < 1e-9
         {
             return self.label(*only);
@@ -146,127 +119,121 @@ impl<'a> Palette<'a> {
         words.collect::<Vec<_>>().join(" + ")
     }
 
-    /// The paint that lightens: the reference white, or the lightest paint of a
-    /// library without one. None for absolute amounts: there the paper is.
+    /// Paint that lightens others: the reference white, or the lightest paint of a library without one.
+    /// `None` for absolute amounts, where the paper takes its place.
     #[must_use]
-    pub fn white(&self) -> Option<usize> {
+    pub fn white(&self) -> Option<PigmentId> {
         self.white
     }
 
-    /// The darkest paint.
+    /// Darkest paint by the luminance of its film.
     #[must_use]
-    pub fn black(&self) -> usize {
+    pub fn black(&self) -> PigmentId {
         self.by_luminance(|a, b| b < a)
     }
 
-    /// The amount of a pigment in its own wash; 1 for relative amounts.
+    /// Amount of a pigment in its own wash; 1 for relative amounts.
     ///
-    /// For absolute amounts, the amount at which the reflectance over the white
-    /// card, where the pigment absorbs most, has gone nine tenths of the way
-    /// from the bare card to a film that hides: 1 for a pigment that does
-    /// nothing. A depth that is alike for strong pigments and weak ones.
+    /// For absolute amounts a wash has the amount at which the reflectance over the white card, at the
+    /// wavelength of greatest absorption, is nine tenths of the way from the bare card to a film that
+    /// hides. Washes of strong and weak pigments are thus equally deep. 1 for a pigment without K and S.
     #[must_use]
-    pub fn wash(&self, pigment: usize) -> f64 {
-        self.washes.get(pigment).copied().unwrap_or(1.0)
+    pub fn wash(&self, pigment: PigmentId) -> f64 {
+        self.washes.get(pigment.index()).copied().unwrap_or(1.0)
     }
 
-    /// One paint with `parts` parts of white, or thinned so with water.
+    /// Recipe of one paint with `parts` parts of white (or water) to one part of it.
     #[must_use]
-    pub fn tint(&self, paint: usize, parts: f64) -> Recipe {
-        self.thinned(&[(paint, 1.0)], parts)
+    pub fn tint(&self, paint: PigmentId, parts: f64) -> Recipe {
+        self.thinned(&Recipe::single(paint), parts)
     }
 
-    /// A recipe of shares that sum to 1 with `parts` parts of white (or water)
-    /// to one of it.
+    /// Recipe with `parts` parts of white (or water) to one part of `recipe`, whose shares sum to 1.
     #[must_use]
-    pub fn thinned(&self, recipe: &[(usize, f64)], parts: f64) -> Recipe {
+    pub fn thinned(&self, recipe: &Recipe, parts: f64) -> Recipe {
         let own = 1.0 / (1.0 + parts);
-        let mut thinned: Recipe = recipe.iter().map(|&(p, share)| (p, own * share)).collect();
+        let mut thinned = recipe.scaled(own);
         if let Some(white) = self.white.filter(|_| parts > 0.0) {
-            match thinned.iter_mut().find(|(p, _)| *p == white) {
-                Some((_, share)) => *share += parts * own,
-                None => thinned.push((white, parts * own)),
-            }
+            thinned.add(white, parts * own);
         }
         thinned
     }
 
-    /// K and S of a recipe, the amounts of washes counted in.
+    /// K and S of a recipe; shares of a library of absolute amounts count washes.
     ///
     /// # Panics
     /// If a share is negative, or all are 0.
     #[must_use]
-    pub fn mixture(&self, recipe: &[(usize, f64)]) -> Mixture {
+    pub fn mixture(&self, recipe: &Recipe) -> Curves {
         let dosed: Recipe = recipe.iter().map(|&(p, share)| (p, share * self.wash(p))).collect();
-        self.library.mix(&dosed).expect("a recipe has parts above 0")
+        self.library.mix(dosed).expect("a recipe has parts above 0")
     }
 
-    /// Measured reflectance of a recipe: a film that hides, or for absolute
-    /// amounts a wash over the white card.
+    /// Measured reflectance of a recipe: of a film that hides or, for absolute amounts, of a wash over
+    /// the white card.
     ///
     /// # Panics
-    /// As [`Palette::mixture`].
+    /// If a share is negative, or all are 0.
     #[must_use]
-    pub fn reflectance(&self, recipe: &[(usize, f64)]) -> Vec<f64> {
-        self.seen(&self.mixture(recipe), &self.cards.white)
+    pub fn reflectance(&self, recipe: &Recipe) -> Vec<f64> {
+        let curves = self.mixture(recipe);
+        self.film_reflectance(curves.as_slices(), &self.cards.white)
     }
 
-    /// Measured reflectance of a mixture, at any wavelengths; `card` is the
-    /// white card's there.
-    pub(super) fn seen(&self, mixture: &Mixture, card: &[f64]) -> Vec<f64> {
+    /// Measured reflectance of a film from its K and S at any wavelengths; `card` is the reflectance
+    /// of the white card at these.
+    pub(super) fn film_reflectance(&self, (k, s): (&[f64], &[f64]), card: &[f64]) -> Vec<f64> {
         match self.library.amounts {
-            AmountKind::Relative => mixture.hiding(self.library.saunderson),
-            AmountKind::Absolute => mixture.film(1.0, card, self.library.film()),
+            AmountKind::Relative => hiding_film(k, s, self.library.saunderson),
+            AmountKind::Absolute => film_over(k, s, 1.0, card, self.library.film()),
         }
     }
 
-    /// The colour of a measured reflectance.
+    /// Colour of a measured reflectance.
     #[must_use]
     pub fn appearance(&self, reflectance: &[f64]) -> Appearance {
         Appearance::of(self.weights.xyz(reflectance), self.weights.white())
     }
 
-    /// The colour of a recipe.
+    /// Colour of a recipe.
     ///
     /// # Panics
-    /// As [`Palette::mixture`].
+    /// If a share is negative, or all are 0.
     #[must_use]
-    pub fn look(&self, recipe: &[(usize, f64)]) -> Appearance {
+    pub fn color(&self, recipe: &Recipe) -> Appearance {
         self.appearance(&self.reflectance(recipe))
     }
 
-    /// Every two different paints, in the library's order.
-    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    /// Every pair of different paints, in the library's order.
+    pub fn pairs(&self) -> impl Iterator<Item = (PigmentId, PigmentId)> + '_ {
         let paints = &self.paints;
         paints.iter().enumerate().flat_map(|(i, &a)| paints[i + 1..].iter().map(move |&b| (a, b)))
     }
 
-    /// The largest K + S of any paint: the scale of thickness.
+    /// Largest K + S of any paint, which sets the scale of thickness.
     pub(super) fn strongest(&self) -> f64 {
-        let both = |&p: &usize| {
-            let pigment = &self.library.pigments[p];
+        let both = |&p: &PigmentId| {
+            let pigment = &self.library[p];
             let pairs = pigment.absorption.iter().zip(&pigment.scattering);
             pairs.map(|(k, s)| k + s).fold(0.0, f64::max)
         };
         self.paints.iter().map(both).fold(0.0, f64::max)
     }
 
-    fn white_paint(&self) -> usize {
-        let named = self.library.reference.as_ref().and_then(|name| {
-            self.paints.iter().copied().find(|&p| self.library.pigments[p].name == *name)
-        });
-        named.unwrap_or_else(|| self.by_luminance(|a, b| b > a))
+    fn white_paint(&self) -> PigmentId {
+        let reference = self.library.reference_id().filter(|id| self.paints.contains(id));
+        reference.unwrap_or_else(|| self.by_luminance(|a, b| b > a))
     }
 
-    /// The paint that comes first by the luminance of its film.
-    fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> usize {
-        let luminance = |&p: &usize| (p, self.look(&[(p, 1.0)]).xyz.y);
+    /// First paint in the order `better` of the luminance of films.
+    fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
+        let luminance = |&p: &PigmentId| (p, self.color(&Recipe::single(p)).xyz.y);
         let all = self.paints.iter().map(luminance);
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0
     }
 
-    fn solve_wash(&self, pigment: usize) -> f64 {
-        let pigment = &self.library.pigments[pigment];
+    fn solve_wash(&self, pigment: PigmentId) -> f64 {
+        let pigment = &self.library[pigment];
         let absorption = pigment.absorption.iter().enumerate();
         let (at, k) =
             absorption.fold((0, 0.0), |most, (i, &k)| if k > most.1 { (i, k) } else { most });
@@ -285,8 +252,8 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Where `reached` turns true between `thin` and `thick`, in 60 halvings of the
-/// logarithm: far below any rounding of a file.
+/// Returns the value between `thin` and `thick` at which `reached` turns true, by 60 bisections of the
+/// logarithm: far below the rounding of a file.
 pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> f64 {
     let (mut below, mut above) = (thin.ln(), thick.ln());
     for _ in 0..60 {
@@ -300,7 +267,7 @@ pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> 
     above.exp()
 }
 
-/// Why there is no palette.
+/// A library that makes no palette.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PaletteError {
     /// No pigment has an identified scattering.
@@ -308,30 +275,28 @@ pub enum PaletteError {
         "none of the library's pigments can be mixed: scattering is identified of `0` of {pigments}"
     )]
     NothingToMix {
-        /// How many pigments there are.
+        /// Number of pigments in the library.
         pigments: usize,
     },
-    /// Cards on other wavelengths.
+    /// The cards do not stand on the library's wavelengths.
     #[error(
         "a card has one reflectance for each of the library's {wanted} wavelengths, found `{found}`"
     )]
     Cards {
-        /// How many the library has.
+        /// Wavelengths of the library.
         wanted: usize,
-        /// How many were given.
+        /// Wavelengths of the card.
         found: usize,
     },
 }
 
-impl PaletteError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for PaletteError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::NothingToMix { .. } => {
                 "measure mixtures of each pigment with the white, and fit again"
             }
             Self::Cards { .. } => "read the bare cards on the wavelengths of the films",
-        }
+        }))
     }
 }

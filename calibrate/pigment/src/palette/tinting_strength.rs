@@ -1,43 +1,46 @@
-//! How far a paint goes in white.
+//! Tinting strength: how far a paint goes in white.
 
 use super::paints::Palette;
 use crate::library::AmountKind;
+use crate::recipe::{PigmentId, Recipe};
 
-/// Parts of white to one of paint in the tint that is compared: 10 % of paint,
-/// which most sets of swatches hold.
+/// Parts of white to one of paint in the tints that are compared: 10 % of paint, which most sets of
+/// swatches contain.
 pub const TINT_PARTS: f64 = 9.0;
 
-/// The depth of [`TintingStrength::white_parts`]: K/S = 1 where the tint absorbs
-/// most, an internal reflectance of 0.27.
+/// Depth of [`TintingStrength::white_parts`]: K/S = 1 where the tint absorbs most, which is an
+/// internal reflectance of 0.27.
 pub const TINT_DEPTH: f64 = 1.0;
 
-/// The tinting strength of one paint.
+/// Tinting strength of one paint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TintingStrength {
-    /// The paint.
-    pub paint: usize,
-    /// Where its tint absorbs most beyond the white, in nm.
+    /// Pigment of the library.
+    pub paint: PigmentId,
+    /// Wavelength in nm at which the tint absorbs most beyond the white.
     pub wavelength_nm: f64,
-    /// What it adds there to the K/S of the white; for absolute amounts, K per
-    /// unit of amount. 0 for a paint that only lightens.
+    /// Increase of K/S over that of the white at that wavelength; for absolute amounts, K per unit of
+    /// amount. 0 for a paint that only lightens.
     pub strength: f64,
-    /// The same, over that of the paint it is compared to; in percent.
+    /// `strength` in percent of that of the standard paint.
     pub percent: f64,
-    /// Parts of white to one of paint that make a tint of K/S = 1 there; none
-    /// for a paint that is not so deep by itself, or for absolute amounts.
+    /// Parts of white to one of paint that make a tint of K/S = 1 at that wavelength; `None` for a
+    /// paint that is lighter than that by itself, or for absolute amounts.
     pub white_parts: Option<f64>,
 }
 
-/// The tinting strength of every paint but the white, relative to `standard`
-/// (the strongest if none is named).
+/// Computes the tinting strength of every paint but the white, relative to `standard` (by default
+/// the strongest paint).
 ///
-/// As ISO 787-24 compares tints: by K/S where the tint of one part in nine parts
-/// of the reference white absorbs most. The white's own K/S is taken off, so
-/// that a paint of twice the absorption has twice the strength. A library of
-/// absolute amounts has no white paint; there K of one unit of amount tells how
-/// far the paint goes.
+/// ISO 787-24 compares tints by K/S where the tint of one part in nine parts of the reference white
+/// absorbs most. The white's own K/S is subtracted, so that a paint of twice the absorption has
+/// twice the strength. A library of absolute amounts has no white paint; there K of one unit of
+/// amount is the strength.
 #[must_use]
-pub fn tinting_strengths(palette: &Palette<'_>, standard: Option<usize>) -> Vec<TintingStrength> {
+pub fn tinting_strengths(
+    palette: &Palette<'_>,
+    standard: Option<PigmentId>,
+) -> Vec<TintingStrength> {
     let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
     let mut strengths: Vec<TintingStrength> = paints.map(|&p| strength(palette, p)).collect();
     let named = standard.and_then(|wanted| strengths.iter().find(|s| s.paint == wanted));
@@ -49,13 +52,13 @@ pub fn tinting_strengths(palette: &Palette<'_>, standard: Option<usize>) -> Vec<
     strengths
 }
 
-fn strength(palette: &Palette<'_>, paint: usize) -> TintingStrength {
+fn strength(palette: &Palette<'_>, paint: PigmentId) -> TintingStrength {
     let library = palette.library();
-    let pigment = &library.pigments[paint];
+    let pigment = &library[paint];
     let added: Vec<f64> = match (library.amounts, palette.white()) {
         (AmountKind::Relative, Some(white)) => {
             let tint = palette.mixture(&palette.tint(paint, TINT_PARTS));
-            let white = palette.mixture(&[(white, 1.0)]);
+            let white = palette.mixture(&Recipe::single(white));
             let ratio = |k: f64, s: f64| if s > 0.0 { k / s } else { 0.0 };
             (0..library.grid.count())
                 .map(|i| {
@@ -70,7 +73,7 @@ fn strength(palette: &Palette<'_>, paint: usize) -> TintingStrength {
     let (at, most) =
         most.fold((0, f64::NEG_INFINITY), |m, (i, &v)| if v > m.1 { (i, v) } else { m });
     let white_parts = palette.white().and_then(|white| {
-        let white = &library.pigments[white];
+        let white = &library[white];
         // (K + n Kw) / (S + n Sw) = depth, solved for n.
         let own = pigment.absorption[at] - TINT_DEPTH * pigment.scattering[at];
         let per_part = TINT_DEPTH * white.scattering[at] - white.absorption[at];

@@ -1,4 +1,4 @@
-//! Nodes and weights fitted to what a library can mix.
+//! Nodes and weights fitted to the mixtures of a library.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -6,16 +6,47 @@ use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 use spectra::optics::{infinite_film, infinite_film_from_ratio, infinite_film_slope};
 
 use super::mixtures::MixtureSet;
-use super::rule::{Quadrature, on_line};
+use super::rule::{Quadrature, QuadratureFailure, on_line};
+use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, Stop, minimise};
+use crate::library::PigmentLibrary;
 
-/// The best of several fits.
+/// Number of random mixtures in the training set, besides all masstones; chosen by eye.
+const TRAINING: usize = 700;
+/// Seed of the training set.
+const TRAINING_SEED: u64 = 2004;
+/// Stopping rule of each fit.
+const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
+/// Limits of the nodes in nm: the band of the CIE's observers.
+const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
+/// Limit of every weight; white sums to about 100, so that it never binds in a good fit.
+const LARGEST_WEIGHT: f64 = 1e3;
+
+impl Quadrature {
+    /// Fits nodes and weights so that the mixtures of `library` keep their colours: least squares in
+    /// CIEDE2000 over its masstones and seeded random mixtures, from several starts.
+    ///
+    /// # Errors
+    /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
+    pub fn library(
+        viewing: &Viewing,
+        library: &PigmentLibrary,
+        count: usize,
+    ) -> Result<Self, QuadratureFailure> {
+        let start = Self::moments(viewing, count)?;
+        let weights = viewing.weights(library.grid).expect("the method fits the grid");
+        let random = MixtureSet::for_fitting(library, &weights, TRAINING, TRAINING_SEED);
+        let training = MixtureSet::masstones(library, &weights).joined(random);
+        Ok(fitted(&start, &training))
+    }
+}
+
+/// Returns the best of several fits.
 ///
-/// Unknown are the n nodes and, in each channel, all weights but the last,
-/// which makes the sum that of the white. The residuals are colour differences
-/// to the exact colour in the local metric of CIEDE2000. Starts: the nodes of
-/// `start`, the same drawn to the middle or spread, and evenly spaced ones.
-pub(super) fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
+/// Unknown are the n nodes and, in each channel, all weights but the last, which makes the sum that of
+/// the white. The residuals are differences from the exact colours in the local metric of CIEDE2000.
+/// The starts are the nodes of `start`, these drawn together or spread, and evenly spaced nodes.
+fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();
     let middle = start.nodes_nm.iter().sum::<f64>() / count as f64;
@@ -48,7 +79,7 @@ impl<'a> Problem<'a> {
         Self { start, training, targets: training.xyz.iter().map(target).collect() }
     }
 
-    /// The fit from these nodes, with its cost.
+    /// Fits from these nodes and returns the cost with the quadrature.
     fn solve(&self, nodes: Vec<f64>) -> (f64, Quadrature) {
         let n = nodes.len();
         let mut nodes = nodes;
@@ -63,21 +94,16 @@ impl<'a> Problem<'a> {
                 point[n + 3 * i + channel] = weights[i][channel];
             }
         }
-        let mut lower = DVector::from_element(point.len(), -1e3);
-        let mut upper = DVector::from_element(point.len(), 1e3);
-        lower.rows_mut(0, n).fill(360.0);
-        upper.rows_mut(0, n).fill(830.0);
-        let minimum = minimise(
-            point,
-            (&lower, &upper),
-            Stop { iterations: 120, relative_decrease: 1e-6 },
-            |p| self.equations(p),
-            |p| self.cost(p),
-        );
+        let mut lower = DVector::from_element(point.len(), -LARGEST_WEIGHT);
+        let mut upper = DVector::from_element(point.len(), LARGEST_WEIGHT);
+        lower.rows_mut(0, n).fill(NODE_BAND_NM[0]);
+        upper.rows_mut(0, n).fill(NODE_BAND_NM[1]);
+        let minimum =
+            minimise(point, (&lower, &upper), STOP, |p| self.equations(p), |p| self.cost(p));
         (minimum.cost, self.quadrature(&minimum.point))
     }
 
-    /// Weights at fixed nodes by linear least squares in XYZ.
+    /// Weights for fixed nodes by linear least squares in XYZ.
     fn linear_weights(&self, nodes: &[f64]) -> Vec<[f64; 3]> {
         let n = nodes.len();
         let mut equations = [(); 3].map(|()| NormalEquations::zeros(n));
@@ -85,7 +111,7 @@ impl<'a> Problem<'a> {
         for (index, xyz) in self.training.xyz.iter().enumerate() {
             let reflectance: Vec<f64> =
                 nodes.iter().map(|&nm| self.reflectance(index, nm).0).collect();
-            // Relative errors weigh dark colours as the eye does.
+            // Relative errors give dark colours the weight that the eye gives them.
             let weight = (xyz.y + 1.0).recip().powi(2);
             for (channel, value) in xyz.to_array().into_iter().enumerate() {
                 equations[channel].add(-value, &reflectance, weight);
@@ -144,7 +170,7 @@ impl<'a> Problem<'a> {
         (surface.measured_from_internal(internal), surface.measured_slope(internal) * slope)
     }
 
-    /// Residual of a mixture, and the derivative of each with respect to XYZ.
+    /// Residual of a mixture and its derivatives with respect to XYZ.
     fn residual(&self, index: usize, xyz: Xyz) -> ([f64; 3], Matrix3) {
         let white = self.training.white;
         let (target, metric) = &self.targets[index];
@@ -194,7 +220,7 @@ impl<'a> Problem<'a> {
             .sum()
     }
 
-    /// All weights, in the order of the nodes of `point` (not sorted).
+    /// All weights in the order of the nodes of `point`, which are not sorted.
     fn weights_in_order(&self, point: &DVector<f64>) -> Vec<[f64; 3]> {
         let n = self.start.nodes_nm.len();
         let mut last = self.start.white.to_array();

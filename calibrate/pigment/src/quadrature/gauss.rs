@@ -1,28 +1,27 @@
-//! Gaussian quadrature of a tabulated weight.
+//! Gaussian quadrature for a tabulated weight function.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Nodes and weights of the Gaussian rule of a discrete weight.
+/// Nodes and weights of the Gaussian rule for a discrete weight function.
 ///
-/// The three-term recurrence of the orthogonal polynomials is found by the
-/// discretised Stieltjes procedure (Gautschi 1982; 2004, section 2.2.3.1), the
-/// nodes as the eigenvalues of the Jacobi matrix and the weights from its
-/// eigenvectors (Golub and Welsch 1969). Exact for polynomials up to degree
-/// 2 n - 1 summed over the weight's points.
+/// The discretised Stieltjes procedure finds the three-term recurrence of the orthogonal polynomials
+/// (Gautschi 1982; 2004, section 2.2.3.1). The nodes are the eigenvalues of the Jacobi matrix, and
+/// the weights follow from its eigenvectors (Golub and Welsch 1969). Exact for polynomials up to
+/// degree 2 n - 1 summed over the points of the weight function.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
-    /// The nodes, rising.
+    /// Nodes in rising order, in the unit of the points.
     pub nodes: Vec<f64>,
-    /// Their weights, above 0; their sum is that of the weight.
+    /// Weight of each node, above 0; they sum to the sum of the weight function.
     pub weights: Vec<f64>,
-    /// By degree k below n: the orthonormal polynomial of degree k at the nodes.
+    /// By degree k below n: values of the orthonormal polynomial of degree k at the nodes.
     at_nodes: Vec<Vec<f64>>,
-    /// By degree k below n: the same at the weight's points.
+    /// By degree k below n: values of that polynomial at the points of the weight function.
     at_points: Vec<Vec<f64>>,
 }
 
 impl GaussRule {
-    /// The rule of `count` nodes for the weight `weight` at `points`.
+    /// Computes the rule of `count` nodes for the weight function `weight` given at `points`.
     ///
     /// Returns `None` if fewer than `count` points have a weight above 0.
     #[must_use]
@@ -30,7 +29,7 @@ impl GaussRule {
         if count == 0 || weight.iter().filter(|w| **w > 0.0).count() < count {
             return None;
         }
-        // On -1..1 the polynomials stay within bounds.
+        // On -1..1 the polynomials stay bounded.
         let (low, high) = (points[0], points[points.len() - 1]);
         let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
         let t: Vec<f64> = points.iter().map(|p| (p - middle) / half).collect();
@@ -68,8 +67,8 @@ impl GaussRule {
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let weights: Vec<f64> =
             order.iter().map(|&i| total * eigen.eigenvectors[(0, i)].powi(2)).collect();
-        // Column i of the eigenvectors is the polynomials at node i, scaled to
-        // length 1; its length is the root of the weight.
+        // Column i of the eigenvectors holds the polynomials at node i, scaled to length 1; that
+        // length is the root of the weight.
         let at_nodes = (0..count)
             .map(|k| {
                 let value = |&i: &usize| {
@@ -83,8 +82,8 @@ impl GaussRule {
         Some(Self { nodes, weights, at_nodes, at_points })
     }
 
-    /// Weights at the same nodes for another weight function on the same
-    /// points: exact for polynomials up to degree n - 1. May be negative.
+    /// Weights at the same nodes for another weight function on the same points: exact for
+    /// polynomials up to degree n - 1. Weights may be negative.
     #[must_use]
     pub fn weights_from_moments(&self, weight: &[f64]) -> Vec<f64> {
         let moments: Vec<f64> =
@@ -110,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gauss_rule_is_exact_to_degree_two_n_minus_one_and_no_further() {
+    fn a_gauss_rule_is_exact_up_to_degree_2n_minus_1() {
         let (points, weight) = uneven_weight();
         let total: f64 = weight.iter().sum();
         for count in 1..=12 {
@@ -130,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn moment_weights_are_exact_to_degree_n_minus_one() {
+    fn moment_weights_are_exact_up_to_degree_n_minus_1() {
         let (points, weight) = uneven_weight();
         let other: Vec<f64> = points.iter().map(|p| (p / 25.0).sin().powi(2)).collect();
         for count in 1..=12 {
@@ -146,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn more_nodes_than_points_is_no_rule() {
+    fn a_rule_with_more_nodes_than_points_is_refused() {
         assert_eq!(GaussRule::new(&[1.0, 2.0], &[1.0, 0.0], 2), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Seeded random mixtures of a library, with their exact colour.
+//! Seeded random mixtures of a library, with their exact colours.
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
@@ -8,24 +8,25 @@ use spectra::color::Xyz;
 use spectra::optics::Surface;
 use spectra::{Grid, TristimulusWeights};
 
+use crate::curves::Curves;
 use crate::library::PigmentLibrary;
-use crate::mixture::Mixture;
+use crate::recipe::{PigmentId, Recipe};
 
-/// Mixtures of a library in films that hide.
+/// Mixtures of a library as films that hide their ground, with their exact colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MixtureSet {
     pub(super) grid: Grid,
     pub(super) surface: Surface,
-    pub(super) mixtures: Vec<Mixture>,
-    /// By full integration over the library's grid.
+    pub(super) mixtures: Vec<Curves>,
+    /// Colours by full integration over the library's grid.
     pub(super) xyz: Vec<Xyz>,
     pub(super) white: Xyz,
 }
 
 impl MixtureSet {
-    /// `count` mixtures: one to four pigments, each number as likely as the
-    /// next, any pigments, shares uniform over all that sum to 1. The same seed
-    /// gives the same mixtures.
+    /// Draws `count` mixtures of one to four pigments. Each number of pigments is equally likely,
+    /// the pigments are drawn uniformly, and the shares are uniform over all that sum to 1. The same
+    /// seed gives the same mixtures.
     #[must_use]
     pub fn random(
         library: &PigmentLibrary,
@@ -36,8 +37,8 @@ impl MixtureSet {
         Self::from_stream(library, weights, count, seed, 0)
     }
 
-    /// Mixtures to fit a quadrature to: whatever the seed, none of those that
-    /// [`MixtureSet::random`] gives.
+    /// Mixtures for fitting a quadrature, from another random stream than [`MixtureSet::random`],
+    /// so that no seed makes the two sets share mixtures.
     pub(super) fn for_fitting(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -61,9 +62,9 @@ impl MixtureSet {
             .map(|_| {
                 let parts = random.random_range(1..=pigments.min(4));
                 // Exponential parts, normalised, are uniform over the simplex.
-                let recipe: Vec<(usize, f64)> = index::sample(&mut random, pigments, parts)
+                let recipe: Recipe = index::sample(&mut random, pigments, parts)
                     .into_iter()
-                    .map(|pigment| (pigment, Exp1.sample(&mut random)))
+                    .map(|pigment| (PigmentId(pigment), Exp1.sample(&mut random)))
                     .collect();
                 library.mix(&recipe).expect("parts above 0 make a mixture")
             })
@@ -71,14 +72,14 @@ impl MixtureSet {
         Self::of(library, weights, mixtures)
     }
 
-    /// Every pigment by itself.
+    /// Every pigment by itself as a film that hides.
     #[must_use]
     pub fn masstones(library: &PigmentLibrary, weights: &TristimulusWeights) -> Self {
-        let alone = |index| library.mix(&[(index, 1.0)]).expect("one part makes a mixture");
-        Self::of(library, weights, (0..library.pigments.len()).map(alone).collect())
+        let alone = |id| library.mix([(id, 1.0)]).expect("one part makes a mixture");
+        Self::of(library, weights, library.ids().map(alone).collect())
     }
 
-    /// This set and `other` together.
+    /// Appends the mixtures of `other`.
     #[must_use]
     pub fn joined(mut self, other: Self) -> Self {
         self.mixtures.extend(other.mixtures);
@@ -86,19 +87,19 @@ impl MixtureSet {
         self
     }
 
-    /// How many mixtures.
+    /// Number of mixtures in the set.
     #[must_use]
     pub fn len(&self) -> usize {
         self.mixtures.len()
     }
 
-    /// Whether there are none.
+    /// Whether the set holds no mixture.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mixtures.is_empty()
     }
 
-    fn of(library: &PigmentLibrary, weights: &TristimulusWeights, mixtures: Vec<Mixture>) -> Self {
+    fn of(library: &PigmentLibrary, weights: &TristimulusWeights, mixtures: Vec<Curves>) -> Self {
         let surface = library.saunderson;
         Self {
             grid: library.grid,

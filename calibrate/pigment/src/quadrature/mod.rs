@@ -1,22 +1,22 @@
-//! A few wavelengths that stand for the whole spectrum under one light.
+//! A few wavelengths that replace the whole spectrum under one light.
 //!
-//! Baxter, Wendt and Lin 2004, section 5.3: painting carries each pigment's K
-//! and S at a few wavelengths only, chosen for the light of the studio. Three
-//! ways to choose them and to weight them:
+//! Baxter, Wendt and Lin 2004, section 5.3: painting carries each pigment's K and S at a few
+//! wavelengths only, chosen for the light of the studio. There are three methods to choose these
+//! wavelengths and their weights:
 //!
 //! | method | nodes | weights |
 //! |---|---|---|
-//! | `gauss` | Gaussian, of the weight (x + y + z) E | the paper's: each node's Gaussian weight, shared out as x, y and z are there |
-//! | `moments` | the same | exact for polynomials of degree n - 1 under x E, y E and z E each |
-//! | `library` | fitted with the weights to what a pigment library can mix | fitted |
+//! | `gauss` | Gaussian nodes of the weight (x + y + z) E | as published: the weight of each node, divided among X, Y and Z in the ratio of x, y and z there |
+//! | `moments` | the nodes of `gauss` | exact for polynomials of degree n - 1 under each of x E, y E and z E |
+//! | `library` | fitted together with the weights to the mixtures of a pigment library | fitted |
 
 mod gauss;
 
 mod mixtures;
 
-mod fitted;
-
 mod rule;
+
+mod fitted;
 
 mod trial;
 

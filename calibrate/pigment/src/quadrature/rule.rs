@@ -1,44 +1,44 @@
-//! Nodes, three weights each, and what they cost in colour.
+//! Wavelengths with their weights for X, Y and Z, and their colour error.
 
 use serde::Serialize;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
+use spectra::hint::{Explain, Hint};
 use spectra::{Grid, TristimulusWeights};
 
-use super::fitted::fitted;
 use super::gauss::GaussRule;
 use super::mixtures::MixtureSet;
+use crate::curves::hiding_film;
 use crate::evaluate::{Viewing, percentile};
-use crate::library::PigmentLibrary;
 
-/// A few wavelengths with the weights that turn reflectances there into XYZ.
+/// A few wavelengths with the weights that turn reflectances at them into XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrature {
-    /// The wavelengths in nm, rising.
+    /// Wavelengths in nm, in rising order.
     pub nodes_nm: Vec<f64>,
-    /// Weights of X, Y and Z at each; each channel sums to the white's.
+    /// Weights of X, Y and Z at each wavelength; each channel sums to that of the white.
     pub weights: Vec<[f64; 3]>,
-    /// The white of light and observer, Y = 100.
+    /// White of the light for the observer, Y = 100.
     pub white: Xyz,
 }
 
-/// CIEDE2000 of a quadrature against full integration.
+/// Colour error of a quadrature against full integration, in CIEDE2000.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct QuadratureError {
-    /// Mean.
+    /// Mean error.
     pub mean: f64,
-    /// 95th percentile.
+    /// 95th percentile of the errors.
     pub p95: f64,
-    /// Largest.
+    /// Largest error.
     pub max: f64,
 }
 
-/// The seed of the mixtures a library quadrature is fitted to.
-pub(super) const FITTING_SEED: u64 = 2004;
+/// Most nodes of a quadrature; a library has hardly more wavelengths. Chosen by eye.
+const MAX_NODES: usize = 32;
 
 impl Quadrature {
-    /// The paper's rule of `count` nodes: Gaussian nodes of the nonnegative
-    /// weight (x + y + z) E at 1 nm; at each node its weight is shared among
-    /// the channels as x, y and z are there (Baxter, Wendt and Lin 2004, 5.3).
+    /// Computes the published rule of `count` nodes: Gaussian nodes of the nonnegative weight
+    /// (x + y + z) E at 1 nm. The weight of each node is divided among the channels in the ratio of
+    /// x, y and z there (Baxter, Wendt and Lin 2004, section 5.3).
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
@@ -58,11 +58,11 @@ impl Quadrature {
         Ok(Self { nodes_nm: rule.nodes, weights, white: light.white })
     }
 
-    /// The same nodes, with weights exact for polynomials of degree n - 1 in
-    /// each channel.
+    /// Computes the nodes of [`Quadrature::gauss`] with weights that are exact for polynomials of
+    /// degree n - 1 in each channel.
     ///
     /// # Errors
-    /// As [`Quadrature::gauss`].
+    /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
     pub fn moments(viewing: &Viewing, count: usize) -> Result<Self, QuadratureFailure> {
         let light = Light::of(viewing);
         let rule = light.rule(count)?;
@@ -74,32 +74,10 @@ impl Quadrature {
         Ok(Self { nodes_nm: rule.nodes, weights, white: light.white })
     }
 
-    /// Nodes and weights fitted so that everything `library` can mix keeps its
-    /// colour: least squares in CIEDE2000 over its masstones and seeded random
-    /// mixtures, from several starts.
-    ///
-    /// # Errors
-    /// As [`Quadrature::gauss`].
-    pub fn library(
-        viewing: &Viewing,
-        library: &PigmentLibrary,
-        count: usize,
-    ) -> Result<Self, QuadratureFailure> {
-        let start = Self::moments(viewing, count)?;
-        let weights = viewing.weights(library.grid).expect("the method fits the grid");
-        let training = MixtureSet::masstones(library, &weights).joined(MixtureSet::for_fitting(
-            library,
-            &weights,
-            700,
-            FITTING_SEED,
-        ));
-        Ok(fitted(&start, &training))
-    }
-
-    /// XYZ of a reflectance given at the nodes.
+    /// XYZ of a reflectance given at each node.
     ///
     /// # Panics
-    /// If there is not one value for each node.
+    /// If the number of values is not the number of nodes.
     #[must_use]
     pub fn xyz(&self, reflectance: &[f64]) -> Xyz {
         assert_eq!(reflectance.len(), self.weights.len(), "one reflectance for each node");
@@ -112,14 +90,14 @@ impl Quadrature {
         xyz.into()
     }
 
-    /// K or S of a spectrum on `grid` at the nodes, by straight lines; end
-    /// values held.
+    /// Interpolates values on `grid`, such as K or S, linearly at the nodes; end values are held
+    /// beyond the grid.
     #[must_use]
     pub fn at_nodes(&self, grid: Grid, values: &[f64]) -> Vec<f64> {
         self.nodes_nm.iter().map(|&nm| on_line(grid, values, nm).0).collect()
     }
 
-    /// CIEDE2000 against full integration over `mixtures`.
+    /// Colour error against full integration over `mixtures`.
     #[must_use]
     pub fn error(&self, mixtures: &MixtureSet) -> QuadratureError {
         let errors: Vec<f64> = mixtures
@@ -127,11 +105,9 @@ impl Quadrature {
             .iter()
             .zip(&mixtures.xyz)
             .map(|(mixture, &exact)| {
-                let at_nodes = crate::mixture::Mixture {
-                    absorption: self.at_nodes(mixtures.grid, &mixture.absorption),
-                    scattering: self.at_nodes(mixtures.grid, &mixture.scattering),
-                };
-                let found = self.xyz(&at_nodes.hiding(mixtures.surface));
+                let absorption = self.at_nodes(mixtures.grid, &mixture.absorption);
+                let scattering = self.at_nodes(mixtures.grid, &mixture.scattering);
+                let found = self.xyz(&hiding_film(&absorption, &scattering, mixtures.surface));
                 delta_e_ciede2000(
                     Lab::from_xyz(found, self.white),
                     Lab::from_xyz(exact, mixtures.white),
@@ -146,8 +122,8 @@ impl Quadrature {
     }
 }
 
-/// The value and the slope at `nm` of the line through values on a grid; end
-/// values held.
+/// Value and slope at `nm` of the piecewise linear curve through values on a grid; end values are held
+/// beyond the grid.
 pub(super) fn on_line(grid: Grid, values: &[f64], nm: f64) -> (f64, f64) {
     let last = values.len() - 1;
     let position = (nm - grid.start_nm()) / grid.step_nm();
@@ -162,7 +138,7 @@ pub(super) fn on_line(grid: Grid, values: &[f64], nm: f64) -> (f64, f64) {
     (values[index] + rise * (position - index as f64), rise / grid.step_nm())
 }
 
-/// The light as the observer sees it, at 1 nm.
+/// Tristimulus weights of a light at 1 nm.
 struct Light {
     nm: Vec<f64>,
     channels: Vec<[f64; 3]>,
@@ -171,7 +147,7 @@ struct Light {
 
 impl Light {
     fn of(viewing: &Viewing) -> Self {
-        // On the CIE's own grid nothing is interpolated.
+        // On the grid of the CIE tables nothing is interpolated.
         let weights = TristimulusWeights::new(
             Grid::cie(),
             &viewing.illuminant,
@@ -188,7 +164,7 @@ impl Light {
 
     fn rule(&self, count: usize) -> Result<GaussRule, QuadratureFailure> {
         let weight: Vec<f64> = self.channels.iter().map(|c| c.iter().sum()).collect();
-        (count <= 32)
+        (count <= MAX_NODES)
             .then(|| GaussRule::new(&self.nm, &weight, count))
             .flatten()
             .ok_or(QuadratureFailure::Count { count })
@@ -202,13 +178,19 @@ impl Light {
     }
 }
 
-/// Why there is no such quadrature.
+/// A quadrature that cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum QuadratureFailure {
-    /// Too few or too many nodes.
+    /// The number of nodes is 0 or above 32.
     #[error("a quadrature has 1 to 32 wavelengths, found `{count}`")]
     Count {
-        /// What was asked for.
+        /// Number of nodes that was requested.
         count: usize,
     },
+}
+
+impl Explain for QuadratureFailure {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new("eight wavelengths are enough for most paints: [nodes=8]"))
+    }
 }

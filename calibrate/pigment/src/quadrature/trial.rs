@@ -1,4 +1,4 @@
-//! Every way to choose wavelengths, for several numbers of them.
+//! Comparison of all methods of choosing wavelengths, for several numbers of them.
 
 use std::ops::RangeInclusive;
 
@@ -9,37 +9,38 @@ use super::rule::{Quadrature, QuadratureError, QuadratureFailure};
 use crate::evaluate::Viewing;
 use crate::library::PigmentLibrary;
 
-/// How wavelengths and weights are chosen; see the module.
+/// Method of choosing wavelengths and weights; the module's table describes each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum QuadratureMethod {
-    /// [`Quadrature::gauss`].
+    /// The method of [`Quadrature::gauss`].
     Gauss,
-    /// [`Quadrature::moments`].
+    /// The method of [`Quadrature::moments`].
     Moments,
-    /// [`Quadrature::library`].
+    /// The method of [`Quadrature::library`].
     Library,
 }
 
-/// A quadrature with what it costs.
+/// A quadrature with its colour error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuadratureTrial {
-    /// How it was chosen.
+    /// Method that chose the wavelengths.
     pub method: QuadratureMethod,
-    /// Wavelengths and weights.
+    /// Wavelengths and weights that it chose.
     pub rule: Quadrature,
-    /// CIEDE2000 over mixtures that no method was fitted to.
+    /// CIEDE2000 error over random mixtures that no method was fitted to.
     pub error: QuadratureError,
 }
 
-/// The mixtures that trials are held against, as `impasto quadrature` has it.
+/// Number of random mixtures that trials are tested on, the default of `impasto quadrature`.
 const MIXTURES: usize = 1000;
+/// Seed of these mixtures, the default of `impasto quadrature`.
 const SEED: u64 = 1;
 
 impl QuadratureMethod {
     /// Every method, in the order of the module's table.
     pub const ALL: [Self; 3] = [Self::Gauss, Self::Moments, Self::Library];
 
-    /// Its name on the command line.
+    /// Name of the method, as programs spell it.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,8 +52,8 @@ impl QuadratureMethod {
 }
 
 impl QuadratureTrial {
-    /// Each method with each of `counts` wavelengths, method by method, against
-    /// 1000 random mixtures of `library`; on all cores.
+    /// Computes each method with each of `counts` wavelengths, ordered by method, and its error on
+    /// 1000 random mixtures of `library`. Uses all cores.
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] if a count is not 1 to 32.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use calibrate::PigmentId;
 use calibrate::curation::to_csv;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::{Args, ValueEnum};
@@ -140,8 +141,8 @@ fn colors(
         ));
     }
     let mut colors = Vec::new();
-    for (index, pigment) in library.pigments.iter().enumerate() {
-        let mut add = |name: String, recipe: &[(usize, f64)]| -> anyhow::Result<()> {
+    for (index, pigment) in library.ids().zip(&library.pigments) {
+        let mut add = |name: String, recipe: &[(PigmentId, f64)]| -> anyhow::Result<()> {
             let reflectance = library.mix(recipe)?.hiding(library.saunderson);
             let xyz = weights.xyz(&reflectance);
             let rgb = srgb(xyz, weights.white());

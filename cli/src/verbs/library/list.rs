@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use calibrate::PigmentId;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::Args;
 use serde_json::{Value, json};
@@ -48,10 +49,11 @@ impl List {
             return print_pigments(&library, &viewing, console);
         }
         let weights = viewing.weights(library.grid)?;
-        let rows = (0..library.pigments.len())
-            .map(|index| {
-                let pigment = &library.pigments[index];
-                let xyz = weights.xyz(&library.mix(&[(index, 1.0)])?.hiding(library.saunderson));
+        let rows = library
+            .ids()
+            .map(|id| {
+                let pigment = &library[id];
+                let xyz = weights.xyz(&library.mix([(id, 1.0)])?.hiding(library.saunderson));
                 Ok(json!({
                     "name": pigment.name,
                     "colour_index": pigment.color_index,
@@ -81,8 +83,8 @@ pub(crate) fn print_pigments(
     let column = if console.screen.colors { 21 } else { 14 };
     let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
     console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;
-    for (index, pigment) in library.pigments.iter().enumerate() {
-        let color = |recipe: &[(usize, f64)]| -> anyhow::Result<String> {
+    for (index, pigment) in library.ids().zip(&library.pigments) {
+        let color = |recipe: &[(PigmentId, f64)]| -> anyhow::Result<String> {
             let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));
             let rgb = srgb(xyz, weights.white());
             Ok(format!("{}{}", console.patch(rgb), rgb.to_hex()))

@@ -23,7 +23,7 @@ pub(super) struct Show {
 impl Show {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let library = library(&self.library)?;
-        let pigment = &library.pigments[library.find(&self.pigment)?];
+        let pigment = &library[library.find(&self.pigment)?];
         if self.json {
             let mut value = serde_json::to_value(pigment)?;
             let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();

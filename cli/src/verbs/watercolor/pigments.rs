@@ -65,7 +65,11 @@ impl PigmentOptions {
             false => Some(palette(&self.palette, &library)?),
         };
         let paper = match &self.over {
-            Some(text) => ground(text, &library, console)?,
+            Some(text) => {
+                let (paper, warning) = ground(text, console)?.on_grid(library.grid)?;
+                console.remarks(&warning)?;
+                paper
+            }
             None => {
                 let rgb = settings.paper.color.clone();
                 Primer::Color(ColorPrimer { rgb }).reflectance(&library)?

@@ -114,7 +114,7 @@ impl Explain for PaintingFileError {
             }
             Self::Format { .. } => "choose a painting that was saved by impasto",
             Self::Version { .. } => "a newer impasto may read it",
-            Self::Library(error) => return error.hint().map(Hint::new),
+            Self::Library(error) => return error.hint(),
             Self::Channel { .. } | Self::Value { .. } => {
                 "another program changed the file: keep channels as they were, in mm"
             }

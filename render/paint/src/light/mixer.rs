@@ -1,5 +1,6 @@
 //! Fast mixing of two paints in any ratio.
 
+use pigment::PigmentId;
 use pigment::library::{PigmentLibrary, RecipeError};
 use pulp::Simd;
 
@@ -24,15 +25,15 @@ pub struct Mixer {
 const BLOCK: usize = 16;
 
 impl Mixer {
-    /// Makes a mixer of two recipes, given as (pigment index, parts).
+    /// Makes a mixer of two recipes, given as pigments of `library` with their parts.
     ///
     /// # Errors
     /// [`RecipeError`] if [`PigmentLibrary::mix`] rejects a recipe.
     pub fn new(
         library: &PigmentLibrary,
         light: &Light,
-        first: &[(usize, f64)],
-        second: &[(usize, f64)],
+        first: &[(PigmentId, f64)],
+        second: &[(PigmentId, f64)],
     ) -> Result<Self, RecipeError> {
         let (first, second) = (library.mix(first)?, library.mix(second)?);
         let pair = |first: &[f64], second: &[f64]| {

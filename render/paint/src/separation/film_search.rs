@@ -7,7 +7,7 @@
 //! Delaunay tetrahedron that contains the colour, so at most four pigments that change
 //! continuously), films that hide the ground, and thin films.
 
-use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_inside};
+use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use spectra::color::{Lab, delta_e_cie76};
 
 use super::film::PaintFilm;
@@ -172,7 +172,7 @@ impl FilmSearch {
                 .ln()
                 .clamp(bounds.lower[shares], bounds.upper[shares]);
         }
-        let cost = descend_inside(
+        let cost = descend_within_bounds(
             |point| self.cost(target, &self.mixed(point), anchor, chooses_height),
             &mut point,
             &bounds,

@@ -1,7 +1,8 @@
 //! Lookup of pigment names in a library.
 
+use pigment::PigmentId;
 use pigment::library::{PigmentLibrary, RecipeError};
-use spectra::hint::Hint;
+use spectra::hint::{Explain, Hint};
 
 use super::action::{Action, Load, Recipe, Squeeze};
 use super::check_context::{CheckContext, did_you_mean};
@@ -170,13 +171,13 @@ fn find_pigment(
     name: &str,
     library: &PigmentLibrary,
 ) -> Result<usize, Box<InvalidValue>> {
-    library.find(name).map_err(|error| {
+    library.find(name).map(PigmentId::index).map_err(|error| {
         let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
         let hint = match &error {
             RecipeError::UnknownPigment { .. } => {
-                did_you_mean(name, known).or_else(|| error.hint().map(Hint::new))
+                did_you_mean(name, known).or_else(|| error.hint())
             }
-            _ => error.hint().map(Hint::new),
+            _ => error.hint(),
         };
         at.invalid(field, "a pigment of the library", &name, hint)
     })

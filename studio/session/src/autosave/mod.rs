@@ -17,7 +17,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::FileFailure;
 use crate::whole::sync_folder;
-use spectra::hint::Explain;
 
 const LOCK: &str = "lock";
 const PARTIAL: &str = ".partial";
@@ -96,9 +95,7 @@ impl Autosave {
         meta: &SessionMeta,
     ) -> Result<(), FileFailure> {
         let bytes = |document| {
-            render::paint::file::write(document).map_err(|error| {
-                FileFailure::told(&error, error.hint().map(|hint| hint.to_string()))
-            })
+            render::paint::file::write(document).map_err(|error| FileFailure::explained(&error))
         };
         let meta =
             serde_json::to_vec(meta).map_err(|error| FileFailure::told(&error, None::<String>))?;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
 use pigment::library::PigmentLibrary;
-use pigment::matching::Recipe;
+use pigment::matching::RecipeMatch;
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, Load, PaletteSpec, Recipe as Parts};
 use spectra::color::{Rgb, Xyz};
@@ -30,7 +30,7 @@ pub(super) struct FoundRecipe<'a> {
     /// Library of its pigments.
     pub(super) library: &'a PigmentLibrary,
     /// Recipe found by the search.
-    pub(super) recipe: &'a Recipe,
+    pub(super) recipe: &'a RecipeMatch,
     /// White point of the search's light.
     pub(super) white: Xyz,
     /// Target colour in encoded sRGB.
@@ -54,7 +54,7 @@ impl FoundRecipe<'_> {
                 ui.spacing_mut().item_spacing.y = 2.0;
                 ui.spacing_mut().interact_size.y = 16.0;
                 self.amounts().enumerate().for_each(|(at, (name, amount))| {
-                    self.line(ui, cx, self.recipe.shares[at].0, name, amount);
+                    self.line(ui, cx, self.recipe.shares.parts()[at].0.index(), name, amount);
                 });
             });
         });
@@ -127,7 +127,7 @@ impl FoundRecipe<'_> {
                 Some(parts) => f64::from(parts[at]),
                 None => (1000.0 * share).round() / 1000.0,
             };
-            (library.pigments[pigment].name.as_str(), amount)
+            (library[pigment].name.as_str(), amount)
         })
     }
 
@@ -149,7 +149,7 @@ impl FoundRecipe<'_> {
     /// Pigments of the recipe that are not on the palette.
     fn missing(&self, cx: &PanelContext<'_>) -> Vec<usize> {
         let slots = &cx.painting.slots;
-        let pigments = self.recipe.shares.iter().map(|(pigment, _)| *pigment);
+        let pigments = self.recipe.shares.iter().map(|(pigment, _)| pigment.index());
         pigments.filter(|&pigment| !slots.contains(&Some(pigment))).collect()
     }
 
@@ -184,7 +184,7 @@ impl FoundRecipe<'_> {
     }
 
     fn uses(&self, pigment: usize) -> bool {
-        self.recipe.shares.iter().any(|(used, _)| *used == pigment)
+        self.recipe.shares.iter().any(|(used, _)| used.index() == pigment)
     }
 
     fn set_palette(&self, cx: &mut PanelContext<'_>, pigments: impl Iterator<Item = usize>) {
@@ -194,7 +194,7 @@ impl FoundRecipe<'_> {
 }
 
 /// Draws the colour difference of a recipe and the thickness of its film.
-fn match_quality(ui: &mut Ui, found: &Recipe) {
+fn match_quality(ui: &mut Ui, found: &RecipeMatch) {
     let differences: Vec<String> =
         found.delta_e.iter().map(|difference| format!("{difference:.2}")).collect();
     ui.label(format!("\u{2206}E {}", differences.join(", "))).on_hover_text(

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use eframe::egui::{Button, DragValue, ProgressBar, Ui};
+use pigment::PigmentId;
 use pigment::evaluate::Viewing;
-use pigment::matching::{MatchRequest, Sight};
+use pigment::matching::{MatchRequest, ViewingCondition};
 use spectra::{Observer, light_from_text};
 
 use super::super::context::PanelContext;
@@ -53,12 +54,12 @@ impl SearchPanel {
     /// Builds the search request for `target_color` from the limits and the painting.
     fn request(&self, painting: &PaintingState, target_color: &TargetColor) -> SearchRequest {
         let library = &painting.library;
-        let sights = self.sights(painting);
-        let target = target_color.match_target(library.grid, &sights);
+        let conditions = self.conditions(painting);
+        let target = target_color.match_target(library.grid, &conditions);
         let film = MatchRequest::usual_film(library, painting.ground_reflectance.to_vec());
-        let mut limits = MatchRequest::new(library, sights, film);
+        let mut limits = MatchRequest::new(library, conditions, film);
         if !self.whole_library {
-            limits.allowed = painting.slots.iter().copied().flatten().collect();
+            limits.allowed = painting.slots.iter().copied().flatten().map(PigmentId).collect();
             limits.allowed.sort_unstable();
             limits.allowed.dedup();
         }
@@ -69,17 +70,18 @@ impl SearchPanel {
         SearchRequest { library: Arc::clone(library), target, limits }
     }
 
-    fn sights(&self, painting: &PaintingState) -> Vec<Sight> {
-        let mut sights = vec![Sight { viewing: painting.light.viewing.clone(), weight: 1.0 }];
+    fn conditions(&self, painting: &PaintingState) -> Vec<ViewingCondition> {
+        let mut conditions =
+            vec![ViewingCondition { viewing: painting.light.viewing.clone(), weight: 1.0 }];
         if let Some(second) = painting.second_lighting.as_ref().filter(|_| self.both_lights) {
             let illuminant = light_from_text(&second.illuminant).ok();
             let viewing = illuminant.zip(Observer::named(&second.observer).ok());
-            sights.extend(viewing.map(|(illuminant, observer)| Sight {
+            conditions.extend(viewing.map(|(illuminant, observer)| ViewingCondition {
                 viewing: Viewing { illuminant, observer },
                 weight: 1.0,
             }));
         }
-        sights
+        conditions
     }
 
     /// Draws limits, progress and the recipes found.
@@ -146,7 +148,7 @@ impl SearchPanel {
         if *library != painting.library {
             return;
         }
-        let (searched, current) = (&limits.sights[0].viewing, &painting.light.viewing);
+        let (searched, current) = (&limits.conditions[0].viewing, &painting.light.viewing);
         if searched != current {
             let note = format!("Found under {}, not the current light", searched.illuminant.name());
             ui.weak(note);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pigment::evaluate::{Viewing, lab};
-use pigment::matching::{Sight, Target};
+use pigment::matching::{Target, ViewingCondition};
 use spectra::color::{Adaptation, ColorCode, Lab, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, TristimulusWeights};
 
@@ -70,8 +70,8 @@ impl TargetColor {
 
     /// Converts to the target of a recipe search under the given viewing conditions.
     #[must_use]
-    pub fn match_target(&self, grid: Grid, sights: &[Sight]) -> Target {
-        let lab = sights.iter().map(|sight| self.lab(grid, &sight.viewing)).collect();
+    pub fn match_target(&self, grid: Grid, conditions: &[ViewingCondition]) -> Target {
+        let lab = conditions.iter().map(|condition| self.lab(grid, &condition.viewing)).collect();
         Target { name: self.name.clone(), lab }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 use pigment::palette::{
     Appearance, Cards, Hides, Palette, TINT_PARTS, hiding_powers, tinting_strengths,
@@ -92,15 +93,15 @@ fn colors(library: &PigmentLibrary, light: &Light) -> Vec<PigmentColors> {
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
     let palette = Palette::new(library, &light.viewing, Cards::standard(library.grid)).ok();
-    let colors_of = |pigment: usize| {
-        let alone = library.mix(&[(pigment, 1.0)]).expect("one part is a mixture");
+    let colors_of = |pigment: PigmentId| {
+        let alone = library.mix([(pigment, 1.0)]).expect("one part is a mixture");
         let masstone = alone.hiding(library.saunderson);
-        let palette = palette.as_ref().filter(|_| library.pigments[pigment].identified);
+        let palette = palette.as_ref().filter(|_| library[pigment].identified);
         let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
         let (masstone_srgb, tint_srgb) = (srgb(&masstone), tint.as_deref().map(srgb));
         PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
     };
-    (0..library.pigments.len()).map(colors_of).collect()
+    library.ids().map(colors_of).collect()
 }
 
 fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
@@ -109,10 +110,10 @@ fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
         return strengths;
     };
     for power in hiding_powers(&palette) {
-        strengths[power.paint].hides = Some(power.hides);
+        strengths[power.paint.index()].hides = Some(power.hides);
     }
     for strength in tinting_strengths(&palette, None) {
-        strengths[strength.paint].tints_percent = Some(strength.percent);
+        strengths[strength.paint.index()].tints_percent = Some(strength.percent);
     }
     strengths
 }
@@ -149,7 +150,8 @@ mod tests {
         let other = Arc::new(light.as_ref().clone());
         assert!(!Arc::ptr_eq(&first, &known.under(&library, &other)), "another light");
 
-        let [white, blue] = ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap());
+        let [white, blue] =
+            ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap().index());
         let sums = |srgb: [u8; 3]| srgb.map(u32::from).iter().sum::<u32>();
         assert!(sums(first.colors(white).masstone_srgb) > 690, "{:?}", first.colors(white));
         let blue = first.colors(blue);

@@ -1,56 +1,56 @@
-//! A swatch's recipe, in whole parts.
+//! Recipe of a planned swatch, in whole parts.
 
-use super::palette::Palette;
+use super::paints::PaintSet;
+use pigment::{PigmentId, Recipe};
 
-/// Paints with their parts.
+/// Paints of a planned swatch with their parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Recipe {
-    /// What the swatch is for.
+pub struct SwatchRecipe {
+    /// Reason why the swatch is in the plan.
     pub purpose: Purpose,
-    /// Paint by its place in the palette, with its parts.
-    pub parts: Vec<(usize, u32)>,
+    /// Paints of the set with their parts, 1 and up.
+    pub parts: Vec<(PigmentId, u32)>,
 }
 
-/// Why a swatch is in the plan.
+/// Reason why a swatch is in the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
-    /// A paint by itself.
+    /// One paint by itself.
     Masstone,
-    /// A paint let down with the white.
+    /// One paint lightened with the white.
     Tint,
-    /// A colour darkened with the black.
+    /// One colour darkened with the black.
     Shade,
-    /// Two colours.
+    /// Two colours mixed.
     Cross,
-    /// Two colours and the white.
+    /// Two colours lightened with the white.
     CrossTint,
 }
 
-impl Recipe {
-    /// Share of each paint, sum 1.
+impl SwatchRecipe {
+    /// Paints with their shares, sum 1.
     #[must_use]
-    pub fn shares(&self) -> Vec<(usize, f64)> {
+    pub fn shares(&self) -> Recipe {
         let total = f64::from(self.total());
         self.parts.iter().map(|&(paint, parts)| (paint, f64::from(parts) / total)).collect()
     }
 
-    /// The smallest share.
+    /// Smallest share of any paint.
     #[must_use]
     pub fn least_share(&self) -> f64 {
         self.shares().iter().map(|(_, share)| *share).fold(1.0, f64::min)
     }
 
-    /// Sum of the parts.
+    /// Sum of all parts.
     #[must_use]
     pub fn total(&self) -> u32 {
         self.parts.iter().map(|(_, parts)| parts).sum()
     }
 
-    /// Such as `Cobalt Blue tint 1:4`.
+    /// Name of the recipe, such as `Cobalt Blue tint 1:4`.
     #[must_use]
-    pub fn name(&self, palette: &Palette) -> String {
-        let names: Vec<&str> =
-            self.parts.iter().map(|(paint, _)| palette.names[*paint].as_str()).collect();
+    pub fn name(&self, paints: &PaintSet) -> String {
+        let names: Vec<&str> = self.parts.iter().map(|(paint, _)| paints.name(*paint)).collect();
         let ratio: Vec<String> = self.parts.iter().map(|(_, parts)| parts.to_string()).collect();
         let ratio = ratio.join(":");
         match self.purpose {
@@ -64,7 +64,7 @@ impl Recipe {
 }
 
 impl Purpose {
-    /// The purpose in a word.
+    /// Purpose in a word or two.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -76,7 +76,7 @@ impl Purpose {
         }
     }
 
-    /// What the swatch tells, in a few words.
+    /// Information that the swatch gives, in a few words.
     #[must_use]
     pub fn why(self) -> &'static str {
         match self {

@@ -1,0 +1,44 @@
+//! Reasons why a recipe cannot be mixed.
+
+use spectra::hint::{Explain, Hint};
+
+/// A recipe that cannot be mixed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RecipeError {
+    /// No pigment has this name.
+    #[error("the library has no pigment called `{name}`")]
+    UnknownPigment {
+        /// Name that was looked up.
+        name: String,
+        /// Names of all pigments of the library.
+        known: Vec<String>,
+    },
+    /// Several pigments start with this name.
+    #[error("{first} and {second} both start with `{name}`")]
+    Ambiguous {
+        /// Name that was looked up.
+        name: String,
+        /// Name of one pigment that matches.
+        first: String,
+        /// Name of another pigment that matches.
+        second: String,
+    },
+    /// A part, or the sum of all parts, is out of range.
+    #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{parts}`")]
+    Parts {
+        /// The part or sum out of range.
+        parts: f64,
+    },
+}
+
+impl Explain for RecipeError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::UnknownPigment { known, .. } => {
+                Some(Hint::new(format!("pigments: {}", known.join(", "))))
+            }
+            Self::Ambiguous { .. } => Some(Hint::new("write more of the name")),
+            Self::Parts { .. } => None,
+        }
+    }
+}

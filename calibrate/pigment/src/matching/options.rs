@@ -1,0 +1,188 @@
+//! Options of a search for recipes, with pigments by name.
+
+use super::error::MatchError;
+use super::film::{FilmKind, Thickness};
+use super::prices::PriceList;
+use super::request::{MatchRequest, RequiredPigment};
+use super::viewing_condition::ViewingCondition;
+use crate::backing::Backing;
+use crate::library::{AmountKind, PigmentLibrary};
+use crate::recipe::PigmentId;
+use crate::remark::Remark;
+use crate::visible_band::check_visible_band;
+
+/// A pigment that every recipe must contain, by name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RequiredName {
+    /// Name of the pigment.
+    pub name: String,
+    /// Fixed share of the whole, above 0 and up to 1; `None` if the search chooses it.
+    pub share: Option<f64>,
+}
+
+/// Options of [`PigmentLibrary::recipes_for`].
+///
+/// ```
+/// use pigment::MatchOptions;
+///
+/// let options = MatchOptions { at_most: 3, whole_parts: Some(12), ..MatchOptions::default() };
+/// assert_eq!(options.count, 5);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatchOptions {
+    /// Lights under which recipes are judged, each once. Default: D65 for the CIE 1931 observer.
+    pub conditions: Vec<ViewingCondition>,
+    /// Thickness of the film. By default it hides; for absolute amounts the search chooses a thickness
+    /// from nearly clear to nearly hiding.
+    pub thickness: Option<Thickness>,
+    /// Bare ground under a film that does not hide. Default: a perfect white.
+    pub over: Option<Backing>,
+    /// Names of the pigments that may take part. Empty: all whose S is known.
+    pub only: Vec<String>,
+    /// Pigments that must take part.
+    pub with: Vec<RequiredName>,
+    /// Names of pigments that must not take part.
+    pub without: Vec<String>,
+    /// Most pigments of one recipe, 1 to 8. Default: 4.
+    pub at_most: usize,
+    /// Least share of a pigment that takes part, 0 to below 1. Default: 1/50.
+    pub least_share: f64,
+    /// Most parts of a recipe in whole parts, 1 to 1000. Default: shares of any size.
+    pub whole_parts: Option<u32>,
+    /// Prices of pigments; if there are any, each pigment that may take part needs one.
+    pub prices: PriceList,
+    /// CIEDE2000 within which recipes count as equally near, 0 to 1000. Default: 0.05.
+    pub tolerance: f64,
+    /// Number of recipes to return, 1 and up. Default: 5.
+    pub count: usize,
+}
+
+impl Default for MatchOptions {
+    fn default() -> Self {
+        Self {
+            conditions: vec![ViewingCondition::default()],
+            thickness: None,
+            over: None,
+            only: Vec::new(),
+            with: Vec::new(),
+            without: Vec::new(),
+            at_most: 4,
+            least_share: 0.02,
+            whole_parts: None,
+            prices: PriceList::default(),
+            tolerance: 0.05,
+            count: 5,
+        }
+    }
+}
+
+impl MatchOptions {
+    /// Request that these options make of `library`, with remarks about what was chosen.
+    ///
+    /// # Errors
+    /// [`MatchError`] if a name is unknown, or options exclude each other.
+    pub fn request(
+        &self,
+        library: &PigmentLibrary,
+    ) -> Result<(MatchRequest, Vec<Remark>), MatchError> {
+        self.check_lights()?;
+        let mut remarks = Vec::new();
+        let film = self.film(library, &mut remarks)?;
+        let mut request = MatchRequest {
+            at_most: self.at_most,
+            least_share: self.least_share,
+            whole_parts: self.whole_parts,
+            tolerance: self.tolerance,
+            count: self.count,
+            ..MatchRequest::new(library, self.conditions.clone(), film)
+        };
+        self.choose_pigments(library, &mut request, &mut remarks)?;
+        request.costs = self.prices.of_library(library, &request.allowed)?;
+        if self.count == 0 {
+            return Err(MatchError::Number {
+                what: "the number of recipes is 1 or more",
+                value: 0.0,
+                hint: "leave [count] out for 5 recipes",
+            });
+        }
+        remarks.extend(check_visible_band(library.grid)?);
+        Ok((request, remarks))
+    }
+
+    fn check_lights(&self) -> Result<(), MatchError> {
+        let name = |condition: &ViewingCondition| condition.viewing.illuminant.name().to_owned();
+        let names: Vec<String> = self.conditions.iter().map(name).collect();
+        let repeated = (1..names.len()).find(|&at| names[..at].contains(&names[at]));
+        repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight { name: names[at].clone() }))
+    }
+
+    fn film(
+        &self,
+        library: &PigmentLibrary,
+        remarks: &mut Vec<Remark>,
+    ) -> Result<FilmKind, MatchError> {
+        if self.thickness.is_none() && library.amounts == AmountKind::Relative {
+            let hidden = self.over.is_some();
+            return if hidden { Err(MatchError::HiddenGround) } else { Ok(FilmKind::Hiding) };
+        }
+        if self.over.is_none() {
+            let note = Remark::note("over a perfect white");
+            remarks.push(note.with_hint("name the paper or ground with [over]"));
+        }
+        let (ground, warning) = self.over.clone().unwrap_or_default().on_grid(library.grid)?;
+        remarks.extend(warning);
+        Ok(match self.thickness {
+            None => MatchRequest::usual_film(library, ground),
+            Some(thickness) => FilmKind::Over { ground, thickness },
+        })
+    }
+
+    /// Sets allowed and required pigments, and remarks on those of unknown S.
+    fn choose_pigments(
+        &self,
+        library: &PigmentLibrary,
+        request: &mut MatchRequest,
+        remarks: &mut Vec<Remark>,
+    ) -> Result<(), MatchError> {
+        let find = |names: &[String]| -> Result<Vec<PigmentId>, MatchError> {
+            names.iter().map(|name| Ok(library.find(name)?)).collect()
+        };
+        if !self.only.is_empty() {
+            request.allowed = find(&self.only)?;
+        }
+        for RequiredName { name, share } in &self.with {
+            let pigment = library.find(name)?;
+            request.required.retain(|known| known.pigment != pigment);
+            request.required.push(RequiredPigment { pigment, share: *share });
+            request.allowed.push(pigment);
+        }
+        let without = find(&self.without)?;
+        let both = request.required.iter().find(|required| without.contains(&required.pigment));
+        if let Some(RequiredPigment { pigment, .. }) = both {
+            let name = library[*pigment].name.clone();
+            return Err(MatchError::RequiredAndExcluded { name });
+        }
+        request.allowed.retain(|pigment| !without.contains(pigment));
+        request.allowed.sort_unstable();
+        request.allowed.dedup();
+        let unknown = |allowed: bool| -> Vec<&str> {
+            let of_those = library.ids().filter(|id| {
+                !library[*id].identified
+                    && request.allowed.contains(id) == allowed
+                    && !without.contains(id)
+            });
+            of_those.map(|id| library[id].name.as_str()).collect()
+        };
+        let (used, left_out) = (unknown(true), unknown(false));
+        if !used.is_empty() {
+            let text =
+                format!("S is not known of {}; recipes with it are a guess", used.join(", "));
+            remarks.push(Remark::warning(text));
+        }
+        if !left_out.is_empty() && self.only.is_empty() {
+            let text = format!("left out, their S is not known: {}", left_out.join(", "));
+            remarks.push(Remark::note(text));
+        }
+        Ok(())
+    }
+}

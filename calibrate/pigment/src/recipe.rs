@@ -1,0 +1,126 @@
+//! Pigments by their place in a list, and recipes of them.
+
+/// Place of a pigment in a library, or in the list of pigments of a set of swatches, counted from 0.
+///
+/// It is valid for the library or list that it came from; see
+/// [`PigmentLibrary::find`](crate::library::PigmentLibrary::find).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PigmentId(pub usize);
+
+impl PigmentId {
+    /// The place as an index, counted from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// Pigments of one library with their parts, 0 and up.
+///
+/// In a library of relative amounts only the ratios of the parts count. In one of absolute amounts
+/// each part is an amount on the library's area.
+///
+/// ```
+/// use pigment::{PigmentLibrary, Recipe};
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let white = oils.find("Zinc White")?;
+/// let blue = oils.find("Cobalt Blue")?;
+/// let recipe = Recipe::from([(white, 9.0), (blue, 1.0)]);
+/// assert_eq!(recipe.total(), 10.0);
+/// # Ok::<(), pigment::RecipeError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recipe {
+    parts: Vec<(PigmentId, f64)>,
+}
+
+impl Recipe {
+    /// Recipe of a single pigment.
+    #[must_use]
+    pub fn single(pigment: PigmentId) -> Self {
+        Self { parts: vec![(pigment, 1.0)] }
+    }
+
+    /// Pigments with their parts, in the order in which they were given.
+    #[must_use]
+    pub fn parts(&self) -> &[(PigmentId, f64)] {
+        &self.parts
+    }
+
+    /// Iterates over pigments and parts.
+    pub fn iter(&self) -> std::slice::Iter<'_, (PigmentId, f64)> {
+        self.parts.iter()
+    }
+
+    /// Pigments of the recipe, without their parts.
+    pub fn pigments(&self) -> impl ExactSizeIterator<Item = PigmentId> + Clone + '_ {
+        self.parts.iter().map(|(pigment, _)| *pigment)
+    }
+
+    /// Number of pigments.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Whether the recipe names no pigment.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Sum of all parts.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.parts.iter().map(|(_, part)| part).sum()
+    }
+
+    /// Parts of `pigment`, 0 if the recipe does not contain it.
+    #[must_use]
+    pub fn parts_of(&self, pigment: PigmentId) -> f64 {
+        // A sum of nothing would be -0.
+        self.parts.iter().filter(|(p, _)| *p == pigment).fold(0.0, |sum, (_, part)| sum + part)
+    }
+
+    /// Adds `parts` of `pigment`, to those that the recipe contains already.
+    pub fn add(&mut self, pigment: PigmentId, parts: f64) {
+        match self.parts.iter_mut().find(|(known, _)| *known == pigment) {
+            Some((_, sum)) => *sum += parts,
+            None => self.parts.push((pigment, parts)),
+        }
+    }
+
+    /// Copy with every part multiplied by `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        self.parts.iter().map(|&(pigment, part)| (pigment, factor * part)).collect()
+    }
+}
+
+impl FromIterator<(PigmentId, f64)> for Recipe {
+    fn from_iter<I: IntoIterator<Item = (PigmentId, f64)>>(parts: I) -> Self {
+        Self { parts: parts.into_iter().collect() }
+    }
+}
+
+impl<const N: usize> From<[(PigmentId, f64); N]> for Recipe {
+    fn from(parts: [(PigmentId, f64); N]) -> Self {
+        Self { parts: parts.into() }
+    }
+}
+
+impl<'a> IntoIterator for &'a Recipe {
+    type Item = &'a (PigmentId, f64);
+    type IntoIter = std::slice::Iter<'a, (PigmentId, f64)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.parts.iter()
+    }
+}
+
+impl AsRef<[(PigmentId, f64)]> for Recipe {
+    fn as_ref(&self) -> &[(PigmentId, f64)] {
+        &self.parts
+    }
+}

@@ -1,0 +1,90 @@
+//! Reasons why there is no plan.
+
+use pigment::RecipeError;
+use spectra::hint::{Explain, Hint};
+
+/// A plan that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A name cannot head a pigment's column of a measurement file.
+    #[error("a measurement file would not read this as a pigment's name: `{name}`")]
+    Name {
+        /// Name of the paint.
+        name: String,
+    },
+    /// Two paints have one name.
+    #[error("each paint is named once, found twice `{name}`")]
+    Twice {
+        /// Name of both paints.
+        name: String,
+    },
+    /// There is no paint besides the white.
+    #[error("a plan needs a pigment beside the white")]
+    NoColor,
+    /// The number of swatches is out of range.
+    #[error("{paints} paints are planned with {least} to {most} swatches, found `{swatches}`")]
+    Swatches {
+        /// Number of paints.
+        paints: usize,
+        /// Least number of swatches: one for each unknown of a wavelength.
+        least: usize,
+        /// Greatest number of swatches: every recipe that can be weighed.
+        most: usize,
+        /// Number of swatches that was requested.
+        swatches: usize,
+    },
+    /// A tint cannot be weighed with so little paint, or so coarse a balance.
+    #[error(
+        "a tint of 1 to 4 needs {needed} g a swatch on a balance that shows {resolution} g, found `{grams}`"
+    )]
+    Grams {
+        /// Least mass of a swatch in grams.
+        needed: f64,
+        /// Step of the balance in grams.
+        resolution: f64,
+        /// Mass of a swatch that was requested, in grams.
+        grams: f64,
+    },
+    /// A number is not above 0.
+    #[error("{what} must be above 0 and finite, found `{value}`")]
+    NotPositive {
+        /// Name of the quantity.
+        what: &'static str,
+        /// Value that was given.
+        value: f64,
+    },
+    /// The swatches would not identify every pigment.
+    #[error("these swatches would not identify `{}`", paints.join(", "))]
+    Unidentified {
+        /// Names of the paints that would not be identified.
+        paints: Vec<String>,
+    },
+    /// A name does not denote one pigment of the prior library.
+    #[error(transparent)]
+    Prior(#[from] RecipeError),
+}
+
+impl Explain for PlanError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Name { .. } => {
+                "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number".into()
+            }
+            Self::Twice { .. } => "remove one, or give the second paint another name".into(),
+            Self::NoColor => {
+                "name the pigments: impasto plan \"Cobalt Blue\" [white=\"Titanium White\"]".into()
+            }
+            Self::Swatches { least, most, swatches, .. } => {
+                if swatches < least {
+                    format!("try [swatches={least}] or more; K of every paint and S of all but the white are unknown")
+                } else {
+                    format!("try [swatches={most}] or fewer; [replicates] repeat one swatch")
+                }
+            }
+            Self::Grams { needed, .. } => format!("try [grams={needed}], or a finer [balance]"),
+            Self::NotPositive { .. } => "give grams, such as [grams=10] [balance=0.01]".into(),
+            Self::Unidentified { .. } => "give more [swatches]".into(),
+            Self::Prior(error) => return error.hint(),
+        }))
+    }
+}
