@@ -161,7 +161,7 @@ impl Block<'_> {
         } else {
             Unit::Unstated
         };
-        // It also gives that unit to unprocessed counts.
+        // SpectraSuite writes that unit for unprocessed counts too.
         if title.ends_with("PROCESSED SPECTRUM")
             && unit == Unit::Percent
             && values.iter().all(|&value| value > MOST_PERCENT)

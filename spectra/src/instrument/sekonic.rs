@@ -41,7 +41,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             table.push(Row { line, nm, values });
         }
     }
-    // Of several tables with the most rows, the first.
+    // The table with the most rows; the first of several.
     let finest = tables.into_iter().rev().max_by_key(Vec::len).unwrap_or_default();
     let Some(first) = finest.first() else { return Ok(Vec::new()) };
     (0..first.values.len()).map(|column| spectrum(file, column, &finest, &details)).collect()

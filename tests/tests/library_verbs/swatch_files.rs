@@ -113,22 +113,22 @@ fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
 }
 
 #[test]
-fn faults_are_told_with_their_place() {
+fn errors_name_file_and_byte_or_line() {
     let error = |result: Result<SwatchFile, spectra::swatch_file::SwatchFileError>| {
         result.unwrap_err().to_string()
     };
     assert_eq!(
         error(read_ase("a.ase", b"ASEX\x00\x01\x00\x00")),
-        "a.ase, byte 0: `ASEF` is wanted, found `ASEX`"
+        "a.ase, byte 0: expected `ASEF`, found `ASEX`"
     );
     let wrong = b"ASEF\x00\x01\x00\x00\x00\x00\x00\x01\x00\x01\x00\x00\x00\x08\x00\x01\x00\x00HSV ";
     assert_eq!(
         error(read_ase("a.ase", wrong)),
-        "a.ase, byte 22: RGB, LAB, CMYK or Gray is wanted, found `HSV `"
+        "a.ase, byte 22: expected RGB, LAB, CMYK or Gray, found `HSV `"
     );
     assert_eq!(
         error(read_aco("a.aco", b"\x00\x01\x00\x01\x00\x03\x00\x00\x00\x00\x00\x00\x00\x00")),
-        "a.aco, byte 4: RGB, HSB, CMYK, Lab or grey is wanted, found `3`"
+        "a.aco, byte 4: expected RGB, HSB, CMYK, Lab or grey, found `3`"
     );
     let lines = b"GIMP Palette\nName: x\n#\n 10 20 300\tred\n";
     let said = error(read_gpl("a.gpl", lines));

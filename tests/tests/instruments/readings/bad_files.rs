@@ -19,11 +19,11 @@ fn color(name: &str, from: &str, to: &str) -> Run {
 fn faults_are_refused_with_file_and_line() {
     for (name, from, to, words) in [
         ("two.cgats", "0.105", "NaN", &["line 10", "`NaN`"][..]),
-        ("two.cgats", "NUMBER_OF_SETS 2", "NUMBER_OF_SETS 3", &["line 12", "announces 3", "`2`"]),
+        ("two.cgats", "NUMBER_OF_SETS 2", "NUMBER_OF_SETS 3", &["line 12", "states 3", "`2`"]),
         ("two.cgats", "END_DATA\n", "", &["END_DATA"]),
-        ("two.cgats", "SPECTRAL_NM450", "SPECTRAL_NM400", &["400 nm stands twice", "hint"]),
+        ("two.cgats", "SPECTRAL_NM450", "SPECTRAL_NM400", &["400 nm occurs twice", "hint"]),
         ("two.qtx", "20, 10.5", "20, ten", &["line 7", "`ten`"]),
-        ("two.qtx", "20, 10.5, ", "20, ", &["line 7", "announces 7", "hint"]),
+        ("two.qtx", "20, 10.5, ", "20, ", &["line 7", "states 7", "hint"]),
         ("spectrasuite.txt", "400,00\t20", "400,00\tinf", &["line 10", "`inf`"]),
         ("madder.jaz", "500.0\t998.0", "500.0", &["line 11", "as many values"]),
         ("packed.jdx", "550F1", "550F2", &["line 13", "check"]),
