@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     lavapipe (mesa-vulkan-drivers)"
             .into());
     }
-    let mut window = Window::begun("screenshots", SIZE, 1.0, vec![study::begun()]);
+    let mut window = Window::with_commands("screenshots", SIZE, 1.0, vec![study::new_painting()]);
     at_work(&mut window);
     save(&mut window, &folder, "studio")?;
     window.studio_mut().ask(Command::PenUp);

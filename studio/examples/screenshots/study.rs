@@ -19,7 +19,7 @@ const EDGE: f64 = 31.0;
 
 /// Command that opens a toned linen canvas with stiff paint and low light from the
 /// left.
-pub(crate) fn begun() -> Command {
+pub(crate) fn new_painting() -> Command {
     let Origin::Blank { mut script, library } =
         blank_canvas(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
     else {

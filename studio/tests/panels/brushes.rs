@@ -9,10 +9,10 @@ use session::{BrushState, Command};
 use studio::panels::brushes::Brushes;
 use studio::panels::{Mode, Request};
 
-use super::made::{Table, asks, click, is_disabled, painting, picture, shown};
+use super::fixture::{Fixture, assert_requests, click, is_disabled, painting, picture, show_panel};
 
-fn brushes() -> Harness<'static, Table<Brushes>> {
-    shown(Brushes::default(), painting(), Brushes::show)
+fn brushes() -> Harness<'static, Fixture<Brushes>> {
+    show_panel(Brushes::default(), painting(), Brushes::show)
 }
 
 fn act(action: Action) -> Request {
@@ -25,7 +25,7 @@ fn take(name: &str, shape: HeadShape, size_mm: f64) -> Request {
 }
 
 /// Load action with the paint of the round brush of the test painting.
-fn its_paint() -> Request {
+fn round_paint() -> Request {
     let recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)];
     let recipe: Recipe = recipe.map(|(name, part)| (name.to_owned(), part)).into();
     act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle: 0.2, amount_mm: 0.4 }))
@@ -44,26 +44,26 @@ fn a_click_or_a_number_selects_a_brush() {
         let there = harness.state_mut().with_panel(|panel, cx| panel.choose(none, cx));
         assert_eq!((there, harness.state().tools.brush.as_str()), (false, "flat"));
     }
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
 fn a_changed_shape_or_size_keeps_the_paint() {
     let mut harness = brushes();
     click(&mut harness, "shape filbert");
-    asks(&mut harness, &[take("round", HeadShape::Filbert, 6.0), its_paint()]);
+    assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 6.0), round_paint()]);
     // The worker has not reported yet, so the requested head is used.
     harness.state_mut().with_panel(|panel, cx| panel.resize(1.5, cx));
-    asks(&mut harness, &[take("round", HeadShape::Filbert, 9.0), its_paint()]);
+    assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 9.0), round_paint()]);
     click(&mut harness, "shape filbert");
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 
     click(&mut harness, "flat");
     harness.get_by_role_and_label(Role::Slider, "Size").set_value_accesskit(0.5);
     harness.run();
-    asks(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
+    assert_requests(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
     harness.state_mut().with_panel(|panel, cx| panel.resize(0.1, cx));
-    asks(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
+    assert_requests(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn dragging_the_size_sends_one_request_at_the_end() {
         harness.hover_at(rail.center() + eframe::egui::vec2(4.0 * f32::from(step), 0.0));
         harness.run();
     }
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
     harness.drop_at(rail.center() + eframe::egui::vec2(16.0, 0.0));
     harness.run();
     let requests = format!("{:?}", harness.state().requests);
@@ -97,7 +97,7 @@ fn a_reported_head_ends_its_request() {
     let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
     harness.run();
     click(&mut harness, "shape bright");
-    asks(&mut harness, &[take("round", HeadShape::Bright, 6.0), its_paint()]);
+    assert_requests(&mut harness, &[take("round", HeadShape::Bright, 6.0), round_paint()]);
     let round = &mut harness.state_mut().painting.brushes[0];
     round.spec.shape = HeadShape::Bright;
     round.amount_mm = loaded;
@@ -106,21 +106,21 @@ fn a_reported_head_ends_its_request() {
     harness.state_mut().painting.brushes[0].amount_mm = 0.0;
     harness.run();
     click(&mut harness, "shape fan");
-    asks(&mut harness, &[take("round", HeadShape::Fan, 6.0)]);
+    assert_requests(&mut harness, &[take("round", HeadShape::Fan, 6.0)]);
 }
 
 #[test]
 fn keeping_selects_a_clean_copy_and_leaves_the_loaded_brush() {
     let mut harness = brushes();
     click(&mut harness, "Keep");
-    asks(&mut harness, &[take("round 2", HeadShape::Round, 6.0)]);
-    assert_eq!(harness.state().tools.brush, "round 2", "before the worker told of it");
-    assert!(is_disabled(&harness, "Wash"), "the twin is clean");
+    assert_requests(&mut harness, &[take("round 2", HeadShape::Round, 6.0)]);
+    assert_eq!(harness.state().tools.brush, "round 2", "selected before the worker reports it");
+    assert!(is_disabled(&harness, "Wash"), "the copy is clean");
     let order: Vec<f32> =
         ["round", "round 2", "flat"].map(|name| harness.get_by_label(name).rect().top()).to_vec();
-    assert!(order.is_sorted(), "it stands beside the one that was kept: {order:?}");
+    assert!(order.is_sorted(), "the copy is listed after the original: {order:?}");
     click(&mut harness, "Keep");
-    asks(&mut harness, &[take("round 3", HeadShape::Round, 6.0)]);
+    assert_requests(&mut harness, &[take("round 3", HeadShape::Round, 6.0)]);
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_brush_is_added_renamed_and_removed() {
     let mut harness = brushes();
     click(&mut harness, "Add");
     click(&mut harness, "bright");
-    asks(&mut harness, &[take("bright", HeadShape::Bright, 6.0)]);
+    assert_requests(&mut harness, &[take("bright", HeadShape::Bright, 6.0)]);
     assert_eq!(harness.state().tools.brush, "bright");
 
     click(&mut harness, "Rename");
@@ -146,12 +146,15 @@ fn a_brush_is_added_renamed_and_removed() {
     assert!(harness.query_by_label("for highlights").is_some(), "left as it was");
 
     click(&mut harness, "Remove");
-    assert!(harness.query_by_label("for highlights").is_none(), "put away");
-    assert_eq!(harness.state().tools.brush, "flat", "its neighbour is in hand");
+    assert!(harness.query_by_label("for highlights").is_none(), "removed");
+    assert_eq!(harness.state().tools.brush, "flat", "its neighbour is selected");
     click(&mut harness, "Remove");
     harness.run();
-    assert!(harness.query_by_label("flat").is_none(), "put away, though the painting has it");
-    asks(&mut harness, &[]);
+    assert!(
+        harness.query_by_label("flat").is_none(),
+        "removed from the list although the painting has it"
+    );
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
@@ -166,9 +169,9 @@ fn loading_uses_tube_or_medium_with_the_slider_values() {
         let recipe = recipe.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
         act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
     };
-    asks(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
+    assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
     click(&mut harness, "Medium only");
-    asks(&mut harness, &[load(&[], 1.0)]);
+    assert_requests(&mut harness, &[load(&[], 1.0)]);
     harness.state_mut().tools.tube = 7;
     harness.run();
     assert!(is_disabled(&harness, "Load from tube"), "slot 8 is empty");
@@ -183,13 +186,13 @@ fn wiping_and_washing_need_paint() {
     click(&mut harness, "Wash");
     let brush = "round".to_owned();
     let wipe = Action::Wipe { brush: brush.clone(), keep: 0.55 };
-    asks(&mut harness, &[act(wipe), act(Action::Wash { brush })]);
+    assert_requests(&mut harness, &[act(wipe), act(Action::Wash { brush })]);
     click(&mut harness, "flat");
     assert!(is_disabled(&harness, "Wipe") && is_disabled(&harness, "Wash"), "it is clean");
     let table = harness.state_mut();
     table.with_panel(|_, cx| studio::panels::brushes::wash(cx));
     table.with_panel(|_, cx| studio::panels::brushes::wipe(cx));
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
@@ -211,9 +214,9 @@ fn the_brush_list_follows_the_painting() {
 
 #[test]
 fn new_brushes_are_listed_in_the_order_of_their_shapes() {
-    let mut told = painting();
-    told.brushes.reverse();
-    let harness = shown(Brushes::default(), told, Brushes::show);
+    let mut reversed = painting();
+    reversed.brushes.reverse();
+    let harness = show_panel(Brushes::default(), reversed, Brushes::show);
     let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
     assert!(tops.is_sorted(), "{tops:?}");
 }
@@ -222,9 +225,9 @@ fn new_brushes_are_listed_in_the_order_of_their_shapes() {
 fn a_size_between_slider_steps_is_not_changed() {
     let mut odd = painting();
     odd.brushes[0].spec.size_mm = 6.123_456;
-    let mut harness = shown(Brushes::default(), odd, Brushes::show);
+    let mut harness = show_panel(Brushes::default(), odd, Brushes::show);
     harness.run_steps(3);
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]

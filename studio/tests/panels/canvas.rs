@@ -181,9 +181,9 @@ fn only_changed_and_visible_tiles_are_uploaded() {
     let first = bytes(&harness);
     // One of four chunks, and the edges of its neighbours.
     assert_eq!(first, 4 * 513 * 513);
-    let told = tiles(|_, _| [9, 9, 9, 255]);
+    let text = tiles(|_, _| [9, 9, 9, 255]);
     let at =
-        |x: usize, y: usize| told.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
+        |x: usize, y: usize| text.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
     // A visible tile, its neighbour, and an invisible one.
     for (x, y) in [(192, 192), (256, 192), (576, 64)] {
         harness.state_mut().write(false, at(x, y));

@@ -21,10 +21,10 @@ use studio::panels::Mode;
 use studio::panels::eyedropper::{Color, Eyedropper};
 use studio::view::Outline;
 
-use super::stage::{Stage, made_painting};
+use super::panel_window::{PanelWindow, made_painting};
 
-fn stage(painting: PaintingState) -> Stage<Eyedropper> {
-    Stage::new(Eyedropper::default(), vec2(300.0, 1000.0), painting, Eyedropper::show)
+fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
+    PanelWindow::new(Eyedropper::default(), vec2(300.0, 1000.0), painting, Eyedropper::show)
 }
 
 /// A pick of wet paint (three parts white, one part ultramarine) over dry yellow.
@@ -54,40 +54,40 @@ fn picked(painting: &PaintingState) -> Picked {
     }
 }
 
-fn with_picked() -> Stage<Eyedropper> {
+fn with_pick() -> PanelWindow<Eyedropper> {
     let painting = made_painting();
     let found = picked(&painting);
     let mut stage = stage(painting);
-    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.state().tools.picked = Some(Arc::new(found));
     stage.run();
     stage
 }
 
 #[test]
 fn picked_values_equal_those_of_the_library() {
-    let mut stage = with_picked();
+    let mut stage = with_pick();
     stage.save("eyedropper");
-    let painting = &stage.scene().painting;
+    let painting = &stage.state().painting;
     let (light, picked) = (Arc::clone(&painting.light), picked(painting));
     let weights = light.viewing.weights(painting.library.grid).unwrap();
     let xyz = weights.xyz(&picked.reflectance);
     let lab = Lab::from_xyz(xyz, weights.white());
     let srgb = RgbSpace::Srgb.encoded_from_xyz(xyz, weights.white(), Adaptation::Bradford).to_hex();
     let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
-    for told in [three(lab.to_array()), three(xyz.to_array()), srgb, "103.2, 54.1 mm".to_owned()] {
-        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+    for text in [three(lab.to_array()), three(xyz.to_array()), srgb, "103.2, 54.1 mm".to_owned()] {
+        assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
-    for told in ["Wet", "0.100 mm, 20 % medium", "Dry 1", "0.050 mm", "     3"] {
-        assert!(stage.harness.query_by_label(told).is_some(), "{told}");
+    for text in ["Wet", "0.100 mm, 20 % medium", "Dry 1", "0.050 mm", "     3"] {
+        assert!(stage.harness.query_by_label(text).is_some(), "{text}");
     }
     assert_eq!(stage.harness.query_all_by_label("     1").count(), 2, "of blue and of yellow");
 }
 
 #[test]
 fn picked_wet_paint_is_loaded_and_its_recipe_copied() {
-    let mut stage = with_picked();
+    let mut stage = with_pick();
     stage.click("Load the brush");
-    let wanted = picked(&stage.scene().painting);
+    let wanted = picked(&stage.state().painting);
     let commands = stage.commands();
     let [Command::LoadPicked { brush, picked, amount_mm }] = &commands[..] else {
         panic!("{commands:?}");
@@ -99,15 +99,15 @@ fn picked_wet_paint_is_loaded_and_its_recipe_copied() {
     let copied = stage.harness.output().platform_output.commands.clone();
     let wanted = "\"Zinc White=3\" \"Ultramarine=1\" --thickness 4".to_owned();
     assert_eq!(copied, [OutputCommand::CopyText(wanted)]);
-    assert!(stage.commands().is_empty(), "copying asks for nothing");
+    assert!(stage.commands().is_empty(), "copying sends nothing");
 }
 
 #[test]
 fn dry_paint_cannot_be_loaded() {
-    let mut stage = with_picked();
-    let mut found = picked(&stage.scene().painting);
+    let mut stage = with_pick();
+    let mut found = picked(&stage.state().painting);
     found.layers[1].amounts_mm = [0.0; SLOTS + 1];
-    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.state().tools.picked = Some(Arc::new(found));
     stage.run();
     let button = stage.harness.get_by_label("Load the brush");
     assert!(button.accesskit_node().is_disabled(), "there is no wet paint");
@@ -117,13 +117,13 @@ fn dry_paint_cannot_be_loaded() {
 fn the_eyedropper_button_toggles_the_tool() {
     let mut stage = stage(made_painting());
     stage.click("Eyedropper");
-    assert_eq!(stage.scene().tools.mode, Mode::Pick);
+    assert_eq!(stage.state().tools.mode, Mode::Pick);
     stage.click("Eyedropper");
-    assert_eq!(stage.scene().tools.mode, Mode::Paint);
+    assert_eq!(stage.state().tools.mode, Mode::Paint);
 }
 
 /// Recipes that the library search finds for the painting's palette in up to 40 parts.
-fn by_calibrate(
+fn library_recipes(
     painting: &PaintingState,
     target: &Target,
     conditions: Vec<ViewingCondition>,
@@ -140,7 +140,7 @@ fn conditions(painting: &PaintingState) -> Vec<ViewingCondition> {
     vec![ViewingCondition { viewing: painting.light.viewing.clone(), weight: 1.0 }]
 }
 
-fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
+fn ask(stage: &mut PanelWindow<Eyedropper>, text: &str) {
     stage.harness.get_by_role(Role::TextInput).focus();
     stage.run();
     stage.harness.get_by_role(Role::TextInput).type_text(text);
@@ -150,7 +150,7 @@ fn ask(stage: &mut Stage<Eyedropper>, text: &str) {
 }
 
 /// Waits for the first recipe's button.
-fn answered(stage: &mut Stage<Eyedropper>) {
+fn wait_for_recipes(stage: &mut PanelWindow<Eyedropper>) {
     for _ in 0..3000 {
         stage.harness.step();
         if stage.harness.query_by_label("Load recipe 1").is_some() {
@@ -165,16 +165,16 @@ fn answered(stage: &mut Stage<Eyedropper>) {
 fn a_typed_color_gets_the_recipes_of_the_library_search() {
     let mut stage = stage(made_painting());
     ask(&mut stage, "48,-4,-22");
-    answered(&mut stage);
+    wait_for_recipes(&mut stage);
     stage.save("eyedropper-match");
-    let painting = stage.scene().painting.clone();
+    let painting = stage.state().painting.clone();
     let conditions = conditions(&painting);
     let lab = Lab { lightness: 48.0, a: -4.0, b: -22.0 };
-    let wanted = by_calibrate(&painting, &Target::from_lab("", lab, &conditions), conditions);
+    let wanted = library_recipes(&painting, &Target::from_lab("", lab, &conditions), conditions);
     assert_eq!(wanted.len(), 3);
     for recipe in &wanted {
-        let told = format!("\u{2206}E {:.2}", recipe.delta_e[0]);
-        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+        let text = format!("\u{2206}E {:.2}", recipe.delta_e[0]);
+        assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
     for (index, recipe) in wanted.iter().enumerate() {
         let name = |at: usize| painting.library[recipe.shares.parts()[at].0].name.clone();
@@ -210,7 +210,7 @@ fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
     painting.brushes[0].amount_mm = 0.2;
     let mut stage = stage(painting);
     ask(&mut stage, "#808080");
-    answered(&mut stage);
+    wait_for_recipes(&mut stage);
     stage.click("Load recipe 1");
     let commands = stage.commands();
     let [Command::Apply(Action::Wash { brush }), Command::Apply(Action::Load(load))] =
@@ -229,9 +229,9 @@ fn pigments_missing_on_the_palette_can_be_added() {
     painting.slots[0] = Some(painting.library.find("Zinc White").unwrap().index());
     let mut stage = stage(painting);
     stage.click("Library");
-    assert!(stage.commands().is_empty(), "nothing is wanted yet");
+    assert!(stage.commands().is_empty(), "there is no target yet");
     ask(&mut stage, "50,-30,5");
-    answered(&mut stage);
+    wait_for_recipes(&mut stage);
     stage.save("eyedropper-missing");
     let load = stage.harness.get_by_label("Load recipe 1");
     assert!(load.accesskit_node().is_disabled(), "pigments are missing");
@@ -244,8 +244,8 @@ fn pigments_missing_on_the_palette_can_be_added() {
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     assert_eq!(names, ["Zinc White", &name]);
     let slots =
-        [0, 1].map(|at| stage.scene().painting.library.find(names[at]).ok().map(PigmentId::index));
-    stage.scene().painting.slots[..2].copy_from_slice(&slots);
+        [0, 1].map(|at| stage.state().painting.library.find(names[at]).ok().map(PigmentId::index));
+    stage.state().painting.slots[..2].copy_from_slice(&slots);
     stage.run();
     let gone = stage.harness.query_by_label(&format!("Add {name}")).is_none();
     assert!(gone, "{name} is on the palette now");
@@ -266,11 +266,11 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     stage.click("Library");
     // The target is pure Viridian.
     let mixture = library.mix([(PigmentId(green), 1.0)]).unwrap().hiding(library.saunderson);
-    let light = Arc::clone(&stage.scene().painting.light);
+    let light = Arc::clone(&stage.state().painting.light);
     let weights = light.viewing.weights(library.grid).unwrap();
     let [l, a, b] = Lab::from_xyz(weights.xyz(&mixture), weights.white()).to_array();
     ask(&mut stage, &format!("{l},{a},{b}"));
-    answered(&mut stage);
+    wait_for_recipes(&mut stage);
     stage.harness.get_all_by_label("Viridian in place of").next().unwrap().click();
     stage.run();
     let first = library.pigments[full[7].unwrap()].name.clone();
@@ -289,18 +289,18 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
 #[test]
 fn a_reference_color_starts_a_search_that_a_newer_one_replaces() {
     let mut stage = stage(made_painting());
-    stage.scene().tools.reference_color = Some([0.9, 0.05, 0.02]);
+    stage.state().tools.reference_color = Some([0.9, 0.05, 0.02]);
     stage.harness.step();
-    stage.scene().tools.reference_color = Some([0.18, 0.18, 0.18]);
-    answered(&mut stage);
-    let wanted = stage.scene().panel.target().unwrap().clone();
+    stage.state().tools.reference_color = Some([0.18, 0.18, 0.18]);
+    wait_for_recipes(&mut stage);
+    let wanted = stage.state().panel.target().unwrap().clone();
     assert_eq!(wanted.color, Color::Screen([0.18; 3]));
-    let painting = stage.scene().painting.clone();
+    let painting = stage.state().painting.clone();
     let conditions = conditions(&painting);
     let target = wanted.match_target(painting.library.grid, &conditions);
-    let best = by_calibrate(&painting, &target, conditions);
-    let told = format!("\u{2206}E {:.2}", best[0].delta_e[0]);
-    assert!(stage.harness.query_by_label(&told).is_some(), "{told}, of the newer colour");
+    let best = library_recipes(&painting, &target, conditions);
+    let text = format!("\u{2206}E {:.2}", best[0].delta_e[0]);
+    assert!(stage.harness.query_by_label(&text).is_some(), "{text}, of the newer colour");
 }
 
 #[test]
@@ -310,17 +310,17 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
         Some(Lighting { illuminant: "A".to_owned(), ..painting.lighting.clone() });
     let found = picked(&painting);
     let mut stage = stage(painting);
-    stage.scene().tools.picked = Some(Arc::new(found));
+    stage.state().tools.picked = Some(Arc::new(found));
     stage.run();
     stage.click("Find recipes");
-    answered(&mut stage);
-    let painting = stage.scene().painting.clone();
+    wait_for_recipes(&mut stage);
+    let painting = stage.state().painting.clone();
     let mut conditions = conditions(&painting);
     let illuminant = Illuminant::named("A").unwrap();
     let viewing = Viewing { illuminant, observer: Observer::default() };
     conditions.push(ViewingCondition { viewing, weight: 1.0 });
-    let wanted = stage.scene().panel.target().unwrap().clone();
-    let best = by_calibrate(
+    let wanted = stage.state().panel.target().unwrap().clone();
+    let best = library_recipes(
         &painting,
         &wanted.match_target(painting.library.grid, &conditions),
         conditions,
@@ -352,21 +352,24 @@ fn a_search_can_be_cancelled() {
     stage.run();
     stage.harness.key_press(Key::Enter);
     stage.harness.step();
-    assert!(stage.harness.query_by_label("Find recipes for it").is_none(), "it is being searched");
+    assert!(stage.harness.query_by_label("Find recipes for it").is_none(), "the search is running");
     stage.click("Cancel");
     std::thread::sleep(std::time::Duration::from_millis(500));
     stage.run();
-    assert!(stage.harness.query_by_label("Load recipe 1").is_none(), "no answer is shown");
-    assert!(stage.harness.query_by_label("Find recipes for it").is_some(), "one can ask again");
+    assert!(stage.harness.query_by_label("Load recipe 1").is_none(), "no result is shown");
+    assert!(
+        stage.harness.query_by_label("Find recipes for it").is_some(),
+        "a new search is possible"
+    );
 }
 
 #[test]
 fn an_invalid_color_text_shows_an_error_with_examples() {
     let mut stage = stage(made_painting());
     ask(&mut stage, "blue");
-    let told = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
-    assert!(stage.harness.query_by_label(told).is_some(), "the fault is told");
-    assert_eq!(stage.scene().panel.target(), None);
+    let text = "A colour is #rrggbb or L,a,b, found `blue`; try #4a7d8c or 52,-10,8";
+    assert!(stage.harness.query_by_label(text).is_some(), "the error is shown");
+    assert_eq!(stage.state().panel.target(), None);
 }
 
 #[test]
@@ -374,14 +377,14 @@ fn swatches_of_other_programs_become_targets_by_a_click() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("colours.gpl");
     std::fs::write(&path, "GIMP Palette\nName: two\n#\n 20 60 120 Sea\n200 180 90\tSand\n")
         .unwrap();
-    assert!(Eyedropper::takes(&path), "GIMP's are taken");
+    assert!(Eyedropper::takes(&path), "GIMP palettes are accepted");
     let mut stage = stage(made_painting());
-    stage.scene().panel.open_swatches(&path);
+    stage.state().panel.open_swatches(&path);
     stage.run();
     stage.click("Sand");
-    let wanted = stage.scene().panel.target().unwrap();
+    let wanted = stage.state().panel.target().unwrap();
     assert_eq!(wanted.name, "Sand");
-    stage.scene().panel.open_swatches(&path.with_file_name("gone.gpl"));
+    stage.state().panel.open_swatches(&path.with_file_name("gone.gpl"));
     stage.run();
-    assert!(stage.harness.query_by_label_contains("gone.gpl").is_some(), "the fault is told");
+    assert!(stage.harness.query_by_label_contains("gone.gpl").is_some(), "the error is shown");
 }

@@ -43,12 +43,17 @@ impl Window {
     pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
         let begin =
             vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
-        Self::begun(name, size, density, begin)
+        Self::with_commands(name, size, density, begin)
     }
 
     /// Opens a window whose worker executes `begin` first, and waits for it.
-    pub(crate) fn begun(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
-        let mut window = Self::made(name, size, density, begin);
+    pub(crate) fn with_commands(
+        name: &'static str,
+        size: Vec2,
+        density: f32,
+        begin: Vec<Command>,
+    ) -> Self {
+        let mut window = Self::without_waiting(name, size, density, begin);
         let start = Instant::now();
         while window.studio().painting().is_none() {
             assert!(start.elapsed() < PATIENCE, "{name}: no painting was opened");
@@ -60,7 +65,12 @@ impl Window {
     }
 
     /// Opens a window without waiting for its worker.
-    pub(crate) fn made(name: &'static str, size: Vec2, density: f32, begin: Vec<Command>) -> Self {
+    pub(crate) fn without_waiting(
+        name: &'static str,
+        size: Vec2,
+        density: f32,
+        begin: Vec<Command>,
+    ) -> Self {
         let folder = tempfile::tempdir().expect("a folder for the session");
         let home = folder.path().to_owned();
         let mut begin = Some(begin);
@@ -75,11 +85,11 @@ impl Window {
                     let options =
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
-                        let begun = StartedWorker::new(options, begin.take().unwrap_or_default());
+                        let worker = StartedWorker::new(options, begin.take().unwrap_or_default());
                         let preferences = Preferences::default();
                         let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
                         let pen = Pen::new(PenSettings::default());
-                        let parts = Parts { worker: begun, pen, files, open: None, log: None };
+                        let parts = Parts { worker: worker, pen, files, open: None, log: None };
                         Studio::new(ui.ctx(), parts)
                     });
                     studio.logic(ui.ctx());
@@ -118,12 +128,12 @@ impl Window {
         self.studio_mut().ask(Command::Recording(fence));
         let start = Instant::now();
         let mut quiet = Instant::now();
-        let mut heard = self.studio().event_count();
+        let mut events = self.studio().event_count();
         loop {
             self.harness.step();
             let answered = self.studio().last_recording() == Some(fence);
-            if self.studio().event_count() != heard {
-                heard = self.studio().event_count();
+            if self.studio().event_count() != events {
+                events = self.studio().event_count();
                 quiet = Instant::now();
             } else if answered && quiet.elapsed() > QUIET {
                 break;

@@ -8,10 +8,10 @@ use session::{Command, PaintingState};
 use studio::panels::Request;
 use studio::panels::history::History;
 
-use super::made::{Table, asks, click, is_disabled, painting, picture, shown};
+use super::fixture::{Fixture, assert_requests, click, is_disabled, painting, picture, show_panel};
 
-fn history(painting: PaintingState) -> Harness<'static, Table<History>> {
-    shown(History::default(), painting, History::show)
+fn history(painting: PaintingState) -> Harness<'static, Fixture<History>> {
+    show_panel(History::default(), painting, History::show)
 }
 
 fn travel(place: usize) -> Request {
@@ -25,7 +25,7 @@ fn a_click_goes_to_an_entry_except_the_current_one() {
     click(&mut harness, "0 beginning");
     click(&mut harness, "4 stroke, flat");
     click(&mut harness, "3 dry 50 %");
-    asks(&mut harness, &[travel(1), travel(0), travel(4)]);
+    assert_requests(&mut harness, &[travel(1), travel(0), travel(4)]);
     let chosen = |label: &str| harness.get_by_label(label).accesskit_node().toggled();
     assert_eq!(chosen("3 dry 50 %"), Some(Toggled::True));
     assert_eq!(chosen("2 stroke, round"), Some(Toggled::False));
@@ -37,7 +37,7 @@ fn undo_and_redo_request_one_step_and_are_disabled_at_the_ends() {
     click(&mut harness, "Undo");
     click(&mut harness, "Redo");
     let step = |action| Request::Worker(Command::Apply(action));
-    asks(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
+    assert_requests(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
 
     harness.state_mut().painting.history_done = 4;
     harness.run();
@@ -47,7 +47,7 @@ fn undo_and_redo_request_one_step_and_are_disabled_at_the_ends() {
     assert!(is_disabled(&harness, "Undo") && !is_disabled(&harness, "Redo"), "nothing is done");
     harness.state_mut().painting.history.clear();
     harness.run();
-    assert!(is_disabled(&harness, "Undo") && is_disabled(&harness, "Redo"), "nothing is there");
+    assert!(is_disabled(&harness, "Undo") && is_disabled(&harness, "Redo"), "the history is empty");
 }
 
 #[test]
@@ -56,11 +56,11 @@ fn a_long_list_scrolls_to_the_current_entry() {
     long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
     long.history_done = 1500;
     let mut harness = history(long);
-    let there = |harness: &Harness<'_, Table<History>>, place: usize| {
+    let there = |harness: &Harness<'_, Fixture<History>>, place: usize| {
         harness.query_by_label(&format!("{place} stroke {place}")).is_some()
     };
-    assert!(there(&harness, 1500), "the present place is in sight");
-    assert!(!there(&harness, 1), "rows out of sight are not laid out");
+    assert!(there(&harness, 1500), "the current entry is visible");
+    assert!(!there(&harness, 1), "invisible rows are not laid out");
     harness.state_mut().painting.history_done = 40;
     harness.run();
     assert!(there(&harness, 40) && !there(&harness, 1500), "the list follows");
@@ -73,7 +73,7 @@ fn memory_is_shown_in_mebibytes_and_can_be_changed() {
     assert_eq!(bar.accesskit_node().numeric_value(), Some(18.0), "96 of 512 MiB, in percent");
     harness.get_by_label("Memory allowed").set_value_accesskit(1024.0);
     harness.run();
-    asks(&mut harness, &[Request::Worker(Command::SetUndoBytes(1 << 30))]);
+    assert_requests(&mut harness, &[Request::Worker(Command::SetUndoBytes(1 << 30))]);
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn an_unusual_memory_limit_is_not_changed() {
     odd.undo_bytes = (3, 7_654_321);
     let mut harness = history(odd);
     harness.run_steps(3);
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]

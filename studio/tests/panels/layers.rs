@@ -8,10 +8,12 @@ use session::Command;
 use studio::panels::Request;
 use studio::panels::layers::Layers;
 
-use super::made::{Table, asks, click, is_disabled, painting, pick, picture, shown};
+use super::fixture::{
+    Fixture, assert_requests, click, click_row, is_disabled, painting, picture, show_panel,
+};
 
-fn layers() -> Harness<'static, Table<Layers>> {
-    shown(Layers::default(), painting(), Layers::show)
+fn layers() -> Harness<'static, Fixture<Layers>> {
+    show_panel(Layers::default(), painting(), Layers::show)
 }
 
 fn act(action: Action) -> Request {
@@ -30,7 +32,7 @@ fn all_or_a_share_dries() {
     click(&mut harness, "Dry share");
     click(&mut harness, "Dry all");
     let dry = |fraction| act(Action::Dry { fraction });
-    asks(&mut harness, &[dry(0.35), dry(1.0)]);
+    assert_requests(&mut harness, &[dry(0.35), dry(1.0)]);
 }
 
 #[test]
@@ -47,16 +49,16 @@ fn layers_are_listed_from_the_top_with_their_figures() {
 fn the_eye_hides_a_layer_and_restores_its_opacity() {
     let mut harness = layers();
     click(&mut harness, "visibility of dry layer 2");
-    asks(&mut harness, &[act(opacity(1, 0.0))]);
+    assert_requests(&mut harness, &[act(opacity(1, 0.0))]);
     harness.state_mut().painting.layers[1].opacity = 0.0;
     harness.run();
     click(&mut harness, "visibility of dry layer 2");
-    asks(&mut harness, &[act(opacity(1, 0.5))]);
+    assert_requests(&mut harness, &[act(opacity(1, 0.5))]);
     // A layer that was hidden before the panel saw it.
     harness.state_mut().painting.layers[0].opacity = 0.0;
     harness.run();
     click(&mut harness, "visibility of dry layer 1");
-    asks(&mut harness, &[act(opacity(0, 1.0))]);
+    assert_requests(&mut harness, &[act(opacity(0, 1.0))]);
 }
 
 #[test]
@@ -88,15 +90,15 @@ fn dragging_the_opacity_adjusts_and_ends_once() {
     // more.
     harness.drop_at(start + vec2(30.0, 0.0));
     harness.run();
-    asks(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
-    let shown = |harness: &Harness<'_, Table<Layers>>| {
+    assert_requests(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
+    let shown = |harness: &Harness<'_, Fixture<Layers>>| {
         let slider = harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
         slider.accesskit_node().numeric_value().unwrap()
     };
     assert_eq!(shown(&harness), values[2]);
     harness.run_steps(90);
-    assert_eq!(shown(&harness), 1.0, "what the worker tells counts in the end");
-    asks(&mut harness, &[]);
+    assert_eq!(shown(&harness), 1.0, "the reported value is shown in the end");
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
@@ -105,7 +107,7 @@ fn a_typed_opacity_is_one_action() {
     let slider = harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 2");
     slider.set_value_accesskit(2.5);
     harness.run();
-    asks(&mut harness, &[act(opacity(1, 2.5))]);
+    assert_requests(&mut harness, &[act(opacity(1, 2.5))]);
 }
 
 #[test]
@@ -113,9 +115,9 @@ fn an_opacity_beyond_the_slider_is_not_changed() {
     let mut odd = painting();
     odd.layers[0].opacity = 17.123_456;
     odd.layers[1].opacity = 0.123_456;
-    let mut harness = shown(Layers::default(), odd, Layers::show);
+    let mut harness = show_panel(Layers::default(), odd, Layers::show);
     harness.run_steps(3);
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
@@ -126,7 +128,7 @@ fn layers_of_equal_opacity_merge_downwards() {
     harness.state_mut().painting.layers[1].opacity = 1.0;
     harness.run();
     click(&mut harness, "merge dry layer 2 down");
-    asks(&mut harness, &[act(Action::Merge { layer: 1 })]);
+    assert_requests(&mut harness, &[act(Action::Merge { layer: 1 })]);
 }
 
 #[test]
@@ -136,7 +138,7 @@ fn a_hidden_layer_above_a_merge_keeps_its_opacity() {
     harness.state_mut().painting.layers.insert(0, lowest);
     harness.run();
     click(&mut harness, "visibility of dry layer 3");
-    asks(&mut harness, &[act(opacity(2, 0.0))]);
+    assert_requests(&mut harness, &[act(opacity(2, 0.0))]);
     harness.state_mut().painting.layers[2].opacity = 0.0;
     harness.run();
     click(&mut harness, "merge dry layer 2 down");
@@ -144,7 +146,7 @@ fn a_hidden_layer_above_a_merge_keeps_its_opacity() {
     harness.run();
     harness.state_mut().requests.clear();
     click(&mut harness, "visibility of dry layer 2");
-    asks(&mut harness, &[act(opacity(1, 0.5))]);
+    assert_requests(&mut harness, &[act(opacity(1, 0.5))]);
 }
 
 #[test]
@@ -156,9 +158,9 @@ fn a_pigment_of_one_layer_is_exchanged() {
     ] {
         click(&mut harness, button);
         assert!(is_disabled(&harness, "Vermilion"), "the layer has it already");
-        pick(&mut harness, "Lead White");
+        click_row(&mut harness, "Lead White");
         let [from, to] = ["Zinc White", "Lead White"].map(str::to_owned);
-        asks(&mut harness, &[act(Action::Swap { layer, from, to })]);
+        assert_requests(&mut harness, &[act(Action::Swap { layer, from, to })]);
     }
 }
 
@@ -169,7 +171,7 @@ fn the_exchange_window_closes_when_its_layer_disappears() {
     harness.state_mut().painting.layers.pop();
     harness.run();
     assert!(harness.query_by_label("Search").is_none(), "the layer is gone");
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]

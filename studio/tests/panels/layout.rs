@@ -18,9 +18,9 @@ use studio::panels::Mode;
 
 /// A window with an injected painting: a ramp of greys on the canvas, wood on the
 /// palette.
-fn told_window(name: &'static str, size: Vec2, density: f32) -> Window {
-    let mut window = Window::made(name, size, density, Vec::new());
-    let mut painting = crate::made::painting();
+fn injected_window(name: &'static str, size: Vec2, density: f32) -> Window {
+    let mut window = Window::without_waiting(name, size, density, Vec::new());
+    let mut painting = crate::fixture::painting();
     painting.canvas_cells = (1920, 1080);
     painting.palette_cells = (640, 420);
     let studio = window.studio_mut();
@@ -46,7 +46,7 @@ fn all_controls_are_within_the_window() {
     for (size, density) in
         [(vec2(1280.0, 800.0), 1.0), (vec2(1920.0, 1080.0), 1.0), (vec2(1280.0, 800.0), 2.0)]
     {
-        let mut window = told_window("layout", size, density);
+        let mut window = injected_window("layout", size, density);
         window.save(&format!("layout-{}-{density}", size.x));
         let whole = window.whole();
         for label in ["File", "Canvas", "Palette", "Paint", "Whole canvas", "tube of Vermilion"] {
@@ -58,7 +58,7 @@ fn all_controls_are_within_the_window() {
 
 #[test]
 fn keys_change_the_view_except_while_typing() {
-    let mut window = told_window("keys", vec2(1280.0, 800.0), 1.0);
+    let mut window = injected_window("keys", vec2(1280.0, 800.0), 1.0);
     window.key(Modifiers::NONE, Key::M);
     assert!(window.studio().canvas.view.mirror, "M mirrors");
     window.key(Modifiers::COMMAND, Key::Num1);
@@ -75,15 +75,15 @@ fn keys_change_the_view_except_while_typing() {
     window.harness().run_ok();
     window.key(Modifiers::NONE, Key::M);
     window.key(Modifiers::NONE, Key::F12);
-    assert!(!window.studio().canvas.view.mirror, "a name may have an m");
+    assert!(!window.studio().canvas.view.mirror, "typed text is not a shortcut");
     window.key(Modifiers::NONE, Key::Escape);
     window.key(Modifiers::NONE, Key::M);
-    assert!(window.studio().canvas.view.mirror, "text is typed no longer");
+    assert!(window.studio().canvas.view.mirror, "typing has ended");
 }
 
 #[test]
 fn tab_hides_all_panels_and_enlarges_the_canvas() {
-    let mut window = told_window("hidden", vec2(1280.0, 800.0), 1.0);
+    let mut window = injected_window("hidden", vec2(1280.0, 800.0), 1.0);
     let before = window.studio().canvas.rect();
     window.key(Modifiers::NONE, Key::Tab);
     window.save("hidden");
@@ -93,12 +93,15 @@ fn tab_hides_all_panels_and_enlarges_the_canvas() {
     window.key(Modifiers::NONE, Key::Tab);
     assert_eq!(window.studio().canvas.rect(), before);
     window.key(Modifiers::NONE, Key::P);
-    assert!(window.studio().canvas.rect().height() > before.height(), "the palette makes room");
+    assert!(
+        window.studio().canvas.rect().height() > before.height(),
+        "hiding the palette enlarges the canvas"
+    );
 }
 
 #[test]
 fn the_view_follows_drag_wheel_and_held_keys() {
-    let mut window = told_window("hand", vec2(1280.0, 800.0), 1.0);
+    let mut window = injected_window("hand", vec2(1280.0, 800.0), 1.0);
     let middle = window.studio().canvas.rect().center();
     let cell = |window: &Window, at| window.studio().canvas.placement().cell(at);
     let drag = |window: &mut Window, button: PointerButton, by: Vec2| {
@@ -157,7 +160,7 @@ fn the_view_follows_drag_wheel_and_held_keys() {
 
 #[test]
 fn the_hovering_head_is_drawn_translucent_at_the_pointer() {
-    let mut window = told_window("head", vec2(1280.0, 800.0), 1.0);
+    let mut window = injected_window("head", vec2(1280.0, 800.0), 1.0);
     for (turn, mirror) in [(0.0, false), (1.0, true)] {
         window.studio_mut().canvas.view.rotation = turn;
         window.studio_mut().canvas.view.mirror = mirror;
@@ -175,11 +178,11 @@ fn the_hovering_head_is_drawn_translucent_at_the_pointer() {
         assert!(changed(vec2(14.0, 14.0)), "the head is seen");
         assert!(!changed(vec2(-60.0, -60.0)), "and nowhere else");
         let [red, green, blue] = window.color(&after, at + vec2(14.0, 14.0));
-        assert!(red.min(green).min(blue) > 10, "it lets the paint through: {red} {green} {blue}");
+        assert!(red.min(green).min(blue) > 10, "the head is translucent: {red} {green} {blue}");
         window.frame(vec![UiEvent::PointerMoved(pos2(1200.0, 300.0))]);
         window.frame(Vec::new());
         let gone = window.picture().unwrap();
-        assert_eq!(window.color(&gone, at), window.color(&before, at), "it left");
+        assert_eq!(window.color(&gone, at), window.color(&before, at), "the cursor is gone");
     }
 }
 
@@ -255,11 +258,11 @@ fn keys_undo_dry_and_select_brushes() {
     window.key(Modifiers::COMMAND, Key::Z);
     window.settle();
     assert_eq!(window.studio().painting().unwrap().history_done, done - 1);
-    assert_eq!(seen(&window, false, 16.0, 10.0), bare, "taken back");
+    assert_eq!(seen(&window, false, 16.0, 10.0), bare, "after undo");
     let held = Modifiers { shift: true, ..Modifiers::COMMAND };
     window.key(held, Key::Z);
     window.settle();
-    assert_eq!(seen(&window, false, 16.0, 10.0), painted, "done again");
+    assert_eq!(seen(&window, false, 16.0, 10.0), painted, "after redo");
     window.key(Modifiers::NONE, Key::D);
     window.settle();
     assert_eq!(window.studio().painting().unwrap().layers.len(), 1, "D dries");
@@ -292,15 +295,15 @@ fn the_second_light_is_shown_right_of_a_draggable_line() {
         let mut differ = 0;
         for y in 80..120 {
             let cell = tile::Rect { x, y, width: 1, height: 1 };
-            let told = |second| {
+            let reported = |second| {
                 let view = &window.studio().canvas;
                 let [red, green, blue, _] =
                     view.picture(second).unwrap().pixels(cell).pixels[0].to_array();
                 [red, green, blue]
             };
             let at = window.studio().canvas.placement().point([x as f64 + 0.5, y as f64 + 0.5]);
-            assert_eq!(window.color(&picture, at), told(second), "cell {x} {y}");
-            differ += usize::from(told(false) != told(true));
+            assert_eq!(window.color(&picture, at), reported(second), "cell {x} {y}");
+            differ += usize::from(reported(false) != reported(true));
         }
         assert!(differ > 0, "the lights differ in column {x}");
     }

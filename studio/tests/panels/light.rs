@@ -10,14 +10,14 @@ use spectra::ColorTemperature;
 use studio::panels::FileRequest;
 use studio::panels::light::LightPanel;
 
-use super::stage::{Stage, made_painting};
+use super::panel_window::{PanelWindow, made_painting};
 
-fn stage(painting: PaintingState) -> Stage<LightPanel> {
-    Stage::new(LightPanel::default(), vec2(300.0, 660.0), painting, LightPanel::show)
+fn stage(painting: PaintingState) -> PanelWindow<LightPanel> {
+    PanelWindow::new(LightPanel::default(), vec2(300.0, 660.0), painting, LightPanel::show)
 }
 
 /// Lighting of the only queued command.
-fn acted(stage: &mut Stage<LightPanel>) -> Lighting {
+fn queued_lighting(stage: &mut PanelWindow<LightPanel>) -> Lighting {
     let commands = stage.commands();
     let [Command::Apply(Action::Light(lighting))] = &commands[..] else {
         panic!("one change of light: {commands:?}");
@@ -34,14 +34,14 @@ fn a_searched_light_is_set_by_a_click_only() {
     assert!(stage.harness.query_by_label("HP1").is_some(), "the whole list is there");
     stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text("violet");
     stage.run();
-    assert!(stage.harness.query_by_label("HP1").is_none(), "it is narrowed");
+    assert!(stage.harness.query_by_label("HP1").is_none(), "the list is filtered");
     stage.harness.get_by_label("LED-V2").hover();
     stage.wait(1.0);
-    assert!(stage.commands().is_empty(), "hovering asks for nothing");
+    assert!(stage.commands().is_empty(), "hovering sends nothing");
     stage.click("LED-V2");
     let wanted =
-        Lighting { illuminant: "LED-V2".to_owned(), ..stage.scene().painting.lighting.clone() };
-    assert_eq!(acted(&mut stage), wanted);
+        Lighting { illuminant: "LED-V2".to_owned(), ..stage.state().painting.lighting.clone() };
+    assert_eq!(queued_lighting(&mut stage), wanted);
     assert!(stage.harness.query_by_label("LED-V2").is_none(), "the list is closed");
     assert!(stage.harness.query_by_label("Illuminant: LED-V2").is_some(), "shown at once");
 }
@@ -55,7 +55,7 @@ fn enter_sets_the_first_match_or_a_typed_temperature() {
         stage.run();
         stage.harness.key_press(Key::Enter);
         stage.run();
-        assert_eq!(acted(&mut stage).illuminant, wanted, "typed {typed}");
+        assert_eq!(queued_lighting(&mut stage).illuminant, wanted, "typed {typed}");
     }
 }
 
@@ -66,11 +66,11 @@ fn the_temperature_is_set_once_when_the_slider_is_released() {
     let rect = slider.rect();
     let at = |share: f32| rect.left_center() + vec2(share * rect.width(), 0.0);
     stage.drag(&[at(0.6), at(0.3), at(0.2)]);
-    let low = acted(&mut stage).illuminant;
+    let low = queued_lighting(&mut stage).illuminant;
     let kelvin: f64 = low.strip_suffix('K').unwrap().parse().unwrap();
     assert!((1500.0..4000.0).contains(&kelvin), "a black body below daylight: {low}");
     stage.drag(&[at(0.6), at(0.9)]);
-    let high = acted(&mut stage).illuminant;
+    let high = queued_lighting(&mut stage).illuminant;
     let kelvin: f64 = high.strip_prefix('D').unwrap().strip_suffix('K').unwrap().parse().unwrap();
     assert!((4000.0..=25000.0).contains(&kelvin), "daylight: {high}");
 }
@@ -86,7 +86,7 @@ fn a_temperature_set_by_keys_is_applied_after_a_pause() {
     }
     assert!(stage.commands().is_empty(), "keys are still being pressed");
     stage.wait(0.7);
-    assert!(acted(&mut stage).illuminant.starts_with('D'), "daylight");
+    assert!(queued_lighting(&mut stage).illuminant.starts_with('D'), "daylight");
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn observers_are_chosen_and_lamp_files_are_requested() {
     let mut stage = stage(made_painting());
     stage.click("Observer");
     stage.click("2015-10");
-    assert_eq!(acted(&mut stage).observer, "2015-10");
+    assert_eq!(queued_lighting(&mut stage).observer, "2015-10");
     stage.click("Measured lamp\u{2026}");
     assert_eq!(stage.requests(), [FileRequest::OpenLamp]);
 }
@@ -121,12 +121,12 @@ fn dragging_the_direction_adjusts_and_ends_on_release() {
     assert_eq!(last.azimuth_deg, 180.0);
     // The radius of the drawn hemisphere is 48 points.
     assert!((last.elevation_deg - (30.0_f64 / 48.0).acos().to_degrees()).abs() < 0.1, "{last:?}");
-    let told = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
-    let before = &stage.scene().painting.lighting;
-    assert_eq!(told, Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..before.clone() });
+    let undirected = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
+    let before = &stage.state().painting.lighting;
+    assert_eq!(undirected, Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..before.clone() });
     assert!(
         stage.harness.query_by_label_contains("180\u{b0}, ").is_some(),
-        "shown before the worker tells it"
+        "shown before the worker reports it"
     );
 }
 
@@ -137,11 +137,11 @@ fn each_arrow_key_is_one_action() {
     stage.run();
     stage.harness.key_press(Key::ArrowRight);
     stage.harness.step();
-    let lighting = acted(&mut stage);
+    let lighting = queued_lighting(&mut stage);
     assert_eq!((lighting.azimuth_deg, lighting.elevation_deg), (320.0, 50.0));
     stage.harness.key_press(Key::ArrowUp);
     stage.harness.step();
-    let lighting = acted(&mut stage);
+    let lighting = queued_lighting(&mut stage);
     assert_eq!((lighting.azimuth_deg, lighting.elevation_deg), (320.0, 55.0));
 }
 
@@ -168,7 +168,7 @@ fn ambient_and_relief_sliders_adjust_and_end() {
 #[test]
 fn wet_and_dry_gloss_are_dragged() {
     let mut stage = stage(made_painting());
-    let medium = stage.scene().painting.medium.clone();
+    let medium = stage.state().painting.medium.clone();
     for (name, is_wet) in [("Wet gloss", true), ("Dry gloss", false)] {
         let rect = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, name).rect();
         stage.drag(&[rect.center(), rect.right_top() + vec2(9.0, -9.0)]);
@@ -190,12 +190,12 @@ fn wet_and_dry_gloss_are_dragged() {
 fn the_second_light_is_switched_and_swapped() {
     let mut stage = stage(made_painting());
     stage.click("Second light");
-    let first = stage.scene().painting.lighting.clone();
+    let first = stage.state().painting.lighting.clone();
     let second = Lighting { illuminant: "A".to_owned(), ..first.clone() };
     let commands = stage.commands();
     let [Command::SetSecondLight(Some(requests))] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(*requests, second);
-    stage.scene().painting.second_lighting = Some(second.clone());
+    stage.state().painting.second_lighting = Some(second.clone());
     stage.run();
     stage.save("light-split");
     stage.click("Second illuminant: A");
@@ -246,16 +246,16 @@ fn without_a_second_light_there_is_nothing_to_swap() {
 #[test]
 fn white_point_numbers_equal_those_of_the_library() {
     let mut stage = stage(made_painting());
-    let light = stage.scene().painting.light.clone();
+    let light = stage.state().painting.light.clone();
     let xyz = light.quadrature.white;
     let sum = xyz.x + xyz.y + xyz.z;
     let temperature = ColorTemperature::of(&light.viewing.illuminant).unwrap();
-    let told = [
+    let lines = [
         format!("x {:.4}  y {:.4}", xyz.x / sum, xyz.y / sum),
         format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),
     ];
-    for told in told {
-        assert!(stage.harness.query_by_label(&told).is_some(), "{told}");
+    for text in lines {
+        assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
     assert!(is_near_d65(xyz.x / sum, xyz.y / sum), "the light is D65");
 }

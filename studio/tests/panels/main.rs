@@ -4,11 +4,11 @@
 
 mod harness;
 
-mod made;
+mod fixture;
 
 mod painter;
 
-mod stage;
+mod panel_window;
 
 mod brushes;
 

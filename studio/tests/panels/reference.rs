@@ -13,7 +13,7 @@ use spectra::color::Rgb;
 use studio::panels::FileRequest;
 use studio::panels::reference::Reference;
 
-use super::stage::{Stage, made_painting};
+use super::panel_window::{PanelWindow, made_painting};
 
 /// Colours of the four fields of the test picture, 400 x 200 pixels.
 const FIELDS: [[u8; 3]; 4] = [[200, 30, 20], [240, 220, 40], [20, 60, 160], [90, 90, 90]];
@@ -22,17 +22,21 @@ fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-fn stage(name: &str) -> Stage<Reference> {
+fn stage(name: &str) -> PanelWindow<Reference> {
     let path = file(name);
     let picture = RgbImage::from_fn(400, 200, |x, y| {
         Pixel(FIELDS[usize::from(x >= 200) + 2 * usize::from(y >= 100)])
     });
     picture.save(&path).unwrap();
-    let mut stage =
-        Stage::new(Reference::default(), vec2(460.0, 360.0), made_painting(), Reference::show);
+    let mut stage = PanelWindow::new(
+        Reference::default(),
+        vec2(460.0, 360.0),
+        made_painting(),
+        Reference::show,
+    );
     let context = stage.harness.ctx.clone();
-    stage.scene().panel.open(&context, &path);
-    assert!(stage.scene().panel.is_open(), "it is being read");
+    stage.state().panel.open(&context, &path);
+    assert!(stage.state().panel.is_open(), "it is being read");
     while stage.harness.get_by_label("Fit").accesskit_node().is_disabled() {
         std::thread::sleep(std::time::Duration::from_millis(5));
         stage.harness.step();
@@ -41,18 +45,18 @@ fn stage(name: &str) -> Stage<Reference> {
     stage
 }
 
-fn panel(stage: &Stage<Reference>) -> Rect {
+fn panel(stage: &PanelWindow<Reference>) -> Rect {
     stage.harness.get_by_label("Reference picture").rect()
 }
 
 /// Window position of a point of the fitted picture, by shares of width and height.
-fn at(stage: &Stage<Reference>, x: f32, y: f32) -> Pos2 {
+fn at(stage: &PanelWindow<Reference>, x: f32, y: f32) -> Pos2 {
     let panel = panel(stage);
     let zoom = (panel.width() / 400.0).min(panel.height() / 200.0);
     panel.center() + zoom * vec2(400.0 * (x - 0.5), 200.0 * (y - 0.5))
 }
 
-fn click(stage: &mut Stage<Reference>, place: Pos2) {
+fn click(stage: &mut PanelWindow<Reference>, place: Pos2) {
     stage.harness.hover_at(place);
     stage.harness.drag_at(place);
     stage.harness.drop_at(place);
@@ -60,8 +64,8 @@ fn click(stage: &mut Stage<Reference>, place: Pos2) {
 }
 
 /// Picked colour as 8-bit sRGB.
-fn wanted(stage: &mut Stage<Reference>) -> Option<[u8; 3]> {
-    stage.scene().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
+fn wanted(stage: &mut PanelWindow<Reference>) -> Option<[u8; 3]> {
+    stage.state().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
 }
 
 #[test]
@@ -77,8 +81,8 @@ fn a_click_picks_the_color_shown_there() {
     }
     let corner = panel(&stage).min + vec2(3.0, 3.0);
     click(&mut stage, corner);
-    assert_eq!(wanted(&mut stage), None, "beside the picture there is no colour");
-    assert!(stage.commands().is_empty(), "the worker is not asked");
+    assert_eq!(wanted(&mut stage), None, "outside the picture there is no colour");
+    assert!(stage.commands().is_empty(), "no command is sent");
 }
 
 #[test]
@@ -101,7 +105,7 @@ fn the_mean_over_the_radius_is_in_linear_light() {
     let mut stage = stage("mean.png");
     let middle = at(&stage, 0.5, 0.25);
     click(&mut stage, middle);
-    let found = stage.scene().tools.reference_color.take().unwrap();
+    let found = stage.state().tools.reference_color.take().unwrap();
     let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
     let (left, right) = (linear(FIELDS[0]), linear(FIELDS[1]));
     for ((found, left), right) in found.iter().zip(left).zip(right) {
@@ -119,7 +123,7 @@ fn a_flipped_picture_exchanges_left_and_right() {
     stage.save("reference-flipped");
     let place = at(&stage, 0.25, 0.25);
     click(&mut stage, place);
-    assert_eq!(wanted(&mut stage), Some(FIELDS[1]), "in grey too the colour is taken");
+    assert_eq!(wanted(&mut stage), Some(FIELDS[1]), "the colour is picked also in grey view");
     stage.click("Flip");
     click(&mut stage, place);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]));
@@ -140,20 +144,20 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     });
     stage.wait(1.0);
     click(&mut stage, about);
-    assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "the pointer's place stays");
+    assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "zooming keeps the position under the pointer");
     // The boundary was 20 pixels to the right and is farther away after zooming.
     let right = about + vec2(30.0, 0.0);
     click(&mut stage, right);
-    assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "enlarged, it is of the same field");
+    assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "still the same field after zooming");
     drag_middle(&mut stage, about, vec2(-300.0, 0.0));
     click(&mut stage, about);
-    assert_eq!(wanted(&mut stage), Some(FIELDS[1]), "the picture followed the hand");
+    assert_eq!(wanted(&mut stage), Some(FIELDS[1]), "the picture follows the drag");
     stage.click("Fit");
     click(&mut stage, right);
     assert_eq!(wanted(&mut stage), Some(FIELDS[1]), "all of it is shown again");
 }
 
-fn drag_middle(stage: &mut Stage<Reference>, from: Pos2, by: Vec2) {
+fn drag_middle(stage: &mut PanelWindow<Reference>, from: Pos2, by: Vec2) {
     let button = |pos: Pos2, pressed: bool| Event::PointerButton {
         pos,
         button: PointerButton::Middle,
@@ -166,7 +170,7 @@ fn drag_middle(stage: &mut Stage<Reference>, from: Pos2, by: Vec2) {
     stage.harness.hover_at(from + by);
     stage.harness.event(button(from + by, false));
     stage.run();
-    assert_eq!(stage.scene().tools.reference_color, None, "the middle button takes no colour");
+    assert_eq!(stage.state().tools.reference_color, None, "the middle button takes no colour");
 }
 
 #[test]
@@ -176,7 +180,7 @@ fn pictures_are_requested_from_the_files_and_closed() {
     assert_eq!(stage.requests(), [FileRequest::OpenReference(None)]);
     stage.click("Close picture");
     assert_eq!(stage.requests(), [FileRequest::CloseReference]);
-    assert!(!stage.scene().panel.is_open());
+    assert!(!stage.state().panel.is_open());
     stage.save("reference-empty");
 }
 
@@ -184,18 +188,22 @@ fn pictures_are_requested_from_the_files_and_closed() {
 fn an_unreadable_picture_shows_an_error_with_its_name() {
     let path = file("broken.png");
     std::fs::write(&path, "no picture").unwrap();
-    let mut stage =
-        Stage::new(Reference::default(), vec2(460.0, 360.0), made_painting(), Reference::show);
+    let mut stage = PanelWindow::new(
+        Reference::default(),
+        vec2(460.0, 360.0),
+        made_painting(),
+        Reference::show,
+    );
     let context = stage.harness.ctx.clone();
-    stage.scene().panel.open(&context, &path);
+    stage.state().panel.open(&context, &path);
     for _ in 0..2000 {
         std::thread::sleep(std::time::Duration::from_millis(5));
         stage.harness.step();
-        if stage.harness.query_by_label_contains("no picture that can be read").is_some() {
+        if stage.harness.query_by_label_contains("picture that can be read").is_some() {
             break;
         }
     }
-    let told = stage.harness.get_by_label_contains("no picture that can be read");
-    let told = told.accesskit_node().value().or(told.accesskit_node().label()).unwrap();
-    assert!(told.contains("broken.png") && told.contains("PNG or JPEG"), "{told}");
+    let text = stage.harness.get_by_label_contains("picture that can be read");
+    let text = text.accesskit_node().value().or(text.accesskit_node().label()).unwrap();
+    assert!(text.contains("broken.png") && text.contains("PNG or JPEG"), "{text}");
 }

@@ -9,10 +9,13 @@ use session::Command;
 use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
 use studio::panels::{FileRequest, Mode, Request};
 
-use super::made::{PIGMENTS, Table, asks, click, is_disabled, painting, pick, picture, shown};
+use super::fixture::{
+    Fixture, PIGMENTS, assert_requests, click, click_row, is_disabled, painting, picture,
+    show_panel,
+};
 
-fn tubes() -> Harness<'static, Table<Tubes>> {
-    shown(Tubes::default(), painting(), Tubes::show)
+fn tubes() -> Harness<'static, Fixture<Tubes>> {
+    show_panel(Tubes::default(), painting(), Tubes::show)
 }
 
 fn act(action: Action) -> Request {
@@ -33,7 +36,7 @@ fn a_click_selects_a_tube_and_sends_nothing() {
     let mut harness = tubes();
     click(&mut harness, "tube of Vermilion");
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (2, Mode::Squeeze));
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
     click(&mut harness, "Squeeze");
     assert_eq!(harness.state().tools.mode, Mode::Paint, "the button is a switch");
 }
@@ -45,10 +48,10 @@ fn a_double_click_or_the_button_loads_the_selected_brush() {
     tube.click();
     tube.click();
     harness.run();
-    asks(&mut harness, &[load("Ultramarine")]);
+    assert_requests(&mut harness, &[load("Ultramarine")]);
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (4, Mode::Paint));
     click(&mut harness, "Load brush");
-    asks(&mut harness, &[load("Ultramarine")]);
+    assert_requests(&mut harness, &[load("Ultramarine")]);
 }
 
 #[test]
@@ -68,7 +71,7 @@ fn squeezing_uses_the_slider_amount_at_the_given_position() {
         y_mm: 7.25,
         volume_mm3: 125.0,
     };
-    asks(&mut harness, &[act(Action::Squeeze(heap))]);
+    assert_requests(&mut harness, &[act(Action::Squeeze(heap))]);
 }
 
 #[test]
@@ -85,7 +88,7 @@ fn a_dragged_tube_carries_its_slot() {
     harness.drop_at(Pos2::new(400.0, 400.0));
     harness.run();
     assert_eq!(harness.state().tools.tube, 1);
-    asks(&mut harness, &[]);
+    assert_requests(&mut harness, &[]);
 }
 
 #[test]
@@ -93,26 +96,26 @@ fn a_new_pigment_replaces_one_slot_only() {
     let mut harness = tubes();
     click(&mut harness, "Tubes...");
     click(&mut harness, "slot 5");
-    pick(&mut harness, "Prussian Blue");
+    click_row(&mut harness, "Prussian Blue");
     let mut names = PIGMENTS;
     names[4] = "Prussian Blue";
-    asks(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
+    assert_requests(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
 
-    assert!(is_disabled(&harness, "Vermilion"), "it is on the palette already");
+    assert!(is_disabled(&harness, "Vermilion"), "it is already on the palette");
     click(&mut harness, "slot 8");
     assert!(is_disabled(&harness, "Take off"), "slot 8 is empty");
-    pick(&mut harness, "Cobalt Blue");
+    click_row(&mut harness, "Cobalt Blue");
     let names = PIGMENTS.into_iter().chain(["Cobalt Blue"]);
-    asks(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
+    assert_requests(&mut harness, &[act(Action::Palette(PaletteSpec::from_names(names)))]);
 
     click(&mut harness, "slot 1");
     click(&mut harness, "Take off");
-    asks(
+    assert_requests(
         &mut harness,
         &[act(Action::Palette(PaletteSpec::from_names(PIGMENTS.into_iter().skip(1))))],
     );
     click(&mut harness, "Open another library...");
-    asks(&mut harness, &[Request::File(FileRequest::Open(None))]);
+    assert_requests(&mut harness, &[Request::File(FileRequest::Open(None))]);
 }
 
 #[test]
@@ -135,12 +138,12 @@ fn a_pigment_is_exchanged_in_every_layer_where_possible() {
     harness.get_by_label("tube of Ultramarine").click_secondary();
     harness.run();
     click(&mut harness, "Exchange in the painting...");
-    pick(&mut harness, "Cobalt Blue");
+    click_row(&mut harness, "Cobalt Blue");
     let swap = |layer| {
         let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
         act(Action::Swap { layer, from, to })
     };
-    asks(&mut harness, &[swap(LayerRef::Dry(0)), swap(LayerRef::Wet)]);
+    assert_requests(&mut harness, &[swap(LayerRef::Dry(0)), swap(LayerRef::Wet)]);
     assert!(harness.query_by_label("Search").is_none(), "the window is closed");
 }
 
@@ -164,7 +167,7 @@ fn the_menu_of_a_tube_loads_squeezes_and_replaces() {
 fn without_a_brush_or_a_pigment_nothing_can_be_loaded() {
     let mut bare = painting();
     bare.brushes.clear();
-    let mut harness = shown(Tubes::default(), bare, Tubes::show);
+    let mut harness = show_panel(Tubes::default(), bare, Tubes::show);
     assert!(is_disabled(&harness, "Load brush"), "there is no brush");
     harness.state_mut().painting = painting();
     harness.state_mut().tools.tube = 7;
@@ -186,9 +189,9 @@ fn the_card_of_a_tube_shows_its_figures() {
     let powers = pigment::palette::hiding_powers(&palette);
     let power = powers.iter().find(|power| power.paint.index() == white).unwrap();
     let mm = power.hides.thickness().unwrap() / painting.medium.scattering_per_mm;
-    assert!((0.1..0.9).contains(&mm), "{mm} mm, told with two decimals");
-    let told = format!("hides from {mm:.2} mm");
-    assert!(harness.query_by_label(&told).is_some(), "{told}: {harness:?}");
+    assert!((0.1..0.9).contains(&mm), "{mm} mm, shown with two decimals");
+    let text = format!("hides from {mm:.2} mm");
+    assert!(harness.query_by_label(&text).is_some(), "{text}: {harness:?}");
     let curve = harness.query_by_label("reflectance over wavelength");
     assert!(curve.is_some_and(|curve| !curve.accesskit_node().is_hidden()), "a curve");
     picture(&mut harness, "tubes-card");

@@ -86,7 +86,7 @@ impl<'a> Program<'a> {
     /// Closes the program through its menu key.
     pub(crate) fn quit(mut self) -> ExitStatus {
         self.screen.key(u32::from('q'), &[CONTROL]);
-        until("the program ends", || self.child.try_wait().expect("a process is told of"))
+        until("the program ends", || self.child.try_wait().expect("the process state is readable"))
     }
 
     /// Kills the process, as a crash would.
@@ -96,7 +96,7 @@ impl<'a> Program<'a> {
     }
 
     fn must_run(&mut self) {
-        let ended = self.child.try_wait().expect("a process is told of");
+        let ended = self.child.try_wait().expect("the process state is readable");
         assert!(ended.is_none(), "the program ended: {ended:?}");
     }
 }

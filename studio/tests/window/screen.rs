@@ -70,8 +70,8 @@ impl Screen {
         let spawned = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
         let mut server = spawned.ok()?;
         let mut number = String::new();
-        let told = server.stdout.take().expect("its output is taken");
-        BufReader::new(told).read_line(&mut number).expect("a server tells its number");
+        let told = server.stdout.take().expect("the output is piped");
+        BufReader::new(told).read_line(&mut number).expect("the server prints its display number");
         let name = format!(":{}", number.trim());
         let (connection, screen) = x11rb::connect(Some(&name)).expect("the server answers");
         connection.xtest_get_version(2, 2).unwrap().reply().expect("the server has XTEST");
@@ -192,7 +192,7 @@ impl Screen {
             )
             .unwrap()
             .reply()
-            .expect("the server tells its pixels");
+            .expect("the server returns pixels");
         // 24 bits of colour in 32, blue first: the order of every Xvfb on x86 and ARM.
         let rows = image.data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]);
         let rows: Vec<[u8; 3]> = rows.collect();

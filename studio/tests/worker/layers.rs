@@ -23,21 +23,28 @@ fn layers_report_height_coverage_and_thumbnail() {
         layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
     };
     window.wait_until("both layers", looked);
-    for (told, layer) in window.state().layers.iter().zip(&snapshot.canvas.dry) {
+    for (reported, layer) in window.state().layers.iter().zip(&snapshot.canvas.dry) {
         let cells = layer.paint.vehicle.values().len();
         let volumes = (0..cells).map(|index| layer.paint.cell(index).volume());
         let painted: Vec<u32> = volumes.filter(|&volume| volume > 0).collect();
         let mm = |quanta: f64| quanta * mm_from_quanta(1, 0.1);
         let sum: f64 = painted.iter().map(|&volume| f64::from(volume)).sum();
-        assert!((told.mean_mm - mm(sum / painted.len() as f64)).abs() < 1e-9, "{}", told.mean_mm);
-        assert_eq!(told.max_mm, mm(f64::from(*painted.iter().max().unwrap())));
-        assert!((told.coverage - painted.len() as f64 / cells as f64).abs() < 1e-12, "its share");
-        let thumbnail = &told.thumbnail;
+        assert!(
+            (reported.mean_mm - mm(sum / painted.len() as f64)).abs() < 1e-9,
+            "{}",
+            reported.mean_mm
+        );
+        assert_eq!(reported.max_mm, mm(f64::from(*painted.iter().max().unwrap())));
+        assert!(
+            (reported.coverage - painted.len() as f64 / cells as f64).abs() < 1e-12,
+            "its share"
+        );
+        let thumbnail = &reported.thumbnail;
         assert_eq!((thumbnail.width, thumbnail.height), (96, 60));
         assert_eq!(thumbnail.pixels.len(), 96 * 60);
         let opaque = thumbnail.pixels.iter().filter(|pixel| pixel[3] > 0).count();
         let share = opaque as f64 / thumbnail.pixels.len() as f64;
-        assert!((share - told.coverage).abs() < 0.05, "{share} of {}", told.coverage);
+        assert!((share - reported.coverage).abs() < 0.05, "{share} of {}", reported.coverage);
     }
     let reddest = |window: &Window| {
         let pixels = &window.state().layers[0].thumbnail.pixels;
@@ -85,7 +92,7 @@ fn brushes_and_tubes_are_reported() {
     window.act(load("round", "Ultramarine"));
     let round = |window: &Window| {
         let found = window.state().brushes.iter().find(|brush| brush.name == "round");
-        found.cloned().expect("it is in the stand")
+        found.cloned().expect("the brush exists")
     };
     window.wait_until("paint on the brush", |window| round(window).amount_mm > 0.0);
     let loaded = round(&window);

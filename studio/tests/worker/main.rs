@@ -16,6 +16,6 @@ mod layers;
 
 mod picking;
 
-mod room;
+mod free_space;
 
 mod messages;

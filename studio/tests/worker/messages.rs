@@ -49,7 +49,7 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
     window.ask(Command::PenUp);
     let after = window.snapshot();
     assert!(after.canvas == before.canvas && after.palette == before.palette, "nothing changed");
-    assert_eq!(after.revision, before.revision, "nor was anything counted");
+    assert_eq!(after.revision, before.revision, "the revision is unchanged");
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn commands_without_a_painting_fail_and_a_failed_open_keeps_the_painting() {
     window.act(Action::Undo {});
     let (text, hint, failed) = window.message();
     assert!(failed && text.contains("no painting is open for undo"), "{text}");
-    assert!(hint.is_some(), "and what to do");
+    assert!(hint.is_some(), "with a hint");
     window.ask(Command::Open(small()));
     window.wait("a painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     let before = window.snapshot();

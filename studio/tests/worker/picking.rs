@@ -67,7 +67,7 @@ fn a_pick_equals_an_instrument_reading() {
     window.snapshot();
     let filbert = |window: &Window| {
         let found = window.state().brushes.iter().find(|brush| brush.name == "filbert");
-        found.cloned().expect("it is in the stand")
+        found.cloned().expect("the brush exists")
     };
     window.wait_until("paint on the brush", |window| {
         let state = filbert(window);

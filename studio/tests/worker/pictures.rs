@@ -79,7 +79,7 @@ fn tiles_cover_every_change() {
     }
     assert!(
         !window
-            .told
+            .events
             .iter()
             .any(|event| matches!(event, session::Event::Message { failed: true, .. })),
         "nothing was refused"

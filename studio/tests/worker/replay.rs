@@ -19,7 +19,7 @@ fn script(actions: Vec<Action>) -> (Box<StrokeScript>, Box<pigment::library::Pig
     (script, library)
 }
 
-fn lively() -> Vec<Action> {
+fn varied_actions() -> Vec<Action> {
     vec![
         load("round", "Ultramarine"),
         stroke(SurfaceId::Canvas, "round", &wander(21, 90, 32.0, 20.0)),
@@ -33,8 +33,8 @@ fn lively() -> Vec<Action> {
     ]
 }
 
-fn played(pace: Pace) {
-    let (script, library) = script(lively());
+fn assert_replay(pace: Pace) {
+    let (script, library) = script(varied_actions());
     let mut session = session();
     let saved = |_: &str, _: &mut _| Ok::<_, Infallible>(());
     script.replay(&mut session, saved, || ControlFlow::Continue(())).unwrap();
@@ -48,11 +48,14 @@ fn played(pace: Pace) {
     });
     assert_eq!(last, (of, of), "all actions are played");
     let (text, _, failed) = window.message();
-    assert!(text.contains("1 files") && !failed, "what was not saved is said: {text}");
+    assert!(text.contains("1 files") && !failed, "unsaved files are reported: {text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     if pace == Pace::AsPainted {
         // 89 + 49 + 39 + 29 pauses of 1/120 s.
-        assert!(began.elapsed().as_secs_f64() >= 206.0 / 120.0, "it takes its time");
+        assert!(
+            began.elapsed().as_secs_f64() >= 206.0 / 120.0,
+            "the replay keeps the painted speed"
+        );
     }
     let snapshot = window.snapshot();
     assert_same(&snapshot, &mut session, "after a replay");
@@ -67,18 +70,18 @@ fn played(pace: Pace) {
 
 #[test]
 fn a_fast_replay_equals_the_session_running_the_script() {
-    played(Pace::Fast);
+    assert_replay(Pace::Fast);
 }
 
 #[test]
 fn a_replay_at_painted_speed_gives_the_same_painting() {
-    played(Pace::AsPainted);
+    assert_replay(Pace::AsPainted);
 }
 
 #[test]
 fn a_recording_of_the_worker_replays_to_the_same_painting() {
     let mut window = Window::open(BackendChoice::Cpu);
-    for action in lively() {
+    for action in varied_actions() {
         match action {
             Action::Save { .. } => {}
             Action::Stroke(stroke) => {
@@ -152,6 +155,6 @@ fn a_refused_action_ends_the_replay() {
     window.ask(Command::Replay { script: hopeless, library, pace: Pace::Fast });
     let (text, hint, failed) = window.message();
     assert!(failed && text.contains("Viridian"), "{text}");
-    assert!(hint.is_some_and(|hint| hint.contains("Vermilion")), "the palette is told");
+    assert!(hint.is_some_and(|hint| hint.contains("Vermilion")), "the hint names the palette");
     assert_eq!(window.snapshot().revision, before.revision, "nothing was changed");
 }

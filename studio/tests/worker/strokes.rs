@@ -116,10 +116,10 @@ fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     window.stroke(SurfaceId::Canvas, "round", samples.chunks(5));
     // Long enough for updates at 60 per second to pile up.
     std::thread::sleep(Duration::from_millis(1500));
-    window.told.clear();
-    window.look();
+    window.events.clear();
+    window.handle_events();
     let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
-    let waiting = window.told.iter().filter(paced).count();
+    let waiting = window.events.iter().filter(paced).count();
     assert!((1..=4).contains(&waiting), "{waiting} parts waited");
     let snapshot = window.snapshot();
     super::pictures::assert_pictures(&mut window, &snapshot);
@@ -136,7 +136,7 @@ fn figures_report_steps_and_latency() {
         Event::Tiles { newest, .. } => *newest,
         _ => None,
     });
-    assert!(newest >= began, "it shows samples of now");
+    assert!(newest >= began, "the newest sample is recent");
     let figures = window.figures();
     assert!(figures.substeps_per_second > 10.0, "{figures:?}");
     assert!(figures.max_latency_ms >= figures.mean_latency_ms, "{figures:?}");
@@ -149,10 +149,10 @@ fn an_invalid_sample_is_reported_and_the_stroke_continues() {
     session.apply(&load("round", "Vermilion")).unwrap();
     window.act(load("round", "Vermilion"));
     let good = wander(7, 60, 32.0, 20.0);
-    let mut told = good.clone();
-    told.insert(30, Sample { pressure: 7.0, ..good[30] });
-    told.insert(40, Sample { x_mm: f64::NAN, ..good[40] });
-    window.stroke(SurfaceId::Canvas, "round", [&told[..]]);
+    let mut samples = good.clone();
+    samples.insert(30, Sample { pressure: 7.0, ..good[30] });
+    samples.insert(40, Sample { x_mm: f64::NAN, ..good[40] });
+    window.stroke(SurfaceId::Canvas, "round", [&samples[..]]);
     let snapshot = window.snapshot();
     session.apply(&stroke(SurfaceId::Canvas, "round", &good)).unwrap();
     assert_same(&snapshot, &mut session, "without the samples that cannot be");

@@ -21,7 +21,7 @@ pub(crate) struct Window {
     woken: Receiver<()>,
     pub(crate) state: Option<Arc<PaintingState>>,
     pub(crate) pictures: Pictures,
-    pub(crate) told: Vec<Event>,
+    pub(crate) events: Vec<Event>,
     numbers: u64,
 }
 
@@ -47,7 +47,7 @@ impl Window {
             woken,
             state: None,
             pictures: Pictures::default(),
-            told: Vec::new(),
+            events: Vec::new(),
             numbers: 0,
         }
     }
@@ -85,7 +85,7 @@ impl Window {
     }
 
     /// Handles all events received so far.
-    pub(crate) fn look(&mut self) {
+    pub(crate) fn handle_events(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
             match &event {
@@ -122,7 +122,7 @@ impl Window {
                 }
                 _ => {}
             }
-            self.told.push(event);
+            self.events.push(event);
         }
     }
 
@@ -131,12 +131,12 @@ impl Window {
     pub(crate) fn wait<T>(&mut self, what: &str, wanted: impl Fn(&Event) -> Option<T>) -> T {
         let end = Instant::now() + PATIENCE;
         loop {
-            self.look();
-            let found = self.told.iter().enumerate();
+            self.handle_events();
+            let found = self.events.iter().enumerate();
             if let Some((index, found)) =
                 found.filter_map(|(i, event)| Some((i, wanted(event)?))).next()
             {
-                self.told.drain(..=index);
+                self.events.drain(..=index);
                 return found;
             }
             let left = end.saturating_duration_since(Instant::now());
@@ -148,7 +148,7 @@ impl Window {
     pub(crate) fn wait_until(&mut self, what: &str, wanted: impl Fn(&Self) -> bool) {
         let end = Instant::now() + PATIENCE;
         loop {
-            self.look();
+            self.handle_events();
             if wanted(self) {
                 return;
             }

@@ -1,8 +1,6 @@
 //! A test bench of the studio's files with a simulated worker.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -285,4 +283,24 @@ pub(super) fn picture(window: &mut Window, name: &str) {
     let picture = window.render().unwrap();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     picture.save(folder.join(format!("files-{name}.png"))).unwrap();
+}
+
+/// Reads a painting file.
+pub(super) fn document(path: &Path) -> Document {
+    render::paint::file::read("test", &std::fs::read(path).unwrap()).unwrap()
+}
+
+/// A temporary folder and the path of a painting in it.
+pub(super) fn folder() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.exr");
+    (folder, path)
+}
+
+/// Saves the painting as `path` with the dialog.
+pub(super) fn save_as(window: &mut Window, path: &Path) {
+    ask(window, FileRequest::SaveAs);
+    type_name(window, path.file_stem().unwrap().to_str().unwrap());
+    click(window, "Save");
+    until(window, "the file", |window| window.state_mut().files().path() == Some(path));
 }

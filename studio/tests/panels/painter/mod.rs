@@ -22,7 +22,7 @@ use studio::theme;
 
 use super::harness::has_adapter;
 
-mod trials;
+mod tests;
 
 /// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -89,7 +89,7 @@ impl Studio {
         for request in std::mem::take(&mut self.requests) {
             match request {
                 Request::Worker(command) => self.worker.ask(command),
-                Request::File(request) => panic!("no file was asked for: {request:?}"),
+                Request::File(request) => panic!("unexpected file request: {request:?}"),
             }
         }
     }
@@ -135,7 +135,11 @@ impl Painter {
     /// Waits until the reported painting satisfies `is`. The worker answers before it
     /// has measured everything.
     #[track_caller]
-    fn sees(&mut self, what: &str, is: impl Fn(&PaintingState) -> bool) -> Arc<PaintingState> {
+    fn wait_until(
+        &mut self,
+        what: &str,
+        is: impl Fn(&PaintingState) -> bool,
+    ) -> Arc<PaintingState> {
         let start = Instant::now();
         loop {
             self.harness.step();
@@ -144,15 +148,15 @@ impl Painter {
                 self.harness.run();
                 return painting;
             }
-            assert!(start.elapsed() < PATIENCE, "never told: {what}; but {painting:?}");
+            assert!(start.elapsed() < PATIENCE, "not reported: {what}; found {painting:?}");
             std::thread::sleep(Duration::from_millis(3));
         }
     }
 
     /// Waits until the reported state of a brush satisfies `is`.
     #[track_caller]
-    fn sees_brush(&mut self, name: &str, is: impl Fn(&BrushState) -> bool) -> BrushState {
-        self.sees(name, |painting| {
+    fn wait_until_brush(&mut self, name: &str, is: impl Fn(&BrushState) -> bool) -> BrushState {
+        self.wait_until(name, |painting| {
             painting.brushes.iter().any(|brush| brush.name == name && is(brush))
         });
         self.brush(name)

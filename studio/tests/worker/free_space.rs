@@ -32,7 +32,11 @@ fn heaps_take_the_first_free_place_or_else_the_emptiest() {
     let places = [[-3.0, 2.0], [2.0, 2.0], [2.5, 2.5], [6.0, 2.0]];
     lay(&mut window, "Vermilion", &places);
     lay(&mut window, "Ultramarine", &places);
-    assert_eq!(heaps(&mut window), [[2.0, 2.0], [6.0, 2.0]], "beside the surface is no place");
+    assert_eq!(
+        heaps(&mut window),
+        [[2.0, 2.0], [6.0, 2.0]],
+        "a place outside the surface is not used"
+    );
     // With more paint at the last place, the first has the least.
     lay(&mut window, "Zinc White", &[[6.0, 2.0]]);
     lay(&mut window, "Zinc White", &[[6.0, 2.0], [2.0, 2.0]]);
@@ -41,7 +45,7 @@ fn heaps_take_the_first_free_place_or_else_the_emptiest() {
     window.act(Action::Undo {});
     window.act(Action::Undo {});
     lay(&mut window, "Bone Black", &places);
-    assert_eq!(heaps(&mut window).last(), Some(&[6.0, 2.0]), "what was taken back is free again");
+    assert_eq!(heaps(&mut window).last(), Some(&[6.0, 2.0]), "undone paint leaves the place free");
 }
 
 #[test]

@@ -109,14 +109,14 @@ fn layer(slots: Slots, opacity: f64) -> LayerState {
 }
 
 /// A panel with its context and its requests.
-pub(crate) struct Table<P> {
+pub(crate) struct Fixture<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
     pub(crate) tools: Tools,
     pub(crate) requests: Vec<Request>,
 }
 
-impl<P> Table<P> {
+impl<P> Fixture<P> {
     /// Calls `act` with the panel and its context, as a key would.
     pub(crate) fn with_panel<T>(
         &mut self,
@@ -128,25 +128,25 @@ impl<P> Table<P> {
 }
 
 /// Creates a window of the side panel's width that shows one panel.
-pub(crate) fn shown<P: 'static>(
+pub(crate) fn show_panel<P: 'static>(
     panel: P,
     painting: PaintingState,
     show: impl Fn(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
-) -> Harness<'static, Table<P>> {
-    let table = Table { panel, painting, tools: Tools::default(), requests: Vec::new() };
+) -> Harness<'static, Fixture<P>> {
+    let table = Fixture { panel, painting, tools: Tools::default(), requests: Vec::new() };
     let builder = Harness::builder()
         .with_size(Vec2::new(760.0, 700.0))
         .with_step_dt(1.0 / 60.0)
         .with_max_steps(60);
     let mut harness = builder.with_context_setup(theme::apply).build_ui_state(
-        move |ui, table: &mut Table<P>| {
+        move |ui, table: &mut Fixture<P>| {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
             let room = Rect::from_min_size(
                 Pos2::new(8.0, 8.0),
                 Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),
             );
             ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
-                let Table { panel, painting, tools, requests } = table;
+                let Fixture { panel, painting, tools, requests } = table;
                 show(panel, ui, &mut PanelContext { painting, tools, requests });
             });
         },
@@ -157,25 +157,25 @@ pub(crate) fn shown<P: 'static>(
 }
 
 /// Clicks the control with a label and draws until nothing changes.
-pub(crate) fn click<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
+pub(crate) fn click<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
     harness.get_by_label(label).click();
     harness.run();
 }
 
 /// Clicks a row of a list, even if it is scrolled out of view.
-pub(crate) fn pick<P>(harness: &mut Harness<'_, Table<P>>, label: &str) {
+pub(crate) fn click_row<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
     harness.get_by_label(label).click_accesskit();
     harness.run();
 }
 
 /// Whether the control with a label is disabled.
-pub(crate) fn is_disabled<P>(harness: &Harness<'_, Table<P>>, label: &str) -> bool {
+pub(crate) fn is_disabled<P>(harness: &Harness<'_, Fixture<P>>, label: &str) -> bool {
     harness.get_by_label(label).accesskit_node().is_disabled()
 }
 
 /// Asserts that the requests since the last call are `wanted`.
 #[track_caller]
-pub(crate) fn asks<P>(harness: &mut Harness<'_, Table<P>>, wanted: &[Request]) {
+pub(crate) fn assert_requests<P>(harness: &mut Harness<'_, Fixture<P>>, wanted: &[Request]) {
     let requests = std::mem::take(&mut harness.state_mut().requests);
     assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "requests differ");
 }
@@ -183,7 +183,7 @@ pub(crate) fn asks<P>(harness: &mut Harness<'_, Table<P>>, wanted: &[Request]) {
 /// Renders the window and saves the picture below `target/tmp`; `None` without a
 /// graphics adapter.
 pub(crate) fn picture<P>(
-    harness: &mut Harness<'_, Table<P>>,
+    harness: &mut Harness<'_, Fixture<P>>,
     name: &str,
 ) -> Option<image::RgbaImage> {
     if !has_adapter() {

@@ -11,11 +11,11 @@ use session::{BrushState, Command, PaintingState};
 use studio::panels::{FileRequest, PanelContext, Request, Tools};
 use studio::theme;
 
+use super::fixture::painting;
 use super::harness::has_adapter;
-use super::made::painting;
 
 /// A panel with its context and its requests.
-pub(crate) struct Scene<P> {
+pub(crate) struct PanelState<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
     pub(crate) tools: Tools,
@@ -23,11 +23,11 @@ pub(crate) struct Scene<P> {
 }
 
 /// A panel under test.
-pub(crate) struct Stage<P: 'static> {
-    pub(crate) harness: Harness<'static, Scene<P>>,
+pub(crate) struct PanelWindow<P: 'static> {
+    pub(crate) harness: Harness<'static, PanelState<P>>,
 }
 
-impl<P> Stage<P> {
+impl<P> PanelWindow<P> {
     /// Creates a window of `size` points in which `show` draws `panel`.
     pub(crate) fn new(
         panel: P,
@@ -35,7 +35,7 @@ impl<P> Stage<P> {
         painting: PaintingState,
         mut show: impl FnMut(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
     ) -> Self {
-        let scene = Scene { panel, painting, tools: Tools::default(), requests: Vec::new() };
+        let scene = PanelState { panel, painting, tools: Tools::default(), requests: Vec::new() };
         let mut harness = Harness::builder()
             .with_size(size)
             .with_pixels_per_point(2.0)
@@ -44,8 +44,8 @@ impl<P> Stage<P> {
             .with_render_cursor(false)
             .with_context_setup(theme::apply)
             .build_ui_state(
-                move |ui, scene: &mut Scene<P>| {
-                    let Scene { panel, painting, tools, requests } = scene;
+                move |ui, scene: &mut PanelState<P>| {
+                    let PanelState { panel, painting, tools, requests } = scene;
                     let mut cx = PanelContext { painting, tools, requests };
                     let frame = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(10));
                     frame.show(ui, |ui| {
@@ -61,7 +61,7 @@ impl<P> Stage<P> {
         Self { harness }
     }
 
-    pub(crate) fn scene(&mut self) -> &mut Scene<P> {
+    pub(crate) fn state(&mut self) -> &mut PanelState<P> {
         self.harness.state_mut()
     }
 
@@ -97,20 +97,20 @@ impl<P> Stage<P> {
 
     /// Commands for the worker since the last call.
     pub(crate) fn commands(&mut self) -> Vec<Command> {
-        let requests = std::mem::take(&mut self.scene().requests);
+        let requests = std::mem::take(&mut self.state().requests);
         let commands = requests.into_iter().map(|request| match request {
             Request::Worker(command) => command,
-            Request::File(request) => panic!("asked of the files: {request:?}"),
+            Request::File(request) => panic!("unexpected file request: {request:?}"),
         });
         commands.collect()
     }
 
     /// File requests since the last call.
     pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
-        let requests = std::mem::take(&mut self.scene().requests);
+        let requests = std::mem::take(&mut self.state().requests);
         let requests = requests.into_iter().map(|request| match request {
             Request::File(request) => request,
-            Request::Worker(command) => panic!("asked of the worker: {command:?}"),
+            Request::Worker(command) => panic!("unexpected command: {command:?}"),
         });
         requests.collect()
     }

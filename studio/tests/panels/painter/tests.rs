@@ -14,21 +14,22 @@ fn paint_is_squeezed_mixed_and_picked_up() {
     painter.squeeze(SurfaceId::Palette, 20.0, 20.0);
     painter.click("tube of Ultramarine");
     painter.squeeze(SurfaceId::Palette, 34.0, 20.0);
-    painter.sees("two heaps", |painting| painting.history.len() == 2);
+    painter.wait_until("two heaps", |painting| painting.history.len() == 2);
     painter.click("knife");
     assert_eq!(painter.brush("knife").amount_mm, 0.0);
     for y_mm in [18.0, 20.0, 22.0] {
         painter.stroke(SurfaceId::Palette, (14.0, y_mm), (40.0, y_mm));
         painter.stroke(SurfaceId::Palette, (40.0, y_mm), (14.0, y_mm));
     }
-    painter
-        .sees("six strokes more", |painting| painting.history.len() == 8 && !painting.stroke_open);
-    let knife = painter.sees_brush("knife", |knife| knife.amount_mm > 0.0);
+    painter.wait_until("six strokes more", |painting| {
+        painting.history.len() == 8 && !painting.stroke_open
+    });
+    let knife = painter.wait_until_brush("knife", |knife| knife.amount_mm > 0.0);
     let both = [painter.part("knife", "Chrome Yellow"), painter.part("knife", "Ultramarine")];
     assert!(both[0] > 0.02 && both[1] > 0.02, "both are on the knife: {both:?}, {knife:?}");
     assert!((both[0] + both[1] - 1.0).abs() < 1e-9, "and nothing else: {both:?}");
     painter.click("Wash");
-    painter.sees_brush("knife", |knife| knife.amount_mm == 0.0);
+    painter.wait_until_brush("knife", |knife| knife.amount_mm == 0.0);
     assert_eq!(painter.harness.state().messages, []);
 }
 
@@ -42,22 +43,22 @@ fn a_brush_is_loaded_thinned_wiped_duplicated_and_resized() {
     let is = |mm, share| {
         move |brush: &BrushState| near(brush.amount_mm, mm) && near(brush.vehicle, share)
     };
-    painter.sees_brush("round", is(0.3, 0.2));
+    painter.wait_until_brush("round", is(0.3, 0.2));
     assert_eq!(painter.part("round", "Vermilion"), 1.0);
     painter.click("Medium only");
-    painter.sees_brush("round", is(0.6, 0.6));
+    painter.wait_until_brush("round", is(0.6, 0.6));
 
     // The larger head keeps the paint.
     painter.slide("Size", 9.0);
     let larger =
-        painter.sees_brush("round", |brush| brush.spec.size_mm == 9.0 && is(0.6, 0.6)(brush));
+        painter.wait_until_brush("round", |brush| brush.spec.size_mm == 9.0 && is(0.6, 0.6)(brush));
     painter.slide("Wipe to", 50.0);
     painter.click("Wipe");
-    let wiped = painter.sees_brush("round", is(0.3, 0.6));
+    let wiped = painter.wait_until_brush("round", is(0.3, 0.6));
 
     painter.click("Keep");
     assert_eq!(painter.harness.state().tools.brush, "round 2");
-    let twin = painter.sees_brush("round 2", |twin| twin.amount_mm == 0.0);
+    let twin = painter.wait_until_brush("round 2", |twin| twin.amount_mm == 0.0);
     assert_eq!(twin.spec, larger.spec);
     assert_eq!(painter.brush("round"), wiped, "the kept one keeps its paint");
     assert_eq!(painter.harness.state().messages, []);
@@ -68,13 +69,13 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     let mut painter = Painter::new();
     painter.click("tube of Vermilion");
     painter.click("Load brush");
-    let loaded = painter.sees_brush("round", |brush| near(brush.amount_mm, 0.3));
+    let loaded = painter.wait_until_brush("round", |brush| near(brush.amount_mm, 0.3));
     painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
-    painter.sees_brush("round", |brush| brush.amount_mm < loaded.amount_mm);
+    painter.wait_until_brush("round", |brush| brush.amount_mm < loaded.amount_mm);
     painter.slide("Share", 50.0);
     painter.click("Dry share");
     painter.click("Dry all");
-    let painting = painter.sees("two layers, measured", |painting| {
+    let painting = painter.wait_until("two layers, measured", |painting| {
         painting.layers.len() == 2 && painting.layers.iter().all(|layer| layer.mean_mm > 0.0)
     });
     for layer in &painting.layers {
@@ -97,20 +98,20 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     }
     painter.harness.drop_at(start + vec2(30.0, 0.0));
     painter.settle();
-    let dimmed = painter.sees("one action", |painting| painting.history.len() == before + 1);
+    let dimmed = painter.wait_until("one action", |painting| painting.history.len() == before + 1);
     let opacity = dimmed.layers[0].opacity;
     assert!(opacity != 1.0 && opacity > 0.0, "{opacity}");
 
     painter.click("visibility of dry layer 1");
-    painter.sees("hidden", |painting| painting.layers[0].opacity == 0.0);
+    painter.wait_until("hidden", |painting| painting.layers[0].opacity == 0.0);
     painter.click("visibility of dry layer 1");
-    let back = painter.sees("shown", |painting| painting.layers[0].opacity > 0.0);
+    let back = painter.wait_until("shown", |painting| painting.layers[0].opacity > 0.0);
     assert_eq!(back.layers[0].opacity, opacity);
 
     for _ in 0..3 {
         painter.click("Undo");
     }
-    painter.sees("as before the drag", |painting| {
+    painter.wait_until("as before the drag", |painting| {
         painting.history_done == before && painting.layers[0].opacity == 1.0
     });
     painter.click("merge dry layer 2 down");
@@ -118,14 +119,14 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     let is_merged = |painting: &PaintingState| {
         painting.layers.len() == 1 && (painting.layers[0].mean_mm / both - 1.0).abs() < 0.05
     };
-    let merged = painter.sees("one layer as high as both", is_merged);
+    let merged = painter.wait_until("one layer as high as both", is_merged);
 
     let history = merged.history.clone();
     painter.click("0 beginning");
-    painter.sees("bare", |painting| painting.history_done == 0 && painting.layers.is_empty());
+    painter.wait_until("bare", |painting| painting.history_done == 0 && painting.layers.is_empty());
     assert_eq!(painter.brush("round"), loaded, "as before the stroke");
     painter.click(&format!("{} {}", history.len(), history[history.len() - 1]));
-    let again = painter.sees("all done again", |painting| {
+    let again = painter.wait_until("all done again", |painting| {
         painting.history_done == history.len() && is_merged(painting)
     });
     assert_eq!(again.history, history);
@@ -140,7 +141,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.click("tube of Vermilion");
     painter.click("Load brush");
     painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
-    painter.sees("a stroke", |painting| painting.history.len() == 1);
+    painter.wait_until("a stroke", |painting| painting.history.len() == 1);
 
     // A slot whose paint is still wet cannot be changed.
     let slots = painter.painting().slots;
@@ -149,31 +150,31 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.choose("Cobalt Blue");
     let start = Instant::now();
     while painter.harness.state().messages.is_empty() {
-        assert!(start.elapsed() < PATIENCE, "nothing was said");
+        assert!(start.elapsed() < PATIENCE, "no message");
         painter.settle();
     }
     let (text, hint) = painter.harness.state_mut().messages.pop().unwrap();
     assert!(text.contains("Vermilion") && hint.is_some(), "{text}, {hint:?}");
-    assert_eq!(painter.painting().slots, slots, "it stays");
+    assert_eq!(painter.painting().slots, slots, "the slot is unchanged");
 
     // Another slot can be changed.
     painter.click("slot 5");
     painter.choose("Cobalt Blue");
     let mut wanted = slots;
     wanted[4] = Some(painter.painting().library.find("Cobalt Blue").unwrap().index());
-    painter.sees("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
+    painter.wait_until("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
     painter.click("Close window");
 
     // Exchange in the painting, wet and dry.
     painter.slide("Share", 50.0);
     painter.click("Dry share");
-    painter.sees("a dry layer", |painting| painting.layers.len() == 1);
+    painter.wait_until("a dry layer", |painting| painting.layers.len() == 1);
     painter.harness.get_by_label("tube of Vermilion").click_secondary();
     painter.harness.run();
     painter.click("Exchange in the painting...");
     painter.choose("Minium");
     let minium = Some(painter.painting().library.find("Minium").unwrap().index());
-    painter.sees("Minium, wet and dry", |painting| {
+    painter.wait_until("Minium, wet and dry", |painting| {
         painting.slots[3] == minium && painting.layers[0].slots[3] == minium
     });
     assert_eq!(painter.harness.state().messages, []);

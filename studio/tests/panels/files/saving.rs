@@ -1,0 +1,191 @@
+//! Saving, opening, recovery and closing.
+
+use eframe::egui::{Key, ViewportCommand, ViewportEvent, ViewportId};
+use session::{Command, Origin};
+use studio::files::FileRequest;
+
+use super::bench::{
+    Window, ask, change, click, document, folder, painted, picture, shows, type_name, until, window,
+};
+
+#[test]
+fn a_reopened_painting_equals_the_saved_one() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    change(&mut window);
+    assert!(window.state_mut().files().has_unsaved_changes(), "it was changed");
+    ask(&mut window, FileRequest::Save);
+    picture(&mut window, "save");
+    assert!(shows(&window, "Save the painting"), "a painting without a file asks");
+    type_name(&mut window, "study");
+    window.key_press(Key::Enter);
+    until(&mut window, "the file", |_| path.is_file());
+    until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
+    let saved = window.state().canvas.clone();
+    assert_eq!(document(&path), *saved);
+    assert_eq!(window.state_mut().files().title(), "study");
+
+    change(&mut window);
+    let changed = window.state().canvas.clone();
+    assert!(changed != saved, "the test changes nothing");
+    ask(&mut window, FileRequest::Save);
+    until(&mut window, "the second save", |window| {
+        !window.state_mut().files().has_unsaved_changes()
+    });
+    assert_eq!(document(&path), *changed, "saved where it was, without a question");
+
+    ask(&mut window, FileRequest::Open(Some(path.clone())));
+    until(&mut window, "the painting", |window| !window.state().commands.is_empty());
+    let [Command::Open(Origin::Painting(read))] = &window.state().commands[..] else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(**read, *changed);
+}
+
+#[test]
+fn the_browser_works_with_keys_alone() {
+    let (folder, path) = folder();
+    std::fs::create_dir(folder.path().join("album")).unwrap();
+    std::fs::write(folder.path().join("notes.txt"), "nothing").unwrap();
+    std::fs::write(&path, render::paint::file::write(&painted("A")).unwrap()).unwrap();
+    let mut window = window(folder.path(), painted("B"));
+    ask(&mut window, FileRequest::Open(None));
+    until(&mut window, "the folder", |window| shows(window, "study.exr"));
+    assert!(!shows(&window, "notes.txt"), "nothing that could be opened");
+    picture(&mut window, "open");
+    for key in [Key::ArrowDown, Key::Enter] {
+        window.key_press(key);
+        window.step();
+    }
+    until(&mut window, "the album", |window| !shows(window, "study.exr"));
+    window.key_press(Key::Backspace);
+    until(&mut window, "the way back", |window| shows(window, "study.exr"));
+    for key in [Key::ArrowDown, Key::ArrowDown, Key::Enter] {
+        window.key_press(key);
+        window.step();
+    }
+    until(&mut window, "the painting", |window| !window.state().commands.is_empty());
+    assert_eq!(window.state().canvas.title, "A");
+    ask(&mut window, FileRequest::Open(None));
+    window.key_press(Key::Escape);
+    window.step();
+    window.step();
+    assert!(!window.state_mut().files().has_dialog(), "escape leaves it");
+}
+
+#[test]
+fn a_file_is_overwritten_only_after_confirmation() {
+    let (folder, path) = folder();
+    std::fs::write(&path, "dear").unwrap();
+    let mut window = window(folder.path(), painted("A"));
+    for (answer, kept) in [("Keep", true), ("Replace", false)] {
+        ask(&mut window, FileRequest::SaveAs);
+        type_name(&mut window, "study");
+        click(&mut window, "Save");
+        assert!(shows(&window, "study.exr already exists"), "the window asks");
+        picture(&mut window, "replace");
+        click(&mut window, answer);
+        if kept {
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), "dear");
+            click(&mut window, "Cancel");
+        }
+    }
+    until(&mut window, "the file", |window| window.state_mut().files().path() == Some(&path));
+    assert_eq!(document(&path), *window.state().canvas);
+}
+
+#[test]
+fn a_session_left_by_a_crash_is_offered_and_recovered() {
+    let (folder, _) = folder();
+    let mut first = window(folder.path(), painted("A study"));
+    change(&mut first);
+    let kept = first.state().canvas.clone();
+    let sessions = folder.path().join("own").join("sessions");
+    let session = |_: &mut Window| {
+        let mut sessions = std::fs::read_dir(&sessions).unwrap();
+        let session = sessions.next().unwrap().unwrap().path();
+        let mut inside = std::fs::read_dir(session).unwrap().map(|entry| entry.unwrap());
+        inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
+    };
+    until(&mut first, "an autosave", session);
+    // Simulate a crash: the lock is released, the folder stays.
+    drop(first);
+
+    let mut second = window(folder.path(), painted("Another"));
+    assert!(shows(&second, "A painting was not saved"), "it is offered");
+    assert!(shows(&second, "A study"), "by its name");
+    picture(&mut second, "recover");
+    click(&mut second, "Recover");
+    until(&mut second, "the painting", |window| !window.state().commands.is_empty());
+    assert_eq!(*second.state().canvas, *kept);
+    assert!(second.state_mut().files().has_unsaved_changes(), "the recovered painting is unsaved");
+    let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
+    until(&mut second, "its own autosave", sessions);
+    drop(second);
+    let mut third = window(folder.path(), painted("Another"));
+    assert!(shows(&third, "A study"), "it is offered again after a second crash");
+    click(&mut third, "Discard");
+    assert!(!shows(&third, "A study"), "discarded");
+    third.state_mut().files().finish();
+    let sessions = folder.path().join("own").join("sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "a regular exit leaves nothing");
+}
+
+/// Requests closing the window. Returns whether it closes.
+fn closes(window: &mut Window) -> bool {
+    let viewports = &mut window.input_mut().viewports;
+    viewports.entry(ViewportId::ROOT).or_default().events.push(ViewportEvent::Close);
+    window.step();
+    let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+    let held = commands.iter().any(|command| matches!(command, ViewportCommand::CancelClose));
+    window.input_mut().viewports.entry(ViewportId::ROOT).or_default().events.clear();
+    window.step();
+    !held
+}
+
+#[test]
+fn a_window_with_changes_asks_before_it_closes() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    assert!(closes(&mut window), "nothing was changed");
+    change(&mut window);
+    assert!(!closes(&mut window), "something was");
+    assert!(shows(&window, "Save the painting?"), "the window asks");
+    picture(&mut window, "unsaved");
+    click(&mut window, "Cancel");
+    assert!(!closes(&mut window), "the window asks again");
+    click(&mut window, "Save");
+    type_name(&mut window, "study");
+    click(&mut window, "Save");
+    until(&mut window, "the file", |_| path.is_file());
+    until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
+    assert!(closes(&mut window), "it is saved");
+}
+
+#[test]
+fn discarding_changes_lets_the_window_close() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    change(&mut window);
+    assert!(!closes(&mut window), "something was changed");
+    click(&mut window, "Discard");
+    assert!(closes(&mut window), "the changes were discarded");
+    window.state_mut().files().finish();
+    let sessions = folder.path().join("own").join("sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "the changes were discarded");
+}
+
+#[test]
+fn opening_another_painting_asks_before_discarding_changes() {
+    let (folder, path) = folder();
+    std::fs::write(&path, render::paint::file::write(&painted("B")).unwrap()).unwrap();
+    let mut window = window(folder.path(), painted("A"));
+    change(&mut window);
+    ask(&mut window, FileRequest::Open(Some(path.clone())));
+    until(&mut window, "the question", |window| shows(window, "Save the painting?"));
+    assert_eq!(window.state().canvas.title, "A");
+    click(&mut window, "Discard");
+    until(&mut window, "the other", |window| window.state().canvas.title == "B");
+    assert_eq!(window.state_mut().files().path(), Some(&*path));
+    assert!(!window.state_mut().files().has_unsaved_changes(), "the painting equals its file");
+}
