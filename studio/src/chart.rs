@@ -80,7 +80,7 @@ impl Chart<'_> {
         }
         let axes = Axes::new(whole, self.max());
         let painter = ui.painter_at(whole);
-        painter.rect_filled(whole, theme::ROUND, theme::WELL);
+        painter.rect_filled(whole, theme::CORNER_RADIUS, theme::WELL);
         axes.frame(&painter, self.quantity);
         for &nm in self.marks {
             let line = [axes.place(nm, 0.0), axes.place(nm, axes.max)];

@@ -38,7 +38,7 @@ pub const TEXT: Color32 = Color32::from_gray(214);
 pub const STRONG: Color32 = Color32::from_gray(245);
 
 /// Corner radius of buttons, in points.
-pub const ROUND: u8 = 4;
+pub const CORNER_RADIUS: u8 = 4;
 
 /// Width of the side panel at the right, in points.
 pub const PANEL_WIDTH: f32 = 284.0;
@@ -76,11 +76,11 @@ fn style() -> Style {
 fn visuals() -> Visuals {
     let mut visuals = Visuals::dark();
     visuals.widgets = Widgets {
-        noninteractive: look(PANEL, LINE, TEXT),
-        inactive: look(BUTTON, Color32::TRANSPARENT, TEXT),
-        hovered: look(Color32::from_gray(78), Color32::from_gray(120), STRONG),
-        active: look(Color32::from_gray(92), Color32::from_gray(160), Color32::WHITE),
-        open: look(Color32::from_gray(58), LINE, TEXT),
+        noninteractive: widget_visuals(PANEL, LINE, TEXT),
+        inactive: widget_visuals(BUTTON, Color32::TRANSPARENT, TEXT),
+        hovered: widget_visuals(Color32::from_gray(78), Color32::from_gray(120), STRONG),
+        active: widget_visuals(Color32::from_gray(92), Color32::from_gray(160), Color32::WHITE),
+        open: widget_visuals(Color32::from_gray(58), LINE, TEXT),
     };
     visuals.selection = Selection { bg_fill: CHOSEN, stroke: Stroke::new(1.0, Color32::WHITE) };
     visuals.hyperlink_color = STRONG;
@@ -94,7 +94,7 @@ fn visuals() -> Visuals {
     visuals.window_fill = Color32::from_gray(50);
     visuals.window_stroke = Stroke::new(1.0, Color32::from_gray(82));
     visuals.window_corner_radius = CornerRadius::same(6);
-    visuals.menu_corner_radius = CornerRadius::same(ROUND);
+    visuals.menu_corner_radius = CornerRadius::same(CORNER_RADIUS);
     visuals.slider_trailing_fill = true;
     visuals.text_cursor.stroke.color = STRONG;
     visuals.ime_composition.active_underline_stroke.color = STRONG;
@@ -102,13 +102,13 @@ fn visuals() -> Visuals {
     visuals
 }
 
-fn look(fill: Color32, edge: Color32, text: Color32) -> WidgetVisuals {
+fn widget_visuals(fill: Color32, edge: Color32, text: Color32) -> WidgetVisuals {
     WidgetVisuals {
         bg_fill: fill,
         weak_bg_fill: fill,
         bg_stroke: Stroke::new(1.0, edge),
         fg_stroke: Stroke::new(1.0, text),
-        corner_radius: CornerRadius::same(ROUND),
+        corner_radius: CornerRadius::same(CORNER_RADIUS),
         expansion: 0.0,
     }
 }

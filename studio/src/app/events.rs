@@ -49,7 +49,7 @@ impl Studio {
             // Handled by the files above.
             Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::Message { text, hint, failed } => {
-                self.show_message(text, hint.map(|hint| hint.to_string()), failed)
+                self.show_message(text, hint.map(|hint| hint.to_string()), failed);
             }
         }
     }

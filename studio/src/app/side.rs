@@ -162,7 +162,11 @@ fn tabs(ui: &mut Ui, all: &[Tab], mut chosen: Tab) -> Tab {
             let button = Button::new(RichText::new(tab.name()).size(12.0))
                 .fill(fill)
                 .selected(here)
-                .corner_radius(CornerRadius { sw: 0, se: 0, ..CornerRadius::same(theme::ROUND) });
+                .corner_radius(CornerRadius {
+                    sw: 0,
+                    se: 0,
+                    ..CornerRadius::same(theme::CORNER_RADIUS)
+                });
             if ui.add_sized(vec2(width, 24.0), button).on_hover_text(tab.description()).clicked() {
                 chosen = tab;
             }

@@ -74,7 +74,13 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
             (false, true) => visuals.bg_fill,
             (false, false) => theme::BAR,
         };
-        ui.painter().rect(rect, theme::ROUND, fill, Stroke::NONE, eframe::egui::StrokeKind::Inside);
+        ui.painter().rect(
+            rect,
+            theme::CORNER_RADIUS,
+            fill,
+            Stroke::NONE,
+            eframe::egui::StrokeKind::Inside,
+        );
         let color = if chosen { theme::STRONG } else { visuals.fg_stroke.color };
         icons::draw(ui.painter(), rect, intent, color);
         let response = response.on_hover_ui(|ui| tip(ui, entry)).on_disabled_hover_ui(|ui| {

@@ -174,7 +174,7 @@ impl NewPainting {
                 };
                 grid_row(ui, "Width", |ui| length(&mut self.width_mm, "Width of the canvas", ui));
                 grid_row(ui, "Height", |ui| {
-                    length(&mut self.height_mm, "Height of the canvas", ui)
+                    length(&mut self.height_mm, "Height of the canvas", ui);
                 });
                 grid_row(ui, "Cell", |ui| {
                     let drag = DragValue::new(&mut self.cell_mm).range(0.02..=2.0).speed(0.01);

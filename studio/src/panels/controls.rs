@@ -84,13 +84,13 @@ pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&
 pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
     let size = vec2(ui.available_width(), height);
     let (_, response) = ui.allocate_exact_size(size, Sense::click());
-    back(ui, &response, name, chosen);
+    button_background(ui, &response, name, chosen);
     response
 }
 
 /// Draws the background of a clickable area and gives it the accessible name of a
 /// button.
-pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
+pub(super) fn button_background(ui: &Ui, response: &Response, name: &str, chosen: bool) {
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, name));
     let fill = match (chosen, response.hovered() || response.has_focus()) {
@@ -100,7 +100,7 @@ pub(super) fn back(ui: &Ui, response: &Response, name: &str, chosen: bool) {
     };
     let edge = if response.has_focus() { theme::FAINT } else { Color32::TRANSPARENT };
     let edge = Stroke::new(1.0, edge);
-    ui.painter().rect(response.rect, theme::ROUND, fill, edge, StrokeKind::Inside);
+    ui.painter().rect(response.rect, theme::CORNER_RADIUS, fill, edge, StrokeKind::Inside);
 }
 
 /// Draws a patch of colour in sRGB; `None` is crossed out.

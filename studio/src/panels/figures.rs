@@ -44,7 +44,7 @@ pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backen
     let widest = lines.iter().map(|(_, value)| galley(value).size().x).fold(60.0, f32::max);
     let size = vec2(value_at + widest + 12.0, row * lines.len() as f32 + 10.0);
     let board = Rect::from_min_size(over.min + vec2(10.0, 10.0), size);
-    painter.rect_filled(board, theme::ROUND, Color32::from_black_alpha(190));
+    painter.rect_filled(board, theme::CORNER_RADIUS, Color32::from_black_alpha(190));
     for (index, (name, value)) in lines.iter().enumerate() {
         let place = board.min + vec2(8.0, 5.0 + row * index as f32);
         painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::FAINT);

@@ -50,9 +50,9 @@ impl History {
                 let response = row(ui, ROW, &format!("{index} {label}"), index == done);
                 let color = if index > done { theme::FAINT } else { theme::TEXT };
                 let inner = response.rect.shrink2(vec2(6.0, 0.0));
-                let (number, words) = inner.split_left_right_at_x(inner.left() + 34.0);
+                let (number, label_rect) = inner.split_left_right_at_x(inner.left() + 34.0);
                 text(ui, number, Align::Min, TextStyle::Small, theme::FAINT, &index.to_string());
-                text(ui, words, Align::Min, TextStyle::Body, color, label);
+                text(ui, label_rect, Align::Min, TextStyle::Body, color, label);
                 if response.clicked() && index != done {
                     clicked = Some(index);
                 }
@@ -98,9 +98,9 @@ fn memory(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let share = if allowed > 0 { used as f32 / allowed as f32 } else { 0.0 };
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        let words = format!("{:.0} MiB", used as f64 / MIB);
+        let used_text = format!("{:.0} MiB", used as f64 / MIB);
         let bar = ProgressBar::new(share).desired_width(ui.available_width() - 110.0);
-        let bar = bar.desired_height(14.0).fill(theme::CHOSEN).text(words);
+        let bar = bar.desired_height(14.0).fill(theme::CHOSEN).text(used_text);
         ui.add(bar).accessible_name("Memory of undo").on_hover_text(
             "Memory used by undo. When it is full, the oldest actions can no longer be undone.",
         );

@@ -46,8 +46,8 @@ fn row(ui: &mut Ui, cx: &mut PanelContext<'_>, listed: &ListedRevision, now: Sys
         }
         ui.with_layout(Layout::top_down(Align::Min), |ui| {
             ui.label(format!("Revision {number}"));
-            let kept = revision.kept.map(|kept| ago(kept, now)).unwrap_or_default();
-            let details = format!("{kept}, {}", size(revision.bytes));
+            let age = revision.kept.map(|kept| ago(kept, now)).unwrap_or_default();
+            let details = format!("{age}, {}", size(revision.bytes));
             ui.label(RichText::new(details).weak().small());
             ui.horizontal(|ui| {
                 let open = ui.button(format!("Open {number}"));

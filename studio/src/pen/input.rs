@@ -229,7 +229,7 @@ impl Pen {
                 }
             }
             ReportKind::Barrel { button, pressed } => {
-                events.push(PenEvent::Barrel { button, pressed })
+                events.push(PenEvent::Barrel { button, pressed });
             }
         }
     }

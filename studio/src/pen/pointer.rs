@@ -93,7 +93,7 @@ impl Pointer {
             // egui moves its pointer with the finger too.
             _ if !self.fingers.is_empty() => {}
             Event::PointerMoved(at) => {
-                report(Device::Mouse, ReportKind::Moved(PointerState::at(at)))
+                report(Device::Mouse, ReportKind::Moved(PointerState::at(at)));
             }
             Event::PointerButton { pos, button: PointerButton::Primary, pressed, .. } => {
                 let kind = if pressed {

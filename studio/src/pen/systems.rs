@@ -81,10 +81,10 @@ impl Systems {
     /// styluses, pointer events are added to `input`, so that a stylus can press buttons of
     /// the window.
     pub(super) fn reports(&mut self, egui: &Context, input: &mut RawInput) -> Vec<Report> {
-        let mut told = Vec::new();
+        let mut all_reports = Vec::new();
         #[cfg(target_os = "linux")]
         if let Some(x11) = &mut self.x11 {
-            told.extend(x11.reports(egui.pixels_per_point()));
+            all_reports.extend(x11.reports(egui.pixels_per_point()));
         }
         if let Some(tablet) = &mut self.tablet {
             let reports = tablet.reports(egui.zoom_factor(), Instant::now());
@@ -92,9 +92,9 @@ impl Systems {
                 let modifiers = egui.input(|input| input.modifiers);
                 emulate_pointer(&reports, modifiers, &mut self.pointer, input);
             }
-            told.extend(reports);
+            all_reports.extend(reports);
         }
-        told
+        all_reports
     }
 
     /// Time after which the window must poll again although no event wakes it; `near` while

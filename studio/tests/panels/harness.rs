@@ -89,7 +89,7 @@ impl Window {
                         let preferences = Preferences::default();
                         let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
                         let pen = Pen::new(PenSettings::default());
-                        let parts = Parts { worker: worker, pen, files, open: None, log: None };
+                        let parts = Parts { worker, pen, files, open: None, log: None };
                         Studio::new(ui.ctx(), parts)
                     });
                     studio.logic(ui.ctx());

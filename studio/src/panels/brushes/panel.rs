@@ -8,7 +8,7 @@ use super::head;
 use super::list::{BrushList, SIZES_MM};
 use super::paint::{is_loaded, load_medium, wash, wipe};
 use super::row::Row;
-use crate::panels::controls::{NAME_WIDTH, back, button, item, percent, slider};
+use crate::panels::controls::{NAME_WIDTH, button, button_background, item, percent, slider};
 use crate::panels::{PanelContext, tubes};
 
 /// State of the brush panel: the brush list, and the head and paint of the selected
@@ -62,7 +62,7 @@ impl Brushes {
     /// Head of the selected brush, including a requested change that is not confirmed
     /// yet.
     #[must_use]
-    pub fn in_hand(&self, cx: &PanelContext<'_>) -> Option<BrushSpec> {
+    pub fn selected(&self, cx: &PanelContext<'_>) -> Option<BrushSpec> {
         self.list.spec(cx.painting, &cx.tools.brush)
     }
 
@@ -113,8 +113,8 @@ impl Brushes {
         let brush = &self.list.brushes[index];
         let spec = self.list.spec(cx.painting, &brush.name)?;
         let state = cx.painting.brushes.iter().find(|state| state.name == brush.name);
-        let in_hand = cx.tools.brush == brush.name;
-        let shown = Row { number: index + 1, label: &brush.label, spec: &spec, state, in_hand };
+        let is_selected = cx.tools.brush == brush.name;
+        let shown = Row { number: index + 1, label: &brush.label, spec: &spec, state, is_selected };
         let response = shown.show(ui, cx.painting);
         let mut request = response.clicked().then_some(ListRequest::Select(index));
         response.context_menu(|ui| {
@@ -149,7 +149,7 @@ impl Brushes {
     }
 
     fn add(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let size_mm = self.in_hand(cx).map_or(6.0, |spec| spec.size_mm);
+        let size_mm = self.selected(cx).map_or(6.0, |spec| spec.size_mm);
         for shape in HeadShape::ALL {
             if item(ui, shape.name(), "With the size of the selected brush", None) {
                 self.list.add(shape.name(), BrushSpec { shape, size_mm }, cx);
@@ -158,7 +158,7 @@ impl Brushes {
     }
 
     fn head(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let Some(spec) = self.in_hand(cx) else {
+        let Some(spec) = self.selected(cx) else {
             ui.weak("no brush is selected");
             return;
         };
@@ -168,7 +168,7 @@ impl Brushes {
             for shape in HeadShape::ALL {
                 let size = vec2(width, 44.0);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-                back(ui, &response, &format!("shape {shape}"), shape == spec.shape);
+                button_background(ui, &response, &format!("shape {shape}"), shape == spec.shape);
                 head::draw(ui.painter(), rect.shrink(3.0), shape, None);
                 if response.clicked() {
                     self.list.replace_head(BrushSpec { shape, ..spec.clone() }, cx);
@@ -197,7 +197,7 @@ impl Brushes {
     }
 
     fn paint(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let none = self.in_hand(cx).is_none().then_some("no brush is selected");
+        let none = self.selected(cx).is_none().then_some("no brush is selected");
         let height = Slider::new(&mut cx.tools.load_mm, 0.02..=2.0).logarithmic(true);
         let tip = "Height of paint that one load adds to the head";
         slider(ui, "Load", tip, height.fixed_decimals(2).suffix(" mm"));

@@ -20,18 +20,18 @@ pub(super) struct Row<'a> {
     pub(super) label: &'a str,
     pub(super) spec: &'a BrushSpec,
     pub(super) state: Option<&'a BrushState>,
-    pub(super) in_hand: bool,
+    pub(super) is_selected: bool,
 }
 
 impl Row<'_> {
     /// Draws the row, which can be clicked.
     pub(super) fn show(&self, ui: &mut Ui, painting: &PaintingState) -> Response {
-        let response = row(ui, HEIGHT, self.label, self.in_hand);
+        let response = row(ui, HEIGHT, self.label, self.is_selected);
         let inner = response.rect.shrink2(vec2(6.0, 3.0));
         let between = |left: f32, right: f32| {
             Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
         };
-        let faint = if self.in_hand { theme::TEXT } else { theme::FAINT };
+        let faint = if self.is_selected { theme::TEXT } else { theme::FAINT };
         if self.number <= 9 {
             let key = between(inner.left(), inner.left() + 12.0);
             let number = self.number.to_string();

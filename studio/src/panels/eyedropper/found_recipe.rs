@@ -105,11 +105,11 @@ impl FoundRecipe<'_> {
         name: &str,
         amount: f64,
     ) {
-        let is_there = cx.painting.slots.contains(&Some(pigment));
+        let is_on_palette = cx.painting.slots.contains(&Some(pigment));
         ui.horizontal(|ui| {
             ui.monospace(format!("{amount:>2}"));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if !is_there {
+                if !is_on_palette {
                     self.add_button(ui, cx, pigment);
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
@@ -157,21 +157,22 @@ impl FoundRecipe<'_> {
     /// replace if the palette is full.
     fn add_button(&self, ui: &mut Ui, cx: &mut PanelContext<'_>, pigment: usize) {
         let name = &self.library.pigments[pigment].name;
-        let on: Vec<usize> = cx.painting.slots.iter().copied().flatten().collect();
-        if on.len() < SLOTS {
+        let on_palette: Vec<usize> = cx.painting.slots.iter().copied().flatten().collect();
+        if on_palette.len() < SLOTS {
             let add = ui.small_button("Add").accessible_name(format!("Add {name}"));
             let hover = format!("{name} is not on the palette. Click to put a tube of it there");
             if add.on_hover_text(hover).clicked() {
-                self.set_palette(cx, on.iter().copied().chain([pigment]));
+                self.set_palette(cx, on_palette.iter().copied().chain([pigment]));
             }
             return;
         }
         let menu = ui.menu_button("For\u{2026}", |ui| {
-            for &other in on.iter().filter(|&&other| !self.uses(other)) {
+            for &other in on_palette.iter().filter(|&&other| !self.uses(other)) {
                 let line = ui.button(&self.library.pigments[other].name);
                 let hover = "Replaces it, unless wet paint of it is left";
                 if line.on_hover_text(hover).clicked() {
-                    let all = on.iter().map(|&one| if one == other { pigment } else { one });
+                    let all =
+                        on_palette.iter().map(|&one| if one == other { pigment } else { one });
                     self.set_palette(cx, all);
                     ui.close();
                 }

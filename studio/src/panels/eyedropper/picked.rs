@@ -38,7 +38,7 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
             layer(ui, cx, &layer_name(index, wet), paint);
         }
     }
-    let mut wanted = false;
+    let mut recipes_requested = false;
     ui.horizontal(|ui| {
         let has_wet = paints.last().is_some_and(Option::is_some);
         let load = ui.add_enabled(has_wet, Button::new("Load the brush"));
@@ -53,9 +53,10 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
             });
         }
         let find = ui.button("Find recipes");
-        wanted = find.on_hover_text("Searches recipes for the colour of this place").clicked();
+        recipes_requested =
+            find.on_hover_text("Searches recipes for the colour of this place").clicked();
     });
-    wanted
+    recipes_requested
 }
 
 fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {

@@ -2,13 +2,13 @@
 
 use eframe::egui::{Pos2, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-use crate::panels::controls::back;
+use crate::panels::controls::button_background;
 use crate::theme;
 
 /// Adds a clickable eye icon, open if the layer is `visible`.
 pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
-    back(ui, &response, name, false);
+    button_background(ui, &response, name, false);
     let lens = Rect::from_center_size(rect.center(), vec2(16.0, 10.0));
     let color = if visible { theme::STRONG } else { theme::FAINT };
     let line = Stroke::new(1.5, color);

@@ -14,7 +14,7 @@ use crate::theme;
 /// State of the layer panel.
 #[derive(Debug, Clone, Default)]
 pub struct Layers {
-    known: CatalogueCache,
+    catalogue: CatalogueCache,
     exchange: Exchange,
     opacity: Opacity,
     thumbnails: Thumbnails,
@@ -29,7 +29,7 @@ pub fn dry(cx: &mut PanelContext<'_>) {
 impl Layers {
     /// Draws the panel: drying, the wet layer, then dry layers from the top down.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let catalogue = self.known.of(cx.painting);
+        let catalogue = self.catalogue.get(cx.painting);
         drying(ui, cx);
         self.wet(ui, &catalogue, cx);
         for layer in (0..cx.painting.layers.len()).rev() {
@@ -150,7 +150,7 @@ fn pigments(ui: &mut Ui, catalogue: &Catalogue, slots: &Slots) {
 }
 
 fn group(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
-    let frame = Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(theme::ROUND);
+    let frame = Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(theme::CORNER_RADIUS);
     frame.inner_margin(Margin::same(6)).show(ui, |ui| {
         ui.set_width(ui.available_width());
         content(ui);

@@ -46,7 +46,7 @@ impl Direction {
         let elevation_deg = out.min(1.0).acos().to_degrees().max(LOWEST_DEG);
         let turned = x.atan2(-y).rem_euclid(TAU).to_degrees();
         let azimuth_deg = if out < 1e-3 { self.azimuth_deg } else { turned };
-        Self { azimuth_deg: whole(azimuth_deg) % 360.0, elevation_deg: whole(elevation_deg) }
+        Self { azimuth_deg: rounded(azimuth_deg) % 360.0, elevation_deg: rounded(elevation_deg) }
     }
 
     /// Direction after a number of arrow key steps.
@@ -58,7 +58,7 @@ impl Direction {
 }
 
 /// Rounds to a tenth of a degree.
-fn whole(degrees: f64) -> f64 {
+fn rounded(degrees: f64) -> f64 {
     (degrees * 10.0).round() / 10.0
 }
 

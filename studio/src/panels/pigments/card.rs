@@ -81,17 +81,17 @@ mod tests {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);
-        let told = |name: &str| lines(&catalogue, library.find(name).unwrap().index(), 50.0);
+        let text = |name: &str| lines(&catalogue, library.find(name).unwrap().index(), 50.0);
 
         let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
         let white = library.find("Zinc White").unwrap();
         let strengths = hiding_powers(&palette.unwrap());
         let own = strengths.iter().find(|power| power.paint == white).unwrap();
         let mm = own.hides.thickness().unwrap() / 50.0;
-        assert_eq!(told("Zinc White"), [format!("hides from {}", millimetres(mm))]);
-        let blue = told("Prussian Blue");
+        assert_eq!(card_lines("Zinc White"), [format!("hides from {}", millimetres(mm))]);
+        let blue = card_lines("Prussian Blue");
         assert!(blue[1].starts_with("tinting strength "), "{blue:?}");
-        let unknown = told("Chrome Yellow (poppyseed)");
+        let unknown = card_lines("Chrome Yellow (poppyseed)");
         assert_eq!(unknown[0], "hiding power not known");
         assert!(unknown[1].contains("not identified"), "{unknown:?}");
     }

@@ -124,7 +124,7 @@ pub(in crate::panels) struct CatalogueCache(Option<Arc<Catalogue>>);
 
 impl CatalogueCache {
     /// Returns the catalogue, recomputed if library or light have changed.
-    pub(in crate::panels) fn of(&mut self, painting: &PaintingState) -> Arc<Catalogue> {
+    pub(in crate::panels) fn get(&mut self, painting: &PaintingState) -> Arc<Catalogue> {
         self.under(&painting.library, &painting.light)
     }
 

@@ -4,7 +4,7 @@ use eframe::egui::{Align, Context, Sense, TextStyle, Ui, Window, vec2};
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, PaletteSpec};
 
-use crate::panels::controls::{back, button, patch, text};
+use crate::panels::controls::{button, button_background, patch, text};
 use crate::panels::pigments::{Catalogue, PigmentList};
 use crate::panels::{FileRequest, PanelContext};
 use crate::theme;
@@ -80,7 +80,7 @@ impl Chooser {
 
     fn slot(&mut self, ui: &mut Ui, catalogue: &Catalogue, held: Option<usize>, slot: usize) {
         let (rect, response) = ui.allocate_exact_size(vec2(42.0, 42.0), Sense::click());
-        back(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
+        button_background(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
         let (upper, lower) = rect.shrink(5.0).split_top_bottom_at_fraction(0.6);
         let color = held.map(|pigment| catalogue.colors(pigment).masstone_srgb);
         patch(ui.painter(), upper, color);

@@ -8,14 +8,14 @@ use render::layer::SLOTS;
 use super::chooser::Chooser;
 use super::squeeze::{DraggedTube, load};
 use super::tube;
-use crate::panels::controls::{back, button, item, slider};
+use crate::panels::controls::{button, button_background, item, slider};
 use crate::panels::pigments::{Catalogue, CatalogueCache, Exchange, ExchangeScope, card};
 use crate::panels::{Mode, PanelContext};
 
 /// State of the tube panel.
 #[derive(Debug, Clone, Default)]
 pub struct Tubes {
-    known: CatalogueCache,
+    catalogue: CatalogueCache,
     chooser: Chooser,
     exchange: Exchange,
 }
@@ -23,7 +23,7 @@ pub struct Tubes {
 impl Tubes {
     /// Draws the panel, with as many tubes in a row as fit.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let catalogue = self.known.of(cx.painting);
+        let catalogue = self.catalogue.get(cx.painting);
         let area = ui.available_width() + 2.0;
         let per_row = ((area / (tube::TUBE_SIZE.x + 2.0)) as usize).clamp(1, SLOTS);
         // Rows of equal length: 4 and 4 instead of 5 and 3.
@@ -53,7 +53,7 @@ impl Tubes {
     fn tube(&mut self, ui: &mut Ui, catalogue: &Catalogue, cx: &mut PanelContext<'_>, slot: usize) {
         let (rect, response) = ui.allocate_exact_size(tube::TUBE_SIZE, Sense::click_and_drag());
         let Some(pigment) = cx.painting.slots[slot] else {
-            back(ui, &response, &format!("empty slot {}", slot + 1), false);
+            button_background(ui, &response, &format!("empty slot {}", slot + 1), false);
             tube::draw_empty(ui, rect);
             if response.clicked() {
                 self.chooser.open(slot);
@@ -62,7 +62,7 @@ impl Tubes {
             return;
         };
         let name = catalogue.name(pigment);
-        back(ui, &response, &format!("tube of {name}"), slot == cx.tools.tube);
+        button_background(ui, &response, &format!("tube of {name}"), slot == cx.tools.tube);
         let (masstone, tint) = (cx.painting.masstones[slot], cx.painting.tints[slot]);
         tube::draw(ui, rect, masstone, tint, name);
         response.dnd_set_drag_payload(DraggedTube { slot });

@@ -60,7 +60,7 @@ impl Studio {
                 Event::Opened(state) | Event::State(state) => self.painting = Some(state),
                 Event::Recording { number, .. } => self.answered = number,
                 Event::Message { text, hint, .. } => {
-                    self.messages.push((text, hint.map(|hint| hint.to_string())))
+                    self.messages.push((text, hint.map(|hint| hint.to_string())));
                 }
                 _ => {}
             }
