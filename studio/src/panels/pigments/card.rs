@@ -81,7 +81,7 @@ mod tests {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);
-        let text = |name: &str| lines(&catalogue, library.find(name).unwrap().index(), 50.0);
+        let card_lines = |name: &str| lines(&catalogue, library.find(name).unwrap().index(), 50.0);
 
         let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
         let white = library.find("Zinc White").unwrap();
