@@ -22,7 +22,7 @@ use render::paint::ground::GroundError;
 use render::paint::painting::PaintingError;
 use render::paint::session::SessionError;
 use render::paint::strokes::{ScriptError, ScriptStartError};
-use render::photograph::{PhotographError, SeparationError};
+use render::photograph::{PhotographError, SeparationError, StrokePainterError};
 use render::watercolor::{
     GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
 };
@@ -129,6 +129,7 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<GroundError>,
         as_explained::<SeparationError>,
         as_explained::<PaintingExportError>,
+        as_explained::<StrokePainterError>,
     ];
     known.into_iter().find_map(|known| known(cause))
 }

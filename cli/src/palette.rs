@@ -2,27 +2,23 @@
 
 use calibrate::library::PigmentLibrary;
 use render::paint::document::Slots;
+use render::paint::palette::{PaletteError, palette_slots};
+use spectra::hint::Explain;
 
-use crate::failure::Refusal;
+use crate::failure::{Refusal, flags};
 
-/// The pigments of a palette, each once.
+/// Slots of the pigments of `--palette`.
 pub(crate) fn palette(names: &[String], library: &PigmentLibrary) -> anyhow::Result<Slots> {
-    let mut slots = Slots::default();
-    if names.len() > slots.len() {
-        return Err(Refusal::usage(
-            format!("a palette has at most 8 pigments, found `{}`", names.len()),
-            "leave --palette out to have the best eight chosen",
-        ));
-    }
-    for (place, name) in names.iter().enumerate() {
-        let index = library.find(name)?.index();
-        if slots.contains(&Some(index)) {
-            return Err(Refusal::usage(
-                format!("--palette takes each pigment once, found `{name}` again"),
-                "leave the second out",
-            ));
+    palette_slots(names, library).map_err(palette_refusal)
+}
+
+/// An unknown pigment is an error of the data; another error is one of the option.
+pub(crate) fn palette_refusal(error: PaletteError) -> anyhow::Error {
+    match error {
+        PaletteError::Pigment(error) => error.into(),
+        error => {
+            let hint = error.hint().map(|hint| flags(&hint)).unwrap_or_default();
+            Refusal::usage(error.to_string(), hint)
         }
-        slots[place] = Some(index);
     }
-    Ok(slots)
 }

@@ -28,8 +28,6 @@ mod report;
 
 mod demo;
 
-mod separated;
-
 mod paint_photograph;
 
 mod paint;

@@ -39,6 +39,8 @@ pub mod document;
 
 pub mod canvas;
 
+pub mod palette;
+
 pub mod separation;
 
 pub mod brush;

@@ -1,84 +1,84 @@
-//! A photograph painted: level by level the strokes that what stands on the
-//! canvas still wants.
+//! Painting of a target picture: for each brush, coarse to fine, strokes where the canvas
+//! still differs.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use super::laydown::{Laydown, to_and_fro};
+use super::deposit_curve::{DepositCurve, repeated_path};
 use super::plan::Plan;
-use super::planned::{PlannedStroke, SIGHT, plan_layer};
+use super::planned::{BLUR_SIZES, PlannedStroke, plan_layer};
 use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::brush::HeadShape;
 use paint::painting::{Painting, PaintingError};
-use paint::separation::ColorErrors;
-use paint::separation::Separation;
+use paint::separation::{ColorErrors, Separation};
 use paint::session::{PaintingSession, ReplayError, ReplayReport};
 use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, SurfaceId};
+use spectra::hint::{Explain, Fault, Hint};
 
-/// Brushes below this width in mm are rounds, those from it on filberts.
+/// Brushes below this width in mm are rounds, others filberts (chosen by eye).
 const ROUND_BELOW_MM: f64 = 3.0;
-/// Parts of a pigment below this, of all parts 1, are left out of a recipe; strong
-/// blues tint a white well below a thousandth.
+/// Pigments with a smaller share than this are left out of a recipe. Strong blues tint a
+/// white well below a thousandth.
 const LEAST_PART: f64 = 1e-6;
-/// How often a level looks at what stands and paints what is off.
+/// Times that each brush compares the canvas with the target and paints the difference.
 const ROUNDS: u64 = 2;
 
-/// What a photograph is painted after.
+/// Paints a target picture on a bare canvas in strokes. [`super::StrokePainter`] sets all
+/// of it up for a photograph.
 #[derive(Debug, Clone, Copy)]
 pub struct Painter<'a> {
-    /// What is wanted, in tones that paint reaches (see
-    /// [`super::black_compensated`]); a colour for every cell of the canvas.
+    /// Picture to paint, one colour per cell of the canvas, in tones that paint reaches (see
+    /// [`super::black_compensated`]).
     pub target: &'a Picture,
-    /// The palette's films.
+    /// Films of the palette that come nearest to each colour.
     pub separation: &'a Separation,
-    /// How it is painted.
+    /// Brushes, and rules for their strokes.
     pub plan: &'a Plan,
 }
 
-/// What one level did.
+/// Report of the strokes of one brush.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct LevelReport {
-    /// The shape of its brush.
+    /// Shape of the brush.
     pub shape: HeadShape,
-    /// The brush's width in mm.
+    /// Width of the brush in mm.
     pub size_mm: f64,
-    /// Strokes laid.
+    /// Number of strokes painted.
     pub strokes: u64,
-    /// Sub-steps of them.
+    /// Number of sub-steps of these strokes.
     pub substeps: u64,
-    /// Mean CIEDE2000 of the whole picture afterwards, as the level's brush sees
-    /// it.
+    /// Mean CIEDE2000 of the whole picture afterwards, at the scale of the brush (see
+    /// [`Painter::blur_cells`]).
     pub mean_error: f64,
 }
 
-/// How far a painter has come.
+/// Progress of a painter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Painted {
-    /// So many more strokes are to come.
+pub enum PaintProgress {
+    /// This many strokes have been planned beside those before.
     Planned(usize),
-    /// A stroke was laid.
+    /// One stroke has been painted.
     Stroke,
 }
 
 impl Painter<'_> {
-    /// Paints on the canvas of `session`, which is bare and that of `script`; what
-    /// is done is added to the script, whose file gives the same painting, bit
-    /// for bit.
+    /// Paints on the bare canvas of `session`, which `script` describes. All actions are
+    /// added to the script, which then gives the same painting bit for bit. `progress` is
+    /// called when strokes have been planned, and after each stroke.
     ///
     /// # Errors
-    /// [`PainterError`] for brushes that do not suit the canvas, or if the device
-    /// was lost.
+    /// [`PainterError`] for brushes that do not suit the canvas, or if the device was lost.
     ///
     /// # Panics
-    /// If the target has not the canvas's size, or the plan fails [`Plan::check`].
+    /// If the target and the canvas differ in size, or the plan fails [`Plan::check`].
     pub fn paint(
         &self,
         session: &mut PaintingSession,
         script: &mut StrokeScript,
-        mut told: impl FnMut(Painted),
+        mut progress: impl FnMut(PaintProgress),
     ) -> Result<Vec<LevelReport>, PainterError> {
         let mut reports = Vec::with_capacity(self.plan.sizes_mm.len());
         for (level, &size_mm) in self.plan.sizes_mm.iter().enumerate() {
@@ -90,31 +90,31 @@ impl Painter<'_> {
                 substeps: 0,
                 mean_error: 0.0,
             };
-            let mut laydown = None;
+            let mut curve = None;
             for round in 0..ROUNDS {
                 let planned = self.planned(session.canvas_mut(), level, round)?;
                 if planned.is_empty() {
                     break;
                 }
-                told(Painted::Planned(planned.len()));
-                let laydown = match &laydown {
-                    Some(laydown) => laydown,
-                    None => laydown.insert(self.tried(session.canvas(), &brush, &planned)?),
+                progress(PaintProgress::Planned(planned.len()));
+                let curve = match &curve {
+                    Some(curve) => curve,
+                    None => curve.insert(self.measured(session.canvas(), &brush, &planned)?),
                 };
-                let done = round_of(script, level, &brush, &planned, laydown);
-                let played = play(done, session, script, &mut told)?;
+                let round = round_script(script, level, &brush, &planned, curve);
+                let played = play(round, session, script, &mut progress)?;
                 report.strokes += played.strokes;
                 report.substeps += played.substeps;
             }
-            let sight = SIGHT * size_mm / session.canvas().cell_mm();
-            report.mean_error = self.errors(session.canvas_mut(), sight)?.mean;
+            let blur_cells = Self::blur_cells(size_mm, session.canvas().cell_mm());
+            report.mean_error = self.errors(session.canvas_mut(), blur_cells)?.mean;
             reports.push(report);
         }
         Ok(reports)
     }
 
-    /// The colour error of what stands on the canvas, both pictures blurred by
-    /// a Gaussian of `blur_cells`: 0 for cell by cell.
+    /// Colour error of the canvas against the target, both blurred by a Gaussian with
+    /// standard deviation `blur_cells`; 0 compares cell by cell.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -128,12 +128,14 @@ impl Painter<'_> {
         Ok(ColorErrors::between(self.separation, &wanted, &painted))
     }
 
-    /// The blur, in cells, through which a brush of `size_mm` sees.
+    /// Standard deviation in cells of the blur at which pictures are compared for a brush of
+    /// `size_mm`.
     #[must_use]
-    pub fn sight_cells(size_mm: f64, cell_mm: f64) -> f64 {
-        SIGHT * size_mm / cell_mm
+    pub fn blur_cells(size_mm: f64, cell_mm: f64) -> f64 {
+        BLUR_SIZES * size_mm / cell_mm
     }
 
+    /// Strokes of one round with the brush of `level`.
     fn planned(
         &self,
         painting: &mut Painting,
@@ -146,36 +148,37 @@ impl Painter<'_> {
         Ok(plan_layer(self.target, &current, self.separation, &plan, level, cell_mm))
     }
 
-    fn tried(
+    /// Heights that the brush lays, measured up to the greatest of the planned strokes.
+    fn measured(
         &self,
         painting: &Painting,
         brush: &BrushSpec,
         planned: &[PlannedStroke],
-    ) -> Result<Laydown, PaintingError> {
+    ) -> Result<DepositCurve, PaintingError> {
         let most_mm = planned.iter().map(|stroke| stroke.height_mm).fold(0.0, f64::max);
-        Laydown::tried(brush.shape, brush.size_mm, painting.cell_mm(), self.plan, most_mm)
+        DepositCurve::measure(brush.shape, brush.size_mm, painting.cell_mm(), self.plan, most_mm)
     }
 }
 
-/// The shape of the brush of a width.
+/// Shape of a brush of this width.
 fn shape(size_mm: f64) -> HeadShape {
     if size_mm < ROUND_BELOW_MM { HeadShape::Round } else { HeadShape::Filbert }
 }
 
-/// The colours that stand on the canvas, without relief and gloss.
+/// Colours of the canvas without relief and gloss.
 fn colors(painting: &mut Painting) -> Result<Picture, PaintingError> {
     let flat = painting.flat_picture()?;
     let colors = flat.values().iter().map(|&[red, green, blue, _]| [red, green, blue]);
     Ok(Field::from_values(flat.width(), flat.height(), colors.collect()))
 }
 
-/// A script of one round alone.
-fn round_of(
+/// Script of one round of one brush.
+fn round_script(
     script: &StrokeScript,
     level: usize,
     spec: &BrushSpec,
     planned: &[PlannedStroke],
-    laydown: &Laydown,
+    curve: &DepositCurve,
 ) -> StrokeScript {
     let mut round = StrokeScript::new(
         &script.title,
@@ -186,20 +189,20 @@ fn round_of(
     let brush = format!("{}-{}", level + 1, spec.shape);
     for stroke in planned {
         let length = stroke.amount_mm / stroke.height_mm - 1.0;
-        let touch = laydown.touch(stroke.height_mm, length);
+        let load = curve.load_for_stroke(stroke.height_mm, length);
         let used = stroke.recipe.iter().zip(&script.palette.pigments);
         let recipe: Recipe = used
             .filter(|(part, _)| **part >= LEAST_PART)
             .map(|(part, (_, name))| (name.clone(), *part))
             .collect();
-        let samples = to_and_fro(&stroke.samples, touch.passes);
+        let samples = repeated_path(&stroke.samples, load.passes);
         round.actions.extend([
             Action::Wash { brush: brush.clone() },
             Action::Load(Load {
                 brush: brush.clone(),
                 recipe,
                 vehicle: 0.0,
-                amount_mm: touch.load_mm,
+                amount_mm: load.load_mm,
             }),
             Action::Stroke(Stroke { brush: brush.clone(), on: SurfaceId::Canvas, samples }),
         ]);
@@ -209,17 +212,17 @@ fn round_of(
     round
 }
 
-/// Plays a round and adds it to the script.
+/// Plays the script of a round and adds its actions to `script`.
 fn play(
     round: StrokeScript,
     session: &mut PaintingSession,
     script: &mut StrokeScript,
-    told: &mut impl FnMut(Painted),
+    progress: &mut impl FnMut(PaintProgress),
 ) -> Result<ReplayReport, PainterError> {
     let mut kinds = round.actions.iter().map(Action::kind);
     let step = || {
         if kinds.next() == Some("stroke") {
-            told(Painted::Stroke);
+            progress(PaintProgress::Stroke);
         }
         ControlFlow::Continue(())
     };
@@ -229,13 +232,34 @@ fn play(
     Ok(report)
 }
 
-/// Why a photograph could not be painted.
+/// A photograph cannot be painted.
 #[derive(Debug, thiserror::Error)]
 pub enum PainterError {
-    /// The painting refuses.
+    /// The canvas cannot be seen, or the brush cannot be measured.
     #[error("the painting could not go on")]
     Painting(#[from] PaintingError),
-    /// A stroke that the painting refuses.
+    /// A stroke cannot be painted.
     #[error("a stroke could not be painted")]
     Stroke(#[from] ReplayError<Infallible>),
+}
+
+impl PainterError {
+    fn cause(&self) -> &dyn Explain {
+        match self {
+            Self::Painting(error) => error,
+            Self::Stroke(ReplayError::Script(error)) => error,
+            Self::Stroke(ReplayError::Action { error, .. }) => error,
+            Self::Stroke(ReplayError::Save { error, .. }) => match *error {},
+        }
+    }
+}
+
+impl Explain for PainterError {
+    fn hint(&self) -> Option<Hint> {
+        self.cause().hint()
+    }
+
+    fn fault(&self) -> Fault {
+        self.cause().fault()
+    }
 }

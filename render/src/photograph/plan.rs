@@ -1,55 +1,56 @@
-//! How a photograph is painted: brushes from coarse to fine, and their strokes.
+//! Plan for painting a photograph: brushes from coarse to fine, and rules for strokes.
 
 use serde::{Deserialize, Serialize};
 
-/// In which order the strokes of one level are laid.
+/// Order of the strokes of one brush.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
-    /// Shuffled by the seed.
+    /// Random order, from the seed.
     #[default]
     Shuffled,
-    /// Dark before light, as oil painters do; shuffled among equals of lightness
-    /// (to 5 units of L*).
+    /// Dark before light, like oil painters; random among strokes within the same 5 units
+    /// of L*.
     DarkToLight,
 }
 
-/// How a photograph is painted. Lengths are in sizes of the level's brush.
+/// Plan for painting a photograph, one level per brush. Lengths without a unit are in widths
+/// of the level's brush.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plan {
-    /// The brush of each level: its width in mm, coarse to fine.
+    /// Width of the brush of each level in mm, coarse to fine; 0.05 to 1000.
     pub sizes_mm: Vec<f64>,
-    /// The difference in CIELAB (CIE 1976) from which a place is painted (over).
-    /// Lower paints more strokes.
+    /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0 to 200. Less takes
+    /// more strokes.
     pub tolerance: f64,
-    /// How far, in CIELAB, the picture may depart from a stroke's colour along
-    /// the stroke.
+    /// Greatest difference in CIELAB (CIE 1976), 0 to 1000, between a stroke's colour and the
+    /// picture along the stroke.
     pub departure: f64,
-    /// The least length of a stroke.
+    /// Least length of a stroke in brush widths, 0 to 1000.
     pub shortest: f64,
-    /// The greatest length.
+    /// Greatest length of a stroke in brush widths, `shortest` to 1000.
     pub longest: f64,
-    /// Sides of the squares in each of which a stroke may begin.
+    /// Side of the squares in each of which one stroke may begin, in brush widths, 0.1 to 100.
     pub spacing: f64,
-    /// From 0, straight strokes, to 1, strokes that follow every turn.
+    /// Curvature of strokes: 0 straight, 1 along the structure of the picture.
     pub bending: f64,
-    /// The most strokes of a level; those where the difference is largest are kept.
+    /// Most strokes of a level. Those with the largest difference are kept.
     pub most_strokes: usize,
-    /// Pressure in the middle of a stroke, 0..1.
+    /// Pressure of the brush in the middle of a stroke, 0..1.
     pub pressure: f64,
-    /// Pressure at both ends, as a share of that.
+    /// Pressure at both ends of a stroke relative to its middle, 0..1.
     pub ends: f64,
-    /// How fast the brush moves, in its sizes a second.
+    /// Speed of the brush in brush widths per second, 0.001 to 1e6.
     pub speed: f64,
-    /// The order within a level.
+    /// Order of the strokes of a level.
     pub order: Order,
-    /// Of everything drawn by lot.
+    /// Seed of all random choices.
     pub seed: u64,
 }
 
 impl Default for Plan {
-    /// For a painting some 200 mm wide.
+    /// Plan for a painting about 200 mm wide.
     fn default() -> Self {
         Self {
             sizes_mm: vec![16.0, 8.0, 4.0, 2.0, 1.0],
@@ -70,7 +71,7 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// The default, its brushes in proportion to a canvas of this width.
+    /// The default plan with brushes in proportion to a canvas of this width in mm.
     #[must_use]
     pub fn for_width(width_mm: f64) -> Self {
         let plan = Self::default();
@@ -78,10 +79,10 @@ impl Plan {
         Self { sizes_mm, ..plan }
     }
 
-    /// Whether every number can be used.
+    /// Checks the ranges of all numbers.
     ///
     /// # Errors
-    /// [`PlanError`] naming the first that cannot.
+    /// [`PlanError`] for the first number out of range, and for a plan without brushes.
     pub fn check(&self) -> Result<(), PlanError> {
         let fault = |field, value, wanted| Err(PlanError::Number { field, value, wanted });
         if self.sizes_mm.is_empty() {
@@ -109,20 +110,20 @@ impl Plan {
     }
 }
 
-/// A plan that cannot be carried out.
+/// The numbers of a plan are invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
-    /// No level.
+    /// The plan has no brush.
     #[error("a plan has at least one brush size, found `0`")]
     NoBrush,
-    /// A number out of range.
+    /// A number is out of its range.
     #[error("{field} is {wanted}, found `{value}`")]
     Number {
-        /// Its name.
+        /// Name of the field.
         field: &'static str,
-        /// What was given.
+        /// Value found.
         value: f64,
-        /// What can be used.
+        /// Range of the field, for people.
         wanted: &'static str,
     },
 }

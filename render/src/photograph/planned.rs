@@ -1,9 +1,8 @@
-//! The strokes of one level: where the painting is off, in the colour wanted
-//! there, along the picture's structure.
+//! Strokes of one level: where the canvas differs from the target, in the target's colour,
+//! along the structure of the picture.
 //!
-//! Litwinowicz 1997 and Hertzmann 1998: from coarse to fine brushes, each level
-//! against the picture blurred to its brush, and only where what has been painted
-//! differs from it.
+//! After Litwinowicz 1997 and Hertzmann 1998: from coarse to fine brushes, each level against
+//! the target blurred to its brush, and only where the canvas differs from it.
 
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -12,7 +11,7 @@ use rayon::prelude::*;
 use spectra::color::{Lab, RgbSpace};
 
 use super::plan::{Order, Plan};
-use super::trace::{Ground, cell, distance, traced};
+use super::trace::{TraceInput, cell, distance, trace_path};
 use graphics::blurred;
 use graphics::field::Field;
 use graphics::orientation::OrientationField;
@@ -21,39 +20,39 @@ use paint::layer::SLOTS;
 use paint::pose::Sample;
 use paint::separation::Separation;
 
-/// Width of the blur that a brush sees by, in its sizes.
-pub(super) const SIGHT: f64 = 0.2;
-/// How often gaps between strokes are looked for.
+/// Standard deviation of the blur at which pictures are compared, in brush widths (chosen by
+/// eye).
+pub(super) const BLUR_SIZES: f64 = 0.2;
+/// Times that strokes are sought between those planned before.
 const PASSES: usize = 3;
-/// A stroke covers this share of its brush's width.
+/// Width that a stroke covers, relative to the width of its brush (chosen by eye).
 pub(super) const COVER: f64 = 0.8;
 
-/// One stroke to be painted.
+/// A stroke to paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedStroke {
-    /// Which of the plan's brushes.
+    /// Index of the brush in the plan.
     pub level: usize,
-    /// Shares of the palette's pigments by slot; they sum to 1.
+    /// Share of the pigment in each slot of the palette; the shares sum to 1.
     pub recipe: [f64; SLOTS],
-    /// The height in mm that the stroke's paint should have on the canvas.
+    /// Height in mm that the paint should have on the canvas.
     pub height_mm: f64,
-    /// What to load: the height in mm, over a square of the brush's width, of
-    /// the paint that covers the stroke to `height_mm`.
+    /// Amount of paint that covers the stroke to `height_mm`, as a height in mm over a square
+    /// as wide as the brush.
     pub amount_mm: f64,
-    /// The path.
+    /// Poses of the brush along the path, without repeated passes.
     pub samples: Vec<Sample>,
 }
 
-/// The strokes of `plan`'s brush number `level`, in the order to be laid.
+/// Plans the strokes of the plan's brush number `level`, in the order to paint them.
 ///
-/// `target` and `current` are what is wanted and what has been painted so far,
-/// as it looks when dry; each cell is `cell_mm` wide. Differences that the palette
-/// cannot mend are left. Without a difference there are no strokes. The same
-/// input gives the same strokes.
+/// `current` is the canvas so far, as it looks when dry; each cell is `cell_mm` wide.
+/// Differences that the palette cannot reduce are ignored; without a difference there are no
+/// strokes. Equal input gives equal strokes.
 ///
 /// # Panics
-/// If the pictures differ in size, `level` is none of the plan's, or the plan
-/// fails [`Plan::check`].
+/// If the pictures differ in size, the plan has no brush `level`, or the plan fails
+/// [`Plan::check`].
 #[must_use]
 pub fn plan_layer(
     target: &Picture,
@@ -63,31 +62,33 @@ pub fn plan_layer(
     level: usize,
     cell_mm: f64,
 ) -> Vec<PlannedStroke> {
-    assert_eq!(target.bounds(), current.bounds(), "pictures of one size");
-    plan.check().expect("a plan that was checked");
+    assert_eq!(target.bounds(), current.bounds(), "pictures differ in size");
+    plan.check().expect("the plan is valid");
     let size_mm = plan.sizes_mm[level];
     let size = size_mm / cell_mm;
-    let blurred_target = blurred(target, SIGHT * size);
-    let wanted = perceived(&blurred_target);
-    let mut off = differences(&wanted, &blurred_target, current, separation, SIGHT * size);
-    let flow = OrientationField::from_lab(&wanted, SIGHT * size);
+    let blurred_target = blurred(target, BLUR_SIZES * size);
+    let target_lab = lab_picture(&blurred_target);
+    let mut difference =
+        differences(&target_lab, &blurred_target, current, separation, BLUR_SIZES * size);
+    let flow = OrientationField::from_lab(&target_lab, BLUR_SIZES * size);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     random.set_stream(level as u64);
 
     let mut paths: Vec<(f32, Vec<[f64; 2]>)> = Vec::new();
     for _ in 0..PASSES {
-        for (square, _) in worst_first(&off, plan, size, &mut random) {
-            let Some((start, mean)) = square.worst(&off) else { continue };
+        for (square, _) in worst_first(&difference, plan, size, &mut random) {
+            let Some((start, mean)) = square.worst(&difference) else { continue };
             if f64::from(mean) <= plan.tolerance {
                 continue;
             }
-            let ground = Ground { wanted: &wanted, flow: &flow, off: &off, size };
-            let path = traced(&ground, plan, start);
-            cover(&mut off, &path, COVER * size / 2.0);
+            let input =
+                TraceInput { target: &target_lab, flow: &flow, difference: &difference, size };
+            let path = trace_path(&input, plan, start);
+            cover(&mut difference, &path, COVER * size / 2.0);
             paths.push((mean, path));
         }
     }
-    // Stable, so that equals stay in their order.
+    // The sort is stable, so that equal strokes stay in their order.
     paths.sort_by(|a, b| b.0.total_cmp(&a.0));
     paths.truncate(plan.most_strokes);
     paths.shuffle(&mut random);
@@ -97,7 +98,7 @@ pub fn plan_layer(
             let color = mean_color(&blurred_target, path);
             let heights = separation.refined_heights_mm(color).map(f64::from);
             let height_mm: f64 = heights.iter().sum();
-            let samples = samples(path, plan, size, cell_mm);
+            let samples = poses(path, plan, size, cell_mm);
             let length = path.windows(2).map(|ends| between(ends[0], ends[1])).sum::<f64>() / size;
             let stroke = PlannedStroke {
                 level,
@@ -115,8 +116,8 @@ pub fn plan_layer(
     strokes.into_iter().map(|(_, stroke)| stroke).collect()
 }
 
-/// A picture in CIELAB under sRGB's white.
-fn perceived(picture: &Picture) -> Field<[f32; 3]> {
+/// A picture in CIELAB under the white of sRGB.
+fn lab_picture(picture: &Picture) -> Field<[f32; 3]> {
     let white = RgbSpace::Srgb.white();
     let xyz_from_rgb = RgbSpace::Srgb.xyz_from_linear();
     let lab = |rgb: &[f32; 3]| {
@@ -127,27 +128,28 @@ fn perceived(picture: &Picture) -> Field<[f32; 3]> {
     Field::from_values(picture.width(), picture.height(), values)
 }
 
-/// How far the painting is from what is wanted or, where that cannot be had,
-/// from the nearest that can.
+/// CIELAB difference (CIE 1976) of the canvas from the target or from the nearest colour that
+/// the palette reaches, whichever is less.
 fn differences(
-    wanted: &Field<[f32; 3]>,
+    target_lab: &Field<[f32; 3]>,
     blurred_target: &Picture,
     current: &Picture,
     separation: &Separation,
     sigma: f64,
 ) -> Field<f32> {
-    let painted = perceived(&blurred(current, sigma));
+    let painted = lab_picture(&blurred(current, sigma));
     let reached = blurred_target.values().par_iter().with_min_len(1024);
     let reached = reached.map(|&rgb| separation.film().rgb(&separation.heights_mm(rgb))).collect();
-    let reached = perceived(&Field::from_values(wanted.width(), wanted.height(), reached));
-    let all = wanted.values().iter().zip(reached.values()).zip(painted.values());
-    let off = all.map(|((&wanted, &reached), &painted)| {
-        distance(wanted, painted).min(distance(reached, painted))
+    let (width, height) = (target_lab.width(), target_lab.height());
+    let reached = lab_picture(&Field::from_values(width, height, reached));
+    let all = target_lab.values().iter().zip(reached.values()).zip(painted.values());
+    let differences = all.map(|((&target, &reached), &painted)| {
+        distance(target, painted).min(distance(reached, painted))
     });
-    Field::from_values(wanted.width(), wanted.height(), off.collect())
+    Field::from_values(width, height, differences.collect())
 }
 
-/// A square in which a stroke may begin.
+/// A square in which a stroke may begin: first and end column, first and end row.
 #[derive(Debug, Clone, Copy)]
 struct Square {
     x: (usize, usize),
@@ -155,9 +157,9 @@ struct Square {
 }
 
 impl Square {
-    /// Its worst point, in cells, the nearest to its middle among nearly equal
-    /// ones, and its mean difference; none for an empty square.
-    fn worst(&self, off: &Field<f32>) -> Option<([f64; 2], f32)> {
+    /// Centre of the cell with the largest difference, preferring cells near the centre of the
+    /// square, and the mean difference of the square. `None` for an empty square.
+    fn worst(&self, difference: &Field<f32>) -> Option<([f64; 2], f32)> {
         let middle = [self.x, self.y].map(|(from, to)| (from + to) as f64 / 2.0);
         let reach = between([self.x.0 as f64, self.y.0 as f64], middle);
         let mut sum = 0.0;
@@ -165,11 +167,11 @@ impl Square {
         for y in self.y.0..self.y.1 {
             for x in self.x.0..self.x.1 {
                 let place = [x as f64 + 0.5, y as f64 + 0.5];
-                let here = off[(x, y)];
+                let here = difference[(x, y)];
                 sum += here;
-                let counts = f64::from(here) * (1.0 - 0.1 * between(place, middle) / reach);
-                if worst.is_none_or(|(value, _)| counts > value) {
-                    worst = Some((counts, place));
+                let weighted = f64::from(here) * (1.0 - 0.1 * between(place, middle) / reach);
+                if worst.is_none_or(|(value, _)| weighted > value) {
+                    worst = Some((weighted, place));
                 }
             }
         }
@@ -178,21 +180,21 @@ impl Square {
     }
 }
 
-/// The squares of a grid with jittered lines, the most different first.
+/// Squares of a grid with jittered lines and their mean differences, the largest first.
 fn worst_first(
-    off: &Field<f32>,
+    difference: &Field<f32>,
     plan: &Plan,
     size: f64,
     random: &mut ChaCha8Rng,
 ) -> Vec<(Square, f32)> {
     let step = (plan.spacing * size).max(1.0);
-    let columns = lines(off.width(), step, random);
-    let rows = lines(off.height(), step, random);
+    let columns = lines(difference.width(), step, random);
+    let rows = lines(difference.height(), step, random);
     let mut squares = Vec::new();
     for y in rows.windows(2) {
         for x in columns.windows(2) {
             let square = Square { x: (x[0], x[1]), y: (y[0], y[1]) };
-            if let Some((_, mean)) = square.worst(off) {
+            if let Some((_, mean)) = square.worst(difference) {
                 squares.push((square, mean));
             }
         }
@@ -201,8 +203,8 @@ fn worst_first(
     squares
 }
 
-/// Lines some `step` apart, each moved by up to a quarter of that; the first
-/// and the last are the edges.
+/// Positions of grid lines about `step` cells apart, each moved at random by up to a quarter
+/// of that. The first and the last are the edges.
 fn lines(cells: usize, step: f64, random: &mut ChaCha8Rng) -> Vec<usize> {
     let count = (cells as f64 / step).round().max(1.0);
     let step = cells as f64 / count;
@@ -215,26 +217,26 @@ fn lines(cells: usize, step: f64, random: &mut ChaCha8Rng) -> Vec<usize> {
     lines
 }
 
-/// Takes out of `off` what a stroke covers: of each level one coat will do, and
-/// what it leaves is for the next.
-fn cover(off: &mut Field<f32>, path: &[[f64; 2]], radius: f64) {
+/// Sets the difference to 0 where a stroke covers the canvas: one coat per level is enough,
+/// and the next level paints what remains.
+fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], radius: f64) {
     for &[x, y] in path {
         let span = |middle: f64, cells: usize| {
             let from = (middle - radius).max(0.0) as usize;
             from..((middle + radius).ceil() as usize).min(cells)
         };
-        for row in span(y, off.height()) {
-            for column in span(x, off.width()) {
+        for row in span(y, difference.height()) {
+            for column in span(x, difference.width()) {
                 let place = [column as f64 + 0.5, row as f64 + 0.5];
                 if between(place, [x, y]) <= radius.max(0.5) {
-                    off[(column, row)] = 0.0;
+                    difference[(column, row)] = 0.0;
                 }
             }
         }
     }
 }
 
-/// The mean of a picture along a path.
+/// Mean colour of a picture along a path.
 fn mean_color(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
     let mut sum = [0.0; 3];
     for &place in path {
@@ -244,9 +246,9 @@ fn mean_color(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
     sum.map(|value| (value / path.len() as f64) as f32)
 }
 
-/// The pose of the brush along a path, its broad side across the motion, its
-/// pressure rising over the first brush size and falling over the last.
-pub(super) fn samples(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
+/// Poses of the brush along a path of points in cells. The broad side lies across the motion;
+/// pressure rises over the first brush width and falls over the last.
+pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
     let mut walked = vec![0.0];
     for ends in path.windows(2) {
         walked.push(walked[walked.len() - 1] + between(ends[0], ends[1]));
@@ -261,7 +263,7 @@ pub(super) fn samples(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -
             let before = path[at.saturating_sub(1)];
             let after = path[(at + 1).min(path.len() - 1)];
             let heading = (after[1] - before[1]).atan2(after[0] - before[0]).to_degrees() + 90.0;
-            // The nearest of the equal turns, so that the brush never spins.
+            // The nearest of the equivalent angles, so that the brush never spins.
             twist_deg = heading + 180.0 * ((twist_deg - heading) / 180.0_f64).round();
             let rise = (so_far.min(length - so_far) / taper).clamp(0.0, 1.0);
             let eased = rise * rise * (3.0 - 2.0 * rise);
@@ -278,6 +280,7 @@ pub(super) fn samples(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -
         .collect()
 }
 
+/// Distance of two points.
 fn between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }

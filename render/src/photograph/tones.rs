@@ -1,17 +1,17 @@
-//! The tones of a photograph within those of paint.
+//! Fitting the tones of a photograph to those of paint.
 
 use rayon::prelude::*;
 
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-/// A photograph with its black raised to the luminance `black` and its white
-/// kept: black point compensation (ISO 18619:2015), so that its shadows keep
-/// their differences.
+/// Raises the black of a photograph in linear sRGB to the luminance `black` (0..1) and keeps
+/// its white, so that differences in shadows survive: black point compensation (ISO
+/// 18619:2015).
 ///
-/// Paint's surface alone reflects some 3 %, so no palette reaches a photograph's
-/// darkest tones. `black` is [`Separation::black`] or, before there is a
-/// palette, the floor of the library's surface.
+/// The surface of paint alone reflects about 3 %, so no palette reaches a photograph's darkest
+/// tones. `black` is [`Separation::black`](paint::separation::Separation::black) or, before
+/// there is a palette, the surface reflection of the library.
 #[must_use]
 pub fn black_compensated(picture: &Picture, black: f32) -> Picture {
     let raised = |rgb: &[f32; 3]| rgb.map(|value| black + (1.0 - black) * value);

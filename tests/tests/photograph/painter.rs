@@ -10,7 +10,8 @@ use render::paint::painting::Painting;
 use render::paint::session::{PaintingSession, ReplayReport};
 use render::paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
 use render::photograph::{
-    LevelReport, Painted, Painter, Picture, Plan, black_compensated, plan_layer, rebuild_picture,
+    LevelReport, PaintProgress, Painter, Picture, Plan, black_compensated, plan_layer,
+    rebuild_picture,
 };
 
 use crate::made::{HIDING, STUDIO};
@@ -69,8 +70,8 @@ fn painted(plan: &Plan) -> Finished {
     let painter = Painter { target: &target, separation: &HIDING, plan };
     let levels = painter
         .paint(&mut session, &mut script, |painted| match painted {
-            Painted::Planned(strokes) => told.0 += strokes,
-            Painted::Stroke => told.1 += 1,
+            PaintProgress::Planned(strokes) => told.0 += strokes,
+            PaintProgress::Stroke => told.1 += 1,
         })
         .unwrap();
     Finished { script, session, levels, told }

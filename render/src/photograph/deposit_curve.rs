@@ -1,12 +1,12 @@
-//! How thick a loaded brush lays its paint, found by trial strokes.
+//! Height of the paint that a loaded brush lays, measured with trial strokes.
 //!
-//! What a head leaves in a sub-step is bounded (Baxter, Wendt and Lin 2004,
-//! algorithm 1), so a stroke's height depends on how long the head lies on each
-//! cell: on its shape, size and pressure. That is measured, not modelled; where
-//! one stroke is too thin, the brush goes back over its path.
+//! The paint that a head leaves per sub-step is bounded (Baxter, Wendt and Lin 2004, algorithm
+//! 1), so a stroke's height depends on how long the head touches each cell, that is on its
+//! shape, size and pressure. The height is measured, not modelled. Where one stroke is too
+//! thin, the brush goes back over its path.
 
 use super::plan::Plan;
-use super::planned::{COVER, samples};
+use super::planned::{COVER, poses};
 use graphics::field::Field;
 use paint::BrushId;
 use paint::amount::{mm_from_quanta, quanta_from_mm};
@@ -18,36 +18,37 @@ use paint::painting::PaintingError;
 use paint::pose::Sample;
 use paint::stroke::{contacts, substeps};
 
-/// The most times that a brush goes over one path.
+/// Most passes of a brush over one path.
 const MOST_PASSES: usize = 4;
-/// Length of a trial stroke, in sizes of the brush.
+/// Length of a trial stroke in brush widths.
 const LENGTH: f64 = 4.0;
-/// The least load tried, in mm; each next one is twice as high.
+/// Least load tried in mm; each further load is twice the one before.
 const LEAST_LOAD_MM: f64 = 0.05;
+/// Number of loads tried.
 const LOADS: usize = 7;
 
-/// A brush on trial.
+/// Heights of paint that a brush lays, by passes and load.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Laydown {
-    /// For each number of passes, the load and the height that it gave, in mm.
+pub(super) struct DepositCurve {
+    /// For each number of passes, pairs of load and height laid, both in mm.
     curves: Vec<Vec<[f64; 2]>>,
-    /// Area of the head's paint, in squares of the brush's width.
+    /// Area of the head that holds paint, in squares as wide as the brush.
     head_area: f64,
 }
 
-/// What a stroke is painted with.
+/// Load and passes of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Touch {
-    /// How often the brush goes over the path, 1 and up.
+pub(super) struct StrokeLoad {
+    /// Number of passes over the path, 1 or more.
     pub(super) passes: usize,
-    /// Height of the paint on the head, in mm.
+    /// Height of the paint on the head in mm.
     pub(super) load_mm: f64,
 }
 
-impl Laydown {
-    /// Tries the brush of `size_mm` on a smooth dry ground, until it lays
-    /// `most_mm` or has gone over its path as often as it may.
-    pub(super) fn tried(
+impl DepositCurve {
+    /// Measures a brush of `size_mm` on a smooth dry ground with more and more passes, until it
+    /// lays `most_mm` or has made the most passes.
+    pub(super) fn measure(
         shape: HeadShape,
         size_mm: f64,
         cell_mm: f64,
@@ -73,25 +74,25 @@ impl Laydown {
         Ok(Self { curves, head_area })
     }
 
-    /// What lays a stroke of `length` sizes of the brush to `height_mm`, or as
-    /// near as the brush comes.
-    pub(super) fn touch(&self, height_mm: f64, length: f64) -> Touch {
+    /// Load and passes that lay a stroke of `length` brush widths to `height_mm`, or as near to
+    /// it as the brush comes.
+    pub(super) fn load_for_stroke(&self, height_mm: f64, length: f64) -> StrokeLoad {
         let found = self.curves.iter().enumerate().find_map(|(index, curve)| {
-            Some(Touch { passes: index + 1, load_mm: load_for(curve, height_mm)? })
+            Some(StrokeLoad { passes: index + 1, load_mm: load_for(curve, height_mm)? })
         });
-        let touch = found.unwrap_or_else(|| {
+        let load = found.unwrap_or_else(|| {
             let curve = &self.curves[self.curves.len() - 1];
             let highest = curve.iter().map(|[_, height]| *height).fold(0.0, f64::max);
             let load_mm = load_for(curve, 0.95 * highest).unwrap_or(LEAST_LOAD_MM);
-            Touch { passes: self.curves.len(), load_mm }
+            StrokeLoad { passes: self.curves.len(), load_mm }
         });
         // A longer stroke takes more paint off the head, a shorter one less.
         let more = (length - LENGTH) * height_mm / self.head_area;
-        Touch { load_mm: (touch.load_mm + more).max(touch.load_mm / 2.0), ..touch }
+        StrokeLoad { load_mm: (load.load_mm + more).max(load.load_mm / 2.0), ..load }
     }
 }
 
-/// The least load that gives a height, if any does.
+/// Least load that gives a height, interpolated; `None` if none does.
 fn load_for(curve: &[[f64; 2]], height_mm: f64) -> Option<f64> {
     let mut before = [0.0, 0.0];
     for &[load, height] in curve {
@@ -104,7 +105,7 @@ fn load_for(curve: &[[f64; 2]], height_mm: f64) -> Option<f64> {
     None
 }
 
-/// What all trials of a brush share.
+/// Set-up of the trial strokes of one brush.
 struct Trial<'a> {
     head: Head,
     plan: &'a Plan,
@@ -131,8 +132,8 @@ impl<'a> Trial<'a> {
         Ok(Self { head, plan, relief, engine, brush })
     }
 
-    /// The mean height, in mm, that a straight stroke leaves along its middle
-    /// half, over what it is to cover.
+    /// Mean height in mm of the paint that a straight stroke leaves along its middle half, over
+    /// the width that it should cover.
     fn height_mm(&mut self, passes: usize, load_mm: f64) -> Result<f64, PaintingError> {
         let cell_mm = self.head.cell_mm();
         let size = self.head.size_mm() / cell_mm;
@@ -146,7 +147,7 @@ impl<'a> Trial<'a> {
         let points = (4.0 * LENGTH) as usize;
         let path: Vec<[f64; 2]> =
             (0..=points).map(|point| [size * (1.5 + 0.25 * point as f64), middle]).collect();
-        let samples = to_and_fro(&samples(&path, self.plan, size, cell_mm), passes);
+        let samples = repeated_path(&poses(&path, self.plan, size, cell_mm), passes);
         let poses = substeps(&samples, cell_mm)?;
         for contact in contacts(&mut self.head, poses, &self.relief, bounds) {
             self.engine.apply_contacts(self.brush, &MotionConstants::default(), &[contact])?;
@@ -165,20 +166,20 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// A path that is gone over `passes` times, forth and back.
-pub(super) fn to_and_fro(samples: &[Sample], passes: usize) -> Vec<Sample> {
-    let lasts = samples.last().map_or(0.0, |sample| sample.seconds);
-    let mut way: Vec<Sample> = Vec::with_capacity(samples.len() * passes);
+/// Poses along a path that is followed `passes` times, forth and back in turn.
+pub(super) fn repeated_path(samples: &[Sample], passes: usize) -> Vec<Sample> {
+    let duration = samples.last().map_or(0.0, |sample| sample.seconds);
+    let mut repeated: Vec<Sample> = Vec::with_capacity(samples.len() * passes);
     for pass in 0..passes {
-        let begun = lasts * pass as f64;
+        let start = duration * pass as f64;
         if pass % 2 == 0 {
-            way.extend(samples.iter().map(|s| Sample { seconds: begun + s.seconds, ..*s }));
+            repeated.extend(samples.iter().map(|s| Sample { seconds: start + s.seconds, ..*s }));
         } else {
             let back = samples.iter().rev();
-            way.extend(back.map(|s| Sample { seconds: begun + lasts - s.seconds, ..*s }));
+            repeated.extend(back.map(|s| Sample { seconds: start + duration - s.seconds, ..*s }));
         }
     }
-    way
+    repeated
 }
 
 #[cfg(test)]
@@ -191,10 +192,10 @@ mod tests {
     fn strokes_come_out_within_a_factor_of_two() {
         let plan = Plan::default();
         for (shape, size_mm) in [(HeadShape::Filbert, 8.0), (HeadShape::Round, 2.0)] {
-            let laydown = Laydown::tried(shape, size_mm, CELL_MM, &plan, 0.1).unwrap();
+            let curve = DepositCurve::measure(shape, size_mm, CELL_MM, &plan, 0.1).unwrap();
             let mut trial = Trial::new(shape, size_mm, CELL_MM, &plan).unwrap();
             for height_mm in [0.02, 0.03, 0.05] {
-                let Touch { passes, load_mm } = laydown.touch(height_mm, LENGTH);
+                let StrokeLoad { passes, load_mm } = curve.load_for_stroke(height_mm, LENGTH);
                 let found = trial.height_mm(passes, load_mm).unwrap();
                 let ratio = found / height_mm;
                 assert!((0.5..2.0).contains(&ratio), "{shape} {size_mm}: {found} for {height_mm}");
@@ -204,17 +205,17 @@ mod tests {
 
     #[test]
     fn longer_strokes_take_more_paint() {
-        let laydown = Laydown { curves: vec![vec![[0.1, 0.02], [0.2, 0.06]]], head_area: 4.0 };
-        let touch = |height, length| laydown.touch(height, length);
-        assert!((touch(0.04, LENGTH).load_mm - 0.15).abs() < 1e-9, "{:?}", touch(0.04, LENGTH));
-        assert_eq!(touch(0.04, LENGTH).passes, 1);
-        assert!(touch(0.04, 2.0 * LENGTH).load_mm > 0.18);
-        assert!(touch(0.04, 1.0).load_mm < 0.15);
-        assert!((touch(0.5, LENGTH).load_mm - 0.1925).abs() < 1e-9, "as near as it comes");
+        let curve = DepositCurve { curves: vec![vec![[0.1, 0.02], [0.2, 0.06]]], head_area: 4.0 };
+        let load = |height, length| curve.load_for_stroke(height, length);
+        assert!((load(0.04, LENGTH).load_mm - 0.15).abs() < 1e-9, "{:?}", load(0.04, LENGTH));
+        assert_eq!(load(0.04, LENGTH).passes, 1);
+        assert!(load(0.04, 2.0 * LENGTH).load_mm > 0.18);
+        assert!(load(0.04, 1.0).load_mm < 0.15);
+        assert!((load(0.5, LENGTH).load_mm - 0.1925).abs() < 1e-9, "as near as it comes");
     }
 
     #[test]
-    fn going_back_keeps_the_path_and_the_clock() {
+    fn repeated_passes_keep_the_path_and_the_time() {
         let sample = |seconds: f64| Sample {
             seconds,
             x_mm: seconds,
@@ -224,8 +225,8 @@ mod tests {
             tilt_y_deg: 0.0,
             twist_deg: 90.0,
         };
-        let way = to_and_fro(&[sample(0.0), sample(1.0), sample(3.0)], 3);
-        let told: Vec<(f64, f64)> = way.iter().map(|s| (s.seconds, s.x_mm)).collect();
+        let repeated = repeated_path(&[sample(0.0), sample(1.0), sample(3.0)], 3);
+        let found: Vec<(f64, f64)> = repeated.iter().map(|s| (s.seconds, s.x_mm)).collect();
         let wanted = [
             (0.0, 0.0),
             (1.0, 1.0),
@@ -237,6 +238,6 @@ mod tests {
             (7.0, 1.0),
             (9.0, 3.0),
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
     }
 }
