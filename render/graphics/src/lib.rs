@@ -1,4 +1,27 @@
-//! Pictures and models on the processor and on graphics devices.
+//! Pictures, meshes and cameras, on the processor and on graphics devices.
+//!
+//! ```text
+//! photograph (PNG, JPEG) -> picture::Photograph -> Field of colours --+
+//! mesh (OBJ, glTF) + camera -> surface: what each pixel shows --------+-> image operations
+//!                                                                     |   (Rust and WGSL)
+//! export: PNG, OpenEXR, GIF, Y4M, folders of frames <-----------------+
+//! ```
+//!
+//! A [`Field`](field::Field) holds one value per pixel. Files of pictures are encoded in
+//! memory:
+//!
+//! ```
+//! use graphics::export::{PictureFormat, picture_file};
+//! use graphics::field::Field;
+//!
+//! # fn main() -> Result<(), graphics::export::ExportError> {
+//! let mut picture = Field::filled(64, 48, [1.0_f32; 4]);
+//! picture[(3, 2)] = [0.8, 0.1, 0.1, 1.0];
+//! let file = picture_file(&picture, 0.1, PictureFormat::Png16)?;
+//! assert!(file.clipped == 0.0 && file.bytes.starts_with(b"\x89PNG"));
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! In scope: values over pixels, the graphics device, meshes and cameras, what a
 //! camera sees, noise that stays on surfaces, and files of pictures and animations.
