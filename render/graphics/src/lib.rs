@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! photograph (PNG, JPEG) -> picture::Photograph -> Field of colours --+
-//! mesh (OBJ, glTF) + camera -> surface: what each pixel shows --------+-> image operations
+//! mesh (OBJ, PLY, glTF) + camera -> surface: what each pixel shows ---+-> image operations
 //!                                                                     |   (Rust and WGSL)
-//! export: PNG, OpenEXR, GIF, Y4M, folders of frames <-----------------+
+//! export: PNG, OpenEXR, GIF, APNG, folders of frames <----------------+
 //! ```
 //!
 //! A [`Field`](field::Field) holds one value per pixel. Files of pictures are encoded in
