@@ -125,7 +125,6 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<FrameError>,
         as_explained::<SequenceError>,
         as_explained::<PaintLightError>,
-        as_explained::<PaintingFileError>,
         as_explained::<GroundError>,
         as_explained::<SeparationError>,
         as_explained::<PaintingExportError>,
