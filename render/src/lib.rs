@@ -6,7 +6,8 @@
 //! `render` alone.
 
 pub use graphics::{
-    camera, coherence, field, gpu, image, mesh, orientation, picture, surface, tile, tones,
+    camera, coherence, compute, distant_light, encoding, field, gpu, mesh, morphology, orientation,
+    picture, segmentation, surface, tile, tones,
 };
 pub use paint::{self, amount, composite, layer, light, node_pigments, optics, separation, shade};
 

@@ -10,8 +10,8 @@ use render::gpu::{BackendChoice, choose};
 use render::mesh::Mesh;
 use render::surface::visible;
 use render::watercolor::coherence::{
-    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Sight, Splatting,
-    depth_of, repeating_pigment,
+    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Projection, Splatting,
+    depth_field, repeating_noise,
 };
 use render::watercolor::{OnCpu, OnGpu};
 
@@ -20,7 +20,7 @@ const SIZE: (usize, usize) = (750, 570);
 struct Frame {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
-    sight: Sight,
+    sight: Projection,
     depth: Field<f32>,
 }
 
@@ -29,9 +29,9 @@ fn frame() -> Frame {
     let (width, height) = SIZE;
     let framing = Framing { aspect: width as f32 / height as f32, ..Framing::default() };
     let camera: Camera = framing.camera(mesh.bounds());
-    let depth = depth_of(&visible(&mesh, &camera, width, height));
+    let depth = depth_field(&visible(&mesh, &camera, width, height));
     let hierarchy = Arc::new(Hierarchy::new(&mesh));
-    Frame { mesh, hierarchy, sight: Sight::new(&camera, width, height), depth }
+    Frame { mesh, hierarchy, sight: Projection::new(&camera, width, height), depth }
 }
 
 /// Once for each model.
@@ -69,7 +69,7 @@ fn particles<B: Anchoring>(bencher: Bencher<'_, '_>, backend: &mut B, count: usi
     let particles = Particles::new(&frame.hierarchy, count);
     let depth = backend.grey_of(&frame.depth).unwrap();
     let textures = [(32, AnchoredNoise::FLOW), (8, AnchoredNoise::DISPERSION)]
-        .map(|(wave, noise)| (backend.grey_of(&repeating_pigment(wave, 1)).unwrap(), noise));
+        .map(|(wave, noise)| (backend.grey_of(&repeating_noise(wave, 1)).unwrap(), noise));
     bencher.bench_local(|| {
         for (texture, noise) in &textures {
             let anchors = particles.anchors(&frame.sight, *noise);

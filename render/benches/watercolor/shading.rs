@@ -23,7 +23,7 @@ fn frames<B: Shading>(
     mut backend: B,
     triangles: usize,
     samples: usize,
-    shown: impl Fn(&mut B, &B::Model, B::Visible, &Camera),
+    shown: impl Fn(&mut B, &B::Model, B::VisibilityBuffer, &Camera),
 ) {
     let (mesh, cameras) = knot(triangles);
     let mut model = backend.model(PackedMesh::new(&mesh)).unwrap();

@@ -40,6 +40,8 @@ pub mod lanes;
 
 mod blur;
 
+pub mod encoding;
+
 pub mod picture;
 
 pub mod orientation;
@@ -48,16 +50,25 @@ pub mod tones;
 
 pub mod gpu;
 
+pub mod compute;
+
 pub mod mesh;
 
 pub mod camera;
 
+pub mod distant_light;
+
 pub mod surface;
 
-pub mod image;
-
 pub mod coherence;
+
+pub mod morphology;
+
+pub mod segmentation;
+
+mod kernels;
 
 pub mod export;
 
 pub use blur::blurred;
+pub use kernels::kernels;

@@ -1,24 +1,11 @@
-//! All kernels of watercolor, in one list.
+//! The kernels of watercolor, for the test that validates them.
 
-use super::{color_mask, density, dry_brush, edges, morphology, sheet, toon, wobble};
-use graphics::coherence;
+use super::effects::{COLOR_MASK, DENSITY, DRY_BRUSH, EDGE_BLUR, EDGES, PAPER_SHADING, WOBBLE};
+use super::toon::TOON;
 use graphics::gpu::Kernel;
 
-/// Every kernel that watercolor on a device runs.
+/// Every compute kernel of watercolor.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
-    vec![
-        &toon::TOON,
-        &morphology::CROSSING,
-        &coherence::DEPTHS,
-        &coherence::GATHER_SPLATS,
-        &coherence::ANCHOR_TEXTURES,
-        &density::DENSITY,
-        &edges::EDGE_BLUR,
-        &edges::EDGES,
-        &wobble::WOBBLE,
-        &dry_brush::DRY_BRUSH,
-        &color_mask::COLOR_MASK,
-        &sheet::SHEET,
-    ]
+    vec![&TOON, &DENSITY, &EDGE_BLUR, &EDGES, &WOBBLE, &DRY_BRUSH, &COLOR_MASK, &PAPER_SHADING]
 }

@@ -1,41 +1,30 @@
 //! Watercolor from photographs and meshes.
 //!
-//! After Bousseau, Kaplan, Thollot and Sillion, "Interactive watercolor rendering
-//! with temporal coherence and abstraction" (NPAR 2006). Two doors, photograph and
-//! mesh, lead to one room, the [`Wash`]; effects then do the same to both.
+//! After Bousseau, Kaplan, Thollot and Sillion, "Interactive watercolor rendering with
+//! temporal coherence and abstraction" (NPAR 2006). A photograph is abstracted to flat
+//! regions ([`PhotographPainter`]), a mesh is shaded in a few steps of light
+//! ([`ModelPainter`]); the resulting [`Wash`] then goes through the same effects ([`paint`])
+//! or becomes a painting of calibrated pigments ([`GlazePainter`]). The style is a value,
+//! [`Settings`], with [`Preset`]s to start from.
 //!
-//! Colours are encoded sRGB in 0..1, as the paper has them: a change of density is
-//! then about even to the eye.
+//! Colours are encoded sRGB in 0..1, as in the paper, so that equal changes of density look
+//! about equal.
 
 mod settings;
 
 mod wash;
 
-mod segmentation;
-
-mod octagon;
-
-mod morphology;
-
-mod photograph_door;
+mod abstraction;
 
 mod toon;
 
 mod textures;
 
-mod density;
-
-mod edges;
-
-mod wobble;
-
-mod color_mask;
-
-mod dry_brush;
-
-mod sheet;
+mod effects;
 
 mod pipeline;
+
+mod photograph_painter;
 
 mod model_painter;
 
@@ -43,32 +32,26 @@ mod glaze;
 
 mod kernels;
 
-pub use color_mask::{ColorMask, ColorRange};
-pub use density::{Density, DensityLayer};
-pub use dry_brush::{DryBrush, DryBrushReach};
-pub use edges::Edges;
-pub use glaze::{GlazeError, Glazes, thickness};
-pub use graphics::coherence;
-pub use graphics::image::{Backend, CpuModel, GpuModel, Models, OnCpu, OnGpu, Plane};
-pub use graphics::tones::{ToneRamp, ToneRampError};
-pub use kernels::kernels;
-pub use model_painter::{ModelPainter, ModelPainterError, Moment, MovingBackend};
-pub use morphology::Morphology;
-pub use octagon::{Brush, Extreme};
-pub use photograph_door::{
-    AbstractedPhotograph, PhotographDoorError, PhotographSettings, from_photograph,
+pub use abstraction::{
+    AbstractedPhotograph, AbstractionError, RegionSettings, abstract_photograph,
 };
-pub use pipeline::{Stage, WashOn, Watcher, Watercolor, paint};
-pub use segmentation::{Segmentation, SegmentationError, SegmentationSettings, segment};
+pub use effects::{
+    ColorRange, DensityLayer, DryBrushReach, PaperShading, apply_density, apply_dry_brush,
+    color_mask, edges, shade_paper, wobble,
+};
+pub use glaze::{GlazeError, GlazePainter, Glazes, thickness};
+pub use kernels::kernels;
+pub use model_painter::{ModelPainter, ModelPainterError};
+pub use photograph_painter::{PhotographPainter, PhotographPainterError, PreparedPhotograph};
+pub use pipeline::{FrameTextures, Stage, StageObserver, paint};
 pub use settings::{
     AbstractionSettings, CoherenceMethod, CoherenceSettings, DispersionSettings, DryBrushSettings,
     EdgeSettings, FlowSettings, PaperSettings, Preset, Settings, SettingsError, ToonSettings,
     WashSettings, WobbleSettings,
 };
-pub use sheet::{OnSheet, Sheet};
 pub use textures::{
-    PaperOn, PaperTexture, PaperTextureError, Textures, TexturesOn, dispersion, turbulent_flow,
+    PaperImage, PaperTexture, PaperTextureError, TextureImages, Textures, dispersion,
+    turbulent_flow,
 };
-pub use toon::{Light, Shading, Toon};
-pub use wash::{Controls, Wash};
-pub use wobble::Wobble;
+pub use toon::{Toon, shade_toon};
+pub use wash::{Controls, Masks, Wash, WashImages};

@@ -1,195 +1,229 @@
-//! Meshes to watercolors, picture after picture.
+//! Meshes to watercolors, frame by frame.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use super::pipeline::{WashOn, Watcher, Watercolor, paint};
+use super::pipeline::{FrameTextures, StageObserver, paint};
 use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
-use super::textures::{PaperTextureError, Textures, TexturesOn};
-use super::toon::{Light, Shading, Toon};
-use super::wash::{Controls, Wash};
+use super::textures::{PaperTexture, PaperTextureError, TextureImages, Textures};
+use super::toon::{Toon, shade_toon};
+use super::wash::{Controls, Wash, WashImages};
 use graphics::camera::Camera;
 use graphics::coherence::{
-    AnchoredNoise, Anchoring, Depths, FeatureNoise, Features, Hierarchy, Particles, Sight,
-    Splatting, repeating_pigment,
+    AnchoredNoise, FeatureNoise, Features, Hierarchy, Particles, Projection, depths, draw_anchored,
+    draw_splats, repeating_noise,
 };
+use graphics::compute::{ColorImage, Compute, GreyImage};
+use graphics::distant_light::DistantLight;
+use graphics::field::Field;
 use graphics::gpu::DeviceError;
 use graphics::mesh::Mesh;
-use graphics::surface::PackedMesh;
+use graphics::surface::{Model, PackedMesh};
 use graphics::tones::{ToneRamp, ToneRampError};
 
-/// Texels of a wave of the textures that follow particles.
+/// Length of the waves in the textures that follow particles, in texels.
 const WAVE_TEXELS: usize = 32;
-/// Octaves of the finer of both noises, of features.
+
+/// Octaves of the grain, the finer of both noises of features.
 const GRAIN_OCTAVES: usize = 2;
 
-/// A backend that does all that moving meshes need.
-pub trait MovingBackend: Watercolor + Shading + Depths + Anchoring + Splatting {}
+/// Samples along each side of a pixel unless told otherwise: enough for smooth silhouettes.
+const USUAL_SAMPLES: usize = 2;
 
-impl<B: Watercolor + Shading + Depths + Anchoring + Splatting> MovingBackend for B {}
-
-/// Paints one mesh from any camera, always in the same size.
+/// Paints one mesh from any camera, in pictures of one size.
+///
+/// ```
+/// use render::camera::Framing;
+/// use render::compute::Compute;
+/// use render::mesh::Mesh;
+/// use render::watercolor::{ModelPainter, Settings};
+///
+/// let mesh = Mesh::sphere(200);
+/// let camera = Framing::default().fit(&mesh.positions);
+/// let mut painter = ModelPainter::new(Compute::cpu(), mesh, &Settings::default(), (32, 24))?;
+/// let picture = painter.paint(&camera)?;
+/// assert_eq!((picture.width(), picture.height()), (32, 24));
+/// # Ok::<(), render::watercolor::ModelPainterError>(())
+/// ```
 #[derive(Debug)]
-pub struct ModelPainter<B: MovingBackend> {
-    model: B::Model,
+pub struct ModelPainter {
+    compute: Compute,
+    model: Model,
     toon: Toon,
     settings: Settings,
-    textures: TexturesOn<B>,
-    noise: Noise<B>,
+    textures: TextureImages,
+    noise: Noise,
     controls: Controls,
     width: usize,
     height: usize,
 }
 
-/// What clouds and grains hold on to.
+/// What flow and dispersion hold on to, in this order, while the mesh moves.
 #[derive(Debug)]
-enum Noise<B: MovingBackend> {
+enum Noise {
     Static,
-    Particles { particles: Particles, waves: [AnchoredNoise; 2], textures: [B::Grey; 2] },
+    Particles { particles: Particles, waves: [AnchoredNoise; 2], textures: [GreyImage; 2] },
     Features { features: [Features; 2], noises: [FeatureNoise; 2] },
 }
 
-/// What a camera sees, before the effects.
-#[derive(Debug)]
-pub struct Moment<B: MovingBackend> {
+/// What a camera sees, shaded but without effects.
+struct ShadedFrame {
     /// Toon-shaded colour with coverage.
-    pub color: B::Color,
-    /// Clouds and grains; those that do not move where there are none.
-    pub noise: Option<[B::Grey; 2]>,
+    color: ColorImage,
+    /// Flow and dispersion of this frame. `None` if they do not move with the mesh.
+    noise: Option<[GreyImage; 2]>,
 }
 
-impl<B: MovingBackend> ModelPainter<B> {
-    /// Of `mesh` in pictures of `width` x `height`, by settings for that size; each
-    /// pixel is the mean of `samples` x `samples`.
+impl ModelPainter {
+    /// Paints `mesh` in pictures of `width` x `height` pixels. The lengths of `settings` are
+    /// adapted to this size ([`Settings::for_size`]).
     ///
     /// # Errors
-    /// [`ModelPainterError`] if there is no such paper or greys, or the device has no room.
+    /// [`ModelPainterError`] if the paper's scan or the picture of greys cannot be read, or
+    /// the device has no memory left.
     pub fn new(
-        backend: &mut B,
+        mut compute: Compute,
         mut mesh: Mesh,
-        settings: Settings,
+        settings: &Settings,
         (width, height): (usize, usize),
-        samples: usize,
     ) -> Result<Self, ModelPainterError> {
+        let settings = settings.for_size(width, height);
         let toon = &settings.toon;
         mesh.normals = mesh.smoothed_normals(toon.smoothing_rounds as usize);
         let toon = Toon {
-            light: Light::with_camera(toon.light_azimuth_deg, toon.light_elevation_deg),
+            light: DistantLight::with_camera(toon.light_azimuth_deg, toon.light_elevation_deg),
             tones: match &toon.greys {
                 Some(path) => ToneRamp::open(Path::new(path))?,
                 None => ToneRamp::steps(toon.levels as usize, toon.softness),
             },
             strength: toon.strength,
-            samples: samples.max(1),
+            samples: USUAL_SAMPLES,
         };
-        let textures = Textures::new(width, height, &settings)?.on(backend)?;
-        let noise = Noise::new(backend, &mesh, &settings)?;
-        let model = backend.model(PackedMesh::new(&mesh))?;
+        let textures = Textures::new(width, height, &settings)?.upload(&mut compute)?;
+        let noise = Noise::new(&mut compute, &mesh, &settings)?;
+        let model = Model::new(&mut compute, PackedMesh::new(&mesh))?;
         let controls = Controls::default();
-        Ok(Self { model, toon, settings, textures, noise, controls, width, height })
+        Ok(Self { compute, model, toon, settings, textures, noise, controls, width, height })
     }
 
-    /// Where effects are stronger or weaker, in the picture, from the next one on.
+    /// Takes the mean of `samples` x `samples` samples for each pixel, at least 1; 2 is
+    /// usual.
+    #[must_use]
+    pub fn with_samples(mut self, samples: usize) -> Self {
+        self.toon.samples = samples.max(1);
+        self
+    }
+
+    /// Makes effects weaker in parts of the picture, from the next frame on.
     ///
     /// # Panics
-    /// If they are of another size.
+    /// If the controls do not have the size of the picture.
     pub fn set_controls(&mut self, controls: Controls) {
         for control in controls.dry_brush.iter().chain(&controls.density) {
             let found = (control.width(), control.height());
-            assert_eq!(found, (self.width, self.height), "a control of the picture's size");
+            let size = (self.width, self.height);
+            assert_eq!(found, size, "a control must have the size of the picture");
         }
         self.controls = controls;
     }
 
-    /// What paints it.
+    /// The settings for the size of the pictures.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Textures that do not move.
+    /// The paper, which does not move.
     #[must_use]
-    pub fn textures(&self) -> &TexturesOn<B> {
-        &self.textures
+    pub fn paper(&self) -> &PaperTexture {
+        &self.textures.paper.texture
     }
 
-    /// What `camera` sees.
-    ///
-    /// # Errors
-    /// As [`super::Backend::color_of`].
-    pub fn moment(&mut self, backend: &mut B, camera: &Camera) -> Result<Moment<B>, DeviceError> {
-        let Self { model, toon, noise, width, height, .. } = self;
-        let samples = toon.samples;
-        let seen = backend.seen(model, camera, *width * samples, *height * samples)?;
-        let color = backend.toon(model, &seen, camera, toon)?;
-        if let Noise::Static = noise {
-            return Ok(Moment { color, noise: None });
-        }
-        let seen = match samples {
-            1 => seen,
-            _ => backend.seen(model, camera, *width, *height)?,
-        };
-        let depth = backend.depths(&seen)?;
-        let noise = noise.at(backend, &depth, &Sight::new(camera, *width, *height))?;
-        Ok(Moment { color, noise })
+    /// Name of what computes: `cpu`, or that of a graphics adapter.
+    #[must_use]
+    pub fn compute_name(&self) -> &str {
+        self.compute.name()
     }
 
-    /// The same with the processor, for glazes: the wash, and the textures of the moment.
+    /// Paints the mesh as `camera` sees it. The picture is encoded sRGB, covered everywhere.
     ///
     /// # Errors
-    /// As [`super::Backend::color_of`].
-    pub fn at_rest(
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn paint(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
+        self.paint_stages(camera, None)
+    }
+
+    /// Paints the mesh as `camera` sees it. `observer` is called with the picture after each
+    /// stage.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn paint_stages(
         &mut self,
-        backend: &mut B,
         camera: &Camera,
-    ) -> Result<(Wash, Textures), DeviceError> {
-        let Moment { color, noise } = self.moment(backend, camera)?;
-        let TexturesOn { flow, dispersion, paper } = &self.textures;
+        observer: Option<StageObserver<'_>>,
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
+        let ShadedFrame { color, noise } = self.shaded(camera)?;
+        let wash = WashImages::new(&mut self.compute, color, &self.controls)?;
+        let mut textures = FrameTextures::from(&self.textures);
+        if let Some([flow, dispersion]) = &noise {
+            (textures.flow, textures.dispersion) = (flow, dispersion);
+        }
+        let color = paint(&mut self.compute, wash, textures, &self.settings, observer)?;
+        self.compute.download(&color)
+    }
+
+    /// The shaded mesh and the textures of this frame in the processor's memory, for glazes
+    /// ([`super::GlazePainter::paint`]).
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn wash(&mut self, camera: &Camera) -> Result<(Wash, Textures), DeviceError> {
+        let ShadedFrame { color, noise } = self.shaded(camera)?;
+        let TextureImages { flow, dispersion, paper } = &self.textures;
         let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
         let textures = Textures {
-            flow: backend.grey_field(flow)?,
-            dispersion: backend.grey_field(dispersion)?,
+            flow: self.compute.download(flow)?,
+            dispersion: self.compute.download(dispersion)?,
             paper: paper.texture.clone(),
         };
-        let color = backend.color_field(&color)?;
+        let color = self.compute.download(&color)?;
         Ok((Wash { color, controls: self.controls.clone() }, textures))
     }
 
-    /// The surface without light, as a stage of its own.
+    /// The colours of the surface without light, encoded sRGB with coverage.
     ///
     /// # Errors
-    /// As [`super::Backend::color_of`].
-    pub fn flat(&mut self, backend: &mut B, camera: &Camera) -> Result<B::Color, DeviceError> {
-        let (width, height) = (self.width * self.toon.samples, self.height * self.toon.samples);
-        let seen = backend.seen(&mut self.model, camera, width, height)?;
-        let flat = Toon { strength: 0.0, ..self.toon.clone() };
-        backend.toon(&self.model, &seen, camera, &flat)
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn unlit(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
+        let Self { compute, model, toon, width, height, .. } = self;
+        let samples = toon.samples;
+        let visible = model.visible(compute, camera, *width * samples, *height * samples)?;
+        let unlit = Toon { strength: 0.0, ..toon.clone() };
+        let color = shade_toon(compute, model, &visible, camera, &unlit)?;
+        compute.download(&color)
     }
 
-    /// The watercolor from `camera`; `watcher` as of [`paint`].
-    ///
-    /// # Errors
-    /// As [`super::Backend::color_of`], and what the watcher says.
-    pub fn frame(
-        &mut self,
-        backend: &mut B,
-        camera: &Camera,
-        watcher: Option<Watcher<'_, B>>,
-    ) -> Result<B::Color, DeviceError> {
-        let Moment { color, noise } = self.moment(backend, camera)?;
-        let TexturesOn { flow, dispersion, paper } = &self.textures;
-        let [flow, dispersion] =
-            noise.as_ref().map_or([flow, dispersion], |[flow, grain]| [flow, grain]);
-        let mut grey =
-            |field: &Option<_>| field.as_ref().map(|field| backend.grey_of(field)).transpose();
-        let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
-        let wash = WashOn { color, dry_brush, density };
-        paint(backend, wash, flow, dispersion, paper, &self.settings, watcher)
+    fn shaded(&mut self, camera: &Camera) -> Result<ShadedFrame, DeviceError> {
+        let Self { compute, model, toon, noise, width, height, .. } = self;
+        let samples = toon.samples;
+        let visible = model.visible(compute, camera, *width * samples, *height * samples)?;
+        let color = shade_toon(compute, model, &visible, camera, toon)?;
+        if let Noise::Static = noise {
+            return Ok(ShadedFrame { color, noise: None });
+        }
+        let visible = match samples {
+            1 => visible,
+            _ => model.visible(compute, camera, *width, *height)?,
+        };
+        let depth = depths(compute, &visible)?;
+        let noise = noise.frame(compute, &depth, &Projection::new(camera, *width, *height))?;
+        Ok(ShadedFrame { color, noise })
     }
 }
 
-impl<B: MovingBackend> Noise<B> {
-    fn new(backend: &mut B, mesh: &Mesh, settings: &Settings) -> Result<Self, DeviceError> {
+impl Noise {
+    fn new(compute: &mut Compute, mesh: &Mesh, settings: &Settings) -> Result<Self, DeviceError> {
         let CoherenceSettings { method, particles, octaves, feature_px, features_per_place } =
             settings.coherence;
         let seeds = [settings.flow.seed, settings.dispersion.seed];
@@ -205,7 +239,7 @@ impl<B: MovingBackend> Noise<B> {
                     octaves,
                     seed: seeds[i],
                 };
-                let mut texture = |seed| backend.grey_of(&repeating_pigment(WAVE_TEXELS, seed));
+                let mut texture = |seed| compute.upload(&repeating_noise(WAVE_TEXELS, seed));
                 Ok(Self::Particles {
                     particles: Particles::new(&hierarchy, particles as usize),
                     waves: [noise(0), noise(1)],
@@ -220,12 +254,12 @@ impl<B: MovingBackend> Noise<B> {
                     persistence,
                     coverage: features_per_place,
                 };
-                // The finest grain is as wide as a feature may be.
+                // Features of the finest octave of the grain are as wide as the setting says.
                 let grain_px = feature_px / 2.0 * (1 << (GRAIN_OCTAVES - 1)) as f32;
                 let flow =
                     noise(settings.flow.size_px / 2.0, octaves, FeatureNoise::FLOW.persistence);
                 let grain = noise(grain_px, GRAIN_OCTAVES, FeatureNoise::DISPERSION.persistence);
-                // Clouds and grains of one seed must not lie on each other.
+                // Flow and dispersion of one seed must not have the same features.
                 let features = [seeds[0], seeds[1] ^ u64::MAX]
                     .map(|seed| Features::new(Arc::clone(&hierarchy), seed));
                 Ok(Self::Features { features, noises: [flow, grain] })
@@ -233,27 +267,28 @@ impl<B: MovingBackend> Noise<B> {
         }
     }
 
-    fn at(
+    /// Draws flow and dispersion over what a projection sees. `None` if they do not move.
+    fn frame(
         &self,
-        backend: &mut B,
-        depth: &B::Grey,
-        sight: &Sight,
-    ) -> Result<Option<[B::Grey; 2]>, DeviceError> {
+        compute: &mut Compute,
+        depth: &GreyImage,
+        projection: &Projection,
+    ) -> Result<Option<[GreyImage; 2]>, DeviceError> {
         match self {
             Self::Static => Ok(None),
             Self::Particles { particles, waves, textures } => {
-                let mut one = |i: usize| {
-                    let anchors = particles.anchors(sight, waves[i]);
-                    backend.anchored(depth, &textures[i], &anchors)
+                let mut draw = |i: usize| {
+                    let anchors = particles.anchors(projection, waves[i]);
+                    draw_anchored(compute, depth, &textures[i], &anchors)
                 };
-                Ok(Some([one(0)?, one(1)?]))
+                Ok(Some([draw(0)?, draw(1)?]))
             }
             Self::Features { features, noises } => {
-                let mut one = |i: usize| {
-                    let splats = features[i].splats(sight, noises[i]);
-                    backend.splatted(depth, &splats)
+                let mut draw = |i: usize| {
+                    let splats = features[i].splats(projection, noises[i]);
+                    draw_splats(compute, depth, &splats)
                 };
-                Ok(Some([one(0)?, one(1)?]))
+                Ok(Some([draw(0)?, draw(1)?]))
             }
         }
     }
@@ -262,13 +297,13 @@ impl<B: MovingBackend> Noise<B> {
 /// Why a mesh cannot be painted.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelPainterError {
-    /// No such paper.
+    /// The paper cannot be made.
     #[error(transparent)]
     Paper(#[from] PaperTextureError),
-    /// No such greys.
+    /// The greys cannot be read.
     #[error(transparent)]
     ToneRamp(#[from] ToneRampError),
-    /// The device.
+    /// The graphics device failed.
     #[error(transparent)]
-    Gpu(#[from] DeviceError),
+    Device(#[from] DeviceError),
 }

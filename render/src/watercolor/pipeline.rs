@@ -1,50 +1,44 @@
-//! From flat colours to a watercolor: effects in their order.
+//! From flat colours to a watercolor: the effects in their order.
 //!
 //! Wobble, edges, flow, dispersion and paper as in Bousseau et al. 2006, figure 4; then the
-//! dry brush, and the sheet.
+//! dry brush and the shading of the paper.
 
 use spectra::color::Rgb;
 
-use super::color_mask::{ColorMask, ColorRange};
-use super::density::{Density, DensityLayer};
-use super::dry_brush::{DryBrush, DryBrushReach};
-use super::edges::Edges;
+use super::effects::{
+    ColorRange, DensityLayer, DryBrushReach, PaperShading, apply_density, apply_dry_brush,
+    color_mask, edges, shade_paper, wobble,
+};
 use super::settings::{DryBrushSettings, Settings};
-use super::sheet::{OnSheet, Sheet};
-use super::textures::{PaperOn, PaperTexture};
-use super::wash::Wash;
-use super::wobble::Wobble;
+use super::textures::{PaperImage, PaperTexture, TextureImages};
+use super::wash::WashImages;
+use graphics::compute::{ColorImage, Compute, GreyImage};
+use graphics::field::Field;
 use graphics::gpu::DeviceError;
-use graphics::image::Backend;
 
-/// A backend that does all that watercolor needs.
-pub trait Watercolor: Wobble + Edges + Density + ColorMask + DryBrush + OnSheet {}
-
-impl<B: Wobble + Edges + Density + ColorMask + DryBrush + OnSheet> Watercolor for B {}
-
-/// A picture on its way, in order.
+/// A step of the pipeline, in the order of their execution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// Flat colours, as they came.
+    /// The flat colours that the pipeline starts from.
     Wash,
-    /// Displaced by the paper's grain.
+    /// After displacement by the grain of the paper.
     Wobble,
-    /// Of the wash's density, and denser at its edges.
+    /// After the overall density and denser edges.
     Edges,
-    /// With clouds.
+    /// After clouds of pigment.
     Flow,
-    /// With grains of pigment.
+    /// After grains of pigment.
     Dispersion,
-    /// Denser in the hollows of the paper.
+    /// After pigment gathered in the hollows of the paper.
     Paper,
-    /// Bare where the brush was dry.
+    /// After the dry brush left paper bare.
     DryBrush,
-    /// On its sheet.
-    Sheet,
+    /// Composited on the shaded paper: the finished picture.
+    OnPaper,
 }
 
 impl Stage {
-    /// All of them.
+    /// All stages in their order.
     pub const ALL: [Self; 8] = [
         Self::Wash,
         Self::Wobble,
@@ -53,10 +47,10 @@ impl Stage {
         Self::Dispersion,
         Self::Paper,
         Self::DryBrush,
-        Self::Sheet,
+        Self::OnPaper,
     ];
 
-    /// As files are named.
+    /// The name of the stage in file names.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -67,74 +61,69 @@ impl Stage {
             Self::Dispersion => "dispersion",
             Self::Paper => "paper",
             Self::DryBrush => "dry-brush",
-            Self::Sheet => "sheet",
+            Self::OnPaper => "sheet",
         }
     }
 }
 
-/// A wash with a backend.
-#[derive(Debug)]
-pub struct WashOn<B: Backend> {
-    /// Encoded sRGB and coverage.
-    pub color: B::Color,
-    /// Where the brush is dry; everywhere if none.
-    pub dry_brush: Option<B::Grey>,
-    /// Where density changes; everywhere if none.
-    pub density: Option<B::Grey>,
+/// Called with the picture after each stage: encoded sRGB with coverage.
+pub type StageObserver<'a> = &'a mut dyn FnMut(Stage, Field<[f32; 4]>);
+
+/// The textures of one frame.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameTextures<'a> {
+    /// Clouds of pigment, 0 to 1.
+    pub flow: &'a GreyImage,
+    /// Grains of pigment, 0 to 1.
+    pub dispersion: &'a GreyImage,
+    /// The paper.
+    pub paper: &'a PaperImage,
 }
 
-impl Wash {
-    /// Puts it where it is worked on.
-    ///
-    /// # Errors
-    /// As [`Backend::color_of`].
-    pub fn on<B: Backend>(&self, backend: &mut B) -> Result<WashOn<B>, DeviceError> {
-        let mut grey = |field: &Option<_>| field.as_ref().map(|f| backend.grey_of(f)).transpose();
-        let (dry_brush, density) = (grey(&self.controls.dry_brush)?, grey(&self.controls.density)?);
-        Ok(WashOn { color: backend.color_of(&self.color)?, dry_brush, density })
+impl<'a> From<&'a TextureImages> for FrameTextures<'a> {
+    /// The textures of a picture that stands still.
+    fn from(TextureImages { flow, dispersion, paper }: &'a TextureImages) -> Self {
+        Self { flow, dispersion, paper }
     }
 }
 
-/// Told of every stage: the picture is only lent, and later stages change it.
-pub type Watcher<'a, B> =
-    &'a mut dyn FnMut(&mut B, Stage, &<B as Backend>::Color) -> Result<(), DeviceError>;
-
-/// Paints `wash` with clouds and grains of this moment on `paper`; the picture on its
-/// sheet. Settings are those for its size ([`Settings::for_size`]). All stages are as
-/// they are without a `watcher`, bit for bit with the processor, which then changes all
-/// densities in one go.
+/// Paints `wash`: applies all effects and composites the result on the paper. `settings` are
+/// those for its size ([`Settings::for_size`]).
+///
+/// With an `observer` every stage is computed by itself and downloaded. On the processor the
+/// stages are bit for bit those of a run without an observer, which applies all changes of
+/// density in one pass.
 ///
 /// # Errors
-/// As [`Backend::color_of`], and what the watcher says.
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
 ///
 /// # Panics
-/// If sizes differ.
-pub fn paint<B: Watercolor>(
-    backend: &mut B,
-    wash: WashOn<B>,
-    flow: &B::Grey,
-    dispersion: &B::Grey,
-    paper: &PaperOn<B>,
+/// If sizes differ, or another form of [`Compute`] made an image.
+pub fn paint(
+    compute: &mut Compute,
+    wash: WashImages,
+    textures: FrameTextures<'_>,
     settings: &Settings,
-    mut watcher: Option<Watcher<'_, B>>,
-) -> Result<B::Color, DeviceError> {
-    let WashOn { color, dry_brush, density } = wash;
-    tell(&mut watcher, backend, Stage::Wash, &color)?;
+    mut observer: Option<StageObserver<'_>>,
+) -> Result<ColorImage, DeviceError> {
+    let WashImages { color, dry_brush, density } = wash;
+    let FrameTextures { flow, dispersion, paper } = textures;
+    report(&mut observer, compute, Stage::Wash, &color)?;
     let heights = &paper.heights;
-    let displaced = paper.texture.per_slope(settings.wobble.amount_px);
-    let mut color = backend.wobbled(color, heights, displaced)?;
-    tell(&mut watcher, backend, Stage::Wobble, &color)?;
+    let px_per_slope = paper.texture.per_slope(settings.wobble.amount_px);
+    let mut color = wobble(compute, color, heights, px_per_slope)?;
+    report(&mut observer, compute, Stage::Wobble, &color)?;
     let dry = settings.dry_brush.amount > 0.0;
     let dry_brush = match settings.dry_brush.color.as_deref().and_then(Rgb::from_hex) {
-        Some(like) if dry => {
-            let range = ColorRange::around(like, settings.dry_brush.tolerance);
-            Some(backend.color_mask(&color, range, dry_brush.as_ref())?)
+        Some(center) if dry => {
+            let range = ColorRange::around(center, settings.dry_brush.tolerance);
+            Some(color_mask(compute, &color, range, dry_brush.as_ref())?)
         }
         _ => dry_brush,
     };
     let edges = match settings.edges.strength {
         0.0 => None,
-        _ => Some(backend.edges(&color, settings.edges.width_px)?),
+        _ => Some(edges(compute, &color, settings.edges.width_px)?),
     };
     let layers = [
         (Stage::Edges, edges.as_ref(), settings.edges.strength, 0.0),
@@ -147,44 +136,39 @@ pub fn paint<B: Watercolor>(
         (stage, texture.map(|texture| DensityLayer { texture, strength, pivot }))
     };
     let (layers, overall) = (layers.map(layer), settings.wash.density);
-    if watcher.is_some() {
+    if observer.is_some() {
         for (stage, layer) in layers {
             let overall = if stage == Stage::Edges { overall } else { 1.0 };
-            color = backend.densified(color, overall, layer.as_slice(), density.as_ref())?;
-            tell(&mut watcher, backend, stage, &color)?;
+            color = apply_density(compute, color, overall, layer.as_slice(), density.as_ref())?;
+            report(&mut observer, compute, stage, &color)?;
         }
     } else {
         let layers: Vec<_> = layers.into_iter().filter_map(|(_, layer)| layer).collect();
-        color = backend.densified(color, overall, &layers, density.as_ref())?;
+        color = apply_density(compute, color, overall, &layers, density.as_ref())?;
     }
-    color = backend.dry_brushed(
-        color,
-        heights,
-        flow,
-        reach(&paper.texture, settings),
-        dry_brush.as_ref(),
-    )?;
-    tell(&mut watcher, backend, Stage::DryBrush, &color)?;
-    color = backend.on_sheet(color, heights, sheet(paper, settings))?;
-    tell(&mut watcher, backend, Stage::Sheet, &color)?;
+    let reach = dry_brush_reach(&paper.texture, settings);
+    color = apply_dry_brush(compute, color, heights, flow, reach, dry_brush.as_ref())?;
+    report(&mut observer, compute, Stage::DryBrush, &color)?;
+    color = shade_paper(compute, color, heights, paper_shading(&paper.texture, settings))?;
+    report(&mut observer, compute, Stage::OnPaper, &color)?;
     Ok(color)
 }
 
-fn tell<B: Backend>(
-    watcher: &mut Option<Watcher<'_, B>>,
-    backend: &mut B,
+fn report(
+    observer: &mut Option<StageObserver<'_>>,
+    compute: &mut Compute,
     stage: Stage,
-    color: &B::Color,
+    color: &ColorImage,
 ) -> Result<(), DeviceError> {
-    match watcher {
-        Some(watcher) => watcher(backend, stage, color),
-        None => Ok(()),
+    if let Some(observer) = observer {
+        observer(stage, compute.download(color)?);
     }
+    Ok(())
 }
 
-/// The dry brush of `settings` on this paper: half of the band in which paint fades
-/// lies above the height that leaves the wanted share bare.
-pub(super) fn reach(paper: &PaperTexture, settings: &Settings) -> DryBrushReach {
+/// The reach of the dry brush of `settings` on this paper. The band in which paint fades is
+/// centred on the height that leaves the wanted share of the paper bare.
+pub(super) fn dry_brush_reach(paper: &PaperTexture, settings: &Settings) -> DryBrushReach {
     let DryBrushSettings { softness, patches, .. } = settings.dry_brush;
     let threshold = match settings.dry_brush.amount {
         amount if amount > 0.0 => paper.height_above(amount) + 0.5 * softness,
@@ -193,8 +177,8 @@ pub(super) fn reach(paper: &PaperTexture, settings: &Settings) -> DryBrushReach 
     DryBrushReach { threshold, softness, patches }
 }
 
-fn sheet<B: Backend>(paper: &PaperOn<B>, settings: &Settings) -> Sheet {
+fn paper_shading(paper: &PaperTexture, settings: &Settings) -> PaperShading {
     let color = Rgb::from_hex(&settings.paper.color).unwrap_or(Rgb([1.0; 3]));
-    let relief = paper.texture.relief_per_slope(settings.paper.relief);
-    Sheet { color: color.0.map(|value| value as f32), relief }
+    let relief = paper.relief_per_slope(settings.paper.relief);
+    PaperShading { color: color.0.map(|value| value as f32), relief }
 }

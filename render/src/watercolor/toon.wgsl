@@ -1,13 +1,13 @@
-// Surfaces seen, in steps of light; twin of toon.rs.
+// Shades a visibility buffer in steps of light; twin of toon.rs.
 
-struct ToonNow {
+struct ToonParams {
     eye: vec3<f32>,
     strength: f32,
-    // Towards the light, of length 1.
+    // Direction towards the light, of length 1.
     light: vec3<f32>,
-    // Samples of a pixel along each side.
+    // Samples along each side of a pixel.
     samples: u32,
-    // Of the picture, in pixels.
+    // Size of the picture in pixels.
     size: vec2<u32>,
     spare: vec2<u32>,
     greys: array<vec4<f32>, 64>,
@@ -22,7 +22,7 @@ struct Vertex {
     spare: f32,
 }
 
-struct Coating {
+struct PackedMaterial {
     color: vec3<f32>,
     first: u32,
     width: u32,
@@ -30,30 +30,31 @@ struct Coating {
     spare: vec2<u32>,
 }
 
-struct Seen {
+struct Fragment {
     triangle: u32,
     second: f32,
     third: f32,
     depth: f32,
 }
 
-@group(0) @binding(0) var<uniform> now: ToonNow;
+@group(0) @binding(0) var<uniform> params: ToonParams;
 @group(0) @binding(1) var<storage, read> vertices: array<Vertex>;
 @group(0) @binding(2) var<storage, read> triangles: array<vec4<u32>>;
-@group(0) @binding(3) var<storage, read> coatings: array<Coating>;
+@group(0) @binding(3) var<storage, read> materials: array<PackedMaterial>;
 @group(0) @binding(4) var<storage, read> texels: array<u32>;
-@group(0) @binding(5) var<storage, read> seen: array<Seen>;
+@group(0) @binding(5) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(6) var<storage, read_write> painted: array<vec4<f32>>;
 
-fn between(at: Seen, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
+fn between(at: Fragment, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
     return a + (b - a) * at.second + (c - a) * at.third;
 }
 
-fn texel(coating: Coating, column: u32, row: u32) -> vec3<f32> {
-    return unpack4x8unorm(texels[coating.first + row * coating.width + column]).xyz;
+fn texel(material: PackedMaterial, column: u32, row: u32) -> vec3<f32> {
+    return unpack4x8unorm(texels[material.first + row * material.width + column]).xyz;
 }
 
-// The texel of `count` at `place`, from -1 to `count`, as if they repeated.
+// The index of the texel at `place`, which is -1 to `count`, in a row of `count` texels that
+// repeats.
 fn wrapped(place: f32, count: u32) -> u32 {
     let whole = floor(place);
     if whole < 0.0 {
@@ -62,60 +63,60 @@ fn wrapped(place: f32, count: u32) -> u32 {
     return select(u32(whole), 0u, whole >= f32(count));
 }
 
-fn textured(coating: Coating, at: vec2<f32>) -> vec3<f32> {
+fn textured(material: PackedMaterial, at: vec2<f32>) -> vec3<f32> {
     let place = at - floor(at);
-    let x = place.x * f32(coating.width) - 0.5;
-    let y = place.y * f32(coating.height) - 0.5;
-    let left = wrapped(x, coating.width);
-    let right = wrapped(x + 1.0, coating.width);
-    let top = wrapped(y, coating.height);
-    let bottom = wrapped(y + 1.0, coating.height);
-    let above = mix(texel(coating, left, top), texel(coating, right, top), x - floor(x));
-    let below = mix(texel(coating, left, bottom), texel(coating, right, bottom), x - floor(x));
+    let x = place.x * f32(material.width) - 0.5;
+    let y = place.y * f32(material.height) - 0.5;
+    let left = wrapped(x, material.width);
+    let right = wrapped(x + 1.0, material.width);
+    let top = wrapped(y, material.height);
+    let bottom = wrapped(y + 1.0, material.height);
+    let above = mix(texel(material, left, top), texel(material, right, top), x - floor(x));
+    let below = mix(texel(material, left, bottom), texel(material, right, bottom), x - floor(x));
     return mix(above, below, y - floor(y));
 }
 
 fn grey(cosine: f32) -> f32 {
     let at = clamp(cosine, 0.0, 1.0) * 255.0;
     let below = min(u32(at), 254u);
-    let low = now.greys[below / 4u][below % 4u];
-    let high = now.greys[(below + 1u) / 4u][(below + 1u) % 4u];
+    let low = params.greys[below / 4u][below % 4u];
+    let high = params.greys[(below + 1u) / 4u][(below + 1u) % 4u];
     return low + (high - low) * (at - f32(below));
 }
 
-fn toon(at: Seen) -> vec3<f32> {
+fn toon(at: Fragment) -> vec3<f32> {
     let triangle = triangles[at.triangle];
     let a = vertices[triangle.x];
     let b = vertices[triangle.y];
     let c = vertices[triangle.z];
-    let coating = coatings[triangle.w];
+    let material = materials[triangle.w];
     let face = cross(b.position - a.position, c.position - a.position);
     var normal = between(at, a.normal, b.normal, c.normal);
     let far = length(normal);
     normal = select(vec3(0.0), normal / far, far > 0.0);
-    if dot(face, now.eye - a.position) < 0.0 {
+    if dot(face, params.eye - a.position) < 0.0 {
         normal = -normal;
     }
-    var albedo = coating.color * between(at, a.color, b.color, c.color);
-    if coating.width > 0u {
+    var albedo = material.color * between(at, a.color, b.color, c.color);
+    if material.width > 0u {
         let uv = vec2(a.u, a.v) + (vec2(b.u, b.v) - vec2(a.u, a.v)) * at.second
             + (vec2(c.u, c.v) - vec2(a.u, a.v)) * at.third;
-        albedo *= textured(coating, uv);
+        albedo *= textured(material, uv);
     }
-    let excess = max(now.strength * (0.5 - grey(dot(normal, now.light))), -1.0);
+    let excess = max(params.strength * (0.5 - grey(dot(normal, params.light))), -1.0);
     return clamp(albedo * (1.0 - (1.0 - albedo) * excess), vec3(0.0), vec3(1.0));
 }
 
 @compute @workgroup_size(8, 8)
 fn watercolor_toon(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= now.size) {
+    if any(id.xy >= params.size) {
         return;
     }
-    let stride = now.size.x * now.samples;
+    let stride = params.size.x * params.samples;
     var sum = vec4(0.0);
-    for (var y = 0u; y < now.samples; y++) {
-        for (var x = 0u; x < now.samples; x++) {
-            let at = seen[(id.y * now.samples + y) * stride + id.x * now.samples + x];
+    for (var y = 0u; y < params.samples; y++) {
+        for (var x = 0u; x < params.samples; x++) {
+            let at = fragments[(id.y * params.samples + y) * stride + id.x * params.samples + x];
             if at.triangle != 0xffffffffu {
                 sum += vec4(toon(at), 1.0);
             }
@@ -123,7 +124,7 @@ fn watercolor_toon(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var color = vec4(1.0, 1.0, 1.0, 0.0);
     if sum.w > 0.0 {
-        color = vec4(sum.xyz / sum.w, sum.w / f32(now.samples * now.samples));
+        color = vec4(sum.xyz / sum.w, sum.w / f32(params.samples * params.samples));
     }
-    painted[id.y * now.size.x + id.x] = color;
+    painted[id.y * params.size.x + id.x] = color;
 }

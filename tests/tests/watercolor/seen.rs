@@ -7,7 +7,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::camera::{Camera, Framing};
 use render::mesh::{Material, Mesh, Triangle};
-use render::surface::{NOTHING, Rasteriser, Seen, Sides, Visible, position_at, visible};
+use render::surface::{
+    Fragment, NO_TRIANGLE, Rasteriser, Sides, VisibilityBuffer, position_at, visible,
+};
 
 /// Triangles that share no vertex.
 pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
@@ -83,7 +85,7 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
     let wide = high * width as f64 / height as f64;
     let [x, y] = [at[0] / width as f64 * 2.0 - 1.0, 1.0 - at[1] / height as f64 * 2.0];
     let ray = sum([(forward, 1.0), (right, x * wide), (up, y * high)]);
-    let mut nearest = (f64::from(camera.far), NOTHING);
+    let mut nearest = (f64::from(camera.far), NO_TRIANGLE);
     for (triangle, number) in mesh.triangles.iter().zip(0..) {
         let places = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
         let [a, b, c] = places.map(|place| minus(exact(place), eye));
@@ -118,7 +120,7 @@ fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
                 if around.iter().all(|&[dx, dy]| ray(dx, dy) == wanted) {
                     assert_eq!(found[(x, y)].triangle, wanted, "seed {seed}, {x}, {y}");
                     told += 1;
-                    empty += usize::from(wanted == NOTHING);
+                    empty += usize::from(wanted == NO_TRIANGLE);
                 }
             }
         }
@@ -136,8 +138,8 @@ fn a_pixel_tells_the_place_that_it_sees() {
     for y in 0..64 {
         for x in 0..96 {
             let pixel = found[(x, y)];
-            if pixel.triangle == NOTHING {
-                assert_eq!(pixel, Seen::EMPTY, "{x}, {y}");
+            if pixel.triangle == NO_TRIANGLE {
+                assert_eq!(pixel, Fragment::EMPTY, "{x}, {y}");
                 continue;
             }
             let clip = clip_from_model * position_at(&mesh, pixel).extend(1.0);
@@ -192,11 +194,12 @@ fn edges_that_are_shared_are_drawn_once_and_leave_no_hole() {
     ];
     for (mesh, clip_from_model, least) in cases {
         let drawn_by = |triangles: &[Triangle]| {
-            let mut visible = Visible::filled(128, 128, Seen::EMPTY);
+            let mut visible = VisibilityBuffer::filled(128, 128, Fragment::EMPTY);
             let mut rasteriser = Rasteriser::default();
             let places = &mesh.positions;
             rasteriser.draw(clip_from_model, places, triangles, Sides::Both, &mut visible);
-            let shown = |(pixel, seen): (usize, &Seen)| (seen.triangle != NOTHING).then_some(pixel);
+            let shown =
+                |(pixel, seen): (usize, &Fragment)| (seen.triangle != NO_TRIANGLE).then_some(pixel);
             visible.values().iter().enumerate().filter_map(shown).collect::<BTreeSet<usize>>()
         };
         let whole = drawn_by(&mesh.triangles);
@@ -219,7 +222,7 @@ fn of_equal_depth_the_first_triangle_is_seen_and_runs_agree() {
     let mesh = loose(&[triangle; 5000]);
     let camera = Camera::framing(mesh.bounds(), 20.0, 10.0, 40.0);
     let found = visible(&mesh, &camera, 64, 64);
-    assert!(found.values().iter().all(|seen| [0, NOTHING].contains(&seen.triangle)));
+    assert!(found.values().iter().all(|seen| [0, NO_TRIANGLE].contains(&seen.triangle)));
     assert!(found[(32, 32)].triangle == 0);
     let (mesh, camera) = (random_triangles(9000, 4), inside_them());
     assert_eq!(visible(&mesh, &camera, 200, 100), visible(&mesh, &camera, 200, 100));
@@ -230,7 +233,7 @@ fn the_front_of_a_closed_mesh_is_all_that_is_seen_of_it() {
     for mesh in [Mesh::sphere(900), Mesh::torus_knot(4000)] {
         let camera = Camera::framing(mesh.bounds(), 35.0, 25.0, 30.0);
         let both = visible(&mesh, &camera, 150, 150);
-        let mut front = Visible::filled(150, 150, Seen::EMPTY);
+        let mut front = VisibilityBuffer::filled(150, 150, Fragment::EMPTY);
         let clip_from_model = camera.clip_from_model(1.0);
         Rasteriser::default().draw(
             clip_from_model,
@@ -241,7 +244,7 @@ fn the_front_of_a_closed_mesh_is_all_that_is_seen_of_it() {
         );
         let differ = both.values().iter().zip(front.values()).filter(|(a, b)| a != b).count();
         assert!(differ <= 3, "{differ} pixels");
-        let seen = both.values().iter().filter(|seen| seen.triangle != NOTHING).count();
+        let seen = both.values().iter().filter(|seen| seen.triangle != NO_TRIANGLE).count();
         assert!(seen > 4000, "{seen}");
     }
 }
@@ -251,7 +254,7 @@ fn empty_pictures_and_empty_meshes_show_nothing() {
     let camera = inside_them();
     assert_eq!(visible(&Mesh::sphere(100), &camera, 0, 5).values().len(), 0);
     let nothing = visible(&Mesh::default(), &camera, 5, 5);
-    assert!(nothing.values().iter().all(|seen| *seen == Seen::EMPTY));
+    assert!(nothing.values().iter().all(|seen| *seen == Fragment::EMPTY));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use render::camera::{Camera, Framing};
 use render::field::Field;
 use render::gpu::DeviceError;
 use render::mesh::{Material, Mesh, Texture};
-use render::surface::{NOTHING, PackedMesh, RASTER, Visible, position_at};
+use render::surface::{NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
 use render::watercolor::{
     Light, ModelPainter, Models, OnCpu, OnGpu, Settings, Shading, ToneRamp, Toon,
 };
@@ -45,7 +45,12 @@ fn two() -> Mesh {
     mesh
 }
 
-fn seen<B: Models>(backend: &mut B, mesh: &Mesh, camera: &Camera, size: (usize, usize)) -> Visible {
+fn seen<B: Models>(
+    backend: &mut B,
+    mesh: &Mesh,
+    camera: &Camera,
+    size: (usize, usize),
+) -> VisibilityBuffer {
     let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
     let visible = backend.seen(&mut model, camera, size.0, size.1).unwrap();
     backend.visible_field(&visible).unwrap()
@@ -99,7 +104,7 @@ fn the_device_sees_what_the_processor_sees() {
         for (a, b) in on_cpu.values().iter().zip(found.values()) {
             if a.triangle != b.triangle {
                 differ += 1;
-            } else if a.triangle != NOTHING {
+            } else if a.triangle != NO_TRIANGLE {
                 shown += 1;
                 // A device need not move the weights along with the vertices, which a
                 // triangle of a few pixels feels; the place is the same all the same.

@@ -1,50 +1,47 @@
-//! Textures that follow particles, blended pixel by pixel.
+//! Blends the copies of a texture that follow particles, pixel by pixel.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::particles::{Anchor, Anchors, MOST_OCTAVES};
+use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use crate::field::Field;
-use crate::gpu::{DeviceError, Kernel, Storage, groups, layout};
-use crate::image::Backend;
-use crate::image::OnCpu;
-use crate::image::{OnGpu, Plane};
+use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// Draws textures that follow particles.
-pub trait Anchoring: Backend {
-    /// 0.5 and what the copies of `texture` differ from it, cut off at 0 and 1; 0.5
-    /// where nothing is seen, which `depth` (0 near to 1, nothing) of the picture
-    /// tells.
-    ///
-    /// A copy's weight falls with the square s of its distance from the place that
-    /// the pixel sees, as `(1 - (s - s of the nearest) / reach)^2`. Blending takes
-    /// contrast away; it is given back by the root of the sum of squared weights,
-    /// which is right where copies do not resemble each other (Heeger and Bergen
-    /// 1995).
-    ///
-    /// # Errors
-    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
-    ///
-    /// # Panics
-    /// If the sides of the texture, which repeats, are not powers of two, or
-    /// `depth` is not of the anchors' picture.
-    fn anchored(
-        &mut self,
-        depth: &Self::Grey,
-        texture: &Self::Grey,
-        anchors: &Anchors,
-    ) -> Result<Self::Grey, DeviceError>;
-}
-
-fn check(depth: (usize, usize), texture: (usize, usize), anchors: &Anchors) {
-    let (width, height) = texture;
+/// Draws a texture that follows particles: 0.5 plus the blend of what its copies differ
+/// from 0.5, clamped to 0..1. Pixels whose `depth` is 1, where nothing is seen, get 0.5.
+///
+/// The weight of a copy is `(1 - (s - s_min) / reach)^2`, where s is the squared distance of
+/// its particle from the position that the pixel shows and s_min that of the nearest one.
+/// Blending lowers contrast; the sum is divided by the root of the sum of squared weights,
+/// which restores it where copies are uncorrelated (Heeger and Bergen 1995).
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+///
+/// # Panics
+/// If the width or height of the texture, which repeats, is not a power of two, if `depth`
+/// does not have the size of the anchors' projection, or if another form of [`Compute`]
+/// made an image.
+pub fn draw_anchored(
+    compute: &mut Compute,
+    depth: &GreyImage,
+    texture: &GreyImage,
+    anchors: &Anchors,
+) -> Result<GreyImage, DeviceError> {
+    let (width, height) = texture.size();
     let repeats = width.is_power_of_two() && height.is_power_of_two();
-    assert!(repeats, "a texture of {width} x {height}");
-    let picture = (anchors.sight.width, anchors.sight.height);
-    assert_eq!(depth, picture, "depth of another picture");
+    assert!(repeats, "a repeating texture has sides of powers of two, found {width} x {height}");
+    assert_size("depth", depth.size(), (anchors.projection.width, anchors.projection.height));
+    match compute {
+        Compute::Cpu => Ok(draw_anchored_on_cpu(depth.host(), texture.host(), anchors).into()),
+        Compute::Gpu(gpu) => {
+            draw_anchored_on_gpu(gpu, depth.plane(), texture.plane(), anchors).map(Image::from)
+        }
+    }
 }
 
-/// The value at a place of a texture that repeats, between its four nearest.
+/// The value of a repeating texture at (x, y), bilinear between its four nearest texels.
 fn bilinear(texture: &Field<f32>, x: f32, y: f32) -> f32 {
     let (left, top) = (x.floor(), y.floor());
     let (right, down) = (x - left, y - top);
@@ -59,7 +56,7 @@ fn bilinear(texture: &Field<f32>, x: f32, y: f32) -> f32 {
     above + (below - above) * down
 }
 
-/// By how much a copy differs from 0.5 at a pixel, `right` and `down` of its anchor.
+/// The difference of a copy from 0.5 at a pixel that is `right` and `down` of its anchor.
 fn copy(texture: &Field<f32>, anchor: &Anchor, octaves: usize, right: f32, down: f32) -> f32 {
     let mut texels = anchor.texels;
     let mut sum = 0.0;
@@ -72,45 +69,39 @@ fn copy(texture: &Field<f32>, anchor: &Anchor, octaves: usize, right: f32, down:
     sum
 }
 
-impl Anchoring for OnCpu {
-    fn anchored(
-        &mut self,
-        depth: &Field<f32>,
-        texture: &Field<f32>,
-        anchors: &Anchors,
-    ) -> Result<Field<f32>, DeviceError> {
-        let size = (depth.width(), depth.height());
-        check(size, (texture.width(), texture.height()), anchors);
-        let mut blended = Field::filled(size.0, size.1, 0.5);
-        let rows = blended.values_mut().par_chunks_mut(size.0.max(1)).enumerate();
-        rows.for_each_init(
-            || vec![0.0f32; anchors.each.len()],
-            |distances, (y, values)| {
-                let depths = depth.row(y, 0, size.0);
-                for (x, (value, &depth)) in values.iter_mut().zip(depths).enumerate() {
-                    if depth < 1.0 {
-                        let place = anchors.sight.place((x, y), depth);
-                        let at = [x as f32 + 0.5, y as f32 + 0.5];
-                        let sum = blend(texture, anchors, place, at, distances);
-                        *value = (0.5 + sum).clamp(0.0, 1.0);
-                    }
+fn draw_anchored_on_cpu(depth: &Field<f32>, texture: &Field<f32>, anchors: &Anchors) -> Field<f32> {
+    let (width, height) = (depth.width(), depth.height());
+    let mut blended = Field::filled(width, height, 0.5);
+    let rows = blended.values_mut().par_chunks_mut(width.max(1)).enumerate();
+    rows.for_each_init(
+        || vec![0.0f32; anchors.each.len()],
+        |distances, (y, values)| {
+            let depths = depth.row(y, 0, width);
+            for (x, (value, &depth)) in values.iter_mut().zip(depths).enumerate() {
+                if depth < 1.0 {
+                    let position = anchors.projection.unproject((x, y), depth);
+                    let at = [x as f32 + 0.5, y as f32 + 0.5];
+                    let sum = blend(texture, anchors, position, at, distances);
+                    *value = (0.5 + sum).clamp(0.0, 1.0);
                 }
-            },
-        );
-        Ok(blended)
-    }
+            }
+        },
+    );
+    blended
 }
 
+/// The blend of all copies at a pixel that shows `position`; `distances` is scratch memory,
+/// one number for each anchor.
 fn blend(
     texture: &Field<f32>,
     anchors: &Anchors,
-    place: Vec3,
+    position: Vec3,
     at: [f32; 2],
     distances: &mut [f32],
 ) -> f32 {
     let mut nearest = f32::INFINITY;
     for (distance, anchor) in distances.iter_mut().zip(&anchors.each) {
-        *distance = place.distance_squared(anchor.place.into());
+        *distance = position.distance_squared(anchor.position.into());
         nearest = nearest.min(*distance);
     }
     let (mut sum, mut squares) = (0.0, 0.0);
@@ -128,24 +119,24 @@ fn blend(
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-struct Anchored {
+struct AnchoredParams {
     model_from_clip: [[f32; 4]; 4],
     width: u32,
     height: u32,
     texture_width: u32,
     texture_height: u32,
-    /// Of the anchors in the batch.
+    /// Index of the first anchor in the batch.
     first: u32,
     count: u32,
     octaves: u32,
     reach_squared: f32,
 }
 
-/// The kernel of textures that follow particles.
+/// The kernel that blends the copies of a texture at each pixel.
 pub static ANCHOR_TEXTURES: Kernel = Kernel {
     name: "anchor_textures",
     source: include_str!("anchored.wgsl"),
-    parameters: layout!(Anchored {
+    parameters: layout!(AnchoredParams {
         model_from_clip,
         width,
         height,
@@ -156,37 +147,31 @@ pub static ANCHOR_TEXTURES: Kernel = Kernel {
         octaves,
         reach_squared,
     }),
-    structs: &[layout!(Anchor { place, presence, x, y, texels, spare, weights, right, down })],
+    structs: &[layout!(Anchor { position, presence, x, y, texels, spare, weights, right, down })],
     storage: &[Storage::Read, Storage::Read, Storage::Batch, Storage::Write],
 };
 
-impl Anchoring for OnGpu {
-    fn anchored(
-        &mut self,
-        depth: &Plane,
-        texture: &Plane,
-        anchors: &Anchors,
-    ) -> Result<Plane, DeviceError> {
-        let (width, height) = (depth.width(), depth.height());
-        check((width, height), (texture.width(), texture.height()), anchors);
-        let blended = self.plane(width, height, size_of::<f32>())?;
-        let parameters = Anchored {
-            model_from_clip: anchors.sight.model_from_clip().to_cols_array_2d(),
-            width: width as u32,
-            height: height as u32,
-            texture_width: texture.width() as u32,
-            texture_height: texture.height() as u32,
-            first: self.recording.batch(&anchors.each),
-            count: anchors.each.len() as u32,
-            octaves: anchors.octaves.min(MOST_OCTAVES) as u32,
-            reach_squared: anchors.reach_squared,
-        };
-        self.recording.dispatch(
-            &ANCHOR_TEXTURES,
-            &parameters,
-            &[depth.buffer(), texture.buffer(), blended.buffer()],
-            [groups(width), groups(height), 1],
-        );
-        Ok(blended)
-    }
+fn draw_anchored_on_gpu(
+    gpu: &mut GpuCompute,
+    depth: &Plane<f32>,
+    texture: &Plane<f32>,
+    anchors: &Anchors,
+) -> Result<Plane<f32>, DeviceError> {
+    let (width, height) = depth.size();
+    let (texture_width, texture_height) = texture.size();
+    let blended = gpu.plane(width, height)?;
+    let params = AnchoredParams {
+        model_from_clip: anchors.projection.model_from_clip().to_cols_array_2d(),
+        width: width as u32,
+        height: height as u32,
+        texture_width: texture_width as u32,
+        texture_height: texture_height as u32,
+        first: gpu.batch(&anchors.each),
+        count: anchors.each.len() as u32,
+        octaves: anchors.octaves.min(MOST_OCTAVES) as u32,
+        reach_squared: anchors.reach_squared,
+    };
+    let buffers = [depth.buffer(), texture.buffer(), blended.buffer()];
+    gpu.dispatch(&ANCHOR_TEXTURES, &params, &buffers, (width, height));
+    Ok(blended)
 }

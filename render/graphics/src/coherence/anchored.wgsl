@@ -1,6 +1,6 @@
-// Textures that follow particles, blended; twin of anchored.rs.
+// Blends the copies of a texture that follow particles; twin of anchored.rs.
 
-struct Anchored {
+struct AnchoredParams {
     model_from_clip: mat4x4<f32>,
     width: u32,
     height: u32,
@@ -13,7 +13,7 @@ struct Anchored {
 }
 
 struct Anchor {
-    place: vec3<f32>,
+    position: vec3<f32>,
     presence: f32,
     x: f32,
     y: f32,
@@ -24,16 +24,16 @@ struct Anchor {
     down: array<f32, 8>,
 }
 
-@group(0) @binding(0) var<uniform> now: Anchored;
+@group(0) @binding(0) var<uniform> params: AnchoredParams;
 @group(0) @binding(1) var<storage, read> depths: array<f32>;
-@group(0) @binding(2) var<storage, read> pigment: array<f32>;
+@group(0) @binding(2) var<storage, read> noise: array<f32>;
 @group(0) @binding(3) var<storage, read> anchors: array<Anchor>;
 @group(0) @binding(4) var<storage, read_write> blended: array<f32>;
 
 fn texel(x: i32, y: i32) -> f32 {
-    let column = u32(x) & (now.texture_width - 1u);
-    let row = u32(y) & (now.texture_height - 1u);
-    return pigment[row * now.texture_width + column];
+    let column = u32(x) & (params.texture_width - 1u);
+    let row = u32(y) & (params.texture_height - 1u);
+    return noise[row * params.texture_width + column];
 }
 
 fn bilinear(at: vec2<f32>) -> f32 {
@@ -46,44 +46,44 @@ fn bilinear(at: vec2<f32>) -> f32 {
     return mix(above, below, part.y);
 }
 
-fn distance_squared(place: vec3<f32>, anchor: u32) -> f32 {
-    let apart = place - anchors[anchor].place;
+fn distance_squared(position: vec3<f32>, anchor: u32) -> f32 {
+    let apart = position - anchors[anchor].position;
     return dot(apart, apart);
 }
 
 @compute @workgroup_size(8, 8)
 fn anchor_textures(@builtin(global_invocation_id) at: vec3<u32>) {
-    if at.x >= now.width || at.y >= now.height {
+    if at.x >= params.width || at.y >= params.height {
         return;
     }
-    let pixel = at.y * now.width + at.x;
+    let pixel = at.y * params.width + at.x;
     let depth = depths[pixel];
     if depth >= 1.0 {
         blended[pixel] = 0.5;
         return;
     }
-    let middle = vec2<f32>(at.xy) + 0.5;
-    let size = vec2<f32>(f32(now.width), f32(now.height));
-    let clip = vec2(2.0, -2.0) * middle / size + vec2(-1.0, 1.0);
-    let model = now.model_from_clip * vec4(clip, depth, 1.0);
-    let place = model.xyz / model.w;
-    let end = now.first + now.count;
-    var nearest = distance_squared(place, now.first);
-    for (var i = now.first + 1u; i < end; i++) {
-        nearest = min(nearest, distance_squared(place, i));
+    let center = vec2<f32>(at.xy) + 0.5;
+    let size = vec2<f32>(f32(params.width), f32(params.height));
+    let clip = vec2(2.0, -2.0) * center / size + vec2(-1.0, 1.0);
+    let model = params.model_from_clip * vec4(clip, depth, 1.0);
+    let position = model.xyz / model.w;
+    let end = params.first + params.count;
+    var nearest = distance_squared(position, params.first);
+    for (var i = params.first + 1u; i < end; i++) {
+        nearest = min(nearest, distance_squared(position, i));
     }
     var sum = 0.0;
     var squares = 0.0;
-    for (var i = now.first; i < end; i++) {
-        let near = 1.0 - (distance_squared(place, i) - nearest) / now.reach_squared;
+    for (var i = params.first; i < end; i++) {
+        let near = 1.0 - (distance_squared(position, i) - nearest) / params.reach_squared;
         if near <= 0.0 {
             continue;
         }
         let weight = near * near * anchors[i].presence;
-        let away = middle - vec2(anchors[i].x, anchors[i].y);
+        let away = center - vec2(anchors[i].x, anchors[i].y);
         var texels = anchors[i].texels;
         var differs = 0.0;
-        for (var octave = 0u; octave < now.octaves; octave++) {
+        for (var octave = 0u; octave < params.octaves; octave++) {
             let start = vec2(anchors[i].right[octave], anchors[i].down[octave]);
             let value = bilinear(away * texels + start);
             differs += anchors[i].weights[octave] * (value - 0.5);

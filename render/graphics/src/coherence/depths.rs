@@ -1,51 +1,54 @@
-//! How far away each pixel is, wherever pictures live.
+//! The depth of each pixel of a visibility buffer.
 
-use super::sight::depth_of;
-use crate::gpu::{DeviceError, Kernel, Storage, groups, layout};
-use crate::image::Models;
-use crate::image::OnCpu;
-use crate::image::{OnGpu, Plane};
-use crate::surface::Seen;
+use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane};
+use crate::field::Field;
+use crate::gpu::{DeviceError, Kernel, Storage, layout};
+use crate::surface::{Fragment, VisibilityBuffer};
 
-/// Tells depth from what is seen.
-pub trait Depths: Models {
-    /// The depth of every pixel: 0 near to 1, where nothing is seen.
-    ///
-    /// # Errors
-    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
-    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, DeviceError>;
-}
-
-impl Depths for OnCpu {
-    fn depths(&mut self, visible: &Self::Visible) -> Result<Self::Grey, DeviceError> {
-        Ok(depth_of(visible))
+/// The depth of each pixel: 0 at the near plane to 1 where no triangle is seen.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made the image.
+pub fn depths(compute: &mut Compute, visible: &Image<Fragment>) -> Result<GreyImage, DeviceError> {
+    match compute {
+        Compute::Cpu => Ok(depth_field(visible.host()).into()),
+        Compute::Gpu(gpu) => depths_on_gpu(gpu, visible.plane()).map(Image::from),
     }
 }
 
-/// What the kernel is told.
+/// The depth of each pixel, as [`depths`] computes it on the processor.
+#[must_use]
+pub fn depth_field(visible: &VisibilityBuffer) -> Field<f32> {
+    let depths = visible.values().iter().map(|fragment| fragment.depth);
+    Field::from_values(visible.width(), visible.height(), depths.collect())
+}
+
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct DepthsNow {
+struct DepthsParams {
     size: [u32; 2],
     spare: [u32; 2],
 }
 
-/// The kernel that brings depths from samples to pixels.
+/// The kernel that copies the depth out of each fragment.
 pub static DEPTHS: Kernel = Kernel {
-    name: "watercolor_depths",
+    name: "depths",
     source: include_str!("depths.wgsl"),
-    parameters: layout!(DepthsNow { size, spare }),
-    structs: &[layout!(Seen { triangle, second, third, depth })],
+    parameters: layout!(DepthsParams { size, spare }),
+    structs: &[layout!(Fragment { triangle, second, third, depth })],
     storage: &[Storage::Read, Storage::Write],
 };
 
-impl Depths for OnGpu {
-    fn depths(&mut self, visible: &Plane) -> Result<Plane, DeviceError> {
-        let (width, height) = (visible.width(), visible.height());
-        let depths = self.plane(width, height, size_of::<f32>())?;
-        let now = DepthsNow { size: [width as u32, height as u32], spare: [0; 2] };
-        let buffers = [visible.buffer(), depths.buffer()];
-        self.recording.dispatch(&DEPTHS, &now, &buffers, [groups(width), groups(height), 1]);
-        Ok(depths)
-    }
+fn depths_on_gpu(
+    gpu: &mut GpuCompute,
+    visible: &Plane<Fragment>,
+) -> Result<Plane<f32>, DeviceError> {
+    let (width, height) = visible.size();
+    let depths = gpu.plane(width, height)?;
+    let params = DepthsParams { size: [width as u32, height as u32], spare: [0; 2] };
+    gpu.dispatch(&DEPTHS, &params, &[visible.buffer(), depths.buffer()], (width, height));
+    Ok(depths)
 }

@@ -1,9 +1,9 @@
-//! Faces of a mesh, joined to patches, patches to larger ones, up to the whole.
+//! The faces of a mesh, grouped into a binary tree of patches.
 //!
-//! A binary tree of patches of nearly equal area, so that where triangles are
-//! smaller than a feature of noise, a patch of them can have one (Bousseau, Kaplan,
-//! Thollot and Sillion 2006). Triangles are told apart by where they
-//! lie and where they face, so that the two sides of a leaf are two patches.
+//! The two parts of a patch have nearly equal area. Where triangles are smaller than a
+//! feature of noise, a whole patch of them carries one feature (Bousseau, Kaplan, Thollot
+//! and Sillion 2006). Triangles are grouped by position and by normal, so that the two
+//! sides of a thin leaf become two patches.
 
 use std::ops::Range;
 
@@ -12,41 +12,42 @@ use glam::Vec3;
 use super::random::Seed;
 use crate::mesh::Mesh;
 
-/// How far apart triangles count that face opposite ways, by the size of their
-/// patch.
+/// Weight of the normal against the position when faces are grouped: faces that differ by
+/// a unit normal count as this many patch radii apart. Chosen by eye.
 const FACING: f32 = 0.5;
 
-/// A triangle with an area.
+/// A triangle of the mesh whose area is not 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
     pub(super) normal: Vec3,
     pub(super) area: f64,
-    /// Its number in the mesh.
+    /// Index of the triangle in the mesh.
     pub(super) number: u32,
 }
 
-/// A patch.
+/// A node of the tree: some neighbouring faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
-    /// Faces in [`Hierarchy::faces`]; one where it has no parts.
+    /// Its faces in [`Hierarchy::faces`]; one face if the patch is a leaf.
     pub(super) faces: Range<usize>,
     pub(super) area: f64,
-    /// A ball around it.
-    pub(super) middle: Vec3,
+    /// Centre of a sphere that encloses the patch.
+    pub(super) center: Vec3,
+    /// Radius of that sphere, in the unit of the model.
     pub(super) radius: f32,
-    /// The index after the last patch within it. Its first part is the next one,
-    /// and its second where that one ends.
+    /// Index after the last descendant. The first part of the patch is the next patch, the
+    /// second begins where the first one ends.
     pub(super) end: usize,
 }
 
-/// All patches of a mesh; built once, as it does not depend on the view.
+/// All patches of a mesh. Independent of the view, so it is built once for a mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
     pub(super) faces: Vec<Face>,
-    /// Area of all faces before each, and of all.
-    before: Vec<f64>,
-    /// Every patch before its parts.
+    /// Summed area of all faces before each face, and of all faces at the end.
+    area_before: Vec<f64>,
+    /// All patches, each before its parts; the first is the whole mesh.
     pub(super) patches: Vec<Patch>,
 }
 
@@ -61,13 +62,14 @@ impl Face {
         area.is_finite().then_some(Self { corners, normal, area, number: number as u32 })
     }
 
-    fn middle(&self) -> Vec3 {
+    fn center(&self) -> Vec3 {
         (self.corners[0] + self.corners[1] + self.corners[2]) / 3.0
     }
 }
 
-/// An even place in a triangle (Turk 1990): the square folded at its diagonal.
-pub(super) fn place_in(corners: [Vec3; 3], mut second: f32, mut third: f32) -> Vec3 {
+/// A uniformly distributed point of a triangle from two uniform numbers in 0..1 (Turk
+/// 1990: the unit square folded at its diagonal).
+pub(super) fn point_in(corners: [Vec3; 3], mut second: f32, mut third: f32) -> Vec3 {
     if second + third > 1.0 {
         (second, third) = (1.0 - second, 1.0 - third);
     }
@@ -76,10 +78,10 @@ pub(super) fn place_in(corners: [Vec3; 3], mut second: f32, mut third: f32) -> V
 }
 
 impl Hierarchy {
-    /// The patches of `mesh`; faces without an area are in none.
+    /// Builds the patches of `mesh`. Faces of area 0 are left out.
     ///
     /// # Panics
-    /// If a triangle has a corner that there is not.
+    /// If a triangle has a corner that the mesh does not have.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
         let mut hierarchy = Self::default();
@@ -90,36 +92,36 @@ impl Hierarchy {
             hierarchy.split(&mut faces, 0);
         }
         let mut area = 0.0;
-        hierarchy.before.push(area);
+        hierarchy.area_before.push(area);
         for face in &faces {
             area += face.area;
-            hierarchy.before.push(area);
+            hierarchy.area_before.push(area);
         }
         hierarchy.faces = faces;
         hierarchy
     }
 
-    /// How many faces have an area.
+    /// Number of faces whose area is not 0.
     #[must_use]
     pub fn faces(&self) -> usize {
         self.faces.len()
     }
 
-    /// Adds the patch of `faces`, which begin at `first`, and all within it. The
-    /// area of a patch is at most half that of the one two above, so this goes
-    /// as deep as f32 has powers of two.
+    /// Adds the patch of `faces`, of which the first has index `first`, and all its
+    /// descendants. The area of a patch is at most half that of its grandparent, so the
+    /// depth of recursion is bounded by the range of f32.
     fn split(&mut self, faces: &mut [Face], first: usize) {
         let corners = || faces.iter().flat_map(|face| face.corners);
         let (low, high) = corners()
             .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| {
                 (low.min(at), high.max(at))
             });
-        let middle = (low + high) / 2.0;
-        let radius = corners().map(|at| at.distance_squared(middle)).fold(0.0, f32::max).sqrt();
+        let center = (low + high) / 2.0;
+        let radius = corners().map(|at| at.distance_squared(center)).fold(0.0, f32::max).sqrt();
         let area = faces.iter().map(|face| face.area).sum();
         let index = self.patches.len();
         let all = first..first + faces.len();
-        self.patches.push(Patch { faces: all, area, middle, radius, end: 0 });
+        self.patches.push(Patch { faces: all, area, center, radius, end: 0 });
         if faces.len() > 1 {
             let cut = halve(faces, area, radius);
             let (lower, upper) = faces.split_at_mut(cut);
@@ -129,28 +131,28 @@ impl Hierarchy {
         self.patches[index].end = self.patches.len();
     }
 
-    /// The parts of a patch; none where it is one face.
+    /// Indices of the two parts of a patch. `None` if the patch is one face.
     pub(super) fn parts(&self, patch: usize) -> Option<[usize; 2]> {
         let has = self.patches[patch].faces.len() > 1;
         has.then(|| [patch + 1, self.patches[patch + 1].end])
     }
 
-    /// An even place on a patch, with the face it is on.
-    pub(super) fn place_on(&self, patch: usize, seed: Seed) -> (Vec3, &Face) {
+    /// A uniformly distributed point of a patch, and the face it is on.
+    pub(super) fn point_on(&self, patch: usize, seed: Seed) -> (Vec3, &Face) {
         let faces = &self.patches[patch].faces;
-        let (low, high) = (self.before[faces.start], self.before[faces.end]);
+        let (low, high) = (self.area_before[faces.start], self.area_before[faces.end]);
         let wanted = low + (high - low) * f64::from(seed.unit(0));
-        let inside = &self.before[faces.start + 1..faces.end];
+        let inside = &self.area_before[faces.start + 1..faces.end];
         let face = &self.faces[faces.start + inside.partition_point(|&area| area <= wanted)];
-        (place_in(face.corners, seed.unit(1), seed.unit(2)), face)
+        (point_in(face.corners, seed.unit(1), seed.unit(2)), face)
     }
 }
 
-/// Sorts faces along what they differ most in, and cuts them where half of the
-/// area lies on either side.
+/// Sorts faces along the coordinate (of position or normal) in which they spread most.
+/// Returns the index that divides them into halves of nearly equal area.
 fn halve(faces: &mut [Face], area: f64, radius: f32) -> usize {
     let value = |face: &Face, axis: usize| match axis {
-        0..3 => face.middle()[axis],
+        0..3 => face.center()[axis],
         _ => face.normal[axis - 3] * radius * FACING,
     };
     let spread = |axis: usize| {
@@ -197,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_patch_is_in_one_piece_and_faces_one_way() {
+    fn small_patches_are_connected_and_face_one_way() {
         let hierarchy = Hierarchy::new(&Mesh::sphere(4000));
         let small = hierarchy.patches.iter().filter(|patch| (8..20).contains(&patch.faces.len()));
         let mut count = 0;
@@ -206,7 +208,7 @@ mod tests {
             let dot = |face: &Face| face.normal.dot(faces[0].normal);
             let least = faces.iter().map(dot).fold(1.0, f32::min);
             assert!(least > 0.7, "{least}");
-            // A disc of its area would have this radius.
+            // The radius of a disc of the same area.
             let round = (patch.area / std::f64::consts::PI).sqrt() as f32;
             assert!(patch.radius < 4.0 * round, "{} {round}", patch.radius);
             count += 1;

@@ -1,11 +1,12 @@
-//! Noise that stays on its object while it moves, and flat on the paper.
+//! Noise that stays on a moving object and looks flat in the picture.
 //!
-//! Two ways (Bousseau, Kaplan, Thollot and Sillion 2006, temporal coherence):
-//! textures of pigment that follow a few particles, and features of noise on the
-//! surface itself. What is decided for each particle or feature is decided here,
-//! with the processor, once for all backends; they do what is done for each pixel.
+//! Two methods (Bousseau, Kaplan, Thollot and Sillion 2006, section 5, temporal
+//! coherence): textures that follow a few [`Particles`], and [`Features`] of noise that sit
+//! on the surface itself. Particles and features are chosen on the processor, once for
+//! both forms of [`crate::compute::Compute`]; [`draw_anchored`] and [`draw_splats`] then
+//! work pixel by pixel.
 
-mod sight;
+mod projection;
 
 mod depths;
 
@@ -19,7 +20,7 @@ mod splat;
 
 mod features;
 
-mod pigment;
+mod repeating_noise;
 
 mod particles;
 
@@ -27,16 +28,13 @@ mod anchored;
 
 mod popping;
 
-pub use anchored::ANCHOR_TEXTURES;
-pub use anchored::Anchoring;
-pub use depths::DEPTHS;
-pub use depths::Depths;
+pub use anchored::{ANCHOR_TEXTURES, draw_anchored};
+pub use depths::{DEPTHS, depth_field, depths};
 pub use features::Features;
 pub use hierarchy::Hierarchy;
 pub use octaves::{FeatureNoise, SPREAD};
 pub use particles::{Anchor, AnchoredNoise, Anchors, Particles};
-pub use pigment::repeating_pigment;
-pub use popping::{NoiseShot, Popping};
-pub use sight::{Sight, depth_of};
-pub use splat::GATHER_SPLATS;
-pub use splat::{Splat, Splatting};
+pub use popping::{NoiseFrame, Popping};
+pub use projection::Projection;
+pub use repeating_noise::repeating_noise;
+pub use splat::{GATHER_SPLATS, Splat, draw_splats};

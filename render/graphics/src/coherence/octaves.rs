@@ -1,53 +1,53 @@
-//! Which octave of the noise a feature belongs to, and how strong an octave is.
+//! The octaves of feature noise: which octave a feature belongs to, and how strong it is.
 //!
-//! Octave o has features of radius r / 2^o. A feature's rank is how many of higher
-//! priority there are on a pixel, at the scale it is seen at: it grows as the
-//! model goes away. Octave 0 takes those up to a rank, every further octave those
-//! up to four times as much, so that each has the same number of features for
-//! their size. What goes away thus passes from octave to octave, feature by
-//! feature, and each fades from one to the next.
+//! Octave o has features of radius r / 2^o. A feature's rank is the number of features of
+//! higher priority per pixel at the scale it is seen at; ranks grow as the model moves
+//! away. Octave 0 takes features up to some rank, each further octave those up to four
+//! times that rank, so that every octave has the same number of features for their size.
+//! As the model moves away, features fade one after the other from each octave to the
+//! next.
 
-/// Part of an octave within which features fade to the next. Broad fades pop less;
-/// narrow ones have less of two sizes at a time.
+/// Width of the range of ranks, in octaves, over which a feature fades to the next octave.
+/// Wide fades pop less; narrow ones mix fewer sizes of features. Chosen by eye.
 const FADE: f32 = 1.0;
 
-/// The spread (standard deviation) of both kinds of noise about their mean of 0.5;
-/// 0 and 1 are two and a half of it away, and what leaves them is cut.
+/// Standard deviation of both kinds of noise about their mean of 0.5. Values beyond 0 and
+/// 1, which are 2.5 standard deviations away, are cut off.
 pub const SPREAD: f32 = 0.2;
 
-/// Noise of several octaves, each of half the size of the one before.
+/// Feature noise of several octaves, each of half the size of the one before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeatureNoise {
     /// Radius of the largest features in pixels, above 0.
     pub largest_px: f32,
-    /// How many octaves, 1 to 8.
+    /// Number of octaves, 1 to 8.
     pub octaves: usize,
-    /// Strength of an octave by that of the one before, above 0: 1/2 is the
-    /// turbulence of Perlin 1985, 1 is even over octaves.
+    /// Strength of an octave relative to the one before, above 0: 1/2 gives the turbulence
+    /// of Perlin 1985, 1 gives all octaves the same strength.
     pub persistence: f32,
-    /// How many features of each octave lie over a place, above 0: the more, the
-    /// more even is the noise, and the longer it takes.
+    /// Mean number of features of each octave that overlap at a point, above 0. More make
+    /// the noise more even and slower to draw.
     pub coverage: f32,
 }
 
 impl FeatureNoise {
-    /// Slow changes, as pigment that water has carried.
+    /// Slow changes, like pigment carried by water.
     pub const FLOW: Self = Self { largest_px: 40.0, octaves: 4, persistence: 0.5, coverage: 4.0 };
-    /// Fine grain, as pigment that settles.
+    /// Fine grain, like pigment that settles.
     pub const DISPERSION: Self =
         Self { largest_px: 6.0, octaves: 2, persistence: 0.8, coverage: 4.0 };
 }
 
-/// The noise made ready.
+/// The radius and amplitude of features in each octave.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Octaves {
-    /// Of each octave: radius in pixels, and the amplitude of its features.
+    /// For each octave the radius in pixels and the amplitude of its features.
     each: Vec<[f32; 2]>,
-    /// The rank up to which features are in octave 0.
+    /// The rank at which octave 0 ends, in features per pixel.
     first: f32,
 }
 
-/// From 0 to 1 with level slopes at both ends (Perlin 2002).
+/// Rises from 0 at t = 0 to 1 at t = 1 with slope 0 at both ends (Perlin 2002).
 fn profile(t: f32) -> f32 {
     let t = t.clamp(0.0, 1.0);
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)
@@ -57,7 +57,7 @@ impl Octaves {
     pub(super) fn new(noise: FeatureNoise) -> Self {
         let FeatureNoise { largest_px, octaves, persistence, coverage } = noise;
         let count = octaves.clamp(1, 8);
-        // All octaves above one together have a third of its features.
+        // All coarser octaves together have a third of the features of an octave.
         let first = 4.0 / 3.0 * coverage / std::f32::consts::PI / (largest_px * largest_px);
         let radii = (0..count).map(|octave| largest_px / (1u32 << octave) as f32);
         let mut octaves = Self { each: radii.map(|radius| [radius, 1.0]).collect(), first };
@@ -65,14 +65,14 @@ impl Octaves {
         let all = (0..count).map(|octave| strength(octave).powi(2)).sum::<f32>().sqrt();
         for octave in 0..count {
             let radius = octaves.each[octave][0];
-            // Features are strewn at random, so their squares add (Campbell 1909).
-            let variance = octaves.features(octave) * disc() * radius * radius;
+            // Features are placed at random, so their squares add (Campbell 1909).
+            let variance = octaves.features(octave) * squared_profile_integral() * radius * radius;
             octaves.each[octave][1] = SPREAD * strength(octave) / all / variance.sqrt();
         }
         octaves
     }
 
-    /// Features of an octave on a pixel, each by its squared share.
+    /// Features of an octave per pixel, each weighted by the square of its share.
     fn features(&self, octave: usize) -> f32 {
         const STEPS: usize = 400;
         let share = |level: f32| self.share(octave, level).powi(2);
@@ -84,28 +84,29 @@ impl Octaves {
         self.first * (above * step * 4.0f32.ln() + tail)
     }
 
-    /// How much of a feature is in an octave; `level` is 0 where octave 0 ends, 1
-    /// where the next does.
+    /// The share of a feature, 0 to 1, that belongs to `octave`. `level` is the logarithm of
+    /// the rank: 0 where octave 0 ends, 1 where octave 1 ends.
     fn share(&self, octave: usize, level: f32) -> f32 {
         let passed = |end: f32| profile((level - end) / FADE + 0.5);
-        let begun = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0) };
-        begun * (1.0 - passed(octave as f32))
+        let entered = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0) };
+        entered * (1.0 - passed(octave as f32))
     }
 
-    /// Ranks from here on are in no octave.
+    /// The rank from which on features belong to no octave.
     pub(super) fn end(&self) -> f32 {
         self.first * 4.0f32.powf(self.each.len() as f32 - 1.0 + FADE / 2.0)
     }
 
-    /// The largest radius.
+    /// Radius of the largest features, in pixels.
     pub(super) fn largest_px(&self) -> f32 {
         self.each[0][0]
     }
 
-    /// Radius and amplitude of what is drawn of a feature of this rank.
+    /// Radius in pixels and amplitude with which a feature of this rank is drawn: once, or
+    /// twice while it fades from one octave to the next.
     pub(super) fn parts(&self, rank: f32) -> impl Iterator<Item = [f32; 2]> {
         let level = (rank / self.first).log2() / 2.0;
-        // A feature is in two octaves at most.
+        // A feature belongs to two octaves at most.
         let nearest = (level + 0.5).floor().max(0.0) as usize;
         let near = nearest.min(self.each.len())..(nearest + 2).min(self.each.len());
         near.filter_map(move |octave| {
@@ -116,8 +117,8 @@ impl Octaves {
     }
 }
 
-/// The square of the profile, summed over a disc of radius 1.
-fn disc() -> f32 {
+/// The integral of the squared profile over a disc of radius 1.
+fn squared_profile_integral() -> f32 {
     const STEPS: usize = 400;
     let rings = (0..STEPS).map(|i| (i as f32 + 0.5) / STEPS as f32);
     let sum: f32 = rings.map(|radius| profile(1.0 - radius).powi(2) * radius).sum();
@@ -165,14 +166,15 @@ mod tests {
             persistence: 0.7,
             coverage: 2.0,
         });
-        // Campbell's sum by another road: every rank at a time, finely.
+        // Campbell's sum computed another way: in small steps of the rank.
         let steps = 200_000;
         let variance: f64 = (0..steps)
             .map(|i| {
                 let rank = octaves.end() * (i as f32 + 0.5) / steps as f32;
                 let parts = octaves.parts(rank);
                 let squares = parts.map(|[radius, a]| f64::from(radius * a).powi(2));
-                squares.sum::<f64>() * f64::from(octaves.end() * disc()) / f64::from(steps)
+                squares.sum::<f64>() * f64::from(octaves.end() * squared_profile_integral())
+                    / f64::from(steps)
             })
             .sum();
         assert!((variance.sqrt() / f64::from(SPREAD) - 1.0).abs() < 0.01, "{}", variance.sqrt());

@@ -1,96 +1,96 @@
-//! A few places of an object that textures of pigment hold on to.
+//! A few points of an object that carry copies of a texture.
 //!
-//! Method (a) of Bousseau, Kaplan, Thollot and Sillion 2006: each particle has a
-//! copy of the texture, flat in the picture, that moves with it; a pixel blends
-//! them by its distance from the particles on the object.
+//! Method (a) of Bousseau, Kaplan, Thollot and Sillion 2006: each particle has a copy of
+//! the texture, flat in the picture, that moves with it; a pixel blends the copies by its
+//! distance from the particles on the object.
 
 use glam::Vec3;
 
 use super::hierarchy::Hierarchy;
+use super::projection::Projection;
 use super::random::Seed;
-use super::sight::Sight;
 
-/// How often particles are moved to the middle of what is theirs.
-const ROUNDS: usize = 20;
+/// Iterations of Lloyd's algorithm. Particles of the tested models rest after fewer.
+const LLOYD_ROUNDS: usize = 20;
 
-/// Copies blend where the squares of two distances differ by less than this part
-/// of the square of the distance between two particles: over half of the way.
+/// Copies blend where the squared distances of two particles differ by less than this
+/// fraction of the squared distance between neighbouring particles. Chosen by eye.
 const BLEND: f32 = 0.5;
 
-/// The most octaves of an infinite zoom.
+/// Largest number of octaves of an infinite zoom.
 pub(super) const MOST_OCTAVES: usize = 8;
 
-/// Particles of a mesh.
+/// Particles spread evenly over a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
-    /// Where they are, in the model's unit.
-    pub(super) places: Vec<Vec3>,
-    /// The squared distance between neighbours, in the mean.
+    /// Positions in the unit of the model.
+    pub(super) positions: Vec<Vec3>,
+    /// Mean squared distance between neighbours.
     spacing_squared: f32,
 }
 
-/// A texture and how it is drawn.
+/// How a texture that follows particles is drawn: an infinite zoom, whose waves keep their
+/// length in the picture while the model comes nearer or moves away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnchoredNoise {
-    /// What the texture's own waves are long in the picture, in pixels, above 0;
-    /// it stays so while the model comes or goes.
+    /// Length of the texture's waves in the picture, in pixels, above 0.
     pub wave_px: f32,
-    /// How long they are in the texture, in texels, above 0.
+    /// Length of the waves in the texture, in texels, above 0.
     pub wave_texels: f32,
     /// Octaves of the infinite zoom, 2 to 8.
     pub octaves: usize,
-    /// Where in the texture each copy begins.
+    /// Seed of the offsets at which the copies begin in the texture.
     pub seed: u64,
 }
 
 impl AnchoredNoise {
-    /// Slow changes, of a texture with waves of 32 texels.
+    /// Slow changes, from a texture with waves of 32 texels.
     pub const FLOW: Self = Self { wave_px: 80.0, wave_texels: 32.0, octaves: 4, seed: 1 };
-    /// Fine grain, of a texture with waves of 8 texels.
+    /// Fine grain, from a texture with waves of 8 texels.
     pub const DISPERSION: Self = Self { wave_px: 10.0, wave_texels: 8.0, octaves: 4, seed: 2 };
 }
 
-/// A copy of the texture in the picture, as backends take it.
+/// One copy of the texture in the picture; the layout is that of the kernel.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Anchor {
-    /// The particle's place in the model.
-    pub place: [f32; 3],
-    /// 1, or less where the particle is about to pass the eye.
+    /// Position of the particle in the unit of the model.
+    pub position: [f32; 3],
+    /// Weight of the copy: 1, falling to 0 while the particle passes the near plane.
     pub presence: f32,
-    /// Its place in the picture, in pixels.
+    /// Distance of the particle from the left edge of the picture, in pixels.
     pub x: f32,
-    /// The same downwards.
+    /// Distance of the particle from the upper edge of the picture, in pixels.
     pub y: f32,
-    /// Texels of the finest octave on a pixel; each further one has half as many.
+    /// Texels per pixel of the finest octave; each further octave has half as many.
     pub texels: f32,
-    /// For alignment.
+    /// Padding to the alignment of WGSL.
     pub spare: f32,
-    /// Weight of each octave, the finest first; their squares add up to 1.
+    /// Weight of each octave, the finest first; the squares sum to 1.
     pub weights: [f32; MOST_OCTAVES],
-    /// Where in the texture each octave begins, in texels, to the right.
+    /// Horizontal offset in the texture at which each octave begins, in texels.
     pub right: [f32; MOST_OCTAVES],
-    /// The same downwards.
+    /// Vertical offset in the texture at which each octave begins, in texels.
     pub down: [f32; MOST_OCTAVES],
 }
 
-/// All copies of a picture.
+/// All copies of the texture in one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anchors {
     pub(super) each: Vec<Anchor>,
-    /// Octaves of each.
+    /// Number of octaves of each copy.
     pub(super) octaves: usize,
-    /// A copy ends where its squared distance is by this farther than the nearest's.
+    /// A copy fades to 0 where its squared distance exceeds that of the nearest copy by this.
     pub(super) reach_squared: f32,
-    pub(super) sight: Sight,
+    pub(super) projection: Projection,
 }
 
 impl Particles {
-    /// `count` particles of a mesh, at least one: the middles of the faces of the
-    /// box around it, further ones where the mesh is farthest from all others,
-    /// then all moved to the middles of the parts of the mesh that are nearest to
-    /// them (Lloyd 1982). A copy of the texture slides over the mesh the more, the
-    /// farther it is from its particle; there, that is least.
+    /// Spreads `count` particles, at least one, over a mesh. They start at the centres of the
+    /// faces of the bounding box, further ones where the mesh is farthest from all others;
+    /// then all move to the centroids of the parts of the mesh nearest to them (Lloyd
+    /// 1982). This keeps distances from the particles small, and with them the sliding of
+    /// the texture over the mesh.
     #[must_use]
     pub fn new(hierarchy: &Hierarchy, count: usize) -> Self {
         let (low, high) = hierarchy
@@ -101,64 +101,64 @@ impl Particles {
                 (low.min(at), high.max(at))
             });
         if hierarchy.faces.is_empty() {
-            return Self { places: vec![Vec3::ZERO], spacing_squared: 1.0 };
+            return Self { positions: vec![Vec3::ZERO], spacing_squared: 1.0 };
         }
-        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
         let sides = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
-        let mut places: Vec<Vec3> =
-            sides.iter().take(count.max(1)).map(|side| middle + *side * half).collect();
+        let mut positions: Vec<Vec3> =
+            sides.iter().take(count.max(1)).map(|side| center + *side * half).collect();
         let points: Vec<(Vec3, f64)> = hierarchy
             .faces
             .iter()
             .map(|face| (face.corners.iter().sum::<Vec3>() / 3.0, face.area))
             .collect();
-        while places.len() < count {
-            let away = |at: Vec3| distance_squared(&places, at).1;
+        while positions.len() < count {
+            let away = |at: Vec3| nearest_of(&positions, at).1;
             let farthest = points.iter().max_by(|a, b| away(a.0).total_cmp(&away(b.0)));
-            places.extend(farthest.map(|point| point.0));
+            positions.extend(farthest.map(|point| point.0));
         }
-        for _ in 0..ROUNDS {
-            let mut sums = vec![[0.0f64; 4]; places.len()];
-            for &(place, area) in &points {
-                let sum = &mut sums[distance_squared(&places, place).0];
-                for (sum, value) in sum.iter_mut().zip([place.x, place.y, place.z, 1.0]) {
+        for _ in 0..LLOYD_ROUNDS {
+            let mut sums = vec![[0.0f64; 4]; positions.len()];
+            for &(position, area) in &points {
+                let sum = &mut sums[nearest_of(&positions, position).0];
+                for (sum, value) in sum.iter_mut().zip([position.x, position.y, position.z, 1.0]) {
                     *sum += f64::from(value) * area;
                 }
             }
-            for (place, [x, y, z, area]) in places.iter_mut().zip(sums) {
+            for (position, [x, y, z, area]) in positions.iter_mut().zip(sums) {
                 if area > 0.0 {
-                    *place = Vec3::from([x, y, z].map(|sum| (sum / area) as f32));
+                    *position = Vec3::from([x, y, z].map(|sum| (sum / area) as f32));
                 }
             }
         }
-        let nearest = (0..places.len()).map(|own| {
-            let others = (0..places.len()).filter(|&other| other != own);
-            let squares = others.map(|other| places[own].distance_squared(places[other]));
+        let nearest = (0..positions.len()).map(|own| {
+            let others = (0..positions.len()).filter(|&other| other != own);
+            let squares = others.map(|other| positions[own].distance_squared(positions[other]));
             squares.fold(f32::INFINITY, f32::min)
         });
-        let mean = nearest.sum::<f32>() / places.len() as f32;
+        let mean = nearest.sum::<f32>() / positions.len() as f32;
         let spacing_squared = if mean.is_finite() && mean > 0.0 { mean } else { 1.0 };
-        Self { places, spacing_squared }
+        Self { positions, spacing_squared }
     }
 
-    /// Where they are, in the model's unit.
+    /// Positions of the particles in the unit of the model.
     #[must_use]
-    pub fn places(&self) -> &[Vec3] {
-        &self.places
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
     }
 
-    /// What is to be drawn of a texture in a picture.
+    /// The copies of a texture to draw in a projection.
     #[must_use]
-    pub fn anchors(&self, sight: &Sight, noise: AnchoredNoise) -> Anchors {
+    pub fn anchors(&self, projection: &Projection, noise: AnchoredNoise) -> Anchors {
         let octaves = noise.octaves.clamp(2, MOST_OCTAVES);
-        let anchor = |(number, &place): (usize, &Vec3)| {
-            let at = sight.beyond_near(place);
-            let zoom = (sight.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
+        let anchor = |(number, &position): (usize, &Vec3)| {
+            let at = projection.project_clamped(position);
+            let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
             let (whole, part) = (zoom.floor(), zoom - zoom.floor());
-            let near = sight.camera.near;
+            let near = projection.camera.near;
             let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
             let mut anchor = Anchor {
-                place: place.into(),
+                position: position.into(),
                 presence,
                 x: at.x,
                 y: at.y,
@@ -171,26 +171,26 @@ impl Particles {
                 down: [0.0; MOST_OCTAVES],
             };
             for octave in 0..octaves {
-                let place = (octave as f32 + part) / octaves as f32;
-                let weight = (std::f32::consts::PI * place).sin();
+                let phase = (octave as f32 + part) / octaves as f32;
+                let weight = (std::f32::consts::PI * phase).sin();
                 anchor.weights[octave] = weight * (2.0 / octaves as f32).sqrt();
-                // As it grows, this octave becomes the next: it keeps its seed.
-                let same = (octave as i64 - whole as i64) as u64;
-                let seed = Seed(noise.seed).below(number as u64).below(same);
+                // As the model comes nearer, this octave becomes the next one and keeps its seed.
+                let level = (octave as i64 - whole as i64) as u64;
+                let seed = Seed(noise.seed).child(number as u64).child(level);
                 anchor.right[octave] = 4096.0 * seed.unit(0);
                 anchor.down[octave] = 4096.0 * seed.unit(1);
             }
             anchor
         };
-        let each = self.places.iter().enumerate().map(anchor).collect();
+        let each = self.positions.iter().enumerate().map(anchor).collect();
         let reach_squared = BLEND * self.spacing_squared;
-        Anchors { each, octaves, reach_squared, sight: *sight }
+        Anchors { each, octaves, reach_squared, projection: *projection }
     }
 }
 
-/// The nearest place and its squared distance.
-fn distance_squared(places: &[Vec3], at: Vec3) -> (usize, f32) {
-    let all = places.iter().map(|place| place.distance_squared(at)).enumerate();
+/// Index of the nearest position, and its squared distance.
+fn nearest_of(positions: &[Vec3], at: Vec3) -> (usize, f32) {
+    let all = positions.iter().map(|position| position.distance_squared(at)).enumerate();
     all.fold((0, f32::INFINITY), |nearest, own| if own.1 < nearest.1 { own } else { nearest })
 }
 
@@ -204,21 +204,21 @@ mod tests {
         AnchoredNoise { wave_px: 32.0, wave_texels: 16.0, octaves: 4, seed: 3 };
 
     #[test]
-    fn six_particles_of_a_ball_face_its_six_sides() {
+    fn six_particles_of_a_sphere_face_its_six_sides() {
         let particles = Particles::new(&Hierarchy::new(&Mesh::sphere(3000)), 6);
         for side in [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z] {
             let facing =
-                particles.places().iter().filter(|place| place.normalize().dot(side) > 0.95);
+                particles.positions().iter().filter(|place| place.normalize().dot(side) > 0.95);
             assert_eq!(facing.count(), 1, "{side}: {particles:?}");
         }
         let many = Particles::new(&Hierarchy::new(&Mesh::sphere(3000)), 30);
-        assert_eq!(many.places().len(), 30);
+        assert_eq!(many.positions().len(), 30);
         assert!(many.spacing_squared < 0.4 * particles.spacing_squared);
-        assert_eq!(Particles::new(&Hierarchy::default(), 6).places().len(), 1);
+        assert_eq!(Particles::new(&Hierarchy::default(), 6).positions().len(), 1);
     }
 
     #[test]
-    fn zoom_has_no_end_and_no_step() {
+    fn the_zoom_is_continuous_at_every_distance() {
         let particles = Particles::new(&Hierarchy::new(&Mesh::sphere(300)), 6);
         let at = |distance: f32| {
             let camera = Camera {
@@ -229,9 +229,9 @@ mod tests {
                 near: 0.01,
                 far: 1e4,
             };
-            particles.anchors(&Sight::new(&camera, 100, 100), NOISE).each[0]
+            particles.anchors(&Projection::new(&camera, 100, 100), NOISE).each[0]
         };
-        // What the texture shows ten pixels beside the particle, by its offset.
+        // What the texture shows ten pixels to the right of the particle.
         let shown = |anchor: Anchor| {
             let mut octaves: Vec<(f32, f32, f32)> = (0..4)
                 .map(|i| {

@@ -1,70 +1,74 @@
-//! How much noise changes where it should have moved along: what is seen as
-//! popping and sliding.
+//! Measures popping and sliding: how much noise changes between two frames at the same
+//! point of the object.
 
 use rayon::prelude::*;
 
-use super::sight::Sight;
+use super::projection::Projection;
 use crate::field::Field;
 
-/// A picture of noise, and of what it is on.
+/// One frame of noise, with the depth of the object under it.
 #[derive(Debug, Clone, Copy)]
-pub struct NoiseShot<'a> {
-    /// From where.
-    pub sight: &'a Sight,
-    /// The depth of every pixel, 1 where nothing is seen.
+pub struct NoiseFrame<'a> {
+    /// The camera and picture size of the frame.
+    pub projection: &'a Projection,
+    /// Depth of each pixel, 1 where the object is not seen.
     pub depth: &'a Field<f32>,
-    /// The noise.
+    /// Noise at each pixel.
     pub noise: &'a Field<f32>,
 }
 
-/// What was found, of one pair of pictures or of several.
+/// Differences of noise between frames, summed over one pair of frames or several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Popping {
-    /// Squared differences, summed.
+    /// Sum of squared differences.
     pub squares: f64,
-    /// How many pixels could be compared.
+    /// Number of pixels that could be compared.
     pub pixels: usize,
 }
 
 impl Popping {
-    /// Compares every pixel that shows a place of the model with the pixel that
-    /// showed this place before, by four pixels' interpolation; not with what was
-    /// hidden then, nor where a surface ended.
+    /// Compares each pixel of `after` with the noise of `before` at the same point of the
+    /// object, interpolated between four pixels. Points that were hidden before, or next
+    /// to the edge of a surface, are left out.
     ///
     /// # Panics
-    /// If a field is not of its picture's size.
+    /// If a field does not have the size of its frame.
     #[must_use]
-    pub fn between(before: NoiseShot<'_>, after: NoiseShot<'_>) -> Self {
-        for shot in [before, after] {
-            let size = (shot.sight.width, shot.sight.height);
-            for field in [shot.depth, shot.noise] {
-                assert_eq!((field.width(), field.height()), size, "a field of another size");
+    pub fn between(before: NoiseFrame<'_>, after: NoiseFrame<'_>) -> Self {
+        for frame in [before, after] {
+            let size = (frame.projection.width, frame.projection.height);
+            for field in [frame.depth, frame.noise] {
+                assert_eq!(
+                    (field.width(), field.height()),
+                    size,
+                    "depth and noise must have the size of the frame"
+                );
             }
         }
-        let rows = (0..after.sight.height).into_par_iter().map(|y| {
+        let rows = (0..after.projection.height).into_par_iter().map(|y| {
             let mut found = Self::default();
-            for x in 0..after.sight.width {
+            for x in 0..after.projection.width {
                 let depth = after.depth[(x, y)];
                 if depth < 1.0
-                    && let Some(was) = noise_before(before, after.sight, (x, y), depth)
+                    && let Some(noise) = noise_before(before, after.projection, (x, y), depth)
                 {
-                    found.squares += f64::from(after.noise[(x, y)] - was).powi(2);
+                    found.squares += f64::from(after.noise[(x, y)] - noise).powi(2);
                     found.pixels += 1;
                 }
             }
             found
         });
         let rows: Vec<Self> = rows.collect();
-        rows.into_iter().fold(Self::default(), Self::and)
+        rows.into_iter().fold(Self::default(), Self::merge)
     }
 
-    /// Both together.
+    /// The sum of two measurements.
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub fn merge(self, other: Self) -> Self {
         Self { squares: self.squares + other.squares, pixels: self.pixels + other.pixels }
     }
 
-    /// The root of the mean square; 0 where nothing was compared.
+    /// Root mean square difference; 0 if no pixel could be compared.
     #[must_use]
     pub fn rms(&self) -> f64 {
         (self.squares / self.pixels.max(1) as f64).sqrt()
@@ -72,15 +76,15 @@ impl Popping {
 }
 
 fn noise_before(
-    before: NoiseShot<'_>,
-    sight: &Sight,
+    before: NoiseFrame<'_>,
+    projection: &Projection,
     pixel: (usize, usize),
     depth: f32,
 ) -> Option<f32> {
-    let at = before.sight.project(sight.place(pixel, depth))?;
+    let at = before.projection.project(projection.unproject(pixel, depth))?;
     let (left, top) = ((at.x - 0.5).floor(), (at.y - 0.5).floor());
     let inside = |at: f32, size: usize| at >= 0.0 && at < size as f32 - 1.0;
-    if !inside(left, before.sight.width) || !inside(top, before.sight.height) {
+    if !inside(left, before.projection.width) || !inside(top, before.projection.height) {
         return None;
     }
     let (x, y) = (left as usize, top as usize);
@@ -91,8 +95,8 @@ fn noise_before(
     };
     let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
     let all_seen = corners.iter().all(|&corner| before.depth[corner] < 1.0);
-    // Three pixels in depth.
-    let slack = 3.0 * before.sight.depth_scale() / (before.sight.focal_px * at.distance);
+    // Depths may differ by what three pixels of a slanted surface do.
+    let slack = 3.0 * before.projection.depth_scale() / (before.projection.focal_px * at.distance);
     let same = (mix(before.depth) - at.depth).abs() < slack;
     (all_seen && same).then(|| mix(before.noise))
 }

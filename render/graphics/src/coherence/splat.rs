@@ -1,65 +1,73 @@
-//! Noise as a sum of round features that face the screen.
+//! Noise as a sum of round features (splats) that face the viewer.
 //!
-//! On the processor and on a device alike, every pixel gathers from the features
-//! near its square of 8 x 8, in one order: the sums do not depend on threads. A
-//! feature adds to what lies on its own surface only. What is hidden so never
-//! shows through, and where it comes into sight its features are there already.
+//! On the processor and on a graphics device alike, each pixel gathers from the features
+//! near its square of 8 x 8 pixels in one fixed order, so that sums do not depend on
+//! threads. A feature adds only to pixels at the depth of its own surface: hidden surfaces
+//! never show through, and a surface that comes into sight has its features already.
 
 use pulp::Simd;
 use rayon::prelude::*;
 
+use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane};
 use crate::field::Field;
-use crate::gpu::{DeviceError, GROUP, Kernel, Storage, groups, layout};
-use crate::image::Backend;
-use crate::image::OnCpu;
-use crate::image::{OnGpu, Plane};
+use crate::gpu::{DeviceError, GROUP, Kernel, Storage, layout};
 
-/// A feature in the picture.
+/// A feature of noise, projected to the picture.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Splat {
-    /// To the right from the left edge, in pixels.
+    /// Distance of its centre from the left edge, in pixels.
     pub x: f32,
-    /// Downwards from the upper edge, in pixels.
+    /// Distance of its centre from the upper edge, in pixels.
     pub y: f32,
-    /// 1 / radius, in pixels; nothing is added beyond the radius.
+    /// 1 / radius, in 1 / pixels. The feature ends at the radius.
     pub narrowness: f32,
-    /// What its middle adds.
+    /// Value added at the centre; negative for a hollow.
     pub amplitude: f32,
-    /// Of its middle, 0 (near) to 1 (far).
+    /// Depth of the centre, 0 (near plane) to 1 (far plane).
     pub depth: f32,
-    /// By how much depth grows on its surface, per pixel to the right.
+    /// Change of depth on its surface per pixel to the right.
     pub slope_x: f32,
-    /// The same downwards.
+    /// Change of depth on its surface per pixel downwards.
     pub slope_y: f32,
-    /// 1 / depth by which what still counts as its surface may be off the plane
-    /// that it lies on; at twice as much nothing does.
+    /// 1 / tolerance in depth: pixels whose depth differs from the feature's plane by less
+    /// than the tolerance get all of it, by twice the tolerance none.
     pub tightness: f32,
 }
 
-/// Draws features.
-pub trait Splatting: Backend {
-    /// 0.5 and all that features add, each `6 t^5 - 15 t^4 + 10 t^3` of its
-    /// amplitude, t = 1 - distance / radius; cut off at 0 and 1. 0.5 where nothing
-    /// is seen, which `depth` (0 near to 1, nothing) tells.
-    ///
-    /// # Errors
-    /// [`DeviceError`] if the device has no room or is lost; never on the processor.
-    fn splatted(&mut self, depth: &Self::Grey, splats: &[Splat])
-    -> Result<Self::Grey, DeviceError>;
+/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a
+/// distance d from its centre a feature adds its amplitude times
+/// `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d / radius. Pixels whose `depth` is 1, where
+/// nothing is seen, get 0.5.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made `depth`.
+pub fn draw_splats(
+    compute: &mut Compute,
+    depth: &GreyImage,
+    splats: &[Splat],
+) -> Result<GreyImage, DeviceError> {
+    match compute {
+        Compute::Cpu => Ok(draw_splats_on_cpu(depth.host(), splats).into()),
+        Compute::Gpu(gpu) => draw_splats_on_gpu(gpu, depth.plane(), splats).map(Image::from),
+    }
 }
 
-/// Side of a square of pixels that gathers from one list.
+/// Width and height of a square of pixels that gathers from one list.
 const SIDE: usize = GROUP as usize;
 
 type Square = [[f32; SIDE]; SIDE];
 
-/// For every square of pixels which features reach it, in their order.
+/// For each square of pixels the features that reach it, in the order of the features.
 struct Lists {
-    /// Squares in a row.
+    /// Number of squares in a row.
     across: usize,
-    /// Where the list of each square begins; one more for the end of the last.
+    /// Index in `splats` at which the list of each square begins, then the end of the last.
     starts: Vec<u32>,
+    /// Indices of features, list after list.
     splats: Vec<u32>,
 }
 
@@ -100,44 +108,38 @@ impl Lists {
     }
 }
 
-impl Splatting for OnCpu {
-    fn splatted(
-        &mut self,
-        depth: &Field<f32>,
-        splats: &[Splat],
-    ) -> Result<Field<f32>, DeviceError> {
-        let (width, height) = (depth.width(), depth.height());
-        let mut sums = Field::filled(width, height, 0.5);
-        let lists = Lists::new(width, height, splats);
-        let bands = sums.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
-        bands.for_each(|(band, rows)| {
-            for square in 0..lists.across {
-                let (x, y) = (square * SIDE, band * SIDE);
-                let columns = SIDE.min(width - x);
-                let mut depths = [[1.0; SIDE]; SIDE];
-                for (row, depths) in depths.iter_mut().enumerate().take(height - y) {
-                    depths[..columns].copy_from_slice(depth.row(y + row, x, columns));
-                }
-                let Some(range) = range_of(&depths) else { continue };
-                let list = lists.of(band * lists.across + square);
-                let first = [x as f32 + 0.5, y as f32 + 0.5];
-                let mut sum = [[0.0; SIDE]; SIDE];
-                let gather = Gather { list, splats, first, depths: &depths, range, sum: &mut sum };
-                pulp::Arch::new().dispatch(gather);
-                for ((row, sum), depths) in rows.chunks_mut(width).zip(&sum).zip(&depths) {
-                    let row = row[x..x + columns].iter_mut().zip(sum).zip(depths);
-                    for ((value, sum), _) in row.filter(|(_, depth)| **depth < 1.0) {
-                        *value = (0.5 + sum).clamp(0.0, 1.0);
-                    }
+fn draw_splats_on_cpu(depth: &Field<f32>, splats: &[Splat]) -> Field<f32> {
+    let (width, height) = (depth.width(), depth.height());
+    let mut sums = Field::filled(width, height, 0.5);
+    let lists = Lists::new(width, height, splats);
+    let bands = sums.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
+    bands.for_each(|(band, rows)| {
+        for square in 0..lists.across {
+            let (x, y) = (square * SIDE, band * SIDE);
+            let columns = SIDE.min(width - x);
+            let mut depths = [[1.0; SIDE]; SIDE];
+            for (row, depths) in depths.iter_mut().enumerate().take(height - y) {
+                depths[..columns].copy_from_slice(depth.row(y + row, x, columns));
+            }
+            let Some(range) = depth_range(&depths) else { continue };
+            let list = lists.of(band * lists.across + square);
+            let first = [x as f32 + 0.5, y as f32 + 0.5];
+            let mut sum = [[0.0; SIDE]; SIDE];
+            let gather = Gather { list, splats, first, depths: &depths, range, sum: &mut sum };
+            pulp::Arch::new().dispatch(gather);
+            for ((row, sum), depths) in rows.chunks_mut(width).zip(&sum).zip(&depths) {
+                let row = row[x..x + columns].iter_mut().zip(sum).zip(depths);
+                for ((value, sum), _) in row.filter(|(_, depth)| **depth < 1.0) {
+                    *value = (0.5 + sum).clamp(0.0, 1.0);
                 }
             }
-        });
-        Ok(sums)
-    }
+        }
+    });
+    sums
 }
 
-/// The least and the greatest depth of what is seen; none where nothing is.
-fn range_of(depths: &Square) -> Option<[f32; 2]> {
+/// Least and greatest depth of the pixels that show something. `None` if none does.
+fn depth_range(depths: &Square) -> Option<[f32; 2]> {
     let seen = depths.iter().flatten().copied().filter(|&depth| depth < 1.0);
     let range = seen.fold([1.0, 0.0], |[low, high]: [f32; 2], at| [low.min(at), high.max(at)]);
     (range[0] < 1.0).then_some(range)
@@ -146,7 +148,7 @@ fn range_of(depths: &Square) -> Option<[f32; 2]> {
 struct Gather<'a> {
     list: &'a [u32],
     splats: &'a [Splat],
-    /// The middle of the first pixel.
+    /// Centre of the first pixel.
     first: [f32; 2],
     depths: &'a Square,
     range: [f32; 2],
@@ -163,7 +165,7 @@ impl pulp::WithSimd for Gather<'_> {
         for &index in list {
             let splat = splats[index as usize];
             let (left, above) = (first[0] - splat.x, first[1] - splat.y);
-            // Most of what is hidden is so for the whole square.
+            // Most hidden features are hidden for the whole square.
             let middle =
                 splat.depth + splat.slope_x * (left + HALF) + splat.slope_y * (above + HALF);
             let off = (middle - range[1]).max(range[0] - middle)
@@ -197,40 +199,40 @@ impl pulp::WithSimd for Gather<'_> {
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-struct Gathering {
+struct SplatParams {
     width: u32,
     height: u32,
-    /// Where in the batch the starts of lists begin, and the lists.
+    /// Index in the batch at which [`Lists::starts`] begins.
     starts: u32,
+    /// Index in the batch at which [`Lists::splats`] begins.
     lists: u32,
 }
 
-/// The kernel that sums the noise of all features at each pixel.
+/// The kernel that sums all features at each pixel.
 pub static GATHER_SPLATS: Kernel = Kernel {
     name: "gather_splats",
     source: include_str!("splat.wgsl"),
-    parameters: layout!(Gathering { width, height, starts, lists }),
+    parameters: layout!(SplatParams { width, height, starts, lists }),
     structs: &[layout!(Splat { x, y, narrowness, amplitude, depth, slope_x, slope_y, tightness })],
     storage: &[Storage::Read, Storage::Read, Storage::Batch, Storage::Write],
 };
 
-impl Splatting for OnGpu {
-    fn splatted(&mut self, depth: &Plane, splats: &[Splat]) -> Result<Plane, DeviceError> {
-        let (width, height) = (depth.width(), depth.height());
-        let lists = Lists::new(width, height, splats);
-        let sums = self.plane(width, height, size_of::<f32>())?;
-        // Room to spare, so that the next picture's features fit the same memory.
-        let room = splats.len().max(1).next_power_of_two();
-        let there = self.plane(room, 1, size_of::<Splat>())?;
-        self.fill(&there, splats)?;
-        let starts = self.recording.batch(&lists.starts);
-        let lists = self.recording.batch(&lists.splats);
-        self.recording.dispatch(
-            &GATHER_SPLATS,
-            &Gathering { width: width as u32, height: height as u32, starts, lists },
-            &[depth.buffer(), there.buffer(), sums.buffer()],
-            [groups(width), groups(height), 1],
-        );
-        Ok(sums)
-    }
+fn draw_splats_on_gpu(
+    gpu: &mut GpuCompute,
+    depth: &Plane<f32>,
+    splats: &[Splat],
+) -> Result<Plane<f32>, DeviceError> {
+    let (width, height) = depth.size();
+    let lists = Lists::new(width, height, splats);
+    let sums = gpu.plane(width, height)?;
+    // Rounded up, so that the features of the next frame fit the same memory.
+    let capacity = splats.len().max(1).next_power_of_two();
+    let features = gpu.plane(capacity, 1)?;
+    gpu.write(&features, splats)?;
+    let starts = gpu.batch(&lists.starts);
+    let lists = gpu.batch(&lists.splats);
+    let params = SplatParams { width: width as u32, height: height as u32, starts, lists };
+    let buffers = [depth.buffer(), features.buffer(), sums.buffer()];
+    gpu.dispatch(&GATHER_SPLATS, &params, &buffers, (width, height));
+    Ok(sums)
 }

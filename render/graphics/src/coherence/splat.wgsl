@@ -1,7 +1,7 @@
-// Features added up, pixel by pixel; twin of splat.rs. A group is a square with
-// its list of features.
+// The sum of all features at each pixel; twin of splat.rs. A workgroup is a square of
+// pixels with its own list of features.
 
-struct Gathering {
+struct SplatParams {
     width: u32,
     height: u32,
     starts: u32,
@@ -19,7 +19,7 @@ struct Splat {
     tightness: f32,
 }
 
-@group(0) @binding(0) var<uniform> now: Gathering;
+@group(0) @binding(0) var<uniform> params: SplatParams;
 @group(0) @binding(1) var<storage, read> depths: array<f32>;
 @group(0) @binding(2) var<storage, read> splats: array<Splat>;
 @group(0) @binding(3) var<storage, read> batch: array<u32>;
@@ -31,21 +31,21 @@ fn gather_splats(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
 ) {
-    if at.x >= now.width || at.y >= now.height {
+    if at.x >= params.width || at.y >= params.height {
         return;
     }
-    let pixel = at.y * now.width + at.x;
+    let pixel = at.y * params.width + at.x;
     let depth = depths[pixel];
     if depth >= 1.0 {
         sums[pixel] = 0.5;
         return;
     }
-    let square = now.starts + group.y * groups.x + group.x;
+    let square = params.starts + group.y * groups.x + group.x;
     let end = batch[square + 1u];
     var sum = 0.0;
     for (var i = batch[square]; i < end; i++) {
-        // Read bit by bit: most features of a list miss most of its rows.
-        let index = batch[now.lists + i];
+        // Members are read one by one: most features of a list miss most of its rows.
+        let index = batch[params.lists + i];
         let narrowness = splats[index].narrowness;
         let down = f32(at.y) + 0.5 - splats[index].y;
         if abs(down) * narrowness >= 1.0 {

@@ -1,13 +1,14 @@
-//! The pixels of one triangle.
+//! Fills the pixels of one triangle.
 
-use super::screen::{Corner, STEPS, middles};
-use super::visible::Seen;
+use super::screen::{Corner, STEPS, pixel_range};
+use super::visibility::Fragment;
 
-/// A triangle or a piece of one, its corners clockwise in the picture.
+/// A triangle or a piece of a clipped one, its corners clockwise in the picture.
 pub(super) struct Shape {
     triangle: u32,
     corners: [Corner; 3],
-    /// Weights of the triangle's second and third corner at each corner.
+    /// Barycentric weights of the whole triangle's second and third corner, at each of
+    /// this shape's corners.
     weights: [[f32; 2]; 3],
     twice_area: i64,
 }
@@ -34,22 +35,23 @@ impl Shape {
     }
 }
 
-/// Twice the area to the right of an edge, at the middle of a pixel; above 0 inside.
+/// An edge function: twice the signed area between the edge and the centre of a pixel,
+/// positive inside.
 #[derive(Clone, Copy)]
 struct Edge {
-    /// At the first pixel of the row.
+    /// Value at the first pixel of the row.
     value: i64,
     by_column: i64,
     by_row: i64,
-    /// The least value that is inside.
+    /// Least value that counts as inside: 0 on upper and left edges, else 1 (the fill rule).
     least: i64,
 }
 
 impl Edge {
     fn new(from: &Corner, to: &Corner, column: usize, row: usize) -> Self {
-        let middle = |pixel: usize| pixel as i64 * i64::from(STEPS) + i64::from(STEPS / 2);
+        let center = |pixel: usize| pixel as i64 * i64::from(STEPS) + i64::from(STEPS / 2);
         let [dx, dy] = [i64::from(to.x - from.x), i64::from(to.y - from.y)];
-        let [x, y] = [middle(column) - i64::from(from.x), middle(row) - i64::from(from.y)];
+        let [x, y] = [center(column) - i64::from(from.x), center(row) - i64::from(from.y)];
         let upper_or_left = dy < 0 || (dy == 0 && dx > 0);
         Self {
             value: dx * y - dy * x,
@@ -60,14 +62,14 @@ impl Edge {
     }
 }
 
-/// Draws into `pixels`, whole rows of `width` of which the first is `first_row`,
-/// where nothing nearer is.
-pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [Seen]) {
+/// Draws `shape` into `pixels`, which are whole rows of `width` from row `first_row` on,
+/// wherever it is nearer than what they show.
+pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [Fragment]) {
     let [a, b, c] = &shape.corners;
-    let all_rows = middles(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), usize::MAX);
+    let all_rows = pixel_range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), usize::MAX);
     let last_row = first_row + pixels.len() / width;
     let rows = all_rows.start.max(first_row)..all_rows.end.min(last_row);
-    let columns = middles(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width);
+    let columns = pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width);
     let edge = |from, to| Edge::new(from, to, columns.start, rows.start);
     let mut edges = [edge(b, c), edge(c, a), edge(a, b)];
     let per_area = 1.0 / shape.twice_area as f32;
@@ -93,7 +95,8 @@ pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [
                         let [by_a, by_b, by_c] = shape.weights.map(|weights| weights[i]);
                         (first * by_a + second * by_b + third * by_c) * whole
                     };
-                    *pixel = Seen { triangle: shape.triangle, second: at(0), third: at(1), depth };
+                    *pixel =
+                        Fragment { triangle: shape.triangle, second: at(0), third: at(1), depth };
                 }
             } else if entered {
                 break;

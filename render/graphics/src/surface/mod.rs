@@ -1,6 +1,10 @@
-//! What of a mesh is seen, pixel by pixel.
+//! What a camera sees of a mesh, pixel by pixel.
+//!
+//! [`Model`] holds a mesh in the memory of a [`crate::compute::Compute`] and draws it into
+//! a [`VisibilityBuffer`]; [`SurfacePoint`] then interpolates position, normal and
+//! colour where a pixel shows the mesh.
 
-mod visible;
+mod visibility;
 
 mod packed;
 
@@ -10,9 +14,12 @@ mod fill;
 
 mod raster;
 
-mod attributes;
+mod surface_point;
 
-pub use attributes::{Facet, position_at};
-pub use packed::{Coating, PackedMesh, Placed, Vertex};
-pub use raster::{RASTER, Rasteriser, Sides, View, visible};
-pub use visible::{NOTHING, Seen, Visible};
+mod model;
+
+pub use model::{DeviceModel, HostModel, Model};
+pub use packed::{PackedMaterial, PackedMesh, Positioned, Vertex};
+pub use raster::{RASTER, RasterParams, Rasteriser, Sides, visible};
+pub use surface_point::{SurfacePoint, position_at};
+pub use visibility::{Fragment, NO_TRIANGLE, VisibilityBuffer};

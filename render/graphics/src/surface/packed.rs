@@ -1,4 +1,4 @@
-//! A mesh as it is drawn: the same bytes for the processor and a device.
+//! A mesh in the layout that is drawn, the same bytes on the processor and on a device.
 
 use glam::Vec3;
 
@@ -6,91 +6,91 @@ use crate::gpu::Layout;
 use crate::gpu::layout;
 use crate::mesh::{Mesh, Triangle};
 
-/// All that is known of a vertex.
+/// The attributes of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Vertex {
-    /// In the model's unit.
+    /// Position in the unit of the model.
     pub position: [f32; 3],
-    /// To the right in its texture, 0..1.
+    /// Texture coordinate to the right; 0 and 1 are the edges, beyond them the texture repeats.
     pub u: f32,
-    /// Outward, of length 1.
+    /// Outward normal of length 1.
     pub normal: [f32; 3],
-    /// Downwards in its texture, 0..1.
+    /// Texture coordinate downwards; 0 and 1 are the edges, beyond them the texture repeats.
     pub v: f32,
-    /// Encoded sRGB, 0..1.
+    /// Encoded sRGB, 0..1; multiplies the colour of the material.
     pub color: [f32; 3],
     spare: f32,
 }
 
-/// The colour of a surface.
+/// The colour of a material, and where its texture lies among all texels.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct Coating {
-    /// Encoded sRGB, 0..1.
+pub struct PackedMaterial {
+    /// Encoded sRGB, 0..1; multiplies the texture.
     pub color: [f32; 3],
-    /// Where its texture starts in the texels of all.
+    /// Index of the texture's first texel in [`PackedMesh::texels`].
     pub first: u32,
-    /// Texels in a row; 0 without a texture.
+    /// Width of the texture in texels; 0 without a texture.
     pub width: u32,
-    /// Rows.
+    /// Height of the texture in texels.
     pub height: u32,
     spare: [u32; 2],
 }
 
-/// Something at a place.
-pub trait Placed: Sync {
-    /// Where, in the model's unit.
-    fn place(&self) -> [f32; 3];
+/// Something with a position, such as a vertex.
+pub trait Positioned: Sync {
+    /// Position in the unit of the model.
+    fn position(&self) -> [f32; 3];
 }
 
-impl Placed for [f32; 3] {
+impl Positioned for [f32; 3] {
     #[inline]
-    fn place(&self) -> [f32; 3] {
+    fn position(&self) -> [f32; 3] {
         *self
     }
 }
 
-impl Placed for Vertex {
+impl Positioned for Vertex {
     #[inline]
-    fn place(&self) -> [f32; 3] {
+    fn position(&self) -> [f32; 3] {
         self.position
     }
 }
 
 impl Vertex {
-    /// The layout that shaders share.
+    /// Name, size and offsets of the struct, for shaders that bind vertices.
     pub const LAYOUT: Layout = layout!(Vertex { position, u, normal, v, color, spare });
 }
 
-impl Coating {
-    /// The layout that shaders share.
-    pub const LAYOUT: Layout = layout!(Coating { color, first, width, height, spare });
+impl PackedMaterial {
+    /// Name, size and offsets of the struct, for kernels that bind materials.
+    pub const LAYOUT: Layout = layout!(PackedMaterial { color, first, width, height, spare });
 }
 
-/// A mesh as it is drawn.
+/// A mesh in the layout that is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PackedMesh {
     /// The vertices, in the order of the mesh.
     pub vertices: Vec<Vertex>,
     /// The triangles, in the order of the mesh.
     pub triangles: Vec<Triangle>,
-    /// One for each material.
-    pub coatings: Vec<Coating>,
-    /// The texels of all textures, as of [`crate::mesh::Texture`].
+    /// One for each material of the mesh.
+    pub materials: Vec<PackedMaterial>,
+    /// The texels of all textures, one after the other, as in [`crate::mesh::Texture`].
     pub texels: Vec<u32>,
-    /// Of the mesh.
+    /// Lowest and highest corner of the bounding box, in the unit of the model.
     pub bounds: [Vec3; 2],
-    /// Whether it is closed: from outside only fronts are seen.
+    /// Whether the mesh is closed, so that only front faces are seen from outside it.
     pub closed: bool,
 }
 
 impl PackedMesh {
-    /// Packs a mesh that [`Mesh::check`] finds whole.
+    /// Packs a mesh that [`Mesh::check`] accepts.
     ///
     /// # Panics
-    /// If its lists of vertices are not of one length, or the texels of all
-    /// textures are 2^32 or more.
+    /// If the mesh's lists of vertex attributes differ in length, or its textures have
+    /// 2^32 texels or more.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
         let Mesh { positions, normals, texture_coordinates, colors, .. } = mesh;
@@ -109,7 +109,7 @@ impl PackedMesh {
             spare: 0.0,
         });
         let mut texels = Vec::new();
-        let coatings = mesh.materials.iter().map(|material| {
+        let materials = mesh.materials.iter().map(|material| {
             let first = texels.len();
             let [width, height] = material.texture.as_ref().map_or([0; 2], |texture| {
                 texels.extend_from_slice(&texture.texels);
@@ -117,12 +117,12 @@ impl PackedMesh {
             });
             assert!(first <= u32::MAX as usize, "{first} texels");
             let first = first as u32;
-            Coating { color: material.color, first, width, height, spare: [0; 2] }
+            PackedMaterial { color: material.color, first, width, height, spare: [0; 2] }
         });
         Self {
             vertices: vertices.collect(),
             triangles: mesh.triangles.clone(),
-            coatings: coatings.collect(),
+            materials: materials.collect(),
             texels,
             bounds: mesh.bounds(),
             closed: mesh.is_closed(),

@@ -1,67 +1,66 @@
-//! Triangles to pixels.
+//! Rasterises triangles on the processor.
 //!
-//! As graphics devices do it, so that both agree but for rounding: vertices are
-//! moved to the 256th of a pixel; a pixel belongs to the triangle that its middle
-//! is in, on an edge to the one below or to the right of the edge; of several the
-//! nearest is seen, at equal depth the one of the lowest index. What crosses the
-//! near or far plane is cut.
+//! Follows the rules of graphics devices, so that both agree but for rounding: vertices
+//! are rounded to the 256th of a pixel; a pixel belongs to the triangle that its centre is
+//! in, on an edge to the triangle below or to the right of it; the nearest triangle is
+//! seen, at equal depth the one of the lowest index. Triangles are clipped at the near and
+//! far plane.
 
 use glam::Mat4;
 use rayon::prelude::*;
 
 use super::fill::{Shape, fill};
-use super::packed::{Placed, Vertex};
-use super::screen::{Corner, Screen, middles};
-use super::visible::{Seen, Visible};
+use super::packed::{Positioned, Vertex};
+use super::screen::{Corner, Screen, pixel_range};
+use super::visibility::{Fragment, VisibilityBuffer};
 use crate::camera::Camera;
 use crate::gpu::{RasterShader, layout};
 use crate::mesh::{Mesh, Triangle};
 
-/// How a device draws it: buffers of [`Vertex`] and [`Triangle`]; a pixel is a
-/// [`Seen`].
+/// The shader that draws a visibility buffer on a graphics device. It reads buffers of
+/// [`Vertex`] and [`Triangle`]; a pixel is a [`Fragment`].
 pub static RASTER: RasterShader = RasterShader {
     name: "raster",
     source: include_str!("raster.wgsl"),
-    parameters: layout!(View { clip_from_model }),
+    parameters: layout!(RasterParams { clip_from_model }),
     structs: &[Vertex::LAYOUT],
     buffers: 2,
 };
 
-/// What [`RASTER`] is told.
+/// Parameters of [`RASTER`].
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct View {
-    /// Column by column.
+pub struct RasterParams {
+    /// The 4 x 4 matrix from model to clip coordinates, column by column.
     pub clip_from_model: [[f32; 4]; 4],
 }
 
-/// Rows of pixels that are drawn by one thread at a time.
+/// Rows of pixels that one thread draws at a time.
 const BAND: usize = 16;
 
-/// Triangles that are sorted into bands by one thread at a time.
+/// Triangles that one thread sorts into bands at a time.
 const CHUNK: usize = 2048;
 
-/// Set where an entry is the index of a piece, not of a triangle.
+/// This bit is set where an entry of a band is the index of a piece of a clipped triangle.
 const PIECE: u32 = 1 << 31;
 
 /// Which sides of triangles are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
-    /// Both.
+    /// Front and back faces.
     Both,
-    /// Those from which the corners run counter-clockwise: of a closed surface seen
-    /// from outside, all that can be seen.
+    /// Only faces whose corners run counter-clockwise in the picture. Of a closed surface
+    /// seen from outside, nothing else is visible.
     Front,
 }
 
-/// What `camera` sees of a mesh at the middle of every pixel, of both sides of its
-/// triangles.
+/// Draws both sides of all triangles of a mesh as `camera` sees them.
 ///
 /// # Panics
-/// If a triangle has a corner that there is not.
+/// If a triangle has a corner that the mesh does not have.
 #[must_use]
-pub fn visible(mesh: &Mesh, camera: &Camera, width: usize, height: usize) -> Visible {
-    let mut visible = Visible::filled(width, height, Seen::EMPTY);
+pub fn visible(mesh: &Mesh, camera: &Camera, width: usize, height: usize) -> VisibilityBuffer {
+    let mut visible = VisibilityBuffer::filled(width, height, Fragment::EMPTY);
     let clip_from_model = camera.clip_from_model(width as f32 / height.max(1) as f32);
     Rasteriser::default().draw(
         clip_from_model,
@@ -73,22 +72,22 @@ pub fn visible(mesh: &Mesh, camera: &Camera, width: usize, height: usize) -> Vis
     visible
 }
 
-/// Draws triangles with the processor; keeps its memory between pictures.
+/// Draws triangles on the processor. Keeps its memory between pictures.
 #[derive(Debug, Clone, Default)]
 pub struct Rasteriser {
     corners: Vec<Corner>,
     chunks: Vec<Chunk>,
 }
 
-/// What some triangles come to.
+/// Some triangles, sorted into bands.
 #[derive(Debug, Clone, Default)]
 struct Chunk {
-    /// For every band what is drawn there: triangles, or pieces.
+    /// For each band the triangles to draw there, or pieces of clipped ones ([`PIECE`]).
     bands: Vec<Vec<u32>>,
     pieces: Vec<Piece>,
 }
 
-/// A part of a triangle that was cut.
+/// A triangular piece of a clipped triangle.
 #[derive(Debug, Clone)]
 struct Piece {
     triangle: u32,
@@ -97,17 +96,18 @@ struct Piece {
 }
 
 impl Rasteriser {
-    /// Draws over all of `visible`.
+    /// Draws triangles over all of `visible`, which is cleared first.
     ///
     /// # Panics
-    /// If a triangle has a corner that there is not, or there are 2^31 triangles.
+    /// If a triangle has a corner that `vertices` does not have, or there are 2^31
+    /// triangles or more.
     pub fn draw(
         &mut self,
         clip_from_model: Mat4,
-        vertices: &[impl Placed],
+        vertices: &[impl Positioned],
         triangles: &[Triangle],
         sides: Sides,
-        visible: &mut Visible,
+        visible: &mut VisibilityBuffer,
     ) {
         assert!(triangles.len() < PIECE as usize, "{} triangles", triangles.len());
         let (width, height) = (visible.width(), visible.height());
@@ -125,7 +125,7 @@ impl Rasteriser {
         let chunks = &self.chunks;
         let bands = visible.values_mut().par_chunks_mut(width * BAND).enumerate();
         bands.for_each(|(band, pixels)| {
-            pixels.fill(Seen::EMPTY);
+            pixels.fill(Fragment::EMPTY);
             for chunk in chunks {
                 for &entry in &chunk.bands[band] {
                     let shape = match entry & PIECE {
@@ -142,7 +142,7 @@ impl Rasteriser {
     }
 }
 
-/// Sorts triangles into bands.
+/// Sorts triangles into the bands that they touch.
 struct Sorter<'a, V> {
     screen: Screen,
     vertices: &'a [V],
@@ -152,7 +152,7 @@ struct Sorter<'a, V> {
     height: usize,
 }
 
-impl<V: Placed> Sorter<'_, V> {
+impl<V: Positioned> Sorter<'_, V> {
     fn sort(&self, first: u32, triangles: &[Triangle], chunk: &mut Chunk) {
         chunk.bands.resize_with(self.height.div_ceil(BAND), Vec::new);
         chunk.bands.iter_mut().for_each(Vec::clear);
@@ -169,8 +169,8 @@ impl<V: Placed> Sorter<'_, V> {
     }
 
     fn add_pieces(&self, triangle: Triangle, number: u32, chunk: &mut Chunk) {
-        let places = triangle.corners.map(|corner| self.vertices[corner as usize].place());
-        let polygon = self.screen.cut(places);
+        let positions = triangle.corners.map(|corner| self.vertices[corner as usize].position());
+        let polygon = self.screen.clip_triangle(positions);
         for i in 2..polygon.len() {
             let fan = [polygon[0], polygon[i - 1], polygon[i]];
             let corners = fan.map(|(corner, _)| corner);
@@ -180,17 +180,17 @@ impl<V: Placed> Sorter<'_, V> {
         }
     }
 
-    /// Puts `entry` where a triangle may have pixels.
+    /// Adds `entry` to the bands in which the triangle of these corners may have pixels.
     fn add(&self, corners: &[Corner; 3], entry: u32, bands: &mut [Vec<u32>]) {
         let [a, b, c] = corners;
         let twice_area = i64::from(b.x - a.x) * i64::from(c.y - a.y)
             - i64::from(c.x - a.x) * i64::from(b.y - a.y);
-        // The rows run downwards: counter-clockwise is negative.
+        // Rows run downwards, so counter-clockwise triangles have a negative area.
         if twice_area == 0 || (twice_area > 0 && self.sides == Sides::Front) {
             return;
         }
-        let columns = middles(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), self.width);
-        let rows = middles(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), self.height);
+        let columns = pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), self.width);
+        let rows = pixel_range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), self.height);
         if columns.is_empty() || rows.is_empty() {
             return;
         }

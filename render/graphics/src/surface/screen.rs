@@ -1,32 +1,33 @@
-//! Vertices and triangles on the screen, cut where they leave the view.
+//! Vertices projected to the picture, and triangles clipped where they leave the view.
 
 use glam::{Mat4, Vec4};
 use rayon::prelude::*;
 
-use super::packed::Placed;
+use super::packed::Positioned;
 
-/// Steps in a pixel that vertices are moved to, as graphics devices do it: edges
-/// are then exact.
+/// Vertices are rounded to this many steps per pixel, as graphics devices do (8 bits of
+/// sub-pixel precision), so that edge functions are exact in integers.
 pub(super) const STEPS: i32 = 256;
 
-/// How far beyond the edge of the picture a triangle may reach uncut, in halves
-/// of its size: whole numbers suffice for its edges.
+/// Size of the guard band: triangles are clipped where they reach further than this from
+/// the centre of the picture, in halves of its size. Keeps edge functions within 64 bits.
 const GUARD: f32 = 16.0;
 
-/// A vertex in the picture.
+/// A vertex projected to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
-    /// To the right and downwards, in steps.
+    /// Distance from the left edge, in [`STEPS`] of a pixel.
     pub(super) x: i32,
+    /// Distance from the upper edge, in [`STEPS`] of a pixel.
     pub(super) y: i32,
-    /// 0 (near) to 1 (far).
+    /// Depth, 0 (near plane) to 1 (far plane).
     pub(super) depth: f32,
-    /// 1 / w of its clip coordinates; 0 where it is beyond the guard: then `x` has a
-    /// bit for every plane that it is beyond.
+    /// 1 / w of the clip coordinates. 0 outside the guard band; `x` then has one bit for
+    /// each plane of [`PLANES`] that the vertex is beyond.
     pub(super) inverse_w: f32,
 }
 
-/// From clip coordinates to a picture.
+/// The transform from model coordinates to pixels of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Screen {
     clip_from_model: Mat4,
@@ -34,11 +35,11 @@ pub(super) struct Screen {
     half_height: f32,
 }
 
-/// A corner of what is left of a cut triangle.
+/// A corner of a clipped triangle.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct ClippedCorner {
     clip: Vec4,
-    /// Weights of the triangle's second and third corner there.
+    /// Barycentric weights of the triangle's second and third corner.
     weights: [f32; 2],
 }
 
@@ -48,9 +49,9 @@ impl Screen {
         Self { clip_from_model, half_width, half_height }
     }
 
-    /// The vertex at a place of the model.
-    fn corner(&self, place: [f32; 3]) -> Corner {
-        let clip = self.clip(place);
+    /// Projects one position of the model.
+    fn corner(&self, position: [f32; 3]) -> Corner {
+        let clip = self.clip(position);
         let beyond = |plane: &Vec4| i32::from(plane.dot(clip) < 0.0 || clip.is_nan());
         match PLANES.iter().fold(0, |bits, plane| bits << 1 | beyond(plane)) {
             0 => self.project(clip),
@@ -73,19 +74,23 @@ impl Screen {
         }
     }
 
-    /// The same of many places, into `corners`.
-    pub(super) fn corners(&self, places: &[impl Placed], corners: &mut Vec<Corner>) {
-        let each = places.par_iter().with_min_len(1 << 11).map(|at| self.corner(at.place()));
+    /// Projects many positions of the model into `corners`, which is overwritten.
+    pub(super) fn corners(&self, positions: &[impl Positioned], corners: &mut Vec<Corner>) {
+        let each = positions.par_iter().with_min_len(1 << 11).map(|at| self.corner(at.position()));
         each.collect_into_vec(corners);
     }
 
-    /// What of a triangle is within the view and the guard around it, as a convex
-    /// polygon; less than three corners where nothing is.
-    pub(super) fn cut(&self, places: [[f32; 3]; 3]) -> Vec<(Corner, [f32; 2])> {
+    /// Clips a triangle to the view frustum plus guard band. Returns a convex polygon of 0
+    /// or 3 to 9 projected corners, each with the barycentric weights of the triangle's
+    /// second and third corner.
+    pub(super) fn clip_triangle(&self, positions: [[f32; 3]; 3]) -> Vec<(Corner, [f32; 2])> {
         let weights = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let clips = places.map(|place| self.clip(place));
-        let mut polygon: Vec<Cut> =
-            clips.into_iter().zip(weights).map(|(clip, weights)| Cut { clip, weights }).collect();
+        let clips = positions.map(|position| self.clip(position));
+        let mut polygon: Vec<ClippedCorner> = clips
+            .into_iter()
+            .zip(weights)
+            .map(|(clip, weights)| ClippedCorner { clip, weights })
+            .collect();
         for plane in PLANES {
             let sides: Vec<f32> = polygon.iter().map(|at| plane.dot(at.clip)).collect();
             let mut left = Vec::with_capacity(polygon.len() + 1);
@@ -94,8 +99,8 @@ impl Screen {
                 if sides[i] >= 0.0 {
                     left.push(here);
                 }
-                // Always from the inside outwards, so that two triangles that share
-                // the edge are cut at the same place.
+                // Always interpolated from the inside outwards, so that two triangles that
+                // share the edge are clipped at the same point.
                 if sides[i] >= 0.0 && sides[next] < 0.0 {
                     left.push(between(here, polygon[next], sides[i] / (sides[i] - sides[next])));
                 } else if sides[i] < 0.0 && sides[next] >= 0.0 {
@@ -108,8 +113,8 @@ impl Screen {
     }
 }
 
-/// The near and the far plane, then the guard; inside is where the product with
-/// clip coordinates is not negative.
+/// Near and far plane, then the four planes of the guard band. A point is inside where the
+/// dot product with its clip coordinates is not negative.
 const PLANES: [Vec4; 6] = [
     Vec4::new(0.0, 0.0, 1.0, 0.0),
     Vec4::new(0.0, 0.0, -1.0, 1.0),
@@ -119,14 +124,15 @@ const PLANES: [Vec4; 6] = [
     Vec4::new(0.0, -1.0, 0.0, GUARD),
 ];
 
-fn between(from: Cut, to: Cut, share: f32) -> Cut {
+fn between(from: ClippedCorner, to: ClippedCorner, share: f32) -> ClippedCorner {
     let weights =
         std::array::from_fn(|i| from.weights[i] + (to.weights[i] - from.weights[i]) * share);
-    Cut { clip: from.clip + (to.clip - from.clip) * share, weights }
+    ClippedCorner { clip: from.clip + (to.clip - from.clip) * share, weights }
 }
 
-/// The pixels, of `count`, whose middles are from `low` to `high`, which are in steps.
-pub(super) fn middles(low: i32, high: i32, count: usize) -> std::ops::Range<usize> {
+/// The pixels, out of `count` in a row or column, whose centres lie from `low` to `high`,
+/// both in [`STEPS`] of a pixel.
+pub(super) fn pixel_range(low: i32, high: i32, count: usize) -> std::ops::Range<usize> {
     let first = (low + STEPS / 2 - 1).div_euclid(STEPS).max(0) as usize;
     let after = ((high + STEPS / 2).div_euclid(STEPS).max(0) as usize).min(count);
     first..after.max(first)

@@ -1,4 +1,4 @@
-//! Recipes of glazes, and the painting that they make.
+//! Recipes of glazes, and the paintings they make.
 
 use pigment::library::PigmentLibrary;
 use rayon::prelude::*;
@@ -6,11 +6,11 @@ use spectra::color::Rgb;
 use spectra::hint::Explain;
 
 use super::thickness::thickness;
-use crate::watercolor::textures::PaperTexture;
-use crate::watercolor::{Settings, Textures, Wash, Wobble};
+use crate::watercolor::effects::wobble_on_cpu;
+use crate::watercolor::settings::Settings;
+use crate::watercolor::textures::{PaperTexture, Textures};
+use crate::watercolor::wash::Wash;
 use graphics::field::Field;
-use graphics::gpu::DeviceError;
-use graphics::image::OnCpu;
 use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
 use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
@@ -22,26 +22,26 @@ use paint::separation::{
     FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings, choose_palette,
 };
 
-/// Glazes run from next to nothing, which is the lightest, to what a heavy wash
-/// leaves when dry.
+/// Heights of glazes: from next to nothing, the lightest tint, to what a heavy wash leaves
+/// when dry.
 const HEIGHTS: SeparationSettings = SeparationSettings {
     lattice: 25,
     least_mm: 0.0002,
     most_mm: 0.1,
     hides: false,
-    // A wash has few colours, and its effects are larger than what a table is off.
+    // A wash has few colours, and its effects exceed the error of the table.
     refined: false,
 };
 
-/// Watercolor has no shine.
+/// Watercolor does not shine.
 const MATT: Gloss = Gloss { strength: 0.0, exponent: 10.0 };
 
-/// The binder of watercolor: heights as of the library, and no shine.
+/// The binder of watercolor: the heights of the library, without gloss.
 fn medium() -> Medium {
     Medium { wet: MATT, dry: MATT, ..Medium::default() }
 }
 
-/// Recipes of glazes over one paper.
+/// The recipes of glazes for all colours, over one paper.
 #[derive(Debug, Clone)]
 pub struct Glazes {
     library: PigmentLibrary,
@@ -50,19 +50,19 @@ pub struct Glazes {
     separation: Separation,
     /// Linear sRGB of the bare paper.
     white: [f32; 3],
+    /// Linear value of the darkest grey that the glazes reach.
     black: f32,
 }
 
 impl Glazes {
-    /// Those of `slots` of `library` over paper that measures `paper`, a reflectance on
-    /// the library's grid, under `light`. Takes seconds.
+    /// Finds the recipes with the pigments `slots` of `library` over paper that measures
+    /// `paper`, a reflectance on the library's grid, under `light`. Takes seconds.
     ///
     /// # Errors
     /// [`GlazeError`] for an empty palette.
     ///
     /// # Panics
-    /// If the paper does not stand on the library's grid, or a slot names no pigment of
-    /// it.
+    /// If the paper is not on the library's grid, or a slot names no pigment of the library.
     pub fn new(
         library: &PigmentLibrary,
         slots: &Slots,
@@ -76,13 +76,13 @@ impl Glazes {
         Ok(Self { library: library.clone(), slots: *slots, paper, separation, white, black })
     }
 
-    /// Up to eight pigments that come nearest to the colours of `wash` as glazes.
+    /// Chooses up to eight pigments that come closest to the colours of `wash` as glazes.
     ///
     /// # Errors
     /// [`GlazeError`] if the library has no pigment to use.
     ///
     /// # Panics
-    /// As [`Glazes::new`].
+    /// If the paper is not on the library's grid.
     pub fn palette(
         wash: &Wash,
         library: &PigmentLibrary,
@@ -93,7 +93,7 @@ impl Glazes {
         let white = film(library, &none, paper, light).rgb(&[0.0; SLOTS]);
         let black = library.saunderson.floor() as f32;
         let values = wash.color.values().iter().filter(|color| color[3] > 0.0);
-        let values: Vec<_> = values.map(|color| wanted(*color, white, black)).collect();
+        let values: Vec<_> = values.map(|color| target_color(*color, white, black)).collect();
         let colors = Picture::from_values(values.len(), 1, values);
         let ground = paper;
         let scattering_per_mm = medium().scattering_per_mm;
@@ -102,50 +102,47 @@ impl Glazes {
         Ok(choose_palette(&colors, materials, film, &HEIGHTS)?.slots)
     }
 
-    /// Its pigments.
+    /// The pigments in use.
     #[must_use]
     pub fn slots(&self) -> &Slots {
         &self.slots
     }
 
-    /// The colours of its films.
+    /// The model of the glazes' colours.
     #[must_use]
     pub fn film(&self) -> &PaintFilm {
         self.separation.film()
     }
 
-    /// Heights in mm by slot of the glaze for an encoded sRGB colour, which is seen
+    /// Height in mm of each slot in the glaze for an encoded sRGB colour. Colours are
     /// relative to the paper: white is next to no paint.
     #[must_use]
     pub fn heights_mm(&self, color: [f32; 4]) -> [f32; SLOTS] {
-        self.separation.heights_mm(wanted(color, self.white, self.black))
+        self.separation.heights_mm(target_color(color, self.white, self.black))
     }
 
-    /// Paints `wash` as [`crate::watercolor::paint`] does, but with glazes: a painting
-    /// of one dry layer over the paper. Settings are those for its size.
-    ///
-    /// # Errors
-    /// Never with the processor.
+    /// Paints `wash` as [`crate::watercolor::paint`] does, but with glazes: a painting of one
+    /// dry layer over the paper. `textures` and `settings` are those for its size.
     ///
     /// # Panics
     /// If sizes differ.
-    pub fn painted(
+    #[must_use]
+    pub fn paint(
         &self,
         title: &str,
         wash: &Wash,
         textures: &Textures,
         settings: &Settings,
         lighting: Lighting,
-    ) -> Result<Document, DeviceError> {
-        let heights = &textures.paper.heights;
-        let displaced = textures.paper.per_slope(settings.wobble.amount_px);
-        let color = OnCpu.wobbled(wash.color.clone(), heights, displaced)?;
-        let thickness = thickness(&color, &wash.controls, textures, settings)?;
-        Ok(self.document(title, &color, &thickness, &textures.paper, lighting))
+    ) -> Document {
+        let px_per_slope = textures.paper.per_slope(settings.wobble.amount_px);
+        let color = wobble_on_cpu(&wash.color, &textures.paper.heights, px_per_slope);
+        let thickness = thickness(&color, &wash.controls, textures, settings);
+        self.document(title, &color, &thickness, &textures.paper, lighting)
     }
 
-    /// The painting of `color`, the glaze of each pixel `thickness` times as high as its
-    /// recipe wants.
+    /// The painting of `color` in which each pixel's glaze is `thickness` times as high as in
+    /// its recipe.
     ///
     /// # Panics
     /// If sizes differ.
@@ -159,7 +156,11 @@ impl Glazes {
         lighting: Lighting,
     ) -> Document {
         let (width, height) = (color.width(), color.height());
-        assert_eq!((thickness.width(), thickness.height()), (width, height), "a thickness each");
+        assert_eq!(
+            (thickness.width(), thickness.height()),
+            (width, height),
+            "thickness must have the size of the picture"
+        );
         let cell_mm = paper.px_mm;
         let quanta = color.values().par_iter().zip(thickness.values()).with_min_len(1024);
         let quanta = quanta.map(|(&color, &times)| {
@@ -192,23 +193,22 @@ fn film(library: &PigmentLibrary, slots: &Slots, paper: &[f64], light: &Light) -
     PaintFilm::at_nodes(materials, &light.quadrature)
 }
 
-/// Linear sRGB that a colour has on this paper, its black raised to what paint
-/// reaches.
-fn wanted([r, g, b, _]: [f32; 4], white: [f32; 3], black: f32) -> [f32; 3] {
+/// Linear sRGB of an encoded colour on this paper, with black raised to what paint reaches.
+fn target_color([r, g, b, _]: [f32; 4], white: [f32; 3], black: f32) -> [f32; 3] {
     let linear = Rgb([r, g, b].map(f64::from)).linear().0;
     std::array::from_fn(|i| black + (1.0 - black) * linear[i] as f32 * white[i])
 }
 
-/// Why there are no glazes.
+/// Why no glazes can be found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GlazeError {
-    /// No palette.
+    /// The palette is empty, or no pigment can be used.
     #[error(transparent)]
     Separation(#[from] SeparationError),
 }
 
 impl GlazeError {
-    /// What to try.
+    /// How to avoid the error.
     #[must_use]
     pub fn hint(&self) -> String {
         let Self::Separation(error) = self;

@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rayon::prelude::*;
 
-use crate::watercolor::DispersionSettings;
+use crate::watercolor::settings::DispersionSettings;
 use graphics::field::Field;
 use graphics::noise::random;
 

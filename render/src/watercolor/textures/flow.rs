@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::watercolor::FlowSettings;
+use crate::watercolor::settings::FlowSettings;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
 

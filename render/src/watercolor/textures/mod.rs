@@ -14,4 +14,4 @@ mod set;
 pub use dispersion::dispersion;
 pub use flow::turbulent_flow;
 pub use paper::{PaperTexture, PaperTextureError};
-pub use set::{PaperOn, Textures, TexturesOn};
+pub use set::{PaperImage, TextureImages, Textures};

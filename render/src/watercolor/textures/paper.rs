@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 use spectra::hint::Explain;
 
-use crate::watercolor::PaperSettings;
+use crate::watercolor::settings::PaperSettings;
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
 use paint::amount::QUANTA_PER_CELL;

@@ -1,27 +1,28 @@
 //! All textures of a picture together.
 
 use super::{PaperTexture, PaperTextureError, dispersion, turbulent_flow};
-use crate::watercolor::Settings;
+use crate::watercolor::settings::Settings;
+use graphics::compute::{Compute, GreyImage};
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
-use graphics::image::Backend;
 
-/// The textures of a picture that stands still.
+/// The textures of a picture, in the processor's memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Textures {
-    /// Clouds.
+    /// Clouds of pigment, 0 to 1.
     pub flow: Field<f32>,
-    /// Grains.
+    /// Grains of pigment, 0 to 1.
     pub dispersion: Field<f32>,
-    /// Paper.
+    /// The paper.
     pub paper: PaperTexture,
 }
 
 impl Textures {
-    /// Those of `settings`, told for this size (see [`Settings::for_size`]).
+    /// Computes the textures of a picture of `width` x `height` pixels. `settings` are those
+    /// for this size ([`Settings::for_size`]).
     ///
     /// # Errors
-    /// [`PaperTextureError`] if there is no such paper.
+    /// [`PaperTextureError`] if the paper's scan cannot be read or the paper cannot be made.
     pub fn new(
         width: usize,
         height: usize,
@@ -34,35 +35,38 @@ impl Textures {
         })
     }
 
-    /// Puts them where pictures are worked on.
+    /// Copies the textures into the memory of `compute`.
     ///
     /// # Errors
-    /// As [`Backend::grey_of`].
-    pub fn on<B: Backend>(self, backend: &mut B) -> Result<TexturesOn<B>, DeviceError> {
-        Ok(TexturesOn {
-            flow: backend.grey_of(&self.flow)?,
-            dispersion: backend.grey_of(&self.dispersion)?,
-            paper: PaperOn { heights: backend.grey_of(&self.paper.heights)?, texture: self.paper },
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn upload(self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
+        Ok(TextureImages {
+            flow: compute.upload(&self.flow)?,
+            dispersion: compute.upload(&self.dispersion)?,
+            paper: PaperImage {
+                heights: compute.upload(&self.paper.heights)?,
+                texture: self.paper,
+            },
         })
     }
 }
 
-/// The same with a backend.
-#[derive(Debug)]
-pub struct TexturesOn<B: Backend> {
-    /// Clouds.
-    pub flow: B::Grey,
-    /// Grains.
-    pub dispersion: B::Grey,
-    /// Paper.
-    pub paper: PaperOn<B>,
+/// [`Textures`] in the memory of a [`Compute`].
+#[derive(Debug, Clone)]
+pub struct TextureImages {
+    /// Clouds of pigment, 0 to 1.
+    pub flow: GreyImage,
+    /// Grains of pigment, 0 to 1.
+    pub dispersion: GreyImage,
+    /// The paper.
+    pub paper: PaperImage,
 }
 
-/// Paper with a backend.
-#[derive(Debug)]
-pub struct PaperOn<B: Backend> {
-    /// Its heights.
-    pub heights: B::Grey,
-    /// What is known of it.
+/// A paper whose heights are in the memory of a [`Compute`].
+#[derive(Debug, Clone)]
+pub struct PaperImage {
+    /// Heights of the paper, 0 to 1.
+    pub heights: GreyImage,
+    /// Heights and measures of the paper in the processor's memory.
     pub texture: PaperTexture,
 }

@@ -15,8 +15,8 @@ use render::mesh::{Mesh, Triangle};
 use render::surface::visible;
 use render::watercolor::OnCpu;
 use render::watercolor::coherence::{
-    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Sight, Splatting,
-    depth_of, repeating_pigment,
+    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Projection, Splatting,
+    depth_field, repeating_noise,
 };
 
 /// A mesh with all that noise needs of it, and what a camera sees of it.
@@ -29,7 +29,7 @@ struct Subject {
 
 /// A picture without noise.
 struct Bare {
-    sight: Sight,
+    sight: Projection,
     depth: Field<f32>,
 }
 
@@ -37,12 +37,12 @@ impl Subject {
     fn new(mesh: Mesh) -> Self {
         let hierarchy = Arc::new(Hierarchy::new(&mesh));
         let features = Features::new(Arc::clone(&hierarchy), 1);
-        Self { mesh, hierarchy, features, pigment: repeating_pigment(32, 1) }
+        Self { mesh, hierarchy, features, pigment: repeating_noise(32, 1) }
     }
 
     fn bare(&self, camera: &Camera, width: usize, height: usize) -> Bare {
-        let depth = depth_of(&visible(&self.mesh, camera, width, height));
-        Bare { sight: Sight::new(camera, width, height), depth }
+        let depth = depth_field(&visible(&self.mesh, camera, width, height));
+        Bare { sight: Projection::new(camera, width, height), depth }
     }
 
     fn of_features(&self, bare: &Bare, noise: FeatureNoise) -> Field<f32> {

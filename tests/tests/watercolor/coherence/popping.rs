@@ -8,7 +8,7 @@ use std::io::Write;
 use render::camera::Framing;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::coherence::{AnchoredNoise, FeatureNoise, NoiseShot, Particles, Popping};
+use render::watercolor::coherence::{AnchoredNoise, FeatureNoise, NoiseFrame, Particles, Popping};
 
 use super::{Bare, Subject, wall};
 
@@ -26,7 +26,7 @@ struct Turn {
 /// RMS from frame to frame along the motion.
 fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
     let shot =
-        |i: usize| NoiseShot { sight: &bare[i].sight, depth: &bare[i].depth, noise: &noise[i] };
+        |i: usize| NoiseFrame { sight: &bare[i].sight, depth: &bare[i].depth, noise: &noise[i] };
     let pairs = (1..bare.len()).map(|i| Popping::between(shot(i - 1), shot(i)));
     let all = pairs.fold(Popping::default(), Popping::and);
     assert!(all.pixels > bare.len() * bare[0].depth.values().len() / 50, "{all:?}");

@@ -6,7 +6,7 @@ use render::field::Field;
 use render::mesh::Mesh;
 use render::watercolor::OnCpu;
 use render::watercolor::coherence::{
-    Anchoring, FeatureNoise, Features, Particles, SPREAD, Splatting, repeating_pigment,
+    Anchoring, FeatureNoise, Features, Particles, SPREAD, Splatting, repeating_noise,
 };
 
 use super::{Subject, from_front, spread, wall, waves};
@@ -104,7 +104,7 @@ fn frequency_holds_while_the_model_comes_nearer() {
         let particles = Particles::new(&subject.hierarchy, 6);
         let strewn: Vec<Features> =
             (0..6).map(|seed| Features::new(subject.hierarchy.clone(), seed)).collect();
-        let pigments: Vec<Field<f32>> = (0..6).map(|seed| repeating_pigment(32, seed)).collect();
+        let pigments: Vec<Field<f32>> = (0..6).map(|seed| repeating_noise(32, seed)).collect();
         let bare = |subject: &Subject, zoom: f32| {
             subject.bare(&from_front(1.0 + 2.0 / zoom, 20.0), 192, 192)
         };

@@ -5,7 +5,7 @@ use render::camera::{Camera, Framing};
 use render::field::Field;
 use render::mesh::Mesh;
 use render::watercolor::coherence::{
-    Anchoring, FeatureNoise, Particles, Sight, Splat, Splatting, repeating_pigment,
+    Anchoring, FeatureNoise, Particles, Projection, Splat, Splatting, repeating_noise,
 };
 use render::watercolor::{Backend, OnCpu, OnGpu};
 use suite::adapter::device;
@@ -79,7 +79,7 @@ fn bare_pixels_are_a_half_and_the_same_input_gives_the_same_noise() {
             assert!(pixels.all(|(value, depth)| *depth < 1.0 || *value == 0.5));
         }
     }
-    assert_ne!(repeating_pigment(8, 1), repeating_pigment(8, 2));
+    assert_ne!(repeating_noise(8, 1), repeating_noise(8, 2));
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn one_texture_holds_on_to_its_particle() {
         let bare = subject.bare(&Camera { far: 60.0, ..camera }, width, height);
         (bare.sight, subject.of_particles(&bare, &particles, 24.0))
     });
-    let shift = |sight: &Sight| sight.seen_at(Vec3::ZERO).map(|at| at.x).unwrap();
+    let shift = |sight: &Projection| sight.seen_at(Vec3::ZERO).map(|at| at.x).unwrap();
     let moved = shift(&after.0) - shift(&before.0);
     assert!((moved.round() - moved).abs() < 0.3 && moved > 8.0, "{moved} px");
     let moved = moved.round() as usize;

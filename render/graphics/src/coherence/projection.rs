@@ -1,0 +1,183 @@
+//! The mapping between positions of a model and pixels of a camera's picture.
+
+use glam::{Mat4, Vec3, Vec4};
+
+use crate::camera::Camera;
+
+/// The mapping of one camera and picture size: from positions of the model to pixels and
+/// depth, and back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    pub(super) camera: Camera,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    clip_from_model: Mat4,
+    model_from_clip: Mat4,
+    /// Unit vectors to the right and upwards in the picture, in model coordinates.
+    axes: [Vec3; 2],
+    /// Focal length in pixels: the length in the picture of one model unit at a distance of
+    /// one unit in front of the eye.
+    pub(super) focal_px: f32,
+}
+
+/// A position of the model, projected to the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Projected {
+    /// Distance from the left edge in pixels.
+    pub(super) x: f32,
+    /// Distance from the upper edge in pixels.
+    pub(super) y: f32,
+    /// Depth, 0 (near plane) to 1 (far plane).
+    pub(super) depth: f32,
+    /// Distance in front of the eye along the viewing direction, in the unit of the model.
+    pub(super) distance: f32,
+}
+
+/// A position projected as if it lay on the near plane at least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ClampedProjected {
+    /// Distance from the left edge in pixels.
+    pub(super) x: f32,
+    /// Distance from the upper edge in pixels.
+    pub(super) y: f32,
+    /// Distance in front of the eye, at least that of the near plane, in the unit of the
+    /// model.
+    pub(super) distance: f32,
+    /// True distance in front of the eye; negative behind it.
+    pub(super) along: f32,
+}
+
+impl Projection {
+    /// The projection of `camera` to a picture of `width` x `height` pixels.
+    #[must_use]
+    pub fn new(camera: &Camera, width: usize, height: usize) -> Self {
+        let clip_from_model = camera.clip_from_model(width as f32 / height.max(1) as f32);
+        let right = (camera.target - camera.eye).cross(camera.up).normalize_or_zero();
+        let up = right.cross(camera.target - camera.eye).normalize_or_zero();
+        let half = (camera.field_of_view_deg / 2.0).to_radians().tan();
+        Self {
+            camera: *camera,
+            width,
+            height,
+            clip_from_model,
+            model_from_clip: clip_from_model.inverse(),
+            axes: [right, up],
+            focal_px: height as f32 / 2.0 / half,
+        }
+    }
+
+    /// Projects a position of the model. `None` if it is nearer than the near plane.
+    pub(super) fn project(&self, position: Vec3) -> Option<Projected> {
+        let clip = self.clip_from_model * position.extend(1.0);
+        (clip.w >= self.camera.near && clip.w.is_finite()).then(|| self.screen(clip))
+    }
+
+    /// Projects a position of the model; one nearer than the near plane is treated as if it
+    /// lay on it.
+    pub(super) fn project_clamped(&self, position: Vec3) -> ClampedProjected {
+        let mut clip = self.clip_from_model * position.extend(1.0);
+        let along = clip.w;
+        clip.w = clip.w.max(self.camera.near);
+        let Projected { x, y, distance, .. } = self.screen(clip);
+        ClampedProjected { x, y, distance, along }
+    }
+
+    fn screen(&self, clip: Vec4) -> Projected {
+        Projected {
+            x: (clip.x / clip.w + 1.0) / 2.0 * self.width as f32,
+            y: (1.0 - clip.y / clip.w) / 2.0 * self.height as f32,
+            depth: clip.z / clip.w,
+            distance: clip.w,
+        }
+    }
+
+    /// The position of the model at the centre of a pixel and at `depth` (0 to 1).
+    #[must_use]
+    pub fn unproject(&self, (x, y): (usize, usize), depth: f32) -> Vec3 {
+        let row = self.row(y);
+        let model = row
+            + self.model_from_clip.x_axis * self.column(x)
+            + self.model_from_clip.z_axis * depth;
+        model.truncate() / model.w
+    }
+
+    /// What a row of pixels contributes to [`Self::unproject`] before the division by w.
+    pub(super) fn row(&self, y: usize) -> Vec4 {
+        let up = 1.0 - (2 * y + 1) as f32 / self.height as f32;
+        self.model_from_clip.w_axis + self.model_from_clip.y_axis * up
+    }
+
+    /// The centre of a column in clip coordinates, -1 (left) to 1 (right).
+    pub(super) fn column(&self, x: usize) -> f32 {
+        (2 * x + 1) as f32 / self.width as f32 - 1.0
+    }
+
+    /// The matrix from clip to model coordinates.
+    pub(super) fn model_from_clip(&self) -> Mat4 {
+        self.model_from_clip
+    }
+
+    /// Where a position of the model lies in the picture, as (x, y, depth) with x and y in
+    /// pixels from the upper left corner. `None` if it is nearer than the near plane.
+    #[must_use]
+    pub fn pixel_of(&self, position: Vec3) -> Option<Vec3> {
+        self.project(position).map(|at| Vec3::new(at.x, at.y, at.depth))
+    }
+
+    /// `near far / (far - near)`. Depth is a constant minus this over distance.
+    pub(super) fn depth_scale(&self) -> f32 {
+        let Camera { near, far, .. } = self.camera;
+        near * far / (far - near)
+    }
+
+    /// How much depth grows per pixel to the right and downwards on a plane with this
+    /// `normal`; `towards` is the dot product of the normal and a vector from the eye to
+    /// the plane.
+    pub(super) fn slope(&self, normal: Vec3, towards: f32) -> [f32; 2] {
+        let [right, up] = self.axes;
+        let scale = -self.depth_scale() / (towards * self.focal_px);
+        [scale * normal.dot(right), -scale * normal.dot(up)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::surface::{NO_TRIANGLE, position_at, visible};
+
+    #[test]
+    fn places_from_depth_are_those_of_the_mesh_and_slopes_are_those_of_the_picture() {
+        let mesh = Mesh::sphere(500);
+        let camera = Camera::framing(mesh.bounds(), 40.0, 25.0, 30.0);
+        let projection = Projection::new(&camera, 90, 60);
+        let visible = visible(&mesh, &camera, 90, 60);
+        let mut slopes = 0;
+        for y in 0..59 {
+            for x in 0..89 {
+                let seen = visible[(x, y)];
+                if seen.triangle == NO_TRIANGLE {
+                    continue;
+                }
+                let place = position_at(&mesh, seen);
+                assert!(place.distance(projection.unproject((x, y), seen.depth)) < 1e-3, "{x} {y}");
+                let at = projection.project(place).unwrap();
+                assert!((at.x - x as f32 - 0.5).abs() < 0.05, "{x}: {at:?}");
+                assert!((at.y - y as f32 - 0.5).abs() < 0.05, "{y}: {at:?}");
+                let corners = mesh.triangles[seen.triangle as usize].corners;
+                let [a, b, c] = corners.map(|i| Vec3::from(mesh.positions[i as usize]));
+                let normal = (b - a).cross(c - a).normalize();
+                let slope = projection.slope(normal, normal.dot(place - camera.eye));
+                for (beside, slope) in [((x + 1, y), slope[0]), ((x, y + 1), slope[1])] {
+                    if visible[beside].triangle == seen.triangle {
+                        let found = visible[beside].depth - seen.depth;
+                        let error = (found - slope).abs();
+                        assert!(error < 0.02 * found.abs() + 1e-5, "{found}, {slope}");
+                        slopes += 1;
+                    }
+                }
+            }
+        }
+        assert!(slopes > 600, "{slopes}");
+    }
+}

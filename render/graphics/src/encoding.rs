@@ -1,0 +1,66 @@
+//! Colour pictures between linear light and encoded sRGB (IEC 61966-2-1).
+
+use rayon::prelude::*;
+use spectra::color::Rgb;
+
+use crate::field::Field;
+
+/// Linear sRGB of a picture of encoded sRGB; the fourth value stays.
+#[must_use]
+pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
+    map_pixels(picture, |[r, g, b, a]| {
+        let [r, g, b] = Rgb([r, g, b].map(f64::from)).linear().0.map(|value| value as f32);
+        [r, g, b, a]
+    })
+}
+
+/// Encoded sRGB of a picture of linear sRGB, which is clipped to 0..1; the fourth value
+/// stays.
+#[must_use]
+pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
+    map_pixels(picture, |[r, g, b, a]| {
+        let inside = [r, g, b].map(|value| f64::from(value.clamp(0.0, 1.0)));
+        let [r, g, b] = Rgb(inside).encoded().0.map(|value| value as f32);
+        [r, g, b, a]
+    })
+}
+
+/// A picture with coverage composited on white, without linearising it; covered everywhere.
+#[must_use]
+pub fn over_white(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
+    map_pixels(picture, |[r, g, b, covered]| {
+        let [r, g, b] = [r, g, b].map(|value| value * covered + 1.0 - covered);
+        [r, g, b, 1.0]
+    })
+}
+
+fn map_pixels(
+    picture: &Field<[f32; 4]>,
+    map: impl Fn([f32; 4]) -> [f32; 4] + Sync,
+) -> Field<[f32; 4]> {
+    let values = picture.values().par_iter().map(|&pixel| map(pixel)).collect();
+    Field::from_values(picture.width(), picture.height(), values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encoding_and_linearising_are_inverse_and_keep_the_fourth_value() {
+        let values = (0..256).map(|i| [i as f32 / 255.0, 0.5, 1.0 - i as f32 / 255.0, 0.25]);
+        let picture = Field::from_values(16, 16, values.collect());
+        let back = encoded_from_linear(&linear_from_encoded(&picture));
+        for (found, wanted) in back.values().iter().zip(picture.values()) {
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn bare_pixels_are_white() {
+        let picture = Field::from_values(2, 1, vec![[0.2, 0.3, 0.4, 0.0], [0.2, 0.3, 0.4, 1.0]]);
+        assert_eq!(over_white(&picture).values(), [[1.0; 4], [0.2, 0.3, 0.4, 1.0]]);
+    }
+}

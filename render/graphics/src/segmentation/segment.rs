@@ -1,0 +1,176 @@
+//! The whole of segmentation.
+
+use rayon::prelude::*;
+
+use super::climb::{MEETING, modes};
+use super::luv::LuvPlanes;
+use super::mean_shift::{Bandwidth, MOST_LANES};
+use super::pruning::{join_alike, join_small};
+use super::region_graph::RegionGraph;
+use super::regions::linked;
+use super::tones::cut;
+use crate::field::Field;
+
+/// How coarse regions are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SegmentationSettings {
+    /// How far a window reaches in the picture, in pixels: 1 to
+    /// [`SegmentationSettings::MAX_SPATIAL_PX`]. What is larger is kept apart; the time
+    /// goes with its square.
+    pub spatial_radius_px: f32,
+    /// How far it reaches in colour, a difference in CIELUV above 0, where 100 is from
+    /// black to white. Less contrast than this is flattened.
+    pub range_radius: f32,
+    /// Smaller regions join a neighbour.
+    pub least_region_px: u32,
+    /// Regions whose colour runs farther than this, in CIELUV, are cut into steps about
+    /// as large; with 0 never.
+    pub tone_step: f32,
+}
+
+impl SegmentationSettings {
+    /// The farthest that a window reaches.
+    pub const MAX_SPATIAL_PX: f32 = 128.0;
+}
+
+impl Default for SegmentationSettings {
+    /// 10 px, 8 in CIELUV, 60 px: for a photograph of about 1 megapixel. Nothing is cut.
+    fn default() -> Self {
+        Self { spatial_radius_px: 10.0, range_radius: 8.0, least_region_px: 60, tone_step: 0.0 }
+    }
+}
+
+/// A picture in regions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segmentation {
+    /// Of each pixel, from 0 on without gaps, in the order in which regions first appear
+    /// row by row. A region hangs together by rows and columns.
+    pub labels: Field<u32>,
+    /// The mean of each region: encoded sRGB where there is paint, and coverage.
+    pub colors: Vec<[f32; 4]>,
+}
+
+impl Segmentation {
+    /// The picture with each region in its own colour.
+    #[must_use]
+    pub fn flat(&self) -> Field<[f32; 4]> {
+        let color = |&label: &u32| self.colors[label as usize];
+        let values = self.labels.values().par_iter().with_min_len(4096).map(color).collect();
+        Field::from_values(self.labels.width(), self.labels.height(), values)
+    }
+}
+
+/// Regions of `picture`, which is encoded sRGB with coverage.
+///
+/// Pixels whose modes are near are linked; regions that are too small join a neighbour;
+/// then neighbours whose mean modes are within the range radius become one, the nearest
+/// first. Smooth gradients are then cut into steps, if that is asked for.
+///
+/// Bare paper (coverage below 1/2) is taken as white, and is never in a region with
+/// paint, unless one of them is too small. The same picture gives the same regions,
+/// whatever the number of threads.
+///
+/// # Errors
+/// [`SegmentationError`] if a setting is out of its range.
+pub fn segment(
+    picture: &Field<[f32; 4]>,
+    settings: &SegmentationSettings,
+) -> Result<Segmentation, SegmentationError> {
+    let bandwidth = settings.bandwidth()?;
+    if picture.values().is_empty() {
+        let labels = Field::filled(picture.width(), picture.height(), 0);
+        return Ok(Segmentation { labels, colors: Vec::new() });
+    }
+    let margin = bandwidth.spatial_px.ceil() as usize + MOST_LANES + 1;
+    let planes = LuvPlanes::new(picture, margin);
+    let modes = modes(&planes, bandwidth, MEETING);
+    let painted = |pixel: usize| picture.values()[pixel][3] >= 0.5;
+    let (mut labels, count) = linked(&modes, painted, bandwidth);
+    let mut graph = RegionGraph::new(&labels, count, &modes, painted);
+    join_small(&mut graph, settings.least_region_px);
+    join_alike(&mut graph, bandwidth.range.into());
+    let mut count = graph.relabel(&mut labels);
+    if settings.tone_step > 0.0 {
+        (labels, count) = cut(&labels, count, &modes, settings.tone_step);
+        let mut graph = RegionGraph::new(&labels, count, &modes, painted);
+        join_small(&mut graph, settings.least_region_px);
+        count = graph.relabel(&mut labels);
+    }
+    let colors = means(picture, &labels, count);
+    Ok(Segmentation { labels, colors })
+}
+
+/// The mean of every region, weighted by coverage; white where it is 0.
+fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f32; 4]> {
+    let mut sums = vec![([0.0f64; 4], 0u32); count];
+    for (&label, &[r, g, b, coverage]) in labels.values().iter().zip(picture.values()) {
+        let (sums, pixels) = &mut sums[label as usize];
+        for (sum, value) in
+            sums.iter_mut().zip([r * coverage, g * coverage, b * coverage, coverage])
+        {
+            *sum += f64::from(value);
+        }
+        *pixels += 1;
+    }
+    let mean = |([r, g, b, coverage], pixels): ([f64; 4], u32)| {
+        let color = [r, g, b].map(|sum| if coverage > 0.0 { sum / coverage } else { 1.0 });
+        let [r, g, b] = color.map(|value| value as f32);
+        [r, g, b, (coverage / f64::from(pixels)) as f32]
+    };
+    sums.into_iter().map(mean).collect()
+}
+
+impl SegmentationSettings {
+    fn bandwidth(&self) -> Result<Bandwidth, SegmentationError> {
+        let (spatial_px, range) = (self.spatial_radius_px, self.range_radius);
+        if !(1.0..=Self::MAX_SPATIAL_PX).contains(&spatial_px) {
+            return Err(SegmentationError::SpatialRadius { found: spatial_px });
+        }
+        let step = self.tone_step;
+        if !(step >= 0.0 && step.is_finite()) {
+            return Err(SegmentationError::ToneStep { found: step });
+        }
+        if !(range > 0.0 && range.is_finite()) {
+            return Err(SegmentationError::RangeRadius { found: range });
+        }
+        Ok(Bandwidth { spatial_px, range })
+    }
+}
+
+/// A setting out of its range.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SegmentationError {
+    /// Of the window in the picture.
+    #[error(
+        "a spatial radius is 1 to {} px, found `{found}`",
+        SegmentationSettings::MAX_SPATIAL_PX
+    )]
+    SpatialRadius {
+        /// What it was, in pixels.
+        found: f32,
+    },
+    /// Of the window in colour.
+    #[error("a range radius is a number above 0, found `{found}`")]
+    RangeRadius {
+        /// What it was.
+        found: f32,
+    },
+    /// Of the steps in colour.
+    #[error("a step of tone is a number of 0 and up, found `{found}`")]
+    ToneStep {
+        /// What it was.
+        found: f32,
+    },
+}
+
+impl SegmentationError {
+    /// What to try.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::SpatialRadius { .. } => "about a hundredth of the picture's width does well",
+            Self::RangeRadius { .. } => "8 keeps what the eye sees apart; more is flatter",
+            Self::ToneStep { .. } => "25 lays a round form in a few washes; 0 cuts nothing",
+        }
+    }
+}

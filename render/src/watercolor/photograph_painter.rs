@@ -1,0 +1,171 @@
+//! Photographs to watercolors.
+
+use super::abstraction::{
+    AbstractedPhotograph, AbstractionError, RegionSettings, abstract_photograph, height_for_width,
+};
+use super::pipeline::{FrameTextures, StageObserver, paint};
+use super::settings::Settings;
+use super::textures::{PaperTextureError, Textures};
+use super::wash::{Masks, Wash};
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use graphics::picture::Photograph;
+
+/// Longer side of a painting whose width was not set, in pixels; smaller photographs keep
+/// their size.
+const USUAL_LONGER_SIDE_PX: usize = 1600;
+
+/// Paints photographs as watercolors, on the processor unless told otherwise.
+///
+/// ```
+/// use render::picture::Photograph;
+/// use render::watercolor::{PhotographPainter, Preset};
+///
+/// # let bytes = render::export::frame_png(&render::field::Field::filled(24, 16, [200, 90, 60]))?;
+/// let photograph = Photograph::from_bytes("a.png", &bytes)?;
+/// let style = Preset::Landscape.settings();
+/// let picture = PhotographPainter::new(style).paint(&photograph)?;
+/// assert_eq!((picture.width(), picture.height()), (24, 16));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct PhotographPainter {
+    settings: Settings,
+    compute: Compute,
+    width_px: Option<usize>,
+    masks: Masks,
+}
+
+/// A photograph made ready for painting: its wash and the textures of the picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedPhotograph {
+    /// The photograph in the size of the painting, encoded sRGB with coverage.
+    pub original: Field<[f32; 4]>,
+    /// Each region of the photograph in its mean colour.
+    pub segmented: Field<[f32; 4]>,
+    /// Number of regions.
+    pub regions: usize,
+    /// The abstracted photograph, and where effects are weaker.
+    pub wash: Wash,
+    /// The textures of the picture.
+    pub textures: Textures,
+    /// The settings for the size of the picture.
+    pub settings: Settings,
+}
+
+impl PhotographPainter {
+    /// A painter of this style. Its lengths are adapted to the size of each picture
+    /// ([`Settings::for_size`]).
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, compute: Compute::cpu(), width_px: None, masks: Masks::default() }
+    }
+
+    /// Computes with `compute` instead of the processor.
+    #[must_use]
+    pub fn with_compute(self, compute: Compute) -> Self {
+        Self { compute, ..self }
+    }
+
+    /// Sets the width of pictures in pixels, 1 and up. Without it see
+    /// [`Self::usual_width_px`].
+    #[must_use]
+    pub fn with_width_px(self, width_px: usize) -> Self {
+        Self { width_px: Some(width_px), ..self }
+    }
+
+    /// Stretches `masks` over each picture.
+    #[must_use]
+    pub fn with_masks(self, masks: Masks) -> Self {
+        Self { masks, ..self }
+    }
+
+    /// The width in pixels of a painting of `photograph` if none is set: its own, or less so
+    /// that the longer side has 1600 pixels at most.
+    #[must_use]
+    pub fn usual_width_px(photograph: &Photograph) -> usize {
+        let (width, height) = photograph.size();
+        let scale = (USUAL_LONGER_SIDE_PX as f64 / width.max(height) as f64).min(1.0);
+        (scale * width as f64).round().max(1.0) as usize
+    }
+
+    /// Width and height in pixels of a painting of `photograph`.
+    #[must_use]
+    pub fn picture_size(&self, photograph: &Photograph) -> (usize, usize) {
+        let width = self.width_px.unwrap_or_else(|| Self::usual_width_px(photograph));
+        (width, height_for_width(photograph, width))
+    }
+
+    /// Name of what computes: `cpu`, or that of a graphics adapter.
+    #[must_use]
+    pub fn compute_name(&self) -> &str {
+        self.compute.name()
+    }
+
+    /// Paints a photograph. The picture is encoded sRGB, covered everywhere.
+    ///
+    /// # Errors
+    /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
+    /// paper's scan cannot be read, or the device fails.
+    pub fn paint(
+        &mut self,
+        photograph: &Photograph,
+    ) -> Result<Field<[f32; 4]>, PhotographPainterError> {
+        let prepared = self.prepare(photograph)?;
+        Ok(self.paint_prepared(&prepared, None)?)
+    }
+
+    /// Abstracts a photograph and makes the textures of its picture: all that comes before
+    /// the effects, which [`Self::paint_prepared`] and glazes
+    /// ([`super::GlazePainter::paint`]) apply.
+    ///
+    /// # Errors
+    /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
+    /// paper's scan cannot be read, or the device fails.
+    pub fn prepare(
+        &mut self,
+        photograph: &Photograph,
+    ) -> Result<PreparedPhotograph, PhotographPainterError> {
+        let (width, height) = self.picture_size(photograph);
+        let settings = self.settings.for_size(width, height);
+        let regions = RegionSettings::from(&settings.abstraction);
+        let AbstractedPhotograph { original, segmented, smoothed, regions } =
+            abstract_photograph(&mut self.compute, photograph, width, &regions)?;
+        let wash = Wash { color: smoothed, controls: self.masks.controls(width, height) };
+        let textures = Textures::new(width, height, &settings)?;
+        Ok(PreparedPhotograph { original, segmented, regions, wash, textures, settings })
+    }
+
+    /// Applies all effects. The picture is encoded sRGB, covered everywhere. `observer` is
+    /// called with the picture after each stage.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn paint_prepared(
+        &mut self,
+        prepared: &PreparedPhotograph,
+        observer: Option<StageObserver<'_>>,
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
+        let compute = &mut self.compute;
+        let wash = prepared.wash.upload(compute)?;
+        let textures = prepared.textures.clone().upload(compute)?;
+        let textures = FrameTextures::from(&textures);
+        let color = paint(compute, wash, textures, &prepared.settings, observer)?;
+        compute.download(&color)
+    }
+}
+
+/// Why a photograph cannot be painted.
+#[derive(Debug, thiserror::Error)]
+pub enum PhotographPainterError {
+    /// The photograph cannot be abstracted.
+    #[error(transparent)]
+    Abstraction(#[from] AbstractionError),
+    /// The paper cannot be made.
+    #[error(transparent)]
+    Paper(#[from] PaperTextureError),
+    /// The graphics device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+}
