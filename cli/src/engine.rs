@@ -1,8 +1,9 @@
 //! What computes a painting: the processor or a graphics device.
 
 use clap::{Args, ValueEnum};
+use render::compute::Compute;
 use render::field::Field;
-use render::gpu::{BackendChoice, Device, DeviceError, choose};
+use render::gpu::{BackendChoice, DeviceError};
 use render::paint::engine::PaintEngine;
 use render::paint::painting::UNDO_BYTES;
 
@@ -27,9 +28,9 @@ pub(crate) struct BackendOption {
 }
 
 impl BackendOption {
-    /// The device to compute on; none where it is the processor.
-    pub(crate) fn device(&self) -> Result<Option<Device>, DeviceError> {
-        choose(self.choice())
+    /// What computes: the processor or a graphics device.
+    pub(crate) fn compute(&self) -> Result<Compute, DeviceError> {
+        Compute::choose(self.choice())
     }
 
     fn choice(&self) -> BackendChoice {

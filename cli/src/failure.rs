@@ -24,7 +24,7 @@ use render::paint::session::SessionError;
 use render::paint::strokes::{ScriptError, ScriptStartError};
 use render::photograph::{PhotographError, SeparationError, StrokePainterError};
 use render::watercolor::{
-    GlazeError, ModelPainterError, PaperTextureError, PhotographDoorError, SettingsError,
+    GlazeError, ModelPainterError, PaperTextureError, PhotographPainterError, SettingsError,
 };
 use spectra::hint::{Explain, Fault, Hint};
 use spectra::instrument::{ChoiceError, InstrumentError, OpenError};
@@ -129,6 +129,12 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<SeparationError>,
         as_explained::<PaintingExportError>,
         as_explained::<StrokePainterError>,
+        as_explained::<DeviceError>,
+        as_explained::<SettingsError>,
+        as_explained::<PaperTextureError>,
+        as_explained::<GlazeError>,
+        as_explained::<ModelPainterError>,
+        as_explained::<PhotographPainterError>,
     ];
     known.into_iter().find_map(|known| known(cause))
 }
@@ -137,41 +143,7 @@ fn hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     if let Some(error) = explained(cause) {
         return error.hint().map(|hint| flags(&hint));
     }
-    if let Some(hint) = painting_hint(cause) {
-        return Some(hint);
-    }
     cause.downcast_ref::<Refusal>()?.hint.clone()
-}
-
-/// Hints of what paints.
-fn painting_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
-    if cause.is::<DeviceError>() || matches!(cause.downcast_ref(), Some(ModelPainterError::Gpu(_)))
-    {
-        return Some("paint on the processor: --backend cpu".to_owned());
-    }
-    watercolor_hint(cause)
-}
-
-/// Hints of watercolor.
-fn watercolor_hint(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
-    if let Some(error) = cause.downcast_ref::<SettingsError>() {
-        return Some(error.hint());
-    }
-    let paper = match cause.downcast_ref() {
-        Some(ModelPainterError::Paper(error)) => Some(error),
-        _ => cause.downcast_ref::<PaperTextureError>(),
-    };
-    if let Some(error) = paper {
-        return Some(error.hint());
-    }
-    if let Some(ModelPainterError::ToneRamp(error)) = cause.downcast_ref() {
-        return error.hint().map(|hint| flags(&hint));
-    }
-    if let Some(error) = cause.downcast_ref::<GlazeError>() {
-        return Some(error.hint().to_owned());
-    }
-    let error = cause.downcast_ref::<PhotographDoorError>()?;
-    Some(error.hint().to_owned())
 }
 
 fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
@@ -194,6 +166,7 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
                 cause.downcast_ref(),
                 Some(LightError::Unknown { .. } | LightError::Illuminant(_))
             ) || matches!(cause.downcast_ref(), Some(ReferenceFilesError::Setting { .. }))
+                || matches!(cause.downcast_ref(), Some(PhotographPainterError::Abstraction(_)))
                 || cause.is::<PaintLightError>()
                 || cause.is::<FrameError>()
                 || cause.is::<SequenceError>();
@@ -213,13 +186,6 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
         || cause.is::<ScriptStartError>()
         || cause.is::<ScriptError>()
         || cause.is::<PhotographError>()
-        || cause.is::<SettingsError>()
-        || cause.is::<PaperTextureError>()
-        || cause.is::<GlazeError>()
-        || matches!(
-            cause.downcast_ref(),
-            Some(ModelPainterError::Paper(_) | ModelPainterError::ToneRamp(_))
-        )
         || cause.is::<MeshError>()
         || cause.is::<CameraPathError>();
     data.then_some(1)

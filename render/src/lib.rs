@@ -5,6 +5,7 @@
 //! `graphics` and `paint`, whose modules are here too, so that a program depends on
 //! `render` alone.
 
+pub use graphics::kernels as graphics_kernels;
 pub use graphics::{
     camera, coherence, compute, distant_light, encoding, field, gpu, mesh, morphology, orientation,
     picture, segmentation, surface, tile, tones,

@@ -5,22 +5,22 @@ use std::sync::Arc;
 
 use divan::Bencher;
 use render::camera::{Camera, Framing};
+use render::coherence::{
+    AnchoredNoise, FeatureNoise, Features, Hierarchy, Particles, Projection, depth_field,
+    draw_anchored, draw_splats, repeating_noise,
+};
+use render::compute::Compute;
 use render::field::Field;
-use render::gpu::{BackendChoice, choose};
+use render::gpu::BackendChoice;
 use render::mesh::Mesh;
 use render::surface::visible;
-use render::watercolor::coherence::{
-    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Projection, Splatting,
-    depth_field, repeating_noise,
-};
-use render::watercolor::{OnCpu, OnGpu};
 
 const SIZE: (usize, usize) = (750, 570);
 
 struct Frame {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
-    sight: Projection,
+    projection: Projection,
     depth: Field<f32>,
 }
 
@@ -31,7 +31,7 @@ fn frame() -> Frame {
     let camera: Camera = framing.camera(mesh.bounds());
     let depth = depth_field(&visible(&mesh, &camera, width, height));
     let hierarchy = Arc::new(Hierarchy::new(&mesh));
-    Frame { mesh, hierarchy, sight: Projection::new(&camera, width, height), depth }
+    Frame { mesh, hierarchy, projection: Projection::new(&camera, width, height), depth }
 }
 
 /// Once for each model.
@@ -41,62 +41,62 @@ fn hierarchy(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Hierarchy::new(&frame.mesh));
 }
 
-/// What is decided above the backends, for features.
+/// The selection of features, which the processor makes for both forms of compute.
 #[divan::bench]
 fn features_of_a_view(bencher: Bencher<'_, '_>) {
     let frame = frame();
     let features = Features::new(frame.hierarchy.clone(), 1);
     bencher.bench_local(|| {
         [FeatureNoise::FLOW, FeatureNoise::DISPERSION]
-            .map(|noise| features.splats(&frame.sight, noise))
+            .map(|noise| features.splats(&frame.projection, noise))
     });
 }
 
-fn features<B: Splatting>(bencher: Bencher<'_, '_>, backend: &mut B) {
+fn features(bencher: Bencher<'_, '_>, compute: &mut Compute) {
     let frame = frame();
     let features = Features::new(frame.hierarchy.clone(), 1);
-    let depth = backend.grey_of(&frame.depth).unwrap();
+    let depth = compute.upload(&frame.depth).unwrap();
     bencher.bench_local(|| {
         [FeatureNoise::FLOW, FeatureNoise::DISPERSION].map(|noise| {
-            let drawn = backend.splatted(&depth, &features.splats(&frame.sight, noise));
-            backend.grey_field(&drawn.unwrap()).unwrap()
+            let drawn = draw_splats(compute, &depth, &features.splats(&frame.projection, noise));
+            compute.download(&drawn.unwrap()).unwrap()
         })
     });
 }
 
-fn particles<B: Anchoring>(bencher: Bencher<'_, '_>, backend: &mut B, count: usize) {
+fn particles(bencher: Bencher<'_, '_>, compute: &mut Compute, count: usize) {
     let frame = frame();
     let particles = Particles::new(&frame.hierarchy, count);
-    let depth = backend.grey_of(&frame.depth).unwrap();
+    let depth = compute.upload(&frame.depth).unwrap();
     let textures = [(32, AnchoredNoise::FLOW), (8, AnchoredNoise::DISPERSION)]
-        .map(|(wave, noise)| (backend.grey_of(&repeating_noise(wave, 1)).unwrap(), noise));
+        .map(|(wave, noise)| (compute.upload(&repeating_noise(wave, 1)).unwrap(), noise));
     bencher.bench_local(|| {
         for (texture, noise) in &textures {
-            let anchors = particles.anchors(&frame.sight, *noise);
-            let drawn = backend.anchored(&depth, texture, &anchors).unwrap();
-            divan::black_box(backend.grey_field(&drawn).unwrap());
+            let anchors = particles.anchors(&frame.projection, *noise);
+            let drawn = draw_anchored(compute, &depth, texture, &anchors).unwrap();
+            divan::black_box(compute.download(&drawn).unwrap());
         }
     });
 }
 
 #[divan::bench]
 fn features_on_cpu(bencher: Bencher<'_, '_>) {
-    features(bencher, &mut OnCpu);
+    features(bencher, &mut Compute::cpu());
 }
 
 #[divan::bench]
 fn features_on_gpu(bencher: Bencher<'_, '_>) {
-    let Some(device) = choose(BackendChoice::Gpu).unwrap() else { return };
-    features(bencher, &mut OnGpu::new(device));
+    let Ok(mut gpu) = Compute::choose(BackendChoice::Gpu) else { return };
+    features(bencher, &mut gpu);
 }
 
 #[divan::bench(args = [6, 64])]
 fn particles_on_cpu(bencher: Bencher<'_, '_>, count: usize) {
-    particles(bencher, &mut OnCpu, count);
+    particles(bencher, &mut Compute::cpu(), count);
 }
 
 #[divan::bench(args = [6, 64])]
 fn particles_on_gpu(bencher: Bencher<'_, '_>, count: usize) {
-    let Some(device) = choose(BackendChoice::Gpu).unwrap() else { return };
-    particles(bencher, &mut OnGpu::new(device), count);
+    let Ok(mut gpu) = Compute::choose(BackendChoice::Gpu) else { return };
+    particles(bencher, &mut gpu, count);
 }

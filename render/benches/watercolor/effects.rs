@@ -1,11 +1,12 @@
 //! Effects on a picture of 750 x 570.
 
 use divan::Bencher;
+use render::compute::{ColorImage, Compute};
 use render::field::Field;
-use render::gpu::{BackendChoice, choose};
+use render::gpu::{BackendChoice, DeviceError};
 use render::watercolor::{
-    Controls, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu, OnGpu, OnSheet, Preset,
-    Settings, Sheet, Textures, TexturesOn, Wash, Watercolor, Wobble, paint,
+    Controls, DensityLayer, DryBrushReach, PaperShading, Preset, Settings, TextureImages, Textures,
+    Wash, apply_density, apply_dry_brush, edges, paint, shade_paper, wobble,
 };
 
 const SIZE: (usize, usize) = (750, 570);
@@ -26,76 +27,79 @@ fn settings() -> Settings {
     Preset::Landscape.settings().for_size(SIZE.0, SIZE.1)
 }
 
-fn textures<B: Watercolor>(backend: &mut B) -> TexturesOn<B> {
-    Textures::new(SIZE.0, SIZE.1, &settings()).unwrap().on(backend).unwrap()
+fn textures(compute: &mut Compute) -> TextureImages {
+    Textures::new(SIZE.0, SIZE.1, &settings()).unwrap().upload(compute).unwrap()
 }
 
 #[divan::bench]
 fn all_on_cpu(bencher: Bencher<'_, '_>) {
-    let (wash, settings, textures) = (wash(), settings(), textures(&mut OnCpu));
-    let TexturesOn { flow, dispersion, paper } = &textures;
-    bencher.with_inputs(|| wash.on(&mut OnCpu).unwrap()).bench_local_values(|wash| {
-        paint(&mut OnCpu, wash, flow, dispersion, paper, &settings, None).unwrap()
+    let (wash, settings, textures) = (wash(), settings(), textures(&mut Compute::cpu()));
+    bencher.with_inputs(|| wash.upload(&mut Compute::cpu()).unwrap()).bench_local_values(|wash| {
+        paint(&mut Compute::cpu(), wash, (&textures).into(), &settings, None).unwrap()
     });
 }
 
-/// With the picture read back.
+/// With the picture downloaded.
 #[divan::bench]
 fn all_on_gpu(bencher: Bencher<'_, '_>) {
-    let Some(device) = choose(BackendChoice::Gpu).ok().flatten() else { return };
-    let mut gpu = OnGpu::new(device);
+    let Ok(mut gpu) = Compute::choose(BackendChoice::Gpu) else { return };
     let (wash, settings, textures) = (wash(), settings(), textures(&mut gpu));
-    let there = wash.on(&mut gpu).unwrap();
-    let TexturesOn { flow, dispersion, paper } = &textures;
+    let wash = wash.upload(&mut gpu).unwrap();
     bencher.bench_local(|| {
-        use render::watercolor::{Backend, WashOn};
-        let wash = WashOn { color: there.color.clone(), dry_brush: None, density: None };
-        let painted = paint(&mut gpu, wash, flow, dispersion, paper, &settings, None).unwrap();
-        gpu.color_field(&painted).unwrap()
+        let painted = paint(&mut gpu, wash.clone(), (&textures).into(), &settings, None).unwrap();
+        gpu.download(&painted).unwrap()
     });
 }
 
-#[divan::bench]
-fn wobble(bencher: Bencher<'_, '_>) {
-    let (wash, textures) = (wash(), textures(&mut OnCpu));
+/// One effect on the processor, which may use the picture's memory.
+fn effect(
+    bencher: Bencher<'_, '_>,
+    effect: impl Fn(&mut Compute, ColorImage, &TextureImages) -> Result<ColorImage, DeviceError>,
+) {
+    let (wash, textures) = (wash(), textures(&mut Compute::cpu()));
     bencher
-        .with_inputs(|| wash.color.clone())
-        .bench_local_values(|c| OnCpu.wobbled(c, &textures.paper.heights, 3.0).unwrap());
+        .with_inputs(|| ColorImage::from(wash.color.clone()))
+        .bench_local_values(|color| effect(&mut Compute::cpu(), color, &textures).unwrap());
 }
 
-#[divan::bench]
-fn edges(bencher: Bencher<'_, '_>) {
-    let wash = wash();
-    bencher.bench_local(|| OnCpu.edges(&wash.color, 0.75).unwrap());
+#[divan::bench(name = "wobble")]
+fn wobbling(bencher: Bencher<'_, '_>) {
+    effect(bencher, |cpu, color, textures| wobble(cpu, color, &textures.paper.heights, 3.0));
+}
+
+#[divan::bench(name = "edges")]
+fn finding_edges(bencher: Bencher<'_, '_>) {
+    let color = ColorImage::from(wash().color);
+    bencher.bench_local(|| edges(&mut Compute::cpu(), &color, 0.75).unwrap());
 }
 
 #[divan::bench]
 fn four_densities(bencher: Bencher<'_, '_>) {
-    let (wash, textures) = (wash(), textures(&mut OnCpu));
-    let layer = |texture| DensityLayer { texture, strength: 1.0, pivot: 0.5 };
-    let greys = [&textures.flow, &textures.dispersion, &textures.paper.heights, &textures.flow];
-    bencher
-        .with_inputs(|| wash.color.clone())
-        .bench_local_values(|c| OnCpu.densified(c, 0.8, &greys.map(layer), None).unwrap());
+    effect(bencher, |cpu, color, textures| {
+        let TextureImages { flow, dispersion, paper } = textures;
+        let layers = [flow, dispersion, &paper.heights, flow].map(|texture| DensityLayer {
+            texture,
+            strength: 1.0,
+            pivot: 0.5,
+        });
+        apply_density(cpu, color, 0.8, &layers, None)
+    });
 }
 
 #[divan::bench]
 fn dry_brush(bencher: Bencher<'_, '_>) {
-    let (wash, textures) = (wash(), textures(&mut OnCpu));
     let reach = DryBrushReach { threshold: 0.4, softness: 0.1, patches: 1.0 };
-    let (heights, flow) = (&textures.paper.heights, &textures.flow);
-    bencher
-        .with_inputs(|| wash.color.clone())
-        .bench_local_values(|c| OnCpu.dry_brushed(c, heights, flow, reach, None).unwrap());
+    effect(bencher, |cpu, color, textures| {
+        apply_dry_brush(cpu, color, &textures.paper.heights, &textures.flow, reach, None)
+    });
 }
 
-#[divan::bench]
-fn sheet(bencher: Bencher<'_, '_>) {
-    let (wash, textures) = (wash(), textures(&mut OnCpu));
-    let sheet = Sheet { color: [0.98; 3], relief: 0.1 };
-    bencher
-        .with_inputs(|| wash.color.clone())
-        .bench_local_values(|c| OnCpu.on_sheet(c, &textures.paper.heights, sheet).unwrap());
+#[divan::bench(name = "sheet")]
+fn paper_shading(bencher: Bencher<'_, '_>) {
+    let shading = PaperShading { color: [0.98; 3], relief: 0.1 };
+    effect(bencher, |cpu, color, textures| {
+        shade_paper(cpu, color, &textures.paper.heights, shading)
+    });
 }
 
 /// All textures, made once for a picture.

@@ -3,51 +3,43 @@
 
 use divan::Bencher;
 use render::camera::{Camera, Framing};
-use render::gpu::{BackendChoice, choose};
+use render::compute::Compute;
+use render::gpu::BackendChoice;
 use render::mesh::Mesh;
-use render::watercolor::{CoherenceMethod, ModelPainter, MovingBackend, OnCpu, OnGpu, Settings};
+use render::watercolor::{CoherenceMethod, ModelPainter, Settings};
 
 const SIZE: (usize, usize) = (750, 570);
 
-/// A painter of a knot, and the cameras around it.
-fn painter<B: MovingBackend>(
-    backend: &mut B,
+/// A painter of a knot with one sample a pixel, and the cameras around it.
+fn painter(
+    compute: Compute,
     triangles: usize,
     method: CoherenceMethod,
-) -> (ModelPainter<B>, Vec<Camera>) {
+) -> (ModelPainter, Vec<Camera>) {
     let mesh = Mesh::torus_knot(triangles);
     let framing = Framing { aspect: SIZE.0 as f32 / SIZE.1 as f32, ..Framing::default() };
     let cameras = framing.fit_turntable(&mesh.positions, 60);
     let mut settings = Settings::default();
     settings.coherence.method = method;
-    let settings = settings.for_size(SIZE.0, SIZE.1);
-    (ModelPainter::new(backend, mesh, settings, SIZE, 1).unwrap(), cameras)
+    let painter = ModelPainter::new(compute, mesh, &settings, SIZE).unwrap();
+    (painter.with_samples(1), cameras)
 }
 
-fn frames<B: MovingBackend>(
-    bencher: Bencher<'_, '_>,
-    mut backend: B,
-    triangles: usize,
-    method: CoherenceMethod,
-) {
-    let (mut painter, cameras) = painter(&mut backend, triangles, method);
+fn frames(bencher: Bencher<'_, '_>, compute: Compute, triangles: usize, method: CoherenceMethod) {
+    let (mut painter, cameras) = painter(compute, triangles, method);
     let mut around = cameras.iter().cycle();
-    bencher.bench_local(|| {
-        let camera = around.next().unwrap();
-        let color = painter.frame(&mut backend, camera, None).unwrap();
-        backend.color_field(&color).unwrap()
-    });
+    bencher.bench_local(|| painter.paint(around.next().unwrap()).unwrap());
 }
 
 fn on_gpu(bencher: Bencher<'_, '_>, triangles: usize, method: CoherenceMethod) {
-    if let Some(device) = choose(BackendChoice::Gpu).ok().flatten() {
-        frames(bencher, OnGpu::new(device), triangles, method);
+    if let Ok(compute) = Compute::choose(BackendChoice::Gpu) {
+        frames(bencher, compute, triangles, method);
     }
 }
 
 #[divan::bench(args = [25_000, 160_000], sample_count = 60)]
 fn still_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu, triangles, CoherenceMethod::Static);
+    frames(bencher, Compute::cpu(), triangles, CoherenceMethod::Static);
 }
 
 #[divan::bench(args = [25_000, 160_000], sample_count = 20)]
@@ -57,7 +49,7 @@ fn still_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
 
 #[divan::bench(args = [60_000], sample_count = 60)]
 fn features_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu, triangles, CoherenceMethod::Features);
+    frames(bencher, Compute::cpu(), triangles, CoherenceMethod::Features);
 }
 
 #[divan::bench(args = [60_000], sample_count = 20)]
@@ -67,7 +59,7 @@ fn features_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
 
 #[divan::bench(args = [60_000], sample_count = 60)]
 fn particles_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu, triangles, CoherenceMethod::Particles);
+    frames(bencher, Compute::cpu(), triangles, CoherenceMethod::Particles);
 }
 
 #[divan::bench(args = [60_000], sample_count = 20)]

@@ -3,8 +3,10 @@
 use divan::Bencher;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use render::compute::Compute;
 use render::field::Field;
-use render::watercolor::{Morphology, OnCpu, SegmentationSettings, segment};
+use render::morphology::opening_then_closing;
+use render::segmentation::{SegmentationSettings, segment};
 
 /// Shaded discs, one over the other, with noise: as busy as a photograph.
 fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
@@ -43,16 +45,19 @@ fn mean_shift(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| segment(&picture, &settings).unwrap());
 }
 
+fn smooth(bencher: Bencher<'_, '_>, picture: Field<[f32; 4]>, radius_px: u32) {
+    let (mut compute, image) = (Compute::cpu(), picture.into());
+    bencher.bench_local(|| opening_then_closing(&mut compute, &image, radius_px).unwrap());
+}
+
 /// 1 megapixel opened and closed, by radius.
 #[divan::bench(args = [3, 7, 20, 60], sample_count = 20)]
 fn smoothing(bencher: Bencher<'_, '_>, radius_px: u32) {
-    let picture = picture(1000, 1000);
-    bencher.bench_local(|| OnCpu.smoothed(&picture, radius_px).unwrap());
+    smooth(bencher, picture(1000, 1000), radius_px);
 }
 
 /// 750 x 570 opened and closed, by radius.
 #[divan::bench(args = [3, 5], sample_count = 20)]
 fn smoothing_750(bencher: Bencher<'_, '_>, radius_px: u32) {
-    let picture = picture(750, 570);
-    bencher.bench_local(|| OnCpu.smoothed(&picture, radius_px).unwrap());
+    smooth(bencher, picture(750, 570), radius_px);
 }

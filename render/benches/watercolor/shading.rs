@@ -2,10 +2,11 @@
 
 use divan::Bencher;
 use render::camera::{Camera, Framing};
-use render::gpu::{BackendChoice, choose};
+use render::compute::{Compute, Image};
+use render::gpu::BackendChoice;
 use render::mesh::Mesh;
-use render::surface::PackedMesh;
-use render::watercolor::{Backend, OnCpu, OnGpu, Shading, Toon};
+use render::surface::{Fragment, Model, PackedMesh};
+use render::watercolor::{Toon, shade_toon};
 
 const TRIANGLES: [usize; 2] = [25_000, 160_000];
 
@@ -18,33 +19,36 @@ fn knot(triangles: usize) -> (Mesh, Vec<Camera>) {
 }
 
 /// Frame by frame, in the picture's size times the samples.
-fn frames<B: Shading>(
+fn frames(
     bencher: Bencher<'_, '_>,
-    mut backend: B,
+    mut compute: Compute,
     triangles: usize,
     samples: usize,
-    shown: impl Fn(&mut B, &B::Model, B::VisibilityBuffer, &Camera),
+    shade: impl Fn(&mut Compute, &Model, Image<Fragment>, &Camera),
 ) {
     let (mesh, cameras) = knot(triangles);
-    let mut model = backend.model(PackedMesh::new(&mesh)).unwrap();
+    let mut model = Model::new(&mut compute, PackedMesh::new(&mesh)).unwrap();
     let mut cameras = cameras.iter().cycle();
     bencher.bench_local(|| {
         let camera = cameras.next().unwrap();
-        let visible = backend.seen(&mut model, camera, 750 * samples, 570 * samples).unwrap();
-        shown(&mut backend, &model, visible, camera);
+        let size = (750 * samples, 570 * samples);
+        let visible = model.visible(&mut compute, camera, size.0, size.1).unwrap();
+        shade(&mut compute, &model, visible, camera);
     });
 }
 
 #[divan::bench(args = TRIANGLES)]
 fn seen_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    frames(bencher, OnCpu, triangles, 1, |_, _, visible, _| drop(divan::black_box(visible)));
+    frames(bencher, Compute::cpu(), triangles, 1, |_, _, visible, _| {
+        drop(divan::black_box(visible));
+    });
 }
 
 #[divan::bench(args = TRIANGLES)]
 fn toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let toon = Toon::default();
-    frames(bencher, OnCpu, triangles, 1, |backend, model, visible, camera| {
-        drop(divan::black_box(backend.toon(model, &visible, camera, &toon).unwrap()));
+    frames(bencher, Compute::cpu(), triangles, 1, |compute, model, visible, camera| {
+        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon).unwrap()));
     });
 }
 
@@ -52,18 +56,18 @@ fn toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
 #[divan::bench(args = TRIANGLES)]
 fn smooth_toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let toon = Toon { samples: 2, ..Toon::default() };
-    frames(bencher, OnCpu, triangles, 2, |backend, model, visible, camera| {
-        drop(divan::black_box(backend.toon(model, &visible, camera, &toon).unwrap()));
+    frames(bencher, Compute::cpu(), triangles, 2, |compute, model, visible, camera| {
+        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon).unwrap()));
     });
 }
 
-/// With the picture brought back, on any adapter; nothing without one.
+/// With the picture downloaded, on any adapter; nothing without one.
 #[divan::bench(args = TRIANGLES)]
 fn toon_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
-    let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
+    let Ok(compute) = Compute::choose(BackendChoice::Gpu) else { return };
     let toon = Toon::default();
-    frames(bencher, OnGpu::new(device), triangles, 1, |backend, model, visible, camera| {
-        let color = backend.toon(model, &visible, camera, &toon).unwrap();
-        drop(divan::black_box(backend.color_field(&color).unwrap()));
+    frames(bencher, compute, triangles, 1, |compute, model, visible, camera| {
+        let color = shade_toon(compute, model, &visible, camera, &toon).unwrap();
+        drop(divan::black_box(compute.download(&color).unwrap()));
     });
 }

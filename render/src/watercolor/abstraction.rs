@@ -10,6 +10,7 @@ use graphics::gpu::DeviceError;
 use graphics::morphology::opening_then_closing;
 use graphics::picture::Photograph;
 use graphics::segmentation::{SegmentationError, SegmentationSettings, segment};
+use spectra::hint::{Explain, Fault, Hint};
 
 /// How a photograph is abstracted, in pixels of the abstracted picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -123,4 +124,24 @@ pub enum AbstractionError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
+}
+
+impl Explain for AbstractionError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::NoWidth => Some(Hint::new("give the width of the painting in pixels")),
+            Self::Smoothing { .. } => {
+                Some(Hint::new("3 px rounds the outlines of a photograph of 1 megapixel"))
+            }
+            Self::Segmentation(error) => error.hint(),
+            Self::Device(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Device(error) => error.fault(),
+            _ => Fault::Input,
+        }
+    }
 }

@@ -20,6 +20,7 @@ use graphics::gpu::DeviceError;
 use graphics::mesh::Mesh;
 use graphics::surface::{Model, PackedMesh};
 use graphics::tones::{ToneRamp, ToneRampError};
+use spectra::hint::{Explain, Fault, Hint};
 
 /// Length of the waves in the textures that follow particles, in texels.
 const WAVE_TEXELS: usize = 32;
@@ -306,4 +307,22 @@ pub enum ModelPainterError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
+}
+
+impl Explain for ModelPainterError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Paper(error) => error.hint(),
+            Self::ToneRamp(error) => error.hint(),
+            Self::Device(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Paper(error) => error.fault(),
+            Self::ToneRamp(error) => error.fault(),
+            Self::Device(error) => error.fault(),
+        }
+    }
 }

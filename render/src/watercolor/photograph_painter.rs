@@ -11,6 +11,7 @@ use graphics::compute::Compute;
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
 use graphics::picture::Photograph;
+use spectra::hint::{Explain, Fault, Hint};
 
 /// Longer side of a painting whose width was not set, in pixels; smaller photographs keep
 /// their size.
@@ -168,4 +169,22 @@ pub enum PhotographPainterError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
+}
+
+impl Explain for PhotographPainterError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Abstraction(error) => error.hint(),
+            Self::Paper(error) => error.hint(),
+            Self::Device(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Abstraction(error) => error.fault(),
+            Self::Paper(error) => error.fault(),
+            Self::Device(error) => error.fault(),
+        }
+    }
 }

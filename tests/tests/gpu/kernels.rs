@@ -3,11 +3,11 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
-use render::{paint, watercolor};
+use render::{graphics_kernels, paint, watercolor};
 
 /// Those of all techniques.
 fn kernels() -> Vec<&'static Kernel> {
-    [paint::engine::kernels(), watercolor::kernels()].concat()
+    [graphics_kernels(), paint::engine::kernels(), watercolor::kernels()].concat()
 }
 
 fn parsed(kernel: &Kernel) -> naga::Module {

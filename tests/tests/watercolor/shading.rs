@@ -1,15 +1,16 @@
-//! Both backends see and shade the same.
+//! What is seen of meshes, and toon shading, on the processor and on a device.
 
 use glam::{Vec2, Vec3};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use render::camera::{Camera, Framing};
+use render::compute::Compute;
+use render::distant_light::DistantLight;
 use render::field::Field;
 use render::gpu::DeviceError;
 use render::mesh::{Material, Mesh, Texture};
-use render::surface::{NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
-use render::watercolor::{
-    Light, ModelPainter, Models, OnCpu, OnGpu, Settings, Shading, ToneRamp, Toon,
-};
+use render::surface::{Model, NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
+use render::tones::ToneRamp;
+use render::watercolor::{ModelPainter, Settings, Toon, shade_toon};
 use suite::adapter::device;
 
 use super::seen::{inside_them, random_triangles};
@@ -45,29 +46,29 @@ fn two() -> Mesh {
     mesh
 }
 
-fn seen<B: Models>(
-    backend: &mut B,
+fn seen(
+    compute: &mut Compute,
     mesh: &Mesh,
     camera: &Camera,
-    size: (usize, usize),
+    (width, height): (usize, usize),
 ) -> VisibilityBuffer {
-    let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
-    let visible = backend.seen(&mut model, camera, size.0, size.1).unwrap();
-    backend.visible_field(&visible).unwrap()
+    let mut model = Model::new(compute, PackedMesh::new(mesh)).unwrap();
+    let visible = model.visible(compute, camera, width, height).unwrap();
+    compute.download(&visible).unwrap()
 }
 
-fn shaded<B: Shading>(
-    backend: &mut B,
+fn shaded(
+    compute: &mut Compute,
     mesh: &Mesh,
     camera: &Camera,
     (width, height): (usize, usize),
     toon: &Toon,
 ) -> Field<[f32; 4]> {
-    let mut model = backend.model(PackedMesh::new(mesh)).unwrap();
+    let mut model = Model::new(compute, PackedMesh::new(mesh)).unwrap();
     let samples = toon.samples;
-    let visible = backend.seen(&mut model, camera, width * samples, height * samples).unwrap();
-    let color = backend.toon(&model, &visible, camera, toon).unwrap();
-    backend.color_field(&color).unwrap()
+    let visible = model.visible(compute, camera, width * samples, height * samples).unwrap();
+    let color = shade_toon(compute, &model, &visible, camera, toon).unwrap();
+    compute.download(&color).unwrap()
 }
 
 #[test]
@@ -88,7 +89,7 @@ fn the_raster_shader_is_valid_and_bound_as_it_says() {
 
 #[test]
 fn the_device_sees_what_the_processor_sees() {
-    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let Some(mut on_gpu) = device().map(Compute::gpu) else { return };
     let knot = two();
     let around = Camera::framing(knot.bounds(), 20.0, 30.0, 35.0);
     let cases = [
@@ -98,7 +99,7 @@ fn the_device_sees_what_the_processor_sees() {
         (&Mesh::sphere(25_000), around, (250, 250)),
     ];
     for (mesh, camera, size) in cases {
-        let on_cpu = seen(&mut OnCpu, mesh, &camera, size);
+        let on_cpu = seen(&mut Compute::cpu(), mesh, &camera, size);
         let found = seen(&mut on_gpu, mesh, &camera, size);
         let (mut differ, mut shown) = (0, 0);
         for (a, b) in on_cpu.values().iter().zip(found.values()) {
@@ -122,14 +123,15 @@ fn the_device_sees_what_the_processor_sees() {
 
 #[test]
 fn the_device_shades_as_the_processor_does() {
-    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
+    let Some(mut on_gpu) = device().map(Compute::gpu) else { return };
     let mesh = two();
     let camera = Camera::framing(mesh.bounds(), 200.0, 30.0, 35.0);
-    for (samples, light) in
-        [(1, Light::with_camera(315.0, 40.0)), (2, Light::WithModel(Vec3::new(1.0, 2.0, 0.5)))]
-    {
+    for (samples, light) in [
+        (1, DistantLight::with_camera(315.0, 40.0)),
+        (2, DistantLight::WithModel(Vec3::new(1.0, 2.0, 0.5))),
+    ] {
         let toon = Toon { samples, light, tones: ToneRamp::steps(3, 0.6), ..Toon::default() };
-        let a = shaded(&mut OnCpu, &mesh, &camera, (131, 99), &toon);
+        let a = shaded(&mut Compute::cpu(), &mesh, &camera, (131, 99), &toon);
         let b = shaded(&mut on_gpu, &mesh, &camera, (131, 99), &toon);
         let differ = a.values().iter().zip(b.values()).filter(|(a, b)| {
             assert!(b.iter().all(|value| (0.0..=1.0).contains(value)), "{b:?}");
@@ -147,7 +149,7 @@ fn without_strength_surfaces_keep_their_colors() {
     mesh.colors.fill([1.0; 3]);
     mesh.materials[1] = Material::plain([0.1, 0.6, 0.3]);
     let toon = Toon { strength: 0.0, ..Toon::default() };
-    let picture = shaded(&mut OnCpu, &mesh, &camera, (120, 90), &toon);
+    let picture = shaded(&mut Compute::cpu(), &mesh, &camera, (120, 90), &toon);
     let wanted = [[1.0, 1.0, 1.0, 0.0], [0.25, 0.47, 0.62, 1.0], [0.1, 0.6, 0.3, 1.0]];
     let mut counts = [0; 3];
     for pixel in picture.values() {
@@ -172,12 +174,12 @@ fn shade_is_dense_paint_and_light_is_thin() {
         let mesh = wall(cosine);
         let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
         let toon = Toon {
-            light: Light::WithModel(Vec3::Z),
+            light: DistantLight::WithModel(Vec3::Z),
             tones: ToneRamp::from_greys(&[0.0, 1.0]).unwrap(),
             strength,
             samples: 1,
         };
-        shaded(&mut OnCpu, &mesh, &camera, (20, 20), &toon)[(10, 10)]
+        shaded(&mut Compute::cpu(), &mesh, &camera, (20, 20), &toon)[(10, 10)]
     };
     let near = |found: [f32; 4], wanted: [f32; 3]| {
         let off = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
@@ -199,10 +201,10 @@ fn both_sides_of_a_surface_are_lit_from_where_they_are_seen() {
     mesh.add_grid(render::mesh::GridSize { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
         Vec3::new(x, -y, 0.0)
     });
-    let toon = Toon { light: Light::with_camera(0.0, 90.0), ..Toon::default() };
+    let toon = Toon { light: DistantLight::with_camera(0.0, 90.0), ..Toon::default() };
     let middle = |azimuth: f32| {
         let camera = Camera::framing(mesh.bounds(), azimuth, 0.0, 30.0);
-        shaded(&mut OnCpu, &mesh, &camera, (20, 20), &toon)[(10, 10)]
+        shaded(&mut Compute::cpu(), &mesh, &camera, (20, 20), &toon)[(10, 10)]
     };
     assert_eq!(middle(0.0), middle(180.0));
     assert!(middle(0.0)[0] > 0.5, "{:?}", middle(0.0));
@@ -213,26 +215,26 @@ fn samples_soften_silhouettes_only() {
     let mesh = Mesh::sphere(3000);
     let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
     let toon = Toon { samples: 2, strength: 0.0, ..Toon::default() };
-    let picture = shaded(&mut OnCpu, &mesh, &camera, (60, 60), &toon);
+    let picture = shaded(&mut Compute::cpu(), &mesh, &camera, (60, 60), &toon);
     let shares = picture.values().iter().map(|pixel| (pixel[3] * 4.0).round() as usize);
     let mut counts = [0; 5];
     shares.for_each(|share| counts[share] += 1);
     assert!(counts[1..4].iter().all(|&count| count > 4) && counts[4] > 1500, "{counts:?}");
     let area: f32 = picture.values().iter().map(|pixel| pixel[3]).sum();
-    let sharp = shaded(&mut OnCpu, &mesh, &camera, (60, 60), &Toon { samples: 1, ..toon });
+    let sharp = shaded(&mut Compute::cpu(), &mesh, &camera, (60, 60), &Toon { samples: 1, ..toon });
     let jagged: f32 = sharp.values().iter().map(|pixel| pixel[3]).sum();
     assert!((area / jagged - 1.0).abs() < 0.02, "{area} {jagged}");
 }
 
 #[test]
 fn a_picture_that_no_device_draws_is_refused() {
-    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
-    let mut model = on_gpu.model(PackedMesh::new(&Mesh::sphere(100))).unwrap();
+    let Some(mut on_gpu) = device().map(Compute::gpu) else { return };
+    let mut model = Model::new(&mut on_gpu, PackedMesh::new(&Mesh::sphere(100))).unwrap();
     for (width, height) in [(1 << 20, 4), (0, 4)] {
-        let error = on_gpu.seen(&mut model, &inside_them(), width, height).unwrap_err();
+        let error = model.visible(&mut on_gpu, &inside_them(), width, height).unwrap_err();
         assert!(matches!(error, DeviceError::Refused { .. }), "{error}");
     }
-    assert!(on_gpu.seen(&mut model, &inside_them(), 8, 4).is_ok());
+    assert!(model.visible(&mut on_gpu, &inside_them(), 8, 4).is_ok());
 }
 
 #[test]
@@ -247,9 +249,8 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     let shaded = |settings: &Settings| {
         let mesh = Mesh::sphere(500);
         let camera = framing.fit(&mesh.positions);
-        let backend = &mut OnCpu;
-        let mut painter = ModelPainter::new(backend, mesh, settings.clone(), (64, 64), 1).unwrap();
-        painter.moment(backend, &camera).unwrap().color
+        let painter = ModelPainter::new(Compute::cpu(), mesh, settings, (64, 64)).unwrap();
+        painter.with_samples(1).wash(&camera).unwrap().0.color
     };
     let of = |field: &Field<[f32; 4]>| {
         let seen = field.values().iter().filter(|color| color[3] == 1.0);
@@ -262,6 +263,6 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     let [low, high] = of(&shaded(&settings));
     assert!(high - low > 0.2, "a ramp is none: {low} {high}");
     settings.toon.greys = Some("no/such.png".to_owned());
-    let painter = ModelPainter::new(&mut OnCpu, Mesh::sphere(500), settings, (8, 8), 1);
+    let painter = ModelPainter::new(Compute::cpu(), Mesh::sphere(500), &settings, (8, 8));
     assert!(painter.unwrap_err().to_string().contains("no/such.png"));
 }

@@ -1,102 +1,92 @@
-//! A mesh, from one camera or many.
+//! `impasto watercolor` of a mesh, from one camera or many.
 
 use render::camera::Camera;
+use render::compute::Compute;
+use render::encoding::{encoded_from_linear, linear_from_encoded};
 use render::export::frame_of;
-use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::{ModelPainter, MovingBackend as Backend};
+use render::watercolor::{ModelPainter, Stage};
 
-use super::moving::Wish;
-use super::sheets::{encoded, linear};
-use super::{Glazing, Made, Work};
+use super::animation::FramesDigest;
+use super::photograph::pigment_names;
+use super::pigments::opened;
+use super::{Job, Made};
 use crate::console::Console;
 use crate::failure::Refusal;
 
-/// Samples along each side of a pixel: silhouettes are smooth.
-const SAMPLES: usize = 2;
-
-pub(super) fn paint<B: Backend>(
-    backend: &mut B,
-    work: Work,
+pub(super) fn paint(
+    compute: Compute,
+    job: Job,
     mesh: Mesh,
     cameras: &[Camera],
     size: (usize, usize),
     console: &mut Console<'_>,
 ) -> anyhow::Result<Made> {
-    let Work { title, settings, mut glazing, sheets, moving } = work;
+    let Job { title, settings, mut glazes, outputs, animation } = job;
     let (width, height) = size;
-    let controls = sheets.controls(width, height)?;
-    let mut wish = Wish::default().and(&env!("CARGO_PKG_VERSION")).and(&settings).and(&cameras);
-    if moving.is_some() {
-        wish = wish.and(&mesh).and(&backend.name()).and(&glazing.as_ref().map(Glazing::wish));
-        // Settings have the names of pictures alone.
-        wish = wish.and(&settings.paper.scan.as_ref().map(std::fs::read));
-        wish = wish.and(&settings.toon.greys.as_ref().map(std::fs::read));
-        wish = wish.and(&controls);
+    let controls = outputs.masks()?.controls(width, height);
+    let mut digest =
+        FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings).add(&cameras);
+    if animation.is_some() {
+        digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
+        // Settings name pictures, whose content matters too.
+        digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
+        digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
+        digest = digest.add(&controls);
     }
-    let settings = settings.for_size(width, height);
-    let mut painter = ModelPainter::new(backend, mesh, settings, size, SAMPLES)?;
+    let mut painter = ModelPainter::new(compute, mesh, &settings, size)?;
     painter.set_controls(controls);
     let Some(first) = cameras.first() else {
         return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
     };
-    let shots = (cameras.len(), width, height);
-    let shooting = moving.map(|moving| moving.begin(wish, shots)).transpose()?;
-    let mut stages = Vec::new();
-    if sheets.watched() {
-        let flat = painter.flat(backend, first)?;
-        stages.push(("surface".to_owned(), backend.color_field(&flat)?));
-        painter.frame(
-            backend,
-            first,
-            Some(&mut |backend, stage, color| {
-                stages.push((stage.name().to_owned(), backend.color_field(color)?));
-                Ok(())
-            }),
-        )?;
-        sheets.write_stages(&stages)?;
+    let recording = match animation {
+        Some(animation) => Some(animation.begin(digest, cameras.len(), size)?),
+        None => None,
+    };
+    if outputs.wants_stages() {
+        let mut stages = vec![("surface".to_owned(), painter.unlit(first)?)];
+        let mut keep = |stage: Stage, color| stages.push((stage.name().to_owned(), color));
+        painter.paint_stages(first, Some(&mut keep))?;
+        outputs.write_stages(&stages)?;
     }
-    if sheets.exports.any() {
-        match &mut glazing {
+    if outputs.exports.any() {
+        match &mut glazes {
             None => {
-                let color = painter.frame(backend, first, None)?;
-                let picture = linear(&backend.color_field(&color)?);
-                let cell_mm = painter.textures().paper.texture.px_mm;
-                sheets.exports.write_picture(&picture, cell_mm, console)?;
+                let picture = linear_from_encoded(&painter.paint(first)?);
+                outputs.exports.write_picture(&picture, painter.paper().px_mm, console)?;
             }
-            Some(glazing) => {
-                let (wash, textures) = painter.at_rest(backend, first)?;
-                let mut painting =
-                    glazing.painting(&title, &wash, &textures, painter.settings())?;
-                sheets.exports.write(&mut painting, console)?;
+            Some(glazes) => {
+                let (wash, textures) = painter.wash(first)?;
+                let document = glazes.paint(&title, &wash, &textures, painter.settings())?;
+                outputs.exports.write(&mut opened(document, glazes)?, console)?;
             }
         }
     }
-    let backend_name = backend.name();
     let mut frames = None;
-    if let Some(shooting) = shooting {
-        if let Some(glazing) = &mut glazing {
-            // By the first camera, whichever frames are still to be made.
-            let (wash, _) = painter.at_rest(backend, first)?;
-            glazing.choose(&wash)?;
+    if let Some(recording) = recording {
+        if let Some(glazes) = &mut glazes {
+            // The first camera decides, whichever frames are still to be made.
+            glazes.choose(&painter.wash(first)?.0)?;
         }
-        let found = shooting.make(console, |index| {
+        let found = recording.paint(console, |index| {
             let camera = &cameras[index];
-            let picture: Field<[f32; 4]> = match &mut glazing {
-                None => {
-                    let color = painter.frame(backend, camera, None)?;
-                    backend.color_field(&color)?
-                }
-                Some(glazing) => {
-                    let (wash, textures) = painter.at_rest(backend, camera)?;
-                    let settings = painter.settings();
-                    encoded(&glazing.painting("frame", &wash, &textures, settings)?.picture()?)
+            let picture = match &mut glazes {
+                None => painter.paint(camera)?,
+                Some(glazes) => {
+                    let (wash, textures) = painter.wash(camera)?;
+                    let document = glazes.paint("frame", &wash, &textures, painter.settings())?;
+                    encoded_from_linear(&opened(document, glazes)?.picture()?)
                 }
             };
             Ok(frame_of(&picture))
         })?;
         frames = Some((cameras.len(), found));
     }
-    let pigments = glazing.iter().flat_map(Glazing::names).map(str::to_owned).collect();
-    Ok(Made { size, backend: backend_name, regions: None, frames, pigments })
+    Ok(Made {
+        size,
+        backend: painter.compute_name().to_owned(),
+        regions: None,
+        frames,
+        pigments: pigment_names(glazes.as_ref()),
+    })
 }

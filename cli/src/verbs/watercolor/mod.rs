@@ -1,14 +1,14 @@
 //! `impasto watercolor`: photographs and meshes as watercolors.
 
-mod look;
+mod style;
 
 mod pigments;
 
 mod subject;
 
-mod sheets;
+mod outputs;
 
-mod moving;
+mod animation;
 
 mod photograph;
 
@@ -17,16 +17,16 @@ mod mesh;
 use std::path::PathBuf;
 
 use clap::Args;
-use render::watercolor::{Morphology, MovingBackend, OnCpu, OnGpu, Preset, Settings};
+use render::watercolor::{GlazePainter, Preset, Settings};
 use serde_json::json;
 
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::Refusal;
-use look::{LookOptions, preset_names};
-use moving::{Moving, MovingOptions};
-use pigments::{Glazing, PigmentOptions};
-use sheets::{OpenSheets, SheetOptions};
+use animation::{Animation, AnimationOptions};
+use outputs::{OpenOutputs, OutputOptions};
+use pigments::PigmentOptions;
+use style::{StyleOptions, preset_names};
 use subject::{Subject, SubjectOptions};
 
 /// Paint a photograph or a 3D model as a watercolor
@@ -51,33 +51,33 @@ pub(crate) struct Watercolor {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    sheets: SheetOptions,
+    outputs: OutputOptions,
     #[command(flatten)]
     subject_options: SubjectOptions,
     #[command(flatten)]
-    look: LookOptions,
+    style: StyleOptions,
     #[command(flatten)]
-    moving: MovingOptions,
+    animation: AnimationOptions,
     #[command(flatten)]
     pigments: PigmentOptions,
 }
 
-/// What is to be made of a subject.
-struct Work {
+/// What to make of a subject.
+struct Job {
     title: String,
     settings: Settings,
-    glazing: Option<Glazing>,
-    sheets: OpenSheets,
-    moving: Option<Moving>,
+    glazes: Option<GlazePainter>,
+    outputs: OpenOutputs,
+    animation: Option<Animation>,
 }
 
-/// What was made.
+/// The result, for the summary.
 struct Made {
     size: (usize, usize),
     backend: String,
-    /// Of a photograph.
+    /// Number of regions of a photograph.
     regions: Option<usize>,
-    /// Of an animation, and how many were there already.
+    /// Number of frames of an animation, and how many of them existed already.
     frames: Option<(usize, usize)>,
     pigments: Vec<String>,
 }
@@ -88,62 +88,49 @@ impl Watercolor {
             return console.line(preset.text().trim_end());
         }
         let path = self.subject.clone().unwrap_or_default();
-        if !self.sheets.any() && !self.moving.any() {
+        if !self.outputs.any() && !self.animation.any() {
             return Err(Refusal::usage(
                 "nothing would be written",
                 "add --picture watercolor.png, --stages FOLDER, or --animation turning.gif",
             ));
         }
-        let (settings, mut inputs) = self.look.settings()?;
+        let (settings, mut inputs) = self.style.settings()?;
         inputs.extend(self.pigments.input().cloned());
         let (subject, files) = self.subject_options.subject(&path)?;
         inputs.extend(files);
-        inputs.extend(self.sheets.inputs());
+        inputs.extend(self.outputs.inputs());
         let still = match &subject {
             Subject::Photograph(..) => true,
             Subject::Mesh(_, cameras, _) => cameras.len() < 2,
         };
-        if still && self.moving.any() {
+        if still && self.animation.any() {
             return Err(Refusal::usage(
                 "--animation and --frames need a mesh and a camera that moves",
                 "add --turntable 60, or --camera path.toml with keyframes",
             ));
         }
-        self.sheets.check(self.pigments.input().is_some())?;
-        let glazing = self.pigments.glazing(&settings, console)?;
-        let moving = self.moving.open(&inputs)?;
-        // The last of these, as it makes folders.
-        let sheets = self.sheets.open(inputs, moving.as_ref().and_then(Moving::animation))?;
+        self.outputs.check(self.pigments.input().is_some())?;
+        let glazes = self.pigments.glaze_painter(&settings, console)?;
+        let animation = self.animation.open(&inputs)?;
+        // Last, since it makes folders.
+        let outputs = self.outputs.open(inputs, animation.as_ref().and_then(Animation::file))?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let title = title.unwrap_or_default();
-        let work = Work { title, settings, glazing, sheets, moving };
-        let made = match self.backend.device()? {
-            Some(device) => work.done(&mut OnGpu::new(device), subject, console)?,
-            None => work.done(&mut OnCpu, subject, console)?,
-        };
-        tell(&made, self.json, console)
-    }
-}
-
-impl Work {
-    fn done<B: MovingBackend + Morphology>(
-        self,
-        backend: &mut B,
-        subject: Subject,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<Made> {
-        match subject {
+        let job = Job { title, settings, glazes, outputs, animation };
+        let compute = self.backend.compute()?;
+        let made = match subject {
             Subject::Photograph(photograph, width) => {
-                photograph::paint(backend, self, &photograph, width, console)
+                photograph::paint(compute, job, &photograph, width, console)?
             }
             Subject::Mesh(mesh, cameras, size) => {
-                mesh::paint(backend, self, *mesh, &cameras, size, console)
+                mesh::paint(compute, job, *mesh, &cameras, size, console)?
             }
-        }
+        };
+        report(&made, self.json, console)
     }
 }
 
-fn tell(made: &Made, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
+fn report(made: &Made, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
     let Made { size: (width, height), backend, regions, frames, pigments } = made;
     if as_json {
         return console.json(&json!({

@@ -1,87 +1,72 @@
-//! A photograph.
+//! `impasto watercolor` of a photograph.
 
-use render::photograph::Photograph;
-use render::watercolor::{
-    AbstractedPhotograph, AbstractionSettings, Morphology, PhotographSettings,
-    SegmentationSettings, Stage, Textures, Watcher, Watercolor, from_photograph, paint as painted,
-};
+use render::compute::Compute;
+use render::encoding::linear_from_encoded;
+use render::picture::Photograph;
+use render::watercolor::{GlazePainter, PhotographPainter};
 
-use super::sheets::{NamedStage, linear};
-use super::{Glazing, Made, Work};
+use super::outputs::NamedStage;
+use super::pigments::opened;
+use super::{Job, Made};
 use crate::console::Console;
 use crate::progress::Waiting;
 
-pub(super) fn paint<B: Watercolor + Morphology>(
-    backend: &mut B,
-    work: Work,
+pub(super) fn paint(
+    compute: Compute,
+    job: Job,
     photograph: &Photograph,
     width: usize,
     console: &mut Console<'_>,
 ) -> anyhow::Result<Made> {
-    let Work { title, settings, mut glazing, sheets, .. } = work;
-    let (own_width, own_height) = photograph.size();
-    let height = (width as f64 * own_height as f64 / own_width as f64).round().max(1.0) as usize;
-    let settings = settings.for_size(width, height);
-    let controls = sheets.controls(width, height)?;
+    let Job { title, settings, mut glazes, outputs, .. } = job;
+    let mut painter = PhotographPainter::new(settings)
+        .with_compute(compute)
+        .with_width_px(width)
+        .with_masks(outputs.masks()?);
     let waiting = Waiting::new("finding regions", console.screen.progress);
-    let abstracted =
-        from_photograph(backend, photograph, width, &abstraction(&settings.abstraction))?;
+    let prepared = painter.prepare(photograph)?;
     drop(waiting);
-    let AbstractedPhotograph { regions, .. } = abstracted;
     let mut stages: Vec<NamedStage> = Vec::new();
-    if sheets.watched() {
-        stages.push(("photograph".to_owned(), abstracted.original.clone()));
-        stages.push(("regions".to_owned(), abstracted.segmented.clone()));
-    }
-    let mut wash = abstracted.into_wash();
-    wash.controls = controls;
-    let textures = Textures::new(width, height, &settings)?;
-    let px_mm = textures.paper.px_mm;
-    let plain = glazing.is_none();
     let mut picture = None;
-    if plain || sheets.watched() {
-        let there = wash.on(backend)?;
-        let own = textures.clone().on(backend)?;
-        let mut watch = |backend: &mut B, stage: Stage, color: &B::Color| {
-            stages.push((stage.name().to_owned(), backend.color_field(color)?));
-            Ok(())
+    if outputs.wants_stages() {
+        stages.push(("photograph".to_owned(), prepared.original.clone()));
+        stages.push(("regions".to_owned(), prepared.segmented.clone()));
+        let mut keep = |stage: render::watercolor::Stage, color| {
+            stages.push((stage.name().to_owned(), color));
         };
-        let watcher: Option<Watcher<'_, B>> =
-            if sheets.watched() { Some(&mut watch) } else { None };
-        let (flow, dispersion) = (&own.flow, &own.dispersion);
-        let color = painted(backend, there, flow, dispersion, &own.paper, &settings, watcher)?;
-        if plain && sheets.exports.any() {
-            picture = Some(linear(&backend.color_field(&color)?));
+        picture = Some(painter.paint_prepared(&prepared, Some(&mut keep))?);
+        outputs.write_stages(&stages)?;
+    }
+    if outputs.exports.any() {
+        match &mut glazes {
+            None => {
+                let picture = match picture {
+                    Some(picture) => picture,
+                    None => painter.paint_prepared(&prepared, None)?,
+                };
+                let px_mm = prepared.textures.paper.px_mm;
+                outputs.exports.write_picture(&linear_from_encoded(&picture), px_mm, console)?;
+            }
+            Some(glazes) => {
+                let waiting = Waiting::new("mixing glazes", console.screen.progress);
+                let (wash, textures) = (&prepared.wash, &prepared.textures);
+                let document = glazes.paint(&title, wash, textures, &prepared.settings)?;
+                let mut painting = opened(document, glazes)?;
+                drop(waiting);
+                outputs.exports.write(&mut painting, console)?;
+            }
         }
     }
-    sheets.write_stages(&stages)?;
-    if let Some(picture) = picture {
-        sheets.exports.write_picture(&picture, px_mm, console)?;
-    } else if let Some(glazing) = &mut glazing
-        && sheets.exports.any()
-    {
-        let waiting = Waiting::new("mixing glazes", console.screen.progress);
-        let mut painting = glazing.painting(&title, &wash, &textures, &settings)?;
-        drop(waiting);
-        sheets.exports.write(&mut painting, console)?;
-    }
-    let pigments = glazing.iter().flat_map(Glazing::names).map(str::to_owned).collect();
-    let size = (width, height);
-    Ok(Made { size, backend: backend.name(), regions: Some(regions), frames: None, pigments })
+    Ok(Made {
+        size: painter.picture_size(photograph),
+        backend: painter.compute_name().to_owned(),
+        regions: Some(prepared.regions),
+        frames: None,
+        pigments: pigment_names(glazes.as_ref()),
+    })
 }
 
-/// What stands in pixels of this picture, as segmentation takes it.
-fn abstraction(settings: &AbstractionSettings) -> PhotographSettings {
-    let AbstractionSettings { spatial_px, range_luv, tone_luv, least_region_px, brush_px } =
-        *settings;
-    let most = PhotographSettings::MOST_SMOOTHING_PX as f32;
-    PhotographSettings {
-        segmentation: SegmentationSettings {
-            spatial_radius_px: spatial_px.clamp(1.0, SegmentationSettings::MOST_SPATIAL_PX),
-            range_radius: range_luv,
-            least_region_px: least_region_px.round() as u32,
-            tone_step: tone_luv,
-        },
-        smoothing_radius_px: (brush_px / 2.0).round().min(most) as u32,
-    }
+/// Names of the pigments in use.
+pub(super) fn pigment_names(glazes: Option<&GlazePainter>) -> Vec<String> {
+    glazes.iter().flat_map(|glazes| glazes.pigments()).map(str::to_owned).collect()
 }

@@ -1,15 +1,13 @@
-//! Calibrated pigments instead of the paper's colour model.
+//! Calibrated pigments instead of the colour model of the paper.
 
 use std::path::PathBuf;
 
-use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::light::Light;
-use render::paint::document::{Document, Lighting, Slots};
+use render::paint::document::{Document, Lighting};
 use render::paint::engine::PaintEngine;
-use render::paint::ground::{ColorPrimer, Primer};
 use render::paint::painting::Painting;
-use render::watercolor::{Glazes, Settings, Textures, Wash};
+use render::watercolor::{GlazePainter, Settings};
 
 use crate::console::Console;
 use crate::ground::ground;
@@ -36,31 +34,21 @@ pub(super) struct PigmentOptions {
     illuminant: String,
 }
 
-/// Glazes, once they are found.
-pub(super) struct Glazing {
-    library: PigmentLibrary,
-    slots: Option<Slots>,
-    paper: Vec<f64>,
-    light: Light,
-    lighting: Lighting,
-    glazes: Option<Glazes>,
-}
-
 impl PigmentOptions {
     /// The library's file, if there is one.
     pub(super) fn input(&self) -> Option<&PathBuf> {
         self.pigments.as_ref()
     }
 
-    /// All that glazes take, if they are asked for.
-    pub(super) fn glazing(
+    /// The painter of glazes, if a library was given.
+    pub(super) fn glaze_painter(
         &self,
         settings: &Settings,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<Option<Glazing>> {
+    ) -> anyhow::Result<Option<GlazePainter>> {
         let Some(path) = &self.pigments else { return Ok(None) };
         let library = library(path)?;
-        let slots = match self.palette.is_empty() {
+        let palette = match self.palette.is_empty() {
             true => None,
             false => Some(palette(&self.palette, &library)?),
         };
@@ -70,63 +58,20 @@ impl PigmentOptions {
                 console.remarks(&warning)?;
                 paper
             }
-            None => {
-                let rgb = settings.paper.color.clone();
-                Primer::Color(ColorPrimer { rgb }).reflectance(&library)?
-            }
+            None => GlazePainter::paper_of_settings(settings, &library)?,
         };
         let lighting = Lighting { illuminant: self.illuminant.clone(), ..Lighting::default() };
         let light = Light::new(&library, &viewing(&lighting.illuminant, &lighting.observer)?)?;
-        Ok(Some(Glazing { library, slots, paper, light, lighting, glazes: None }))
+        let painter = GlazePainter::new(library, paper, light, lighting);
+        Ok(Some(match palette {
+            Some(palette) => painter.with_palette(palette),
+            None => painter,
+        }))
     }
 }
 
-impl Glazing {
-    /// The painting of a wash. The first one chooses the pigments, if nobody did.
-    pub(super) fn painting(
-        &mut self,
-        title: &str,
-        wash: &Wash,
-        textures: &Textures,
-        settings: &Settings,
-    ) -> anyhow::Result<Painting> {
-        let document = self.document(title, wash, textures, settings)?;
-        let engine = PaintEngine::on_cpu(document.ground.height.clone());
-        Ok(Painting::open_under(document, self.light.clone(), engine, 0)?)
-    }
-
-    fn document(
-        &mut self,
-        title: &str,
-        wash: &Wash,
-        textures: &Textures,
-        settings: &Settings,
-    ) -> anyhow::Result<Document> {
-        let lighting = self.lighting.clone();
-        Ok(self.choose(wash)?.painted(title, wash, textures, settings, lighting)?)
-    }
-
-    /// Chooses the pigments by this wash, if that was not done before.
-    pub(super) fn choose(&mut self, wash: &Wash) -> anyhow::Result<&Glazes> {
-        let Self { library, slots, paper, light, glazes, .. } = self;
-        if glazes.is_none() {
-            let slots = match slots {
-                Some(slots) => *slots,
-                None => Glazes::palette(wash, library, paper, light)?,
-            };
-            *glazes = Some(Glazes::new(library, &slots, paper.clone(), light)?);
-        }
-        Ok(glazes.as_ref().expect("just found"))
-    }
-
-    /// What makes its pictures, beside the wash.
-    pub(super) fn wish(&self) -> impl std::fmt::Debug {
-        (&self.library, self.slots, &self.paper, &self.lighting, &self.light)
-    }
-
-    /// The pigments in use.
-    pub(super) fn names(&self) -> Vec<&str> {
-        let slots = self.glazes.as_ref().map(|glazes| *glazes.slots()).unwrap_or_default();
-        slots.iter().flatten().map(|&i| self.library.pigments[i].name.as_str()).collect()
-    }
+/// Opens a painting of glazes under the light that they were matched under.
+pub(super) fn opened(document: Document, glazes: &GlazePainter) -> anyhow::Result<Painting> {
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    Ok(Painting::open_under(document, glazes.light().clone(), engine, 0)?)
 }

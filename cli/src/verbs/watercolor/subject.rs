@@ -1,24 +1,23 @@
-//! What is painted: a photograph, or a mesh and from where it is seen.
+//! The subject: a photograph, or a mesh and its cameras.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use render::camera::{Camera, CameraPath, Framing};
 use render::mesh::{Mesh, SampleModel};
-use render::photograph::Photograph;
+use render::picture::Photograph;
+use render::watercolor::PhotographPainter;
 
 use crate::failure::Refusal;
 
-/// Triangles of a shape that is made here.
+/// Number of triangles of a built-in model.
 const TRIANGLES: usize = 60_000;
-/// The fewest pixels that a side is asked to have.
+/// Smallest width or height that can be asked for, in pixels.
 const LEAST: u64 = 16;
-/// The most pixels along a side.
+/// Largest width or height, in pixels.
 const MOST: u64 = 16_384;
-/// Width of a picture of a mesh.
+/// Width of a picture of a mesh unless told otherwise, in pixels.
 const WIDTH: usize = 1000;
-/// The longer side of a photograph that nobody gave a width.
-const LONGEST: usize = 1600;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
@@ -39,16 +38,16 @@ pub(super) struct SubjectOptions {
     turntable: Option<u64>,
 }
 
-/// What is painted.
+/// The subject to paint.
 pub(super) enum Subject {
-    /// A photograph, and the width of its picture.
+    /// A photograph, and the width of its picture in pixels.
     Photograph(Photograph, usize),
-    /// A mesh, and all cameras.
+    /// A mesh, its cameras, and width and height of the pictures in pixels.
     Mesh(Box<Mesh>, Vec<Camera>, (usize, usize)),
 }
 
 impl SubjectOptions {
-    /// Reads it; the files it was read from.
+    /// Reads the subject, and returns it with the files it was read from.
     pub(super) fn subject(&self, path: &Path) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
@@ -79,8 +78,8 @@ impl SubjectOptions {
         }
         let photograph = Photograph::open(path)?;
         let (own_width, height) = photograph.size();
-        let fitting = (LONGEST as f64 / own_width.max(height) as f64).min(1.0) * own_width as f64;
-        let width = self.width.map_or(fitting.round().max(1.0) as usize, |width| width as usize);
+        let usual = || PhotographPainter::usual_width_px(&photograph);
+        let width = self.width.map_or_else(usual, |width| width as usize);
         let rows = (width as f64 * height as f64 / own_width as f64).round();
         if self.width.is_none() && width.max(height) < LEAST as usize {
             return Err(Refusal::usage(

@@ -1,6 +1,7 @@
 //! The whole of segmentation.
 
 use rayon::prelude::*;
+use spectra::hint::{Explain, Hint};
 
 use super::climb::{MEETING, modes};
 use super::luv::LuvPlanes;
@@ -163,14 +164,12 @@ pub enum SegmentationError {
     },
 }
 
-impl SegmentationError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::SpatialRadius { .. } => "about a hundredth of the picture's width does well",
-            Self::RangeRadius { .. } => "8 keeps what the eye sees apart; more is flatter",
-            Self::ToneStep { .. } => "25 lays a round form in a few washes; 0 cuts nothing",
-        }
+impl Explain for SegmentationError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::SpatialRadius { .. } => "about a hundredth of the picture's width is usual",
+            Self::RangeRadius { .. } => "8 keeps apart what the eye does; more is flatter",
+            Self::ToneStep { .. } => "25 divides a round form into a few tones; 0 divides nothing",
+        }))
     }
 }

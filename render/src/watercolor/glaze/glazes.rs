@@ -3,7 +3,7 @@
 use pigment::library::PigmentLibrary;
 use rayon::prelude::*;
 use spectra::color::Rgb;
-use spectra::hint::Explain;
+use spectra::hint::{Explain, Hint};
 
 use super::thickness::thickness;
 use crate::watercolor::effects::wobble_on_cpu;
@@ -207,11 +207,9 @@ pub enum GlazeError {
     Separation(#[from] SeparationError),
 }
 
-impl GlazeError {
-    /// How to avoid the error.
-    #[must_use]
-    pub fn hint(&self) -> String {
+impl Explain for GlazeError {
+    fn hint(&self) -> Option<Hint> {
         let Self::Separation(error) = self;
-        error.hint().map(|hint| hint.to_string()).unwrap_or_default()
+        error.hint()
     }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use spectra::color::Rgb;
+use spectra::hint::{Explain, Hint};
 use toml::de::{DeTable, DeValue};
 
 use super::whole::Settings;
@@ -137,11 +138,9 @@ pub enum SettingsError {
     },
 }
 
-impl SettingsError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match self {
+impl Explain for SettingsError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Unreadable { .. } | Self::Preset { .. } => {
                 let names = super::Preset::ALL.map(super::Preset::name).join(", ");
                 format!("presets are {names}; a file of your own ends in .toml")
@@ -155,6 +154,6 @@ impl SettingsError {
                 format!("{usual} is usual")
             }
             Self::Color { .. } => "a warm white is \"#fbf9f4\"".to_owned(),
-        }
+        }))
     }
 }

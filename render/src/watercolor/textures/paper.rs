@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
-use spectra::hint::Explain;
+use spectra::hint::{Explain, Hint};
 
 use crate::watercolor::settings::PaperSettings;
 use graphics::field::Field;
@@ -174,26 +174,24 @@ fn mirrored(place: usize, count: usize) -> usize {
     place.min(2 * count - 1 - place)
 }
 
-/// Why there is no such paper.
+/// Why a paper cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperTextureError {
     /// The scan cannot be read.
     #[error("scan of paper: {0}")]
     Scan(#[from] PhotographError),
-    /// A figure out of range.
+    /// A figure of the paper is out of its range.
     #[error(transparent)]
     Ground(#[from] GroundError),
 }
 
-impl PaperTextureError {
-    /// What to try.
-    #[must_use]
-    pub fn hint(&self) -> String {
+impl Explain for PaperTextureError {
+    fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Scan(_) => {
-                "paper.scan names a PNG or JPEG; without it paper.kind makes a paper".to_owned()
-            }
-            Self::Ground(error) => error.hint().map(|hint| hint.to_string()).unwrap_or_default(),
+            Self::Scan(_) => Some(Hint::new(
+                "paper.scan names a PNG or JPEG; without it paper.kind makes a paper",
+            )),
+            Self::Ground(error) => error.hint(),
         }
     }
 }

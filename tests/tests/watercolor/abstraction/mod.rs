@@ -8,4 +8,4 @@ mod quality;
 
 mod morphology;
 
-mod door;
+mod photographs;

@@ -2,8 +2,10 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use render::compute::{ColorImage, Compute};
 use render::field::Field;
-use render::watercolor::{Backend, Brush, Extreme, Morphology, OnCpu, OnGpu};
+use render::gpu::DeviceError;
+use render::morphology::{self, Extremum, StructuringElement};
 use suite::adapter::device;
 
 type Colors = Field<[f32; 4]>;
@@ -14,9 +16,42 @@ fn noise(width: usize, height: usize) -> Colors {
     Field::from_values(width, height, values)
 }
 
-/// Every pixel under the brush looked at.
-fn looked_at(field: &Colors, brush: Brush, which: Extreme) -> Colors {
-    let reach = brush.reach() as i32;
+/// An operator of morphology.
+type Operator = fn(&mut Compute, &ColorImage, u32) -> Result<ColorImage, DeviceError>;
+
+/// An operator applied to a field.
+fn applied(compute: &mut Compute, operator: Operator, field: &Colors, radius_px: u32) -> Colors {
+    let image = compute.upload(field).unwrap();
+    let found = operator(compute, &image, radius_px).unwrap();
+    compute.download(&found).unwrap()
+}
+
+fn opened(field: &Colors, radius_px: u32) -> Colors {
+    applied(&mut Compute::cpu(), morphology::opening, field, radius_px)
+}
+
+fn closed(field: &Colors, radius_px: u32) -> Colors {
+    applied(&mut Compute::cpu(), morphology::closing, field, radius_px)
+}
+
+fn smoothed(field: &Colors, radius_px: u32) -> Colors {
+    applied(&mut Compute::cpu(), morphology::opening_then_closing, field, radius_px)
+}
+
+fn extremum(
+    compute: &mut Compute,
+    field: &Colors,
+    element: StructuringElement,
+    which: Extremum,
+) -> Colors {
+    let image = compute.upload(field).unwrap();
+    let found = morphology::extremum(compute, &image, element, which, None).unwrap();
+    compute.download(&found).unwrap()
+}
+
+/// The extremum by a loop over all pixels under the element.
+fn exhaustive(field: &Colors, element: StructuringElement, which: Extremum) -> Colors {
+    let reach = element.reach() as i32;
     let mut result = field.clone();
     for y in 0..field.height() as i32 {
         for x in 0..field.width() as i32 {
@@ -26,14 +61,14 @@ fn looked_at(field: &Colors, brush: Brush, which: Extreme) -> Colors {
                     let (x, y) = (x + dx, y + dy);
                     let inside = (0..field.width() as i32).contains(&x)
                         && (0..field.height() as i32).contains(&y);
-                    if !inside || !brush.covers(dx, dy) {
+                    if !inside || !element.covers(dx, dy) {
                         continue;
                     }
                     let other = field[(x as usize, y as usize)];
                     for (own, other) in own.iter_mut().zip(other) {
                         *own = match which {
-                            Extreme::Least => own.min(other),
-                            Extreme::Greatest => own.max(other),
+                            Extremum::Minimum => own.min(other),
+                            Extremum::Maximum => own.max(other),
                         };
                     }
                 }
@@ -47,15 +82,17 @@ fn looked_at(field: &Colors, brush: Brush, which: Extreme) -> Colors {
 const SIZES: [(usize, usize); 5] = [(1, 1), (3, 40), (50, 2), (23, 31), (230, 120)];
 
 #[test]
-fn extremes_are_those_of_every_pixel_under_the_brush() {
+fn extrema_are_those_of_all_pixels_under_the_element() {
     for (width, height) in SIZES {
         let field = noise(width, height);
         for radius in [0, 1, 2, 3, 5, 8] {
-            for brush in [Brush::round(radius), Brush::round(radius).twice()] {
-                for which in [Extreme::Least, Extreme::Greatest] {
-                    let found = OnCpu.extreme(&field, brush, which, None).unwrap();
-                    let wanted = looked_at(&field, brush, which);
-                    assert!(found == wanted, "{width} x {height}, {brush:?} {which:?}");
+            for element in
+                [StructuringElement::round(radius), StructuringElement::round(radius).twice()]
+            {
+                for which in [Extremum::Minimum, Extremum::Maximum] {
+                    let found = extremum(&mut Compute::cpu(), &field, element, which);
+                    let wanted = exhaustive(&field, element, which);
+                    assert!(found == wanted, "{width} x {height}, {element:?} {which:?}");
                 }
             }
         }
@@ -71,28 +108,28 @@ fn opening_and_closing_keep_their_laws() {
     for (width, height) in [(3, 40), (64, 48), (230, 120)] {
         let field = noise(width, height);
         for radius in [1, 2, 4, 7] {
-            let opened = OnCpu.opened(&field, radius).unwrap();
-            let closed = OnCpu.closed(&field, radius).unwrap();
-            assert!(all(&opened, &field) && all(&field, &closed), "{width} {radius}");
-            assert!(OnCpu.opened(&opened, radius).unwrap() == opened, "{width} {radius}");
-            assert!(OnCpu.closed(&closed, radius).unwrap() == closed, "{width} {radius}");
-            let smoothed = OnCpu.smoothed(&field, radius).unwrap();
-            assert!(OnCpu.closed(&opened, radius).unwrap() == smoothed, "{width} {radius}");
-            assert!(OnCpu.smoothed(&smoothed, radius).unwrap() == smoothed, "{width} {radius}");
+            let after_opening = opened(&field, radius);
+            let after_closing = closed(&field, radius);
+            assert!(all(&after_opening, &field) && all(&field, &after_closing), "{width} {radius}");
+            assert!(opened(&after_opening, radius) == after_opening, "{width} {radius}");
+            assert!(closed(&after_closing, radius) == after_closing, "{width} {radius}");
+            let after_both = smoothed(&field, radius);
+            assert!(closed(&after_opening, radius) == after_both, "{width} {radius}");
+            assert!(smoothed(&after_both, radius) == after_both, "{width} {radius}");
         }
-        assert!(OnCpu.smoothed(&field, 0).unwrap() == field);
-        assert!(OnCpu.opened(&field, 0).unwrap() == field);
+        assert!(smoothed(&field, 0) == field);
+        assert!(opened(&field, 0) == field);
     }
 }
 
 #[test]
-fn what_the_brush_fits_stays_and_less_goes() {
+fn what_the_element_fits_into_stays_and_smaller_details_go() {
     // A disc of 9 px and specks, in paint on paper.
     let mut field = Field::filled(60, 40, [1.0, 1.0, 1.0, 0.0]);
-    let brush = Brush::round(9);
+    let element = StructuringElement::round(9);
     for y in 0..40 {
         for x in 0..60 {
-            let disc = brush.covers(x - 20, y - 20);
+            let disc = element.covers(x - 20, y - 20);
             let speck = (44..47).contains(&x) && (8..11).contains(&y);
             if disc || speck {
                 field[(x as usize, y as usize)] = [0.2, 0.4, 0.3, 1.0];
@@ -105,28 +142,27 @@ fn what_the_brush_fits_stays_and_less_goes() {
             wanted[(x, y)] = [1.0, 1.0, 1.0, 0.0];
         }
     }
-    let smoothed = OnCpu.smoothed(&field, 4).unwrap();
-    assert!(smoothed == wanted);
+    let after_both = smoothed(&field, 4);
+    assert!(after_both == wanted);
 }
 
 #[test]
-fn backends_agree_bit_for_bit() {
-    let Some(mut gpu) = device().map(OnGpu::new) else { return };
+fn processor_and_device_agree_bit_for_bit() {
+    let Some(mut gpu) = device().map(Compute::gpu) else { return };
     for (width, height) in SIZES {
         let field = noise(width, height);
-        let there = gpu.color_of(&field).unwrap();
         for radius in [0, 1, 2, 3, 5, 8] {
-            for brush in [Brush::round(radius), Brush::round(radius).twice()] {
-                for which in [Extreme::Least, Extreme::Greatest] {
-                    let here = OnCpu.extreme(&field, brush, which, None).unwrap();
-                    let found = gpu.extreme(&there, brush, which, None).unwrap();
-                    let found = gpu.color_field(&found).unwrap();
-                    assert!(found == here, "{width} x {height}, {brush:?} {which:?}");
+            for element in
+                [StructuringElement::round(radius), StructuringElement::round(radius).twice()]
+            {
+                for which in [Extremum::Minimum, Extremum::Maximum] {
+                    let here = extremum(&mut Compute::cpu(), &field, element, which);
+                    let found = extremum(&mut gpu, &field, element, which);
+                    assert!(found == here, "{width} x {height}, {element:?} {which:?}");
                 }
             }
-            let smoothed = gpu.smoothed(&there, radius).unwrap();
-            let smoothed = gpu.color_field(&smoothed).unwrap();
-            assert!(smoothed == OnCpu.smoothed(&field, radius).unwrap(), "{width} {radius}");
+            let found = applied(&mut gpu, morphology::opening_then_closing, &field, radius);
+            assert!(found == smoothed(&field, radius), "{width} {radius}");
         }
     }
 }

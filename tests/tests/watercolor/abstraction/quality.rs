@@ -1,7 +1,7 @@
 //! Regions and boundaries against those by OpenCV's mean shift.
 
 use render::field::Field;
-use render::watercolor::{SegmentationSettings, segment};
+use render::segmentation::{SegmentationSettings, segment};
 use serde::Deserialize;
 use suite::golden::{Golden, read};
 

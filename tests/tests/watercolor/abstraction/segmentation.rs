@@ -3,7 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
-use render::watercolor::{SegmentationError, SegmentationSettings, segment};
+use render::segmentation::{SegmentationError, SegmentationSettings, segment};
+use spectra::hint::Explain;
 
 fn settings(least_region_px: u32) -> SegmentationSettings {
     SegmentationSettings {
@@ -169,5 +170,5 @@ fn settings_out_of_range_are_told() {
     assert_eq!(with(5.0, 0.0), SegmentationError::RangeRadius { found: 0.0 });
     assert!(matches!(with(5.0, f32::NAN), SegmentationError::RangeRadius { .. }));
     assert!(matches!(with(f32::NAN, 5.0), SegmentationError::SpatialRadius { .. }));
-    assert!(with(0.5, 8.0).hint().contains("width"));
+    assert!(with(0.5, 8.0).hint().unwrap().to_string().contains("width"));
 }

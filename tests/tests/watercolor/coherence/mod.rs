@@ -10,26 +10,26 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use render::camera::Camera;
+use render::coherence::{
+    AnchoredNoise, Anchors, FeatureNoise, Features, Hierarchy, Particles, Projection, Splat,
+    depth_field, draw_anchored, draw_splats, repeating_noise,
+};
+use render::compute::Compute;
 use render::field::Field;
 use render::mesh::{Mesh, Triangle};
 use render::surface::visible;
-use render::watercolor::OnCpu;
-use render::watercolor::coherence::{
-    AnchoredNoise, Anchoring, FeatureNoise, Features, Hierarchy, Particles, Projection, Splatting,
-    depth_field, repeating_noise,
-};
 
 /// A mesh with all that noise needs of it, and what a camera sees of it.
 struct Subject {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
     features: Features,
-    pigment: Field<f32>,
+    texture: Field<f32>,
 }
 
 /// A picture without noise.
 struct Bare {
-    sight: Projection,
+    projection: Projection,
     depth: Field<f32>,
 }
 
@@ -37,23 +37,42 @@ impl Subject {
     fn new(mesh: Mesh) -> Self {
         let hierarchy = Arc::new(Hierarchy::new(&mesh));
         let features = Features::new(Arc::clone(&hierarchy), 1);
-        Self { mesh, hierarchy, features, pigment: repeating_noise(32, 1) }
+        Self { mesh, hierarchy, features, texture: repeating_noise(32, 1) }
     }
 
     fn bare(&self, camera: &Camera, width: usize, height: usize) -> Bare {
         let depth = depth_field(&visible(&self.mesh, camera, width, height));
-        Bare { sight: Projection::new(camera, width, height), depth }
+        Bare { projection: Projection::new(camera, width, height), depth }
     }
 
     fn of_features(&self, bare: &Bare, noise: FeatureNoise) -> Field<f32> {
-        let splats = self.features.splats(&bare.sight, noise);
-        OnCpu.splatted(&bare.depth, &splats).expect("the processor always can")
+        let splats = self.features.splats(&bare.projection, noise);
+        splats_on(&mut Compute::cpu(), &bare.depth, &splats)
     }
 
     fn of_particles(&self, bare: &Bare, particles: &Particles, wave_px: f32) -> Field<f32> {
-        let anchors = particles.anchors(&bare.sight, waves(wave_px));
-        OnCpu.anchored(&bare.depth, &self.pigment, &anchors).expect("the processor always can")
+        let anchors = particles.anchors(&bare.projection, waves(wave_px));
+        anchored_on(&mut Compute::cpu(), &bare.depth, &self.texture, &anchors)
     }
+}
+
+/// Features drawn on fields.
+fn splats_on(compute: &mut Compute, depth: &Field<f32>, splats: &[Splat]) -> Field<f32> {
+    let depth = compute.upload(depth).unwrap();
+    let drawn = draw_splats(compute, &depth, splats).unwrap();
+    compute.download(&drawn).unwrap()
+}
+
+/// Copies of a texture drawn on fields.
+fn anchored_on(
+    compute: &mut Compute,
+    depth: &Field<f32>,
+    texture: &Field<f32>,
+    anchors: &Anchors,
+) -> Field<f32> {
+    let (depth, texture) = (compute.upload(depth).unwrap(), compute.upload(texture).unwrap());
+    let drawn = draw_anchored(compute, &depth, &texture, anchors).unwrap();
+    compute.download(&drawn).unwrap()
 }
 
 fn waves(wave_px: f32) -> AnchoredNoise {

@@ -6,9 +6,9 @@
 use std::io::Write;
 
 use render::camera::Framing;
+use render::coherence::{AnchoredNoise, FeatureNoise, NoiseFrame, Particles, Popping};
 use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::coherence::{AnchoredNoise, FeatureNoise, NoiseFrame, Particles, Popping};
 
 use super::{Bare, Subject, wall};
 
@@ -25,10 +25,13 @@ struct Turn {
 
 /// RMS from frame to frame along the motion.
 fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
-    let shot =
-        |i: usize| NoiseFrame { sight: &bare[i].sight, depth: &bare[i].depth, noise: &noise[i] };
+    let shot = |i: usize| NoiseFrame {
+        projection: &bare[i].projection,
+        depth: &bare[i].depth,
+        noise: &noise[i],
+    };
     let pairs = (1..bare.len()).map(|i| Popping::between(shot(i - 1), shot(i)));
-    let all = pairs.fold(Popping::default(), Popping::and);
+    let all = pairs.fold(Popping::default(), Popping::merge);
     assert!(all.pixels > bare.len() * bare[0].depth.values().len() / 50, "{all:?}");
     all.rms()
 }

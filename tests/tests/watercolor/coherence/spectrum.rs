@@ -2,14 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use render::coherence::{FeatureNoise, Features, Particles, SPREAD, repeating_noise};
+use render::compute::Compute;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::OnCpu;
-use render::watercolor::coherence::{
-    Anchoring, FeatureNoise, Features, Particles, SPREAD, Splatting, repeating_noise,
-};
 
-use super::{Subject, from_front, spread, wall, waves};
+use super::{Subject, anchored_on, from_front, splats_on, spread, wall, waves};
 
 /// A window of pixels in the middle of the picture.
 const SIDE: usize = 128;
@@ -104,22 +102,22 @@ fn frequency_holds_while_the_model_comes_nearer() {
         let particles = Particles::new(&subject.hierarchy, 6);
         let strewn: Vec<Features> =
             (0..6).map(|seed| Features::new(subject.hierarchy.clone(), seed)).collect();
-        let pigments: Vec<Field<f32>> = (0..6).map(|seed| repeating_noise(32, seed)).collect();
+        let textures: Vec<Field<f32>> = (0..6).map(|seed| repeating_noise(32, seed)).collect();
         let bare = |subject: &Subject, zoom: f32| {
             subject.bare(&from_front(1.0 + 2.0 / zoom, 20.0), 192, 192)
         };
         let noise = FeatureNoise { largest_px: 12.0, octaves: 3, persistence: 0.7, coverage: 4.0 };
         let features = |zoom: f32, seed: u64| {
             let bare = bare(&subject, zoom);
-            let splats = strewn[seed as usize].splats(&bare.sight, noise);
-            OnCpu.splatted(&bare.depth, &splats).unwrap()
+            let splats = strewn[seed as usize].splats(&bare.projection, noise);
+            splats_on(&mut Compute::cpu(), &bare.depth, &splats)
         };
         let of_features = under_zoom(features, 1.5 / 3.0);
         let of_particles = under_zoom(
             |zoom, seed| {
                 let bare = bare(&subject, zoom);
-                let anchors = particles.anchors(&bare.sight, waves(32.0));
-                OnCpu.anchored(&bare.depth, &pigments[seed as usize], &anchors).unwrap()
+                let anchors = particles.anchors(&bare.projection, waves(32.0));
+                anchored_on(&mut Compute::cpu(), &bare.depth, &textures[seed as usize], &anchors)
             },
             0.5,
         );

@@ -1,16 +1,14 @@
-//! Both backends, bare pixels, and what is on one surface only.
+//! Processor against device, bare pixels, and features on one surface only.
 
 use glam::Vec3;
 use render::camera::{Camera, Framing};
+use render::coherence::{FeatureNoise, Particles, Projection, Splat, repeating_noise};
+use render::compute::Compute;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::watercolor::coherence::{
-    Anchoring, FeatureNoise, Particles, Projection, Splat, Splatting, repeating_noise,
-};
-use render::watercolor::{Backend, OnCpu, OnGpu};
 use suite::adapter::device;
 
-use super::{Bare, Subject, from_front, waves};
+use super::{Bare, Subject, anchored_on, from_front, splats_on, waves};
 
 fn cameras(mesh: &Mesh) -> Vec<Camera> {
     let mut cameras = Framing::default().turntable(mesh.bounds(), 3);
@@ -28,34 +26,31 @@ fn compare(on_cpu: &Field<f32>, on_gpu: &Field<f32>, what: &str) {
 }
 
 #[test]
-fn both_backends_draw_the_same() {
-    let Some(mut gpu) = device().map(OnGpu::new) else { return };
+fn processor_and_device_draw_the_same() {
+    let Some(mut gpu) = device().map(Compute::gpu) else { return };
     for mesh in [Mesh::sphere(900), Mesh::torus_knot(5000)] {
         let subject = Subject::new(mesh);
-        let pigment = gpu.grey_of(&subject.pigment).unwrap();
         for (camera, (width, height)) in
             cameras(&subject.mesh).iter().zip([(93, 61), (64, 64), (1, 9), (130, 40), (40, 77)])
         {
-            let Bare { sight, depth } = subject.bare(camera, width, height);
-            let there = gpu.grey_of(&depth).unwrap();
+            let Bare { projection, depth } = subject.bare(camera, width, height);
             for noise in [FeatureNoise::FLOW, FeatureNoise::DISPERSION] {
-                let splats = subject.features.splats(&sight, noise);
-                let on_gpu = gpu.splatted(&there, &splats).unwrap();
-                let on_gpu = gpu.grey_field(&on_gpu).unwrap();
-                compare(&OnCpu.splatted(&depth, &splats).unwrap(), &on_gpu, "features");
+                let splats = subject.features.splats(&projection, noise);
+                let on_cpu = splats_on(&mut Compute::cpu(), &depth, &splats);
+                compare(&on_cpu, &splats_on(&mut gpu, &depth, &splats), "features");
             }
             for count in [1, 6, 40] {
                 let particles = Particles::new(&subject.hierarchy, count);
-                let anchors = particles.anchors(&sight, waves(40.0));
-                let on_cpu = OnCpu.anchored(&depth, &subject.pigment, &anchors).unwrap();
-                let on_gpu = gpu.anchored(&there, &pigment, &anchors).unwrap();
-                compare(&on_cpu, &gpu.grey_field(&on_gpu).unwrap(), "particles");
+                let anchors = particles.anchors(&projection, waves(40.0));
+                let draw = |compute: &mut Compute| {
+                    anchored_on(compute, &depth, &subject.texture, &anchors)
+                };
+                compare(&draw(&mut Compute::cpu()), &draw(&mut gpu), "particles");
             }
         }
     }
-    let bare = gpu.grey_of(&Field::filled(20, 20, 1.0)).unwrap();
-    let empty = gpu.splatted(&bare, &[]).unwrap();
-    assert_eq!(gpu.grey_field(&empty).unwrap(), Field::filled(20, 20, 0.5));
+    let empty = splats_on(&mut gpu, &Field::filled(20, 20, 1.0), &[]);
+    assert_eq!(empty, Field::filled(20, 20, 0.5));
 }
 
 #[test]
@@ -101,7 +96,7 @@ fn a_feature_is_on_its_own_surface_only() {
         slope_y: 0.0,
         tightness: 20.0,
     };
-    let drawn = OnCpu.splatted(&depth, &[splat]).unwrap();
+    let drawn = splats_on(&mut Compute::cpu(), &depth, &[splat]);
     assert_eq!((drawn[(19, 20)], drawn[(20, 31)]), (0.5, 0.5));
     assert!((drawn[(20, 20)] - 0.75).abs() < 0.01, "{}", drawn[(20, 20)]);
     assert!((0.51..0.74).contains(&drawn[(27, 20)]), "{}", drawn[(27, 20)]);
@@ -120,9 +115,9 @@ fn one_texture_holds_on_to_its_particle() {
     let (width, height) = (150, 150);
     let [before, after] = [from(0.0), from(-0.2)].map(|camera| {
         let bare = subject.bare(&Camera { far: 60.0, ..camera }, width, height);
-        (bare.sight, subject.of_particles(&bare, &particles, 24.0))
+        (bare.projection, subject.of_particles(&bare, &particles, 24.0))
     });
-    let shift = |sight: &Projection| sight.seen_at(Vec3::ZERO).map(|at| at.x).unwrap();
+    let shift = |projection: &Projection| projection.pixel_of(Vec3::ZERO).map(|at| at.x).unwrap();
     let moved = shift(&after.0) - shift(&before.0);
     assert!((moved.round() - moved).abs() < 0.3 && moved > 8.0, "{moved} px");
     let moved = moved.round() as usize;

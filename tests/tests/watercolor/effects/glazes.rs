@@ -1,15 +1,18 @@
 //! Glazes of calibrated pigments over measured paper.
 
+use render::compute::Compute;
 use render::field::Field;
 use render::light::Light;
 use render::paint::document::{Document, Lighting, Slots};
 use render::paint::scene::{picture, scene};
 use render::watercolor::{
-    Controls, GlazeError, Glazes, OnCpu, PaperTexture, Settings, Textures, Wash, Wobble, thickness,
+    Controls, GlazeError, Glazes, PaperTexture, Settings, Textures, Wash, thickness,
 };
 use spectra::color::{Lab, delta_e_ciede2000};
+use spectra::hint::Explain;
 
 use super::any_picture;
+use super::on_fields::wobble;
 
 /// Linear light that whole quanta of thin glazes may be off.
 const NEAR: f32 = 2e-3;
@@ -100,12 +103,12 @@ fn thickness_is_the_product_of_all_densities() {
     let mut settings = Settings::default().for_size(32, 24).without_effects();
     let textures = Textures::new(32, 24, &settings).unwrap();
     let none = Controls::default();
-    let flat = thickness(&color, &none, &textures, &settings).unwrap();
+    let flat = thickness(&color, &none, &textures, &settings);
     assert!(flat.values().iter().all(|value| (value - 1.0).abs() < 1e-7));
     settings.wash.density = 0.5;
     settings.flow.strength = 1.5;
     settings.paper.strength = 0.7;
-    let found = thickness(&color, &none, &textures, &settings).unwrap();
+    let found = thickness(&color, &none, &textures, &settings);
     for (i, found) in found.values().iter().enumerate() {
         let of = |field: &Field<f32>, strength: f32| 1.0 + strength * (field.values()[i] - 0.5);
         let wanted = 0.5 * of(&textures.flow, 1.5) * of(&textures.paper.heights, -0.7);
@@ -113,11 +116,11 @@ fn thickness_is_the_product_of_all_densities() {
     }
     settings.dry_brush.amount = 0.5;
     settings.dry_brush.patches = 0.0;
-    let dry = thickness(&color, &none, &textures, &settings).unwrap();
+    let dry = thickness(&color, &none, &textures, &settings);
     let bare = dry.values().iter().filter(|value| **value == 0.0).count();
     assert!((200..500).contains(&bare), "{bare} of 768 pixels are bare");
     let bare_color = Field::filled(32, 24, [0.4, 0.5, 0.6, 0.0]);
-    let nothing = thickness(&bare_color, &none, &textures, &settings).unwrap();
+    let nothing = thickness(&bare_color, &none, &textures, &settings);
     assert!(nothing.values().iter().all(|value| *value == 0.0));
 }
 
@@ -127,10 +130,10 @@ fn a_painting_of_glazes_is_that_of_its_effects() {
     let settings = Settings::default().for_size(40, 30);
     let textures = Textures::new(40, 30, &settings).unwrap();
     let wash = Wash { color: any_picture(40, 30, 53), controls: Controls::default() };
-    let found = glazes.painted("made", &wash, &textures, &settings, level()).unwrap();
+    let found = glazes.paint("made", &wash, &textures, &settings, level());
     let px = textures.paper.per_slope(settings.wobble.amount_px);
-    let color = OnCpu.wobbled(wash.color, &textures.paper.heights, px).unwrap();
-    let thickness = thickness(&color, &wash.controls, &textures, &settings).unwrap();
+    let color = wobble(&mut Compute::cpu(), &wash.color, &textures.paper.heights, px);
+    let thickness = thickness(&color, &wash.controls, &textures, &settings);
     let wanted = glazes.document("made", &color, &thickness, &textures.paper, level());
     assert_eq!(found, wanted);
     assert_eq!(found.dry.len(), 1);
@@ -166,5 +169,8 @@ fn a_palette_is_chosen_and_comes_near_to_colors_that_watercolor_has() {
         assert!(off < 4.0, "{color:?}: {off} CIEDE2000");
     }
     let none = Glazes::new(&library, &Slots::default(), paper, light).unwrap_err();
-    assert!(matches!(none, GlazeError::Separation(_)) && none.hint().contains("pigments"));
+    assert!(
+        matches!(none, GlazeError::Separation(_))
+            && none.hint().unwrap().to_string().contains("pigments")
+    );
 }

@@ -1,14 +1,16 @@
-//! Effects, textures and settings, and both backends.
+//! Effects, textures and settings, on the processor and on a device.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use render::compute::Compute;
 use render::field::Field;
-use render::watercolor::{Backend, OnCpu, OnGpu};
 use suite::adapter::device;
 
-mod laws;
+mod on_fields;
+
+mod definitions;
 
 mod twins;
 
@@ -49,11 +51,13 @@ fn greys(field: &Field<f32>) -> Vec<f64> {
 }
 
 #[test]
-fn pictures_come_back_from_both_backends() {
+fn pictures_survive_upload_and_download() {
     let field = Field::from_values(3, 2, (0..6).map(|i| [i as f32 / 8.0; 4]).collect());
-    let on_cpu = OnCpu.color_of(&field).unwrap();
-    assert_eq!(OnCpu.color_field(&on_cpu).unwrap(), field);
-    let Some(mut on_gpu) = device().map(OnGpu::new) else { return };
-    let there = on_gpu.color_of(&field).unwrap();
-    assert_eq!(on_gpu.color_field(&there).unwrap(), field);
+    let mut cpu = Compute::cpu();
+    let image = cpu.upload(&field).unwrap();
+    assert_eq!(cpu.download(&image).unwrap(), field);
+    let Some(mut gpu) = device().map(Compute::gpu) else { return };
+    let image = gpu.upload(&field).unwrap();
+    assert_eq!(image.size(), (3, 2));
+    assert_eq!(gpu.download(&image).unwrap(), field);
 }

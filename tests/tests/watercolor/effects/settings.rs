@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use render::watercolor::{Preset, Settings, SettingsError};
+use spectra::hint::Explain;
 
 /// `group.key` of every value, and whether a comment stands right above it. Keys
 /// that are shown without a value count too.
@@ -50,7 +51,7 @@ fn presets_are_read_and_tell_of_every_key() {
     }
     let error = "oil".parse::<Preset>().unwrap_err();
     assert_eq!(error.to_string(), "there is no preset `oil`");
-    assert!(error.hint().contains("portrait, landscape, sketch"));
+    assert!(error.hint().unwrap().to_string().contains("portrait, landscape, sketch"));
 }
 
 #[test]
@@ -100,7 +101,7 @@ fn broken_files_are_told_by_line_and_key() {
         }
         let error = read.unwrap_err();
         assert!(error.to_string().starts_with(told), "{text}: {error}");
-        assert!(!error.hint().is_empty(), "{text}");
+        assert!(error.hint().is_some(), "{text}");
     }
     let missing = Settings::open(std::path::Path::new("no/such.toml")).unwrap_err();
     assert!(matches!(&missing, SettingsError::Unreadable { name, .. } if name == "no/such.toml"));

@@ -1,164 +1,165 @@
 //! Every kernel against its form on the processor.
 
+use render::compute::Compute;
 use render::field::Field;
-use render::watercolor::{
-    Backend, ColorMask, ColorRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu,
-    OnGpu, OnSheet, Plane, Sheet, Wobble,
-};
+use render::watercolor::{ColorRange, DryBrushReach, PaperShading};
 use spectra::color::Rgb;
 use suite::adapter::device;
 use suite::near::assert_near;
 
+use super::on_fields::{
+    Layer, apply_density, apply_dry_brush, color_mask, edges, shade_paper, wobble,
+};
 use super::{any_grey, any_picture, greys, numbers};
 
-/// What f32 may be off where a backend fuses and another does not.
+/// Error of f32 where only one of two forms uses fused multiply-add.
 const NEAR: f64 = 2e-6;
 
 /// Sizes on both sides of those of a work group and of a band of rows.
 const SIZES: [(usize, usize); 6] = [(1, 1), (1, 9), (7, 5), (8, 8), (67, 33), (30, 71)];
 
+/// A picture of one size, and the two forms of compute.
 struct Both {
-    gpu: OnGpu,
+    cpu: Compute,
+    gpu: Compute,
     size: (usize, usize),
     picture: Field<[f32; 4]>,
-    there: Plane,
 }
 
 impl Both {
-    fn each(mut each: impl FnMut(&mut Self)) {
+    fn for_each(mut each: impl FnMut(&mut Self)) {
         let Some(device) = device() else { return };
-        let mut gpu = OnGpu::new(device);
+        let picture = any_picture(1, 1, 0);
+        let (cpu, gpu) = (Compute::cpu(), Compute::gpu(device));
+        let mut both = Self { cpu, gpu, size: (1, 1), picture };
         for (seed, (width, height)) in (0..).zip(SIZES) {
-            let picture = any_picture(width, height, seed);
-            let there = gpu.color_of(&picture).unwrap();
-            let mut both = Self { gpu, size: (width, height), picture, there };
+            (both.size, both.picture) = ((width, height), any_picture(width, height, seed));
             each(&mut both);
-            gpu = both.gpu;
         }
     }
 
-    fn grey(&mut self, seed: u64) -> (Field<f32>, Plane) {
-        let grey = any_grey(self.size.0, self.size.1, seed);
-        let there = self.gpu.grey_of(&grey).unwrap();
-        (grey, there)
+    fn grey(&self, seed: u64) -> Field<f32> {
+        any_grey(self.size.0, self.size.1, seed)
     }
 
-    fn assert_alike(&mut self, case: &str, here: &Field<[f32; 4]>, there: &Plane, near: f64) {
-        let there = self.gpu.color_field(there).unwrap();
-        assert_near(format!("{case}, {:?}", self.size), &numbers(&there), &numbers(here), near);
+    /// Compares the pictures that both forms compute.
+    fn compare(
+        &mut self,
+        case: &str,
+        near: f64,
+        effect: impl Fn(&mut Compute, &Field<[f32; 4]>) -> Field<[f32; 4]>,
+    ) {
+        let wanted = effect(&mut self.cpu, &self.picture);
+        let found = effect(&mut self.gpu, &self.picture);
+        assert_near(format!("{case}, {:?}", self.size), &numbers(&found), &numbers(&wanted), near);
+    }
+
+    /// Compares the numbers that both forms compute.
+    fn compare_greys(
+        &mut self,
+        case: &str,
+        near: f64,
+        effect: impl Fn(&mut Compute, &Field<[f32; 4]>) -> Field<f32>,
+    ) {
+        let wanted = effect(&mut self.cpu, &self.picture);
+        let found = effect(&mut self.gpu, &self.picture);
+        assert_near(format!("{case}, {:?}", self.size), &greys(&found), &greys(&wanted), near);
     }
 }
 
 #[test]
-fn density() {
-    Both::each(|both| {
-        let greys: Vec<_> = (0..6).map(|seed| both.grey(seed)).collect();
+fn density_agrees() {
+    Both::for_each(|both| {
+        let textures: Vec<_> = (0..6).map(|seed| both.grey(seed)).collect();
         for strengths in
             [&[][..], &[0.0], &[1.3], &[-2.0, 0.5, 9.0, 2.0], &[0.4, 1.0, -1.0, 3.0, 2.0]]
         {
             for (overall, masked) in [(1.0, false), (0.3, false), (2.5, true), (0.0, true)] {
-                let mask = masked.then_some(&greys[5]);
-                let layer = |i: usize| (strengths[i], [0.5, 0.0][i % 2]);
-                let here: Vec<_> = (0..strengths.len())
-                    .map(|i| (layer(i), &greys[i].0))
-                    .map(|((strength, pivot), texture)| DensityLayer { texture, strength, pivot })
+                let mask = masked.then_some(&textures[5]);
+                let layers: Vec<Layer<'_>> = (0..strengths.len())
+                    .map(|i| (&textures[i], strengths[i], [0.5, 0.0][i % 2]))
                     .collect();
-                let there: Vec<_> = (0..strengths.len())
-                    .map(|i| (layer(i), &greys[i].1))
-                    .map(|((strength, pivot), texture)| DensityLayer { texture, strength, pivot })
-                    .collect();
-                let (picture, plane) = (both.picture.clone(), both.there.clone());
-                let here = OnCpu.densified(picture, overall, &here, mask.map(|m| &m.0)).unwrap();
-                let there = both.gpu.densified(plane, overall, &there, mask.map(|m| &m.1)).unwrap();
                 let case = format!("{strengths:?}, {overall}, {masked}");
-                // A strength of 9 lets what rounds grow.
-                both.assert_alike(&case, &here, &there, 10.0 * NEAR);
+                // A strength of 9 enlarges rounding errors.
+                both.compare(&case, 10.0 * NEAR, |compute, picture| {
+                    apply_density(compute, picture, overall, &layers, mask)
+                });
             }
         }
     });
 }
 
 #[test]
-fn edges() {
-    Both::each(|both| {
+fn edges_agree() {
+    Both::for_each(|both| {
         for width_px in [0.0, 0.1, 0.5, 1.0, 3.3, 12.0] {
-            let here = OnCpu.edges(&both.picture, width_px).unwrap();
-            let there = both.gpu.edges(&both.there, width_px).unwrap();
-            let there = both.gpu.grey_field(&there).unwrap();
-            let case = format!("{width_px} px, {:?}", both.size);
-            assert_near(case, &greys(&there), &greys(&here), NEAR);
+            let case = format!("{width_px} px");
+            both.compare_greys(&case, NEAR, |compute, picture| edges(compute, picture, width_px));
         }
     });
 }
 
 #[test]
-fn wobble() {
-    Both::each(|both| {
-        let (heights, plane) = both.grey(11);
-        for px in [0.0, 0.01, 0.8, -3.0, 500.0] {
-            let here = OnCpu.wobbled(both.picture.clone(), &heights, px).unwrap();
-            let there = both.gpu.wobbled(both.there.clone(), &plane, px).unwrap();
-            // Where little paint is mixed in, its colour is a quotient of small numbers;
-            // how far a place is off grows with the distance.
+fn wobble_agrees() {
+    Both::for_each(|both| {
+        let heights = both.grey(11);
+        for px in [0.0_f32, 0.01, 0.8, -3.0, 500.0] {
+            // Where little paint is mixed in, its colour is a quotient of small numbers; the
+            // error of a position grows with the displacement.
             let near = NEAR * (10.0 + 10.0 * f64::from(px.abs()));
-            both.assert_alike(&format!("{px} px"), &here, &there, near);
+            both.compare(&format!("{px} px"), near, |compute, picture| {
+                wobble(compute, picture, &heights, px)
+            });
         }
     });
 }
 
 #[test]
-fn dry_brush() {
-    Both::each(|both| {
-        let ((heights, plane), (flow, flow_plane)) = (both.grey(12), both.grey(13));
-        let mask = both.grey(14);
+fn dry_brush_agrees() {
+    Both::for_each(|both| {
+        let (heights, flow, mask) = (both.grey(12), both.grey(13), both.grey(14));
         for threshold in [0.0, 0.2, 0.9] {
             for (softness, patches, masked) in
                 [(0.1, 0.0, false), (0.5, 0.6, true), (0.02, 1.0, true)]
             {
                 let reach = DryBrushReach { threshold, softness, patches };
                 let mask = masked.then_some(&mask);
-                let (picture, there) = (both.picture.clone(), both.there.clone());
-                let here =
-                    OnCpu.dry_brushed(picture, &heights, &flow, reach, mask.map(|m| &m.0)).unwrap();
-                let there = both
-                    .gpu
-                    .dry_brushed(there, &plane, &flow_plane, reach, mask.map(|m| &m.1))
-                    .unwrap();
-                // Over a narrow band what rounds grows by its inverse.
+                // Rounding errors grow with the inverse of the band's width.
                 let near = NEAR / f64::from(softness);
-                both.assert_alike(&format!("{reach:?}"), &here, &there, near);
+                both.compare(&format!("{reach:?}"), near, |compute, picture| {
+                    apply_dry_brush(compute, picture, (&heights, &flow), reach, mask)
+                });
             }
         }
     });
 }
 
 #[test]
-fn color_mask() {
-    Both::each(|both| {
+fn color_mask_agrees() {
+    Both::for_each(|both| {
         let mask = both.grey(15);
         for (color, tolerance) in [("#ffffff", 30.0), ("#4060a0", 1.0), ("#000000", 200.0)] {
             for mask in [None, Some(&mask)] {
                 let range = ColorRange::around(Rgb::from_hex(color).unwrap(), tolerance);
-                let here = OnCpu.color_mask(&both.picture, range, mask.map(|m| &m.0)).unwrap();
-                let there = both.gpu.color_mask(&both.there, range, mask.map(|m| &m.1)).unwrap();
-                let there = both.gpu.grey_field(&there).unwrap();
-                let case = format!("{color} {tolerance}, {:?}", both.size);
-                // WGSL's pow is loose; by the tolerance CIELAB becomes a share.
-                assert_near(case, &greys(&there), &greys(&here), 1e-3 / f64::from(tolerance));
+                // WGSL's pow is loose; the tolerance scales errors in CIELAB.
+                let near = 1e-3 / f64::from(tolerance);
+                both.compare_greys(&format!("{color} {tolerance}"), near, |compute, picture| {
+                    color_mask(compute, picture, range, mask)
+                });
             }
         }
     });
 }
 
 #[test]
-fn sheet() {
-    Both::each(|both| {
-        let (heights, plane) = both.grey(16);
+fn paper_shading_agrees() {
+    Both::for_each(|both| {
+        let heights = both.grey(16);
         for (color, relief) in [([1.0; 3], 0.0), ([0.9, 0.8, 0.6], 0.4), ([0.2, 1.0, 0.0], 5.0)] {
-            let sheet = Sheet { color, relief };
-            let here = OnCpu.on_sheet(both.picture.clone(), &heights, sheet).unwrap();
-            let there = both.gpu.on_sheet(both.there.clone(), &plane, sheet).unwrap();
-            both.assert_alike(&format!("{sheet:?}"), &here, &there, NEAR);
+            let shading = PaperShading { color, relief };
+            both.compare(&format!("{shading:?}"), NEAR, |compute, picture| {
+                shade_paper(compute, picture, &heights, shading)
+            });
         }
     });
 }

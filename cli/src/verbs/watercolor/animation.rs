@@ -1,5 +1,4 @@
-//! Many pictures: a folder of frames that can be taken up again, and one file of
-//! them all.
+//! Frames of a moving camera: a folder of them that can be resumed, and one animation file.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,7 +14,7 @@ use crate::progress::Progress;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Animation")]
-pub(super) struct MovingOptions {
+pub(super) struct AnimationOptions {
     /// Write the pictures of a moving camera into one file: .gif, or .png (APNG, all colours)
     #[arg(long, value_name = "FILE")]
     animation: Option<PathBuf>,
@@ -34,37 +33,39 @@ enum Format {
     Apng,
 }
 
-/// Where pictures go, known to be writable.
-pub(super) struct Moving {
-    animation: Option<(Output, Format)>,
+/// Where frames go: a folder, and an animation file that was found to be writable.
+pub(super) struct Animation {
+    file: Option<(Output, Format)>,
     frames: PathBuf,
     rate: FrameRate,
 }
 
-/// Frames on their way.
-pub(super) struct Shooting {
-    moving: Moving,
+/// A folder of frames that is being filled.
+pub(super) struct Recording {
+    animation: Animation,
     sequence: Sequence,
-    /// How many, their width and their height.
-    shots: (usize, usize, usize),
+    /// Number of frames.
+    frames: usize,
+    /// Width and height in pixels.
+    size: (usize, usize),
 }
 
-impl MovingOptions {
-    /// Whether many pictures are wanted.
+impl AnimationOptions {
+    /// Whether frames are asked for.
     pub(super) fn any(&self) -> bool {
         self.animation.is_some() || self.frames.is_some()
     }
 
-    /// Checks that they can be written.
-    pub(super) fn open(&self, inputs: &[PathBuf]) -> anyhow::Result<Option<Moving>> {
+    /// Checks that the animation can be written.
+    pub(super) fn open(&self, inputs: &[PathBuf]) -> anyhow::Result<Option<Animation>> {
         let rate = FrameRate::new(self.rate)?;
-        let animation = match &self.animation {
+        let file = match &self.animation {
             None => None,
             Some(path) => Some((Output::open(path, inputs)?, format(path)?)),
         };
         let beside = self.animation.as_ref().map(|path| path.with_extension("frames"));
         let frames = self.frames.clone().or(beside);
-        Ok(frames.map(|frames| Moving { animation, frames, rate }))
+        Ok(frames.map(|frames| Animation { file, frames, rate }))
     }
 }
 
@@ -80,58 +81,58 @@ fn format(path: &Path) -> anyhow::Result<Format> {
     }
 }
 
-/// What tells one wish for frames from another: the digest of all that makes them.
+/// A digest of all inputs of the frames: frames of another digest are painted anew.
 #[derive(Default)]
-pub(super) struct Wish(Sha256);
+pub(super) struct FramesDigest(Sha256);
 
-impl Wish {
-    /// Takes in what makes the frames.
-    pub(super) fn and(mut self, what: &impl std::fmt::Debug) -> Self {
+impl FramesDigest {
+    /// Adds an input of the frames.
+    pub(super) fn add(mut self, input: &impl std::fmt::Debug) -> Self {
         // Hashing cannot fail.
-        let _ = write!(self, "{what:?}");
+        let _ = write!(self, "{input:?}");
         self.0.update([0]);
         self
     }
 }
 
-impl std::fmt::Write for Wish {
+impl std::fmt::Write for FramesDigest {
     fn write_str(&mut self, text: &str) -> std::fmt::Result {
         self.0.update(text);
         Ok(())
     }
 }
 
-impl Moving {
-    /// The file of all frames.
-    pub(super) fn animation(&self) -> Option<&Output> {
-        self.animation.as_ref().map(|(output, _)| output)
+impl Animation {
+    /// The file of the animation, if one is asked for.
+    pub(super) fn file(&self) -> Option<&Output> {
+        self.file.as_ref().map(|(output, _)| output)
     }
 
-    /// Looks which frames are there already, before the slow part; those of another wish
-    /// go.
+    /// Finds the frames that exist already; frames of another digest are removed.
     pub(super) fn begin(
         self,
-        wish: Wish,
-        shots: (usize, usize, usize),
-    ) -> anyhow::Result<Shooting> {
-        let digest = wish.0.finalize();
+        digest: FramesDigest,
+        frames: usize,
+        size: (usize, usize),
+    ) -> anyhow::Result<Recording> {
+        let digest = digest.0.finalize();
         let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        let (frames, width, height) = shots;
+        let (width, height) = size;
         let sequence =
             Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
-        Ok(Shooting { moving: self, sequence, shots })
+        Ok(Recording { animation: self, sequence, frames, size })
     }
 }
 
-impl Shooting {
-    /// Makes the frames that are not there yet by `picture`, then the animation; how
-    /// many there were already.
-    pub(super) fn make(
+impl Recording {
+    /// Paints the missing frames with `picture`, then writes the animation. Returns how many
+    /// frames existed already.
+    pub(super) fn paint(
         self,
         console: &Console<'_>,
         mut picture: impl FnMut(usize) -> anyhow::Result<Frame>,
     ) -> anyhow::Result<usize> {
-        let Self { moving, mut sequence, shots: (frames, width, height) } = self;
+        let Self { animation, mut sequence, frames, size } = self;
         let remaining = sequence.remaining().to_vec();
         let bar = Progress::new(remaining.len(), "painting", console.screen.progress);
         for &index in &remaining {
@@ -139,10 +140,10 @@ impl Shooting {
             bar.step();
         }
         bar.done();
-        if let Some((output, format)) = moving.animation {
+        if let Some((output, format)) = animation.file {
             let bytes = match format {
-                Format::Gif => gif(&sequence, (width, height), moving.rate)?,
-                Format::Apng => apng(&sequence, (width, height), moving.rate, frames)?,
+                Format::Gif => gif(&sequence, size, animation.rate)?,
+                Format::Apng => apng(&sequence, size, animation.rate, frames)?,
             };
             output.write(bytes)?;
         }

@@ -1,16 +1,15 @@
-//! What each effect does, against its definition.
+//! Each effect against its definition.
 
+use render::compute::Compute;
 use render::field::Field;
-use render::watercolor::{
-    ColorMask, ColorRange, Density, DensityLayer, DryBrush, DryBrushReach, Edges, OnCpu, OnSheet,
-    Sheet, Wobble,
-};
+use render::watercolor::{ColorRange, DryBrushReach, PaperShading};
 use spectra::color::{Lab, Rgb, RgbSpace};
 
+use super::on_fields::{self, Layer};
 use super::{any_grey, any_picture};
 
-fn layer(texture: &Field<f32>, strength: f32) -> [DensityLayer<'_, Field<f32>>; 1] {
-    [DensityLayer { texture, strength, pivot: 0.5 }]
+fn layer(texture: &Field<f32>, strength: f32) -> [Layer<'_>; 1] {
+    [(texture, strength, 0.5)]
 }
 
 #[test]
@@ -19,8 +18,13 @@ fn density_2_squares_and_density_1_keeps_the_bits() {
     let ones = Field::filled(40, 30, 1.0);
     let middle = Field::filled(40, 30, 0.5);
     for (overall, texture, strength) in [(1.0, &ones, 2.0), (2.0, &middle, 2.0)] {
-        let found =
-            OnCpu.densified(picture.clone(), overall, &layer(texture, strength), None).unwrap();
+        let found = on_fields::apply_density(
+            &mut Compute::Cpu,
+            &picture,
+            overall,
+            &layer(texture, strength),
+            None,
+        );
         for (found, c) in found.values().iter().zip(picture.values()) {
             let squared =
                 if c[3] > 0.0 { [c[0] * c[0], c[1] * c[1], c[2] * c[2], c[3]] } else { *c };
@@ -29,11 +33,18 @@ fn density_2_squares_and_density_1_keeps_the_bits() {
     }
     let grey = any_grey(40, 30, 2);
     for (texture, strength) in [(&middle, 2.0), (&grey, 0.0)] {
-        let found = OnCpu.densified(picture.clone(), 1.0, &layer(texture, strength), None).unwrap();
+        let found = on_fields::apply_density(
+            &mut Compute::Cpu,
+            &picture,
+            1.0,
+            &layer(texture, strength),
+            None,
+        );
         assert_eq!(found, picture);
     }
     let none = Field::filled(40, 30, 0.0);
-    let masked = OnCpu.densified(picture.clone(), 1.0, &layer(&grey, 2.0), Some(&none)).unwrap();
+    let masked =
+        on_fields::apply_density(&mut Compute::Cpu, &picture, 1.0, &layer(&grey, 2.0), Some(&none));
     assert_eq!(masked, picture, "a mask of 0");
 }
 
@@ -42,8 +53,13 @@ fn density_is_the_formula_within_its_limits() {
     let picture = any_picture(33, 21, 3);
     let texture = any_grey(33, 21, 4);
     for strength in [-3.0, -0.4, 0.7, 1.9, 9.0] {
-        let found =
-            OnCpu.densified(picture.clone(), 1.0, &layer(&texture, strength), None).unwrap();
+        let found = on_fields::apply_density(
+            &mut Compute::Cpu,
+            &picture,
+            1.0,
+            &layer(&texture, strength),
+            None,
+        );
         for i in 0..found.values().len() {
             let (found, c) = (found.values()[i], picture.values()[i]);
             let d = (1.0 + f64::from(strength) * (f64::from(texture.values()[i]) - 0.5)).max(0.0);
@@ -72,9 +88,9 @@ fn column(color: [f32; 3]) -> Field<[f32; 4]> {
 fn edges_darken_inside_the_paint_only_and_at_both_its_sides() {
     let picture = column([0.8, 0.7, 0.6]);
     for width_px in [0.0, 1.5] {
-        let edges = OnCpu.edges(&picture, width_px).unwrap();
-        let layers = [DensityLayer { texture: &edges, strength: 1.5, pivot: 0.0 }];
-        let found = OnCpu.densified(picture.clone(), 1.0, &layers, None).unwrap();
+        let edges = on_fields::edges(&mut Compute::Cpu, &picture, width_px);
+        let layers = [(&edges, 1.5, 0.0)];
+        let found = on_fields::apply_density(&mut Compute::Cpu, &picture, 1.0, &layers, None);
         for x in 0..30 {
             let (before, after) = (picture[(x, 4)], found[(x, 4)]);
             if !(10..20).contains(&x) {
@@ -94,7 +110,7 @@ fn edges_darken_inside_the_paint_only_and_at_both_its_sides() {
 fn edges_are_the_symmetric_gradient() {
     let mut picture = any_picture(17, 12, 5);
     picture.values_mut().iter_mut().for_each(|color| color[3] = 1.0);
-    let edges = OnCpu.edges(&picture, 0.0).unwrap();
+    let edges = on_fields::edges(&mut Compute::Cpu, &picture, 0.0);
     for y in 0..12 {
         for x in 0..17 {
             let p = |x: usize, y: usize| picture[(x.clamp(1, 17) - 1, y.clamp(1, 12) - 1)];
@@ -112,7 +128,7 @@ fn edges_are_the_symmetric_gradient() {
     let step = (0..400).map(|i| if i % 40 < 20 { [0.0, 0.0, 0.0, 1.0] } else { [1.0; 4] });
     let step = Field::from_values(40, 10, step.collect());
     for width_px in [0.0, 0.7, 2.0] {
-        let edges = OnCpu.edges(&step, width_px).unwrap();
+        let edges = on_fields::edges(&mut Compute::Cpu, &step, width_px);
         let row = edges.row(5, 0, 40);
         let sum: f32 = row.iter().sum();
         assert!((sum - 2.0).abs() < 1e-5, "{width_px}: {sum}");
@@ -132,7 +148,7 @@ fn wobble_displaces_by_the_stated_px() {
     let ramp = |i: usize| [(i % 60) as f32 / 100.0, (i / 60) as f32 / 100.0, 0.5, 1.0];
     let picture = Field::from_values(60, 50, (0..3000).map(ramp).collect());
     for px_per_slope in [30.0, -75.0, 122.5] {
-        let found = OnCpu.wobbled(picture.clone(), &heights, px_per_slope).unwrap();
+        let found = on_fields::wobble(&mut Compute::Cpu, &picture, &heights, px_per_slope);
         let (x, y) = (0.02 * px_per_slope, 0.04 * px_per_slope);
         for at in [(20, 20), (31, 17), (25, 30)] {
             let [red, green, blue, covered] = found[at];
@@ -145,14 +161,14 @@ fn wobble_displaces_by_the_stated_px() {
             }
         }
     }
-    let still = OnCpu.wobbled(picture.clone(), &heights, 0.0).unwrap();
+    let still = on_fields::wobble(&mut Compute::Cpu, &picture, &heights, 0.0);
     assert_eq!(still, picture);
 }
 
 #[test]
 fn wobble_never_mixes_in_the_color_of_bare_paper() {
     let picture = column([0.9, 0.8, 0.7]);
-    let found = OnCpu.wobbled(picture, &any_grey(30, 8, 6), 2.3).unwrap();
+    let found = on_fields::wobble(&mut Compute::Cpu, &picture, &any_grey(30, 8, 6), 2.3);
     for color in found.values().iter().filter(|color| color[3] > 0.0) {
         for (found, wanted) in color.iter().zip([0.9, 0.8, 0.7]) {
             assert!((found - wanted).abs() < 1e-6, "{color:?}");
@@ -168,8 +184,13 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let paint = Field::filled(200, 100, [0.2, 0.3, 0.4, 1.0]);
     let reach = |threshold| DryBrushReach { threshold, softness: 1e-3, patches: 0.0 };
     for threshold in [0.1, 0.37, 0.8] {
-        let found =
-            OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(threshold), None).unwrap();
+        let found = on_fields::apply_dry_brush(
+            &mut Compute::Cpu,
+            &paint,
+            (&heights, &flow),
+            reach(threshold),
+            None,
+        );
         let covered: f32 = found.values().iter().map(|color| color[3]).sum();
         let below = heights.values().iter().filter(|height| **height < threshold).count();
         let bare = 20000.0 - covered;
@@ -177,15 +198,27 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
         assert!(found.values().iter().all(|c| c[..3] == [0.2, 0.3, 0.4]), "colours stay");
     }
     let none = Field::filled(200, 100, 0.0);
-    let masked = OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(0.6), Some(&none));
-    assert_eq!(masked.unwrap(), paint, "a mask of 0");
-    assert_eq!(OnCpu.dry_brushed(paint.clone(), &heights, &flow, reach(0.0), None).unwrap(), paint);
+    let masked = on_fields::apply_dry_brush(
+        &mut Compute::Cpu,
+        &paint,
+        (&heights, &flow),
+        reach(0.6),
+        Some(&none),
+    );
+    assert_eq!(masked, paint, "a mask of 0");
+    assert_eq!(
+        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), reach(0.0), None),
+        paint
+    );
     let patches = DryBrushReach { patches: 1.0, ..reach(0.6) };
-    let thick = OnCpu.dry_brushed(paint.clone(), &heights, &flow, patches, None).unwrap();
+    let thick =
+        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), patches, None);
     assert_eq!(thick, paint, "a wash that is not thin");
     let thin = Field::filled(200, 100, 0.1);
-    let all = OnCpu.dry_brushed(paint.clone(), &heights, &thin, patches, None).unwrap();
-    let whole = OnCpu.dry_brushed(paint, &heights, &flow, reach(0.6), None).unwrap();
+    let all =
+        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &thin), patches, None);
+    let whole =
+        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), reach(0.6), None);
     assert_eq!(all, whole, "a thin wash");
 }
 
@@ -199,7 +232,7 @@ fn colors_alike_are_told_by_cielab() {
         Lab::from_xyz(xyz.into(), white).to_array()
     };
     let range = ColorRange::around(like, 40.0);
-    let found = OnCpu.color_mask(&picture, range, None).unwrap();
+    let found = on_fields::color_mask(&mut Compute::Cpu, &picture, range, None);
     for (found, color) in found.values().iter().zip(picture.values()) {
         let own = lab(Rgb([color[0], color[1], color[2]].map(f64::from)));
         let off = own.iter().zip(lab(like)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
@@ -214,19 +247,19 @@ fn colors_alike_are_told_by_cielab() {
 fn a_sheet_shows_its_color_where_bare_and_its_slopes_in_the_light() {
     let heights = Field::from_values(30, 8, (0..240).map(|i| 0.02 * (i % 30) as f32).collect());
     let picture = column([0.5, 0.4, 0.3]);
-    let sheet = Sheet { color: [0.9, 0.8, 0.7], relief: 0.5 };
-    let found = OnCpu.on_sheet(picture.clone(), &heights, sheet).unwrap();
+    let shading = PaperShading { color: [0.9, 0.8, 0.7], relief: 0.5 };
+    let found = on_fields::shade_paper(&mut Compute::Cpu, &picture, &heights, shading);
     // Two pixels rise by 0.04.
     let light = 1.02;
     for (x, own) in [(5, [1.0, 1.0, 1.0]), (15, [0.5, 0.4, 0.3])] {
         for i in 0..3 {
-            let wanted = own[i] * sheet.color[i] * light;
+            let wanted = own[i] * shading.color[i] * light;
             assert!((found[(x, 4)][i] - wanted).abs() < 1e-6, "{x}: {:?}", found[(x, 4)]);
         }
     }
     assert!(found.values().iter().all(|color| color[3].to_bits() == 1.0_f32.to_bits()));
-    let white = Sheet { color: [1.0; 3], relief: 0.0 };
+    let white = PaperShading { color: [1.0; 3], relief: 0.0 };
     let mut full = any_picture(30, 8, 9);
     full.values_mut().iter_mut().for_each(|color| color[3] = 1.0);
-    assert_eq!(OnCpu.on_sheet(full.clone(), &heights, white).unwrap(), full);
+    assert_eq!(on_fields::shade_paper(&mut Compute::Cpu, &full, &heights, white), full);
 }

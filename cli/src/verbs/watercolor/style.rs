@@ -1,4 +1,4 @@
-//! How a watercolor looks: a preset, a file, single settings.
+//! The style of a watercolor: a preset, a file of settings, single settings.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use crate::failure::Refusal;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Look")]
-pub(super) struct LookOptions {
+pub(super) struct StyleOptions {
     /// Settings that come with impasto [default: those between]
     #[arg(long, value_name = "NAME", value_parser = preset_names())]
     preset: Option<Preset>,
@@ -22,7 +22,7 @@ pub(super) struct LookOptions {
     set: Vec<String>,
 }
 
-impl LookOptions {
+impl StyleOptions {
     /// The settings, and the files they were read from.
     pub(super) fn settings(&self) -> anyhow::Result<(Settings, Vec<PathBuf>)> {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
@@ -35,7 +35,7 @@ impl LookOptions {
             let before = settings.clone();
             (settings.paper.scan, settings.toon.greys) = (None, None);
             settings = settings.changed(&name, &text)?;
-            // Pictures stand beside the file that names them.
+            // Paths of pictures are relative to the file that names them.
             let folder = path.parent().unwrap_or(Path::new(""));
             let beside = |named: Option<String>, before: Option<String>| {
                 named.map(|file| folder.join(file).display().to_string()).or(before)
@@ -60,13 +60,13 @@ impl LookOptions {
     }
 }
 
-/// Presets by name; others are refused with these.
+/// Parses the name of a preset; an error lists the names.
 pub(super) fn preset_names() -> impl TypedValueParser<Value = Preset> {
     let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
     names.try_map(|name| name.parse::<Preset>())
 }
 
-/// A value as TOML has it: words need no quotes here, and `.5` is a number.
+/// A value in TOML notation: words need no quotes here, and `.5` is a number.
 fn as_toml(value: &str) -> String {
     if let Ok(whole) = value.parse::<i64>() {
         return whole.to_string();

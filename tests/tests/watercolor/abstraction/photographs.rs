@@ -1,12 +1,13 @@
-//! From photographs to a wash.
+//! The abstraction of photographs.
 
 use std::io::Cursor;
 
 use image::{ImageFormat, Rgba, RgbaImage};
-use render::photograph::Photograph;
-use render::watercolor::{
-    OnCpu, OnGpu, PhotographDoorError, PhotographSettings, SegmentationSettings, from_photograph,
-};
+use render::compute::Compute;
+use render::picture::Photograph;
+use render::segmentation::SegmentationSettings;
+use render::watercolor::{AbstractionError, RegionSettings, abstract_photograph};
+use spectra::hint::Explain;
 use suite::adapter::device;
 
 /// Opaque red with a grey speck, half clear blue, and nothing.
@@ -23,19 +24,19 @@ fn photograph() -> Photograph {
     Photograph::from_bytes("made.png", bytes.get_ref()).expect("it was just written")
 }
 
-fn settings(smoothing_radius_px: u32) -> PhotographSettings {
+fn settings(smoothing_radius_px: u32) -> RegionSettings {
     let segmentation = SegmentationSettings {
         spatial_radius_px: 4.0,
         range_radius: 8.0,
         least_region_px: 2,
         tone_step: 0.0,
     };
-    PhotographSettings { segmentation, smoothing_radius_px }
+    RegionSettings { segmentation, smoothing_radius_px }
 }
 
 #[test]
 fn photographs_become_flat_with_their_opacity() {
-    let found = from_photograph(&mut OnCpu, &photograph(), 90, &settings(3)).unwrap();
+    let found = abstract_photograph(&mut Compute::cpu(), &photograph(), 90, &settings(3)).unwrap();
     assert_eq!((found.original.width(), found.original.height()), (90, 60));
     assert_eq!(found.regions, 4);
     let near = |found: [f32; 4], wanted: [f32; 4]| {
@@ -52,33 +53,33 @@ fn photographs_become_flat_with_their_opacity() {
     assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
     assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
     assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
-    assert_eq!(found.clone().into_wash().color, found.smoothed);
 }
 
 #[test]
 fn the_width_is_as_asked_and_the_shape_kept() {
-    let found = from_photograph(&mut OnCpu, &photograph(), 33, &settings(0)).unwrap();
+    let found = abstract_photograph(&mut Compute::cpu(), &photograph(), 33, &settings(0)).unwrap();
     assert_eq!((found.smoothed.width(), found.smoothed.height()), (33, 22));
     assert_eq!(found.smoothed, found.segmented);
 }
 
 #[test]
-fn backends_open_the_same_door() {
-    let Some(mut gpu) = device().map(OnGpu::new) else { return };
-    let here = from_photograph(&mut OnCpu, &photograph(), 60, &settings(2)).unwrap();
-    assert!(from_photograph(&mut gpu, &photograph(), 60, &settings(2)).unwrap() == here);
+fn processor_and_device_abstract_the_same() {
+    let Some(mut gpu) = device().map(Compute::gpu) else { return };
+    let here = abstract_photograph(&mut Compute::cpu(), &photograph(), 60, &settings(2)).unwrap();
+    assert!(abstract_photograph(&mut gpu, &photograph(), 60, &settings(2)).unwrap() == here);
 }
 
 #[test]
 fn what_cannot_be_is_told() {
-    let told =
-        |width, settings| from_photograph(&mut OnCpu, &photograph(), width, &settings).unwrap_err();
-    assert!(matches!(told(0, settings(1)), PhotographDoorError::NoWidth));
+    let told = |width, settings| {
+        abstract_photograph(&mut Compute::cpu(), &photograph(), width, &settings).unwrap_err()
+    };
+    assert!(matches!(told(0, settings(1)), AbstractionError::NoWidth));
     let large = told(90, settings(500));
-    assert!(matches!(large, PhotographDoorError::Smoothing { found: 500 }), "{large}");
+    assert!(matches!(large, AbstractionError::Smoothing { found: 500 }), "{large}");
     let mut flat = settings(1);
     flat.segmentation.range_radius = -1.0;
     let error = told(90, flat);
     assert_eq!(error.to_string(), "a range radius is a number above 0, found `-1`");
-    assert!(error.hint().contains("flatter"));
+    assert!(error.hint().unwrap().to_string().contains("flatter"));
 }
