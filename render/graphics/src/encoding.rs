@@ -60,7 +60,8 @@ mod tests {
 
     #[test]
     fn bare_pixels_are_white() {
-        let picture = Field::from_values(2, 1, vec![[0.2, 0.3, 0.4, 0.0], [0.2, 0.3, 0.4, 1.0]]);
-        assert_eq!(over_white(&picture).values(), [[1.0; 4], [0.2, 0.3, 0.4, 1.0]]);
+        let picture =
+            Field::from_values(2, 1, vec![[0.25, 0.5, 0.75, 0.0], [0.25, 0.5, 0.75, 1.0]]);
+        assert_eq!(over_white(&picture).values(), [[1.0; 4], [0.25, 0.5, 0.75, 1.0]]);
     }
 }
