@@ -1,4 +1,4 @@
-//! What computes a painting: the processor or a graphics device.
+//! Options that choose between the processor and a graphics device.
 
 use clap::{Args, ValueEnum};
 use render::compute::Compute;
@@ -22,13 +22,13 @@ enum BackendName {
 /// Where to compute.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct BackendOption {
-    /// What computes
+    /// Where to compute
     #[arg(long, value_enum, default_value = "auto")]
     backend: BackendName,
 }
 
 impl BackendOption {
-    /// What computes: the processor or a graphics device.
+    /// Opens the processor or the graphics device for computing images.
     pub(crate) fn compute(&self) -> Result<Compute, DeviceError> {
         Compute::choose(self.choice())
     }

@@ -11,7 +11,7 @@ pub struct Field<T> {
 }
 
 impl<T: Clone> Field<T> {
-    /// `value` everywhere.
+    /// A field with `value` in every cell.
     #[must_use]
     pub fn filled(width: usize, height: usize, value: T) -> Self {
         Self { width, height, values: vec![value; width * height] }
@@ -19,10 +19,10 @@ impl<T: Clone> Field<T> {
 }
 
 impl<T> Field<T> {
-    /// `values` in rows of `width`.
+    /// A field of `values`, row by row from the top.
     ///
     /// # Panics
-    /// If they do not fill `height` rows.
+    /// If there are not `width` x `height` values.
     #[must_use]
     pub fn from_values(width: usize, height: usize, values: Vec<T>) -> Self {
         let found = values.len();
@@ -30,19 +30,19 @@ impl<T> Field<T> {
         Self { width, height, values }
     }
 
-    /// Cells in a row.
+    /// Number of columns.
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// All cells.
+    /// The rectangle of all cells.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         Rect { x: 0, y: 0, width: self.width, height: self.height }
@@ -54,7 +54,7 @@ impl<T> Field<T> {
         &self.values
     }
 
-    /// The values, to be changed.
+    /// The values for changing them, row by row.
     pub fn values_mut(&mut self) -> &mut [T] {
         &mut self.values
     }

@@ -9,13 +9,13 @@ pub const TILE: usize = 64;
 /// A rectangle of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Rect {
-    /// The leftmost column.
+    /// The leftmost column, from 0.
     pub x: usize,
-    /// The topmost row.
+    /// The topmost row, from 0.
     pub y: usize,
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
 }
 

@@ -109,7 +109,7 @@ pub enum ToneRampError {
     OutOfRange {
         /// Index of the grey, from 0.
         index: usize,
-        /// The grey.
+        /// Value of the grey.
         grey: f32,
     },
     /// The file is not a picture that can be read.

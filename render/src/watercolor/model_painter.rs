@@ -59,15 +59,18 @@ pub struct ModelPainter {
     height: usize,
 }
 
-/// What flow and dispersion hold on to, in this order, while the mesh moves.
+/// The anchoring of the textures while the mesh moves. Pairs are flow and dispersion.
 #[derive(Debug)]
 enum Noise {
+    /// To the screen.
     Static,
+    /// To particles of the mesh.
     Particles { particles: Particles, waves: [AnchoredNoise; 2], textures: [GreyImage; 2] },
+    /// Each feature of the noise to a point of the mesh.
     Features { features: [Features; 2], noises: [FeatureNoise; 2] },
 }
 
-/// What a camera sees, shaded but without effects.
+/// The mesh as a camera sees it, shaded but without effects.
 struct ShadedFrame {
     /// Toon-shaded colour with coverage.
     color: ColorImage,

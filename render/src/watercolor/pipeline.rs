@@ -76,7 +76,7 @@ pub struct FrameTextures<'a> {
     pub flow: &'a GreyImage,
     /// Grains of pigment, 0 to 1.
     pub dispersion: &'a GreyImage,
-    /// The paper.
+    /// Heights of the paper, 0 to 1.
     pub paper: &'a PaperImage,
 }
 

@@ -23,7 +23,7 @@ use graphics::tones::{TONES, ToneRamp};
 /// How surfaces are lit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Toon {
-    /// The light.
+    /// Direction of the light.
     pub light: DistantLight,
     /// Grey by the cosine between light and surface.
     pub tones: ToneRamp,

@@ -8,9 +8,9 @@ use render::mesh::Mesh;
 use render::watercolor::{ModelPainter, Stage};
 
 use super::animation::FramesDigest;
+use super::job::{Job, Made};
 use super::photograph::pigment_names;
 use super::pigments::opened;
-use super::{Job, Made};
 use crate::console::Console;
 use crate::failure::Refusal;
 

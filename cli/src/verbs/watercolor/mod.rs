@@ -10,6 +10,8 @@ mod outputs;
 
 mod animation;
 
+mod job;
+
 mod photograph;
 
 mod mesh;
@@ -17,14 +19,15 @@ mod mesh;
 use std::path::PathBuf;
 
 use clap::Args;
-use render::watercolor::{GlazePainter, Preset, Settings};
+use render::watercolor::Preset;
 use serde_json::json;
 
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::Refusal;
 use animation::{Animation, AnimationOptions};
-use outputs::{OpenOutputs, OutputOptions};
+use job::{Job, Made};
+use outputs::OutputOptions;
 use pigments::PigmentOptions;
 use style::{StyleOptions, preset_names};
 use subject::{Subject, SubjectOptions};
@@ -60,26 +63,6 @@ pub(crate) struct Watercolor {
     animation: AnimationOptions,
     #[command(flatten)]
     pigments: PigmentOptions,
-}
-
-/// What to make of a subject.
-struct Job {
-    title: String,
-    settings: Settings,
-    glazes: Option<GlazePainter>,
-    outputs: OpenOutputs,
-    animation: Option<Animation>,
-}
-
-/// The result, for the summary.
-struct Made {
-    size: (usize, usize),
-    backend: String,
-    /// Number of regions of a photograph.
-    regions: Option<usize>,
-    /// Number of frames of an animation, and how many of them existed already.
-    frames: Option<(usize, usize)>,
-    pigments: Vec<String>,
 }
 
 impl Watercolor {

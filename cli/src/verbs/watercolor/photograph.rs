@@ -5,9 +5,9 @@ use render::encoding::linear_from_encoded;
 use render::picture::Photograph;
 use render::watercolor::{GlazePainter, PhotographPainter};
 
+use super::job::{Job, Made};
 use super::outputs::NamedStage;
 use super::pigments::opened;
-use super::{Job, Made};
 use crate::console::Console;
 use crate::progress::Waiting;
 

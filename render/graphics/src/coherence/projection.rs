@@ -101,7 +101,7 @@ impl Projection {
         model.truncate() / model.w
     }
 
-    /// What a row of pixels contributes to [`Self::unproject`] before the division by w.
+    /// The contribution of a row of pixels to [`Self::unproject`] before the division by w.
     pub(super) fn row(&self, y: usize) -> Vec4 {
         let up = 1.0 - (2 * y + 1) as f32 / self.height as f32;
         self.model_from_clip.w_axis + self.model_from_clip.y_axis * up

@@ -1,4 +1,4 @@
-//! What computes images: the processor or a graphics device.
+//! Computation of images on the processor or on a graphics device.
 //!
 //! [`Compute`] is a value, chosen once when a program starts. An operation on images is a
 //! plain function over `&mut Compute`; it has two forms, one for the processor and one
@@ -29,7 +29,7 @@ pub use plane::Plane;
 use crate::field::Field;
 use crate::gpu::{BackendChoice, Device, DeviceError, choose};
 
-/// What computes images, and where they live meanwhile.
+/// The processor or a graphics device, which computes images and holds them in its memory.
 #[derive(Debug)]
 pub enum Compute {
     /// The processor: rows of pixels on all cores.
@@ -39,23 +39,24 @@ pub enum Compute {
 }
 
 impl Compute {
-    /// The processor.
+    /// Computes on the processor.
     #[must_use]
     pub fn cpu() -> Self {
         Self::Cpu
     }
 
-    /// A graphics device.
+    /// Computes on a graphics device.
     #[must_use]
     pub fn gpu(device: Device) -> Self {
         Self::Gpu(Box::new(GpuCompute::new(device)))
     }
 
-    /// What `choice` asks for: `Auto` takes the processor where no hardware adapter opens.
+    /// Computes on the processor or the device that `choice` selects: `Auto` selects the
+    /// processor if no hardware adapter can be opened.
     ///
     /// # Errors
-    /// For [`BackendChoice::Gpu`] alone: [`DeviceError::NoAdapter`] where there is none,
-    /// and the driver's error where it does not open.
+    /// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable
+    /// adapter, or the driver's error if it cannot be opened.
     pub fn choose(choice: BackendChoice) -> Result<Self, DeviceError> {
         Ok(choose(choice)?.map_or(Self::Cpu, Self::gpu))
     }
@@ -87,7 +88,7 @@ impl Compute {
         }
     }
 
-    /// Copies `field` into the memory that this computes in.
+    /// Copies `field` into the memory of the processor or device.
     ///
     /// # Errors
     /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.

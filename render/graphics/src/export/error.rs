@@ -32,7 +32,7 @@ pub enum ExportError {
         x: usize,
         /// Row from 0.
         y: usize,
-        /// The value.
+        /// Value of the pixel.
         found: f32,
     },
     /// An amount of pigment is negative.

@@ -37,7 +37,7 @@ pub enum FrameError {
     /// The number of frames is not the announced one.
     #[error("an animation of {wanted} frames, found `{found}`")]
     Count {
-        /// Announced number.
+        /// Number of frames announced in advance.
         wanted: usize,
         /// Number of frames given.
         found: usize,

@@ -77,7 +77,7 @@ pub enum SequenceError {
     Frame {
         /// Path of the frame.
         path: PathBuf,
-        /// The reason.
+        /// Error of the encoder or decoder.
         source: FrameError,
     },
 }

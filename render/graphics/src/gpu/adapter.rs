@@ -1,40 +1,35 @@
-//! Which graphics adapters there are, and which would be used.
+//! The graphics adapters of this machine.
 
-use std::path::Path;
-
-use super::device::Device;
-use super::error::DeviceError;
-
-/// What computes, as the user asks.
+/// The user's choice of what computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BackendChoice {
-    /// A hardware adapter where there is one, else the processor.
+    /// A hardware adapter if there is one, else the processor.
     #[default]
     Auto,
-    /// The processor.
+    /// The processor, never a graphics adapter.
     Cpu,
-    /// Any graphics adapter, hardware before software.
+    /// Any graphics adapter; hardware is preferred to software.
     Gpu,
 }
 
-/// What an adapter is; the first are preferred.
+/// Kinds of adapters, in order of preference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// A card with memory of its own.
+    /// A graphics card with memory of its own.
     Discrete,
-    /// Part of the processor.
+    /// Graphics hardware in the processor, which shares its memory.
     Integrated,
-    /// Lent by a host.
+    /// Hardware that a virtual machine gets from its host.
     Virtual,
-    /// Unknown hardware.
+    /// Hardware of a kind that the driver does not state.
     Other,
-    /// A program that acts as one, for tests: slower than painting on the
-    /// processor.
+    /// An emulation on the processor (such as lavapipe), for tests: slower than
+    /// [`BackendChoice::Cpu`].
     Software,
 }
 
 impl Kind {
-    /// For people.
+    /// The kind in lower case, as it is printed.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,33 +42,33 @@ impl Kind {
     }
 }
 
-/// What limits a computation.
+/// Limits of an adapter that matter to kernels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// The largest buffer that a kernel may use, in bytes.
+    /// Size of the largest buffer that a kernel can bind, in bytes.
     pub binding_bytes: u64,
-    /// Groups that one dispatch may have in each direction.
+    /// Largest number of workgroups of a dispatch in each direction.
     pub groups: u32,
-    /// Storage buffers that one kernel may use.
+    /// Largest number of storage buffers of a kernel.
     pub storage_buffers: u32,
-    /// Invocations in a group.
+    /// Largest number of invocations per workgroup.
     pub invocations: u32,
 }
 
 /// A graphics adapter of this machine.
 #[derive(Debug, Clone)]
 pub struct Adapter {
-    /// As the driver names it.
+    /// Name that the driver reports.
     pub name: String,
-    /// The interface it is reached by: `vulkan`.
+    /// Graphics interface through which it is used: `vulkan`.
     pub backend: String,
-    /// The driver and its version.
+    /// Name and version of the driver.
     pub driver: String,
-    /// What it is.
+    /// Discrete, integrated, virtual, other or software.
     pub kind: Kind,
-    /// Its limits.
+    /// Sizes and counts that kernels must keep to.
     pub limits: Limits,
-    /// Why it cannot be used, if so.
+    /// The reason why it cannot be used. `None` if it can.
     pub unfit: Option<String>,
     pub(super) inner: wgpu::Adapter,
 }
@@ -105,7 +100,7 @@ impl Adapter {
         }
     }
 
-    /// Whether it is hardware that kernels run on.
+    /// Whether it is hardware, not an emulation on the processor.
     #[must_use]
     pub fn is_hardware(&self) -> bool {
         self.kind != Kind::Software
@@ -125,12 +120,12 @@ fn unfit(limits: Limits, computes: bool) -> Option<String> {
     Some(format!("{} {} where {} are needed", lacking.1, lacking.0, lacking.2))
 }
 
-/// Every adapter of this machine, the one to be used first. Empty where no
+/// Every adapter of this machine, in order of preference; unfit ones come last. Empty if no
 /// driver is installed.
 #[must_use]
 pub fn adapters() -> Vec<Adapter> {
-    // Never OpenGL, which another crate of the same program may have switched on:
-    // nothing was tried there.
+    // Excludes OpenGL, which another crate of the program may have enabled: kernels were
+    // never tested on it.
     let backends = wgpu::Instance::enabled_backend_features() & wgpu::Backends::PRIMARY;
     if backends.is_empty() {
         return Vec::new();
@@ -146,7 +141,7 @@ pub fn adapters() -> Vec<Adapter> {
     found
 }
 
-/// The adapter that `choice` would use, of [`adapters`]; none for the processor.
+/// The adapter of `adapters` that `choice` selects. `None` means the processor.
 #[must_use]
 pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
     let fits = |adapter: &&Adapter| {
@@ -158,40 +153,6 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
             }
     };
     adapters.iter().find(fits)
-}
-
-/// Whether the system shows a graphics device at all. Linux has a node for each;
-/// without one no driver is loaded, as some print to the terminal.
-fn hardware_is_possible() -> bool {
-    const NODES: [&str; 5] = ["/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kfd", "/dev/mali0"];
-    !cfg!(target_os = "linux") || NODES.iter().any(|node| Path::new(node).exists())
-}
-
-/// The device to paint on; none for the processor.
-///
-/// # Errors
-/// For [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] where there is none, and
-/// the driver's error where it does not open. `Auto` then takes the processor.
-pub fn choose(choice: BackendChoice) -> Result<Option<Device>, DeviceError> {
-    let skipped = match choice {
-        BackendChoice::Auto => !hardware_is_possible(),
-        BackendChoice::Cpu => true,
-        BackendChoice::Gpu => false,
-    };
-    if skipped {
-        return Ok(None);
-    }
-    let adapters = adapters();
-    let opened = best(&adapters, choice).map(Device::open).transpose();
-    match (choice, opened) {
-        (BackendChoice::Gpu, Ok(None)) => {
-            let unfit = adapters.first().and_then(|adapter| adapter.unfit.clone());
-            let reason = unfit.unwrap_or_else(|| "no driver offers one".to_owned());
-            Err(DeviceError::NoAdapter { reason })
-        }
-        (BackendChoice::Gpu, opened) => opened,
-        (_, opened) => Ok(opened.ok().flatten()),
-    }
 }
 
 #[cfg(test)]
@@ -207,10 +168,5 @@ mod tests {
         let few = Limits { storage_buffers: 4, ..enough };
         let reason = "4 storage buffers a kernel where 8 are needed";
         assert_eq!(unfit(few, true).as_deref(), Some(reason));
-    }
-
-    #[test]
-    fn the_processor_needs_no_adapter() {
-        assert!(matches!(choose(BackendChoice::Cpu), Ok(None)));
     }
 }

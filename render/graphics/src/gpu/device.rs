@@ -1,4 +1,4 @@
-//! An open device: its buffers, and how it tells that it cannot.
+//! An open device: its memory and its errors.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -6,34 +6,34 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::adapter::Adapter;
-use super::drawing::RasterPipeline;
 use super::error::DeviceError;
 use super::pipeline::Pipeline;
-use super::transfer::Rows;
+use super::raster_pipeline::RasterPipeline;
 
-/// Submissions that may wait on the device; a further one waits here.
+/// Number of submissions that may be pending on the device; the next one waits for the
+/// oldest. Chosen by hand: few, so that memory is freed soon.
 const IN_FLIGHT: usize = 3;
 
-/// How many buffers were made.
-static MADE: AtomicU64 = AtomicU64::new(0);
+/// Number of the next buffer.
+static NEXT_NUMBER: AtomicU64 = AtomicU64::new(0);
 
-/// Memory on the device. Clones are the same memory.
+/// Memory on the device. Clones share it.
 #[derive(Debug, Clone)]
 pub struct Buffer {
     pub(super) inner: wgpu::Buffer,
-    /// Its number among all that were made.
+    /// Unique among all buffers of the program.
     pub(super) number: u64,
 }
 
-/// What the driver reported outside of any call.
+/// Errors that the driver reported through its callbacks.
 #[derive(Debug, Default)]
 struct Reported {
     lost: Option<String>,
     refused: Option<String>,
 }
 
-/// An open device. What it computes is asked for by submissions, one after the
-/// other; errors of one may come back with a later call.
+/// An open device. It executes submissions in their order; an error of one may be returned
+/// by a later call.
 #[derive(Debug)]
 pub struct Device {
     adapter: Adapter,
@@ -41,7 +41,7 @@ pub struct Device {
     pub(super) queue: wgpu::Queue,
     reported: Arc<Mutex<Reported>>,
     pub(super) pipelines: BTreeMap<&'static str, Pipeline>,
-    /// By shader, and whether only fronts are drawn.
+    /// Key: name of the shader, and whether back faces are culled.
     pub(super) raster_pipelines: BTreeMap<(&'static str, bool), RasterPipeline>,
     pub(super) parameters: Option<Buffer>,
     pub(super) batch: Option<Buffer>,
@@ -49,10 +49,10 @@ pub struct Device {
 }
 
 impl Device {
-    /// Opens `adapter`, with all that it lends to buffers.
+    /// Opens `adapter` with the largest buffers that it allows.
     ///
     /// # Errors
-    /// [`DeviceError::NoAdapter`] if it is unfit or the driver does not open it.
+    /// [`DeviceError::NoAdapter`] if the adapter is unfit or the driver cannot open it.
     pub fn open(adapter: &Adapter) -> Result<Self, DeviceError> {
         if let Some(reason) = &adapter.unfit {
             return Err(DeviceError::NoAdapter { reason: format!("{}: {reason}", adapter.name) });
@@ -97,14 +97,13 @@ impl Device {
         })
     }
 
-    /// The adapter that it is of.
+    /// The adapter of this device.
     #[must_use]
     pub fn adapter(&self) -> &Adapter {
         &self.adapter
     }
 
-    /// Gives the device back to the driver; every call after it is told that
-    /// the device was lost.
+    /// Destroys the device: every later call returns [`DeviceError::Lost`].
     pub fn close(&self) {
         self.inner.destroy();
         self.reported().lost.get_or_insert("it was closed".to_owned());
@@ -114,7 +113,8 @@ impl Device {
         self.reported.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What the driver has reported since the last call.
+    /// Returns the first error that the driver has reported since the last call; `what` names
+    /// the current operation.
     pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
         if let Some(reason) = reported.lost.clone() {
@@ -126,10 +126,10 @@ impl Device {
         }
     }
 
-    /// Whether `bytes` fit one buffer.
+    /// Checks that a buffer may have `bytes`; `what` names its content in the error.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] if they do not.
+    /// [`DeviceError::TooLarge`] beyond the limit of the adapter.
     pub fn check_size(&self, what: &'static str, bytes: u64) -> Result<(), DeviceError> {
         let limit = self.adapter.limits.binding_bytes;
         if bytes > limit {
@@ -138,11 +138,11 @@ impl Device {
         Ok(())
     }
 
-    /// A buffer of `bytes` zeros for `what`.
+    /// Allocates a buffer of `bytes` zeros; `what` names its content in errors.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] beyond the adapter's limit,
-    /// [`DeviceError::OutOfMemory`] if it has no more.
+    /// [`DeviceError::TooLarge`] beyond the limit of the adapter,
+    /// [`DeviceError::OutOfMemory`] if the device has no memory left.
     pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, DeviceError> {
         self.check_size(what, bytes)?;
         let usage = wgpu::BufferUsages::STORAGE
@@ -150,6 +150,26 @@ impl Device {
             | wgpu::BufferUsages::COPY_SRC
             | wgpu::BufferUsages::COPY_DST;
         self.allocate(what, bytes, usage)
+    }
+
+    /// Runs `compile`, which creates a pipeline; `what` names it in the error.
+    ///
+    /// # Errors
+    /// [`DeviceError::Refused`] if the driver rejects the shader.
+    pub(super) fn compile<T>(
+        &self,
+        what: impl FnOnce() -> String,
+        compile: impl FnOnce(&wgpu::Device) -> T,
+    ) -> Result<T, DeviceError> {
+        let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal]
+            .map(|filter| self.inner.push_error_scope(filter));
+        let pipeline = compile(&self.inner);
+        for scope in scopes.into_iter().rev() {
+            if let Some(error) = pollster::block_on(scope.pop()) {
+                return Err(DeviceError::Refused { what: what(), reason: one_line(&error) });
+            }
+        }
+        Ok(pipeline)
     }
 
     pub(super) fn allocate(
@@ -169,30 +189,16 @@ impl Device {
             return Err(DeviceError::OutOfMemory { what, bytes });
         }
         self.check(what)?;
-        Ok(Buffer { inner, number: MADE.fetch_add(1, Ordering::Relaxed) })
+        Ok(Buffer { inner, number: NEXT_NUMBER.fetch_add(1, Ordering::Relaxed) })
     }
 
-    /// A buffer of `values`.
-    ///
-    /// # Errors
-    /// As [`Device::buffer`], and [`DeviceError::Lost`].
-    pub fn buffer_of<T: bytemuck::Pod>(
-        &mut self,
-        what: &'static str,
-        values: &[T],
-    ) -> Result<Buffer, DeviceError> {
-        let buffer = self.buffer(what, size_of_val(values) as u64)?;
-        self.write(&buffer, Rows::start(values.len()), values)?;
-        Ok(buffer)
-    }
-
-    /// Waits until a submission is done.
+    /// Waits until a submission has been executed.
     pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
         self.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None })
     }
 
-    /// Hands finished memory back. wgpu panics where a device is lost during a
-    /// wait; that is caught here.
+    /// Polls the driver, which frees memory no longer in use. wgpu panics if the device is lost
+    /// during a wait; the panic is caught here.
     fn poll(&self, how: wgpu::PollType) -> Result<(), DeviceError> {
         self.check("a submission")?;
         let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
@@ -202,7 +208,7 @@ impl Device {
         self.check("a submission")
     }
 
-    /// Follows a submission, so that only a few wait on the device.
+    /// Registers a submission, and waits for an older one if too many are pending.
     pub(super) fn follow(&mut self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
         self.in_flight.push_back(index);
         match self.in_flight.len() > IN_FLIGHT {
@@ -211,10 +217,11 @@ impl Device {
         }
     }
 
-    /// Waits until all that was submitted is done.
+    /// Waits until all submissions have been executed.
     ///
     /// # Errors
-    /// [`DeviceError::Lost`], or what the driver refused.
+    /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::Refused`] if the driver
+    /// rejected a command.
     pub fn finish(&mut self) -> Result<(), DeviceError> {
         let last = self.in_flight.pop_back();
         self.in_flight.clear();
@@ -225,7 +232,7 @@ impl Device {
     }
 }
 
-/// An error of the driver in one line.
+/// The message of a driver error without line breaks.
 pub(super) fn one_line(error: &wgpu::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,23 +1,17 @@
-//! Raster shaders made ready, and triangles drawn.
+//! Triangles drawn into targets.
 
-use super::device::{Buffer, Device, one_line};
+use super::binding::bind_group;
+use super::device::{Buffer, Device};
 use super::error::DeviceError;
 use super::raster::RasterShader;
+use super::raster_pipeline::{RasterPipeline, TEXEL_BYTES};
 use super::recording::Draw;
-use super::target::{DEPTH, TEXEL, TEXEL_BYTES};
-
-/// A raster shader as the driver compiled it, for one choice of sides.
-#[derive(Debug, Clone)]
-pub(super) struct RasterPipeline {
-    render: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-}
 
 impl Device {
-    /// Compiles `shader` unless it is; by itself when first drawn with.
+    /// Compiles `shader` unless that was done before.
     ///
     /// # Errors
-    /// [`DeviceError::Refused`] if the driver does not take it.
+    /// [`DeviceError::Refused`] if the driver rejects the shader.
     pub(super) fn prepare_raster(
         &mut self,
         shader: &'static RasterShader,
@@ -26,83 +20,15 @@ impl Device {
         if self.raster_pipelines.contains_key(&(shader.name, front_only)) {
             return Ok(());
         }
-        let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal]
-            .map(|filter| self.inner.push_error_scope(filter));
-        let pipeline = self.compile_raster(shader, front_only);
-        for scope in scopes.into_iter().rev() {
-            if let Some(error) = pollster::block_on(scope.pop()) {
-                let what = format!("raster shader `{}`", shader.name);
-                return Err(DeviceError::Refused { what, reason: one_line(&error) });
-            }
-        }
+        let what = || format!("raster shader `{}`", shader.name);
+        let compile = |device: &wgpu::Device| RasterPipeline::compile(device, shader, front_only);
+        let pipeline = self.compile(what, compile)?;
         self.check(shader.name)?;
         self.raster_pipelines.insert((shader.name, front_only), pipeline);
         Ok(())
     }
 
-    fn compile_raster(&self, shader: &'static RasterShader, front_only: bool) -> RasterPipeline {
-        let label = Some(shader.name);
-        let entry = |binding: u32, ty, has_dynamic_offset, bytes| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset,
-                min_binding_size: std::num::NonZero::new(bytes),
-            },
-            count: None,
-        };
-        let bytes = shader.parameters.bytes as u64;
-        let mut entries = vec![entry(0, wgpu::BufferBindingType::Uniform, true, bytes)];
-        let read = wgpu::BufferBindingType::Storage { read_only: true };
-        entries.extend((1..=shader.buffers as u32).map(|binding| entry(binding, read, false, 0)));
-        let layout = self.inner.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label,
-            entries: &entries,
-        });
-        let module = self.inner.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(shader.source.into()),
-        });
-        let whole = self.inner.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label,
-            bind_group_layouts: &[Some(&layout)],
-            ..wgpu::PipelineLayoutDescriptor::default()
-        });
-        let render = self.inner.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label,
-            layout: Some(&whole),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("corner"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: front_only.then_some(wgpu::Face::Back),
-                ..wgpu::PrimitiveState::default()
-            },
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: DEPTH,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("pixel"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(TEXEL.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        RasterPipeline { render, layout }
-    }
-
-    /// Draws, then copies what was drawn into a buffer.
+    /// Encodes the drawing of triangles and the copy of the picture into a buffer.
     pub(super) fn encode_draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -111,11 +37,12 @@ impl Device {
     ) {
         let Draw { shader, target, .. } = draw;
         let pipeline = &self.raster_pipelines[&(shader.name, draw.front_only)];
-        let group = self.bind(
+        let group = bind_group(
+            &self.inner,
             shader.name,
             &pipeline.layout,
-            (parameters, shader.parameters.bytes),
-            &draw.buffers.iter().collect::<Vec<_>>(),
+            (&parameters.inner, shader.parameters.bytes),
+            draw.buffers.iter().map(|buffer| &buffer.inner),
         );
         let [r, g, b, a] = draw.background.map(f64::from);
         let clear = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a });
@@ -145,8 +72,8 @@ impl Device {
     }
 }
 
-/// Copies the target into a buffer without gaps between rows. The device copies
-/// only rows of a multiple of 256 bytes at once; others go one by one.
+/// Copies the target into a buffer without gaps between rows. WebGPU copies several rows at
+/// once only if each has a multiple of 256 bytes; others are copied one by one.
 fn copy_texels(encoder: &mut wgpu::CommandEncoder, Draw { target, into, .. }: &Draw) {
     let row_bytes = target.width * TEXEL_BYTES;
     let at_once = match row_bytes % wgpu::COPY_BYTES_PER_ROW_ALIGNMENT {

@@ -2,45 +2,45 @@
 
 use spectra::hint::{Explain, Fault, Hint};
 
-/// Why a graphics device failed. The processor never fails so.
+/// A graphics device failed. Computation on the processor never returns this.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DeviceError {
-    /// None that computes.
+    /// No adapter can be used.
     #[error("no graphics adapter: {reason}")]
     NoAdapter {
-        /// Why not.
+        /// The reason, one line.
         reason: String,
     },
-    /// The device went away, with all that was on it.
+    /// The device was lost, with all its memory.
     #[error("the graphics device was lost: {reason}")]
     Lost {
-        /// As the driver tells it.
+        /// Message of the driver.
         reason: String,
     },
-    /// One buffer beyond the adapter's limit.
+    /// A buffer is larger than the adapter allows.
     #[error("{what} takes {bytes} bytes, the device lends {limit}")]
     TooLarge {
-        /// What was to be kept.
+        /// Description of the content.
         what: &'static str,
-        /// What it takes.
+        /// Size of the content in bytes.
         bytes: u64,
-        /// What one buffer may take.
+        /// Largest size of a buffer in bytes.
         limit: u64,
     },
-    /// Within the limits, but there is no such memory left.
+    /// The device has too little free memory.
     #[error("{what} takes {bytes} bytes, more than the device has left")]
     OutOfMemory {
-        /// What was to be kept.
+        /// Description of the content.
         what: &'static str,
-        /// What it takes.
+        /// Size of the content in bytes.
         bytes: u64,
     },
-    /// The driver does not take what we gave it.
+    /// The driver rejected a shader, a buffer or a command.
     #[error("the graphics driver refuses {what}: {reason}")]
     Refused {
-        /// A kernel, a buffer or a submission.
+        /// Description of what was rejected.
         what: String,
-        /// As the driver tells it.
+        /// Message of the driver.
         reason: String,
     },
 }

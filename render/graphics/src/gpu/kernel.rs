@@ -1,38 +1,38 @@
-//! A kernel: WGSL and what it is bound to, as data.
+//! A compute kernel as data: its WGSL source and its bindings.
 
 use super::layout::Layout;
 
-/// The width and height of a group of invocations.
+/// Width and height of a workgroup, in invocations.
 pub const GROUP: u32 = 8;
 
-/// How a kernel uses a storage buffer.
+/// Use of a storage buffer by a kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
-    /// It reads it.
+    /// The kernel only reads it.
     Read,
-    /// It reads and writes it.
+    /// The kernel reads and writes it.
     Write,
-    /// It reads the data that were recorded beside the dispatches.
+    /// The kernel reads the data recorded by [`super::Recording::batch`].
     Batch,
 }
 
-/// One entry point of a shader. Group 0 binds its parameters (a uniform
-/// struct) at 0 and its storage buffers from 1 on, in order.
+/// An entry point of a compute shader. Group 0 binds its parameters (a uniform struct) at 0
+/// and its storage buffers from 1 on, in order.
 #[derive(Debug)]
 pub struct Kernel {
-    /// The entry point, which names pipeline and errors too.
+    /// Name of the entry point, also used in errors; unique among all shaders.
     pub name: &'static str,
-    /// The whole WGSL, its parts joined.
+    /// The complete WGSL source, parts concatenated.
     pub source: &'static str,
-    /// The struct at binding 0.
+    /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
-    /// Other structs that Rust writes or reads.
+    /// Layouts of other structs that Rust writes or reads.
     pub structs: &'static [Layout],
-    /// The storage buffers.
+    /// Uses of the storage buffers, in the order of their bindings.
     pub storage: &'static [Storage],
 }
 
-/// Groups enough for `cells` in a row.
+/// Number of workgroups along a row of `cells` invocations.
 #[must_use]
 pub fn groups(cells: usize) -> u32 {
     (cells as u32).div_ceil(GROUP)

@@ -1,19 +1,19 @@
 //! Structs that Rust and WGSL share.
 
-/// Name, size and offsets of a struct, as Rust lays it out; a test holds it
-/// against the WGSL struct of the same name.
+/// Name, size and field offsets of a struct in Rust; a test compares them with the WGSL struct
+/// of the same name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
-    /// The struct's name, the same in both languages.
+    /// Name of the struct, equal in both languages.
     pub name: &'static str,
-    /// Its size.
+    /// Size of the struct in bytes.
     pub bytes: usize,
-    /// Its fields, each with its offset.
+    /// Name of each field and its offset in bytes.
     pub fields: &'static [(&'static str, usize)],
 }
 
-/// The [`Layout`] of a `repr(C)` struct. All its fields must be named, in any
-/// order: else it does not compile.
+/// The [`Layout`] of a `repr(C)` struct. All its fields must be listed, in any order;
+/// otherwise it does not compile.
 #[macro_export]
 macro_rules! layout {
     ($type:ident { $($field:ident),* $(,)? }) => {{

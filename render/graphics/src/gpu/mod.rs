@@ -1,8 +1,8 @@
-//! The graphics device: adapters, buffers, kernels, recording, readback. Knows
+//! The graphics device: adapters, buffers, kernels, recorded commands and readback. Knows
 //! nothing of paint; the only folder that names wgpu.
 //!
-//! Kernels keep to what every WebGPU device has: 8 storage buffers, groups of
-//! 8 x 8, 32-bit numbers. Buffers may be as large as the adapter lends.
+//! Kernels keep to what every WebGPU device has: 8 storage buffers, workgroups of 8 x 8 and
+//! 32-bit numbers. Buffers may be as large as the adapter allows.
 
 mod error;
 
@@ -12,9 +12,19 @@ mod kernel;
 
 mod raster;
 
+mod binding;
+
+mod pipeline;
+
+mod raster_pipeline;
+
+mod rows;
+
 mod adapter;
 
 mod device;
+
+mod choose;
 
 mod target;
 
@@ -22,11 +32,12 @@ mod recording;
 
 mod transfer;
 
-mod pipeline;
-
 mod drawing;
 
-pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best, choose};
+mod submission;
+
+pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best};
+pub use choose::choose;
 pub use device::{Buffer, Device};
 pub use error::DeviceError;
 pub use kernel::{GROUP, Kernel, Storage, groups};
@@ -34,5 +45,5 @@ pub use layout::Layout;
 pub use layout::layout;
 pub use raster::RasterShader;
 pub use recording::{Recording, Triangles};
+pub use rows::Rows;
 pub use target::Target;
-pub use transfer::Rows;

@@ -1,21 +1,21 @@
-//! A shader that draws triangles, as data.
+//! A raster shader as data: its WGSL source and its bindings.
 
 use super::layout::Layout;
 
-/// A shader that draws triangles. Its entry points are `corner`, which takes the
-/// index of a corner (three a triangle, nothing else is fed to it), and `pixel`,
-/// which gives the four numbers of a pixel. Group 0 binds its parameters at 0
-/// and the buffers that it reads from 1 on, in order.
+/// A shader that draws triangles. Its vertex entry point `corner` takes only the index of a
+/// corner (three per triangle); its fragment entry point `pixel` returns the four numbers of
+/// a pixel. Group 0 binds its parameters at 0 and the buffers that it reads from 1 on, in
+/// order.
 #[derive(Debug)]
 pub struct RasterShader {
-    /// Names pipeline and errors; unlike that of any other shader or kernel.
+    /// Name used in errors; unique among all shaders and kernels.
     pub name: &'static str,
-    /// The whole WGSL, its parts joined.
+    /// The complete WGSL source, parts concatenated.
     pub source: &'static str,
-    /// The struct at binding 0.
+    /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
-    /// Other structs that Rust writes or reads.
+    /// Layouts of other structs that Rust writes or reads.
     pub structs: &'static [Layout],
-    /// How many buffers it reads.
+    /// Number of storage buffers that it reads.
     pub buffers: usize,
 }

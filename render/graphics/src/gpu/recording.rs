@@ -1,38 +1,39 @@
-//! What is to be done on the device, written down first: dispatches, what they
-//! read beside their buffers, triangles, copies.
+//! Commands recorded for the device: dispatches, draws and copies, with the parameters and
+//! data that they read.
 
 use super::device::Buffer;
 use super::kernel::Kernel;
 use super::raster::RasterShader;
 use super::target::Target;
 
-/// Parameters of every dispatch start at a multiple of this: no adapter wants more.
+/// Alignment of the parameters of each dispatch, in bytes: the largest that WebGPU adapters
+/// require.
 const ALIGNMENT: usize = 256;
 
-/// One command.
+/// A command for the device.
 #[derive(Debug)]
 pub(super) enum Command {
-    /// A kernel over groups of invocations.
+    /// Runs a kernel over workgroups.
     Dispatch {
         kernel: &'static Kernel,
-        /// Those that are not [`super::Storage::Batch`], in order.
+        /// Storage buffers other than [`super::Storage::Batch`], in order.
         buffers: Vec<Buffer>,
-        /// Where in [`Recording::parameters`] its own start.
+        /// Offset of its parameters in [`Recording::parameters`], in bytes.
         parameters: u32,
         groups: [u32; 3],
     },
-    /// Bytes from one buffer into another.
+    /// Copies the first `bytes` of one buffer to another.
     Copy { from: Buffer, to: Buffer, bytes: u64 },
-    /// Triangles over a whole target, and that into a buffer.
+    /// Draws triangles into a target and copies it to a buffer.
     Draw(Box<Draw>),
 }
 
-/// Triangles to be drawn.
+/// A draw of triangles.
 #[derive(Debug)]
 pub(super) struct Draw {
     pub(super) shader: &'static RasterShader,
     pub(super) buffers: Vec<Buffer>,
-    /// As of a dispatch.
+    /// Offset of its parameters in [`Recording::parameters`], in bytes.
     pub(super) parameters: u32,
     pub(super) triangles: u32,
     pub(super) front_only: bool,
@@ -41,18 +42,18 @@ pub(super) struct Draw {
     pub(super) into: Buffer,
 }
 
-/// What is drawn, and how.
+/// Number of triangles of a draw, and how they are drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Triangles {
-    /// How many.
+    /// Number of triangles.
     pub count: usize,
-    /// Only those that run counter-clockwise in the picture.
+    /// Culls triangles whose corners run clockwise in the picture.
     pub front_only: bool,
-    /// The four numbers of a pixel that shows none.
+    /// The four numbers of a pixel without a triangle.
     pub background: [u32; 4],
 }
 
-/// Commands that go to the device in one submission, with all they read.
+/// Commands for one submission, with the parameters and batch data that they read.
 #[derive(Debug, Default)]
 pub struct Recording {
     pub(super) commands: Vec<Command>,
@@ -61,8 +62,8 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Puts `items` beside the dispatches, for kernels that read the batch;
-    /// the index of the first, counted in items.
+    /// Appends `items` to the data that [`super::Storage::Batch`] binds. Returns the index of
+    /// the first, counted in items.
     pub fn batch<T: bytemuck::Pod>(&mut self, items: &[T]) -> u32 {
         let first = self.batch.len().div_ceil(size_of::<T>());
         self.batch.resize(first * size_of::<T>(), 0);
@@ -70,10 +71,11 @@ impl Recording {
         first as u32
     }
 
-    /// Runs `kernel` with `parameters` on `buffers`, over `groups`.
+    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z); 0 in any
+    /// direction records nothing.
     ///
     /// # Panics
-    /// If the parameters are not the kernel's.
+    /// If the size of `parameters` is not that of the kernel's parameters.
     pub fn dispatch<P: bytemuck::Pod>(
         &mut self,
         kernel: &'static Kernel,
@@ -85,18 +87,17 @@ impl Recording {
         if groups.contains(&0) {
             return;
         }
-        let parameters = self.keep(bytemuck::bytes_of(parameters));
+        let parameters = self.push_parameters(bytemuck::bytes_of(parameters));
         let buffers = buffers.iter().map(|&buffer| buffer.clone()).collect();
         self.commands.push(Command::Dispatch { kernel, buffers, parameters, groups });
     }
 
-    /// Draws triangles with `shader` over all of `target`, the first of equal depth
-    /// before the later ones, and puts the four numbers of every pixel into `into`,
-    /// row by row without gaps.
+    /// Records a draw of triangles over the whole `target`; of equal depths the first triangle
+    /// wins. Then copies the four numbers of every pixel to `into`, row by row without gaps.
     ///
     /// # Panics
-    /// If the parameters or the number of buffers are not the shader's, or there
-    /// are more than 2^32 corners.
+    /// If the size of `parameters` or the number of buffers is not that of the shader, or
+    /// there are more than 2^32 corners.
     pub fn draw<P: bytemuck::Pod>(
         &mut self,
         shader: &'static RasterShader,
@@ -109,7 +110,7 @@ impl Recording {
         assert_eq!(buffers.len(), shader.buffers, "buffers of {}", shader.name);
         let Triangles { count, front_only, background } = triangles;
         assert!(count <= u32::MAX as usize / 3, "{count} triangles");
-        let parameters = self.keep(bytemuck::bytes_of(parameters));
+        let parameters = self.push_parameters(bytemuck::bytes_of(parameters));
         self.commands.push(Command::Draw(Box::new(Draw {
             shader,
             buffers: buffers.iter().map(|&buffer| buffer.clone()).collect(),
@@ -122,32 +123,32 @@ impl Recording {
         })));
     }
 
-    /// Where the parameters of a command stand.
-    fn keep(&mut self, parameters: &[u8]) -> u32 {
+    /// Appends the parameters of a command. Returns their offset in bytes.
+    fn push_parameters(&mut self, parameters: &[u8]) -> u32 {
         let start = self.parameters.len().next_multiple_of(ALIGNMENT);
         self.parameters.resize(start, 0);
         self.parameters.extend_from_slice(parameters);
         start as u32
     }
 
-    /// Copies the first `bytes` of one buffer into another.
+    /// Records a copy of the first `bytes` of one buffer to another.
     pub fn copy(&mut self, from: &Buffer, to: &Buffer, bytes: u64) {
         self.commands.push(Command::Copy { from: from.clone(), to: to.clone(), bytes });
     }
 
-    /// How many commands wait.
+    /// Number of recorded commands.
     #[must_use]
     pub fn len(&self) -> usize {
         self.commands.len()
     }
 
-    /// Whether nothing waits.
+    /// Whether no command is recorded.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.commands.is_empty()
     }
 
-    /// Bytes that go to the device with it.
+    /// Size of the parameters and batch data, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.parameters.len() + self.batch.len()

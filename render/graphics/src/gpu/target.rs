@@ -1,18 +1,10 @@
-//! Pictures that triangles are drawn into: four numbers and a depth a pixel.
+//! Pictures that triangles are drawn into: four numbers and a depth per pixel.
 
 use super::device::{Device, one_line};
 use super::error::DeviceError;
+use super::raster_pipeline::{DEPTH, TEXEL, TEXEL_BYTES};
 
-/// What a pixel of a [`Target`] holds.
-pub(super) const TEXEL: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
-
-/// Of the depth, 0 (near) to 1 (far).
-pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-
-/// Bytes of a pixel.
-pub(super) const TEXEL_BYTES: u32 = 16;
-
-/// A picture to draw into. Clones are the same memory.
+/// A picture to draw into. Clones share its memory.
 #[derive(Debug, Clone)]
 pub struct Target {
     pub(super) texels: wgpu::Texture,
@@ -31,11 +23,11 @@ impl Target {
 }
 
 impl Device {
-    /// A target of `width` x `height` pixels.
+    /// Allocates a target of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`DeviceError::Refused`] beyond what the adapter draws, or without a pixel;
-    /// [`DeviceError::OutOfMemory`].
+    /// [`DeviceError::Refused`] if a side is 0 or beyond the limit of the adapter,
+    /// [`DeviceError::OutOfMemory`] if the device has no memory left.
     pub fn target(&self, width: usize, height: usize) -> Result<Target, DeviceError> {
         let most = self.inner.limits().max_texture_dimension_2d as usize;
         if width.max(height) > most || width.min(height) == 0 {

@@ -1,4 +1,4 @@
-//! Regions with their neighbours, joined two at a time.
+//! The graph of regions and their neighbours, in which two regions at a time are merged.
 
 use rayon::prelude::*;
 
@@ -6,26 +6,27 @@ use super::mean_shift::Mode;
 use super::regions::{Sets, numbered};
 use crate::field::Field;
 
-/// What a region is by its pixels.
+/// Sums over the pixels of a region.
 #[derive(Debug, Clone, Copy, Default)]
 struct Weight {
+    /// Number of pixels.
     pixels: u32,
     /// Sums of L*, u*, v* of the modes.
     colors: [f64; 3],
-    /// Pixels with paint.
+    /// Number of pixels with paint.
     painted: u32,
 }
 
-/// The regions of a picture. One that was joined goes by the least label of its parts.
+/// The regions of a picture. A merged region keeps the smallest label of its parts.
 pub(super) struct RegionGraph {
     weights: Vec<Weight>,
-    /// Labels of those beside each, some of them since joined to others.
+    /// Labels of the neighbours of each region; some may have been merged since.
     neighbours: Vec<Vec<u32>>,
     sets: Sets,
 }
 
 impl RegionGraph {
-    /// That of `count` labelled regions with the modes of their pixels.
+    /// The graph of `count` labelled regions with the modes of their pixels.
     pub(super) fn new(
         labels: &Field<u32>,
         count: usize,
@@ -44,17 +45,18 @@ impl RegionGraph {
         Self { weights, neighbours: neighbours(labels, count), sets: Sets::new(count) }
     }
 
-    /// Labels that were given out.
+    /// Number of labels, merged regions included.
     pub(super) fn count(&self) -> usize {
         self.weights.len()
     }
 
-    /// Its pixels; none if it was joined to another.
+    /// Number of pixels of a region; 0 if it was merged into another.
     pub(super) fn pixels(&self, region: u32) -> u32 {
         self.weights[region as usize].pixels
     }
 
-    /// The distance of the mean modes in CIELUV. Paint is far from bare paper.
+    /// The distance of the mean modes of two regions in CIELUV, increased by a large constant
+    /// if one is paint and the other bare paper.
     pub(super) fn apart(&self, one: u32, other: u32) -> f64 {
         const PAPER: f64 = 1e4;
         let [one, other] = [one, other].map(|region| &self.weights[region as usize]);

@@ -138,28 +138,28 @@ impl SegmentationSettings {
     }
 }
 
-/// A setting out of its range.
+/// A setting of segmentation is out of its range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SegmentationError {
-    /// Of the window in the picture.
+    /// The radius of the window in the picture.
     #[error(
         "a spatial radius is 1 to {} px, found `{found}`",
         SegmentationSettings::MAX_SPATIAL_PX
     )]
     SpatialRadius {
-        /// What it was, in pixels.
+        /// The radius that was set, in pixels.
         found: f32,
     },
-    /// Of the window in colour.
+    /// The radius of the window in colour.
     #[error("a range radius is a number above 0, found `{found}`")]
     RangeRadius {
-        /// What it was.
+        /// The radius that was set, in CIELUV.
         found: f32,
     },
-    /// Of the steps in colour.
+    /// The step between tones.
     #[error("a step of tone is a number of 0 and up, found `{found}`")]
     ToneStep {
-        /// What it was.
+        /// The step that was set, in CIELUV.
         found: f32,
     },
 }

@@ -1,4 +1,4 @@
-//! What a camera sees of a mesh, pixel by pixel.
+//! The visible surface of a mesh, pixel by pixel.
 //!
 //! [`Model`] holds a mesh in the memory of a [`crate::compute::Compute`] and draws it into
 //! a [`VisibilityBuffer`]; [`SurfacePoint`] then interpolates position, normal and

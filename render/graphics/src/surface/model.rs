@@ -124,7 +124,7 @@ impl HostModel {
         Self { mesh, rasteriser: Rasteriser::default(), last }
     }
 
-    /// The mesh.
+    /// The mesh in the form for rasterising.
     #[must_use]
     pub fn mesh(&self) -> &PackedMesh {
         &self.mesh

@@ -1,4 +1,4 @@
-//! Some settings changed, the others kept.
+//! Changes of single settings.
 
 use toml::{Table, Value};
 
@@ -6,7 +6,8 @@ use super::file::SettingsError;
 use super::whole::Settings;
 
 impl Settings {
-    /// These settings, but for what `text` (TOML) says; `name` stands in errors.
+    /// A copy of these settings in which the keys of `text` (TOML) are replaced. Errors call
+    /// the text `name`.
     ///
     /// ```
     /// use render::watercolor::Preset;
@@ -16,9 +17,10 @@ impl Settings {
     /// ```
     ///
     /// # Errors
-    /// [`SettingsError`] as of a file.
+    /// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its
+    /// range.
     pub fn changed(&self, name: &str, text: &str) -> Result<Self, SettingsError> {
-        // By itself first, so that faults are told with their lines.
+        // Parsed by itself first, so that errors name the line.
         Self::from_toml(name, text)?;
         let broken =
             |reason: String| SettingsError::Line { name: name.to_owned(), line: 1, reason };
@@ -42,7 +44,7 @@ mod tests {
     use super::super::Preset;
 
     #[test]
-    fn what_is_not_named_stays() {
+    fn settings_that_are_not_named_stay() {
         let sketch = Preset::Sketch.settings();
         assert_eq!(sketch.changed("none", "").unwrap(), sketch);
         let text = "[paper]\nseed = 7\n[dry_brush]\ncolour = \"#102030\"";
@@ -55,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told_as_those_of_files() {
+    fn errors_name_the_line_of_the_text() {
         let sketch = Preset::Sketch.settings();
         for (text, wanted) in [
             ("\nedges.strength = 99", "mine, line 2: edges.strength takes 0 to 10, found `99`"),

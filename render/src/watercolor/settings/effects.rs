@@ -1,107 +1,106 @@
-//! What water, pigment, paper and brush do.
+//! Settings of the effects of water, pigment, paper and brush.
 
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
 use paint::ground::PaperFinish;
 
-/// How much water is in the paint.
+/// Amount of pigment in the water.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WashSettings {
-    /// Density of all paint, 0..=4: 1 as the colours are, less is paler, 2 is two glazes.
+    /// Density of all paint, 0..=4: 1 keeps the colours, less is paler, 2 is two layers.
     pub density: f32,
 }
 
-/// Edges that follow the paper's grain.
+/// Displacement of the picture by the grain of the paper, which makes edges uneven.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WobbleSettings {
-    /// How far the picture is displaced, root mean square, in px, 0..=50; 0 is not
-    /// at all.
+    /// Root mean square displacement in px, 0..=50; 0 displaces nothing.
     pub amount_px: f32,
 }
 
-/// Pigment carried to the rim of a wash.
+/// Edge darkening: pigment carried to the rim of a wash.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EdgeSettings {
-    /// What density gains where the picture steps from black to white, 0..=10; 0
-    /// is nothing.
+    /// Increase of density at a step from black to white, 0..=10; 0 darkens nothing.
     pub strength: f32,
-    /// Standard deviation of the blur before edges are looked for, in px, 0..=20:
-    /// wider edges are paler.
+    /// Standard deviation of the blur before edge detection in px, 0..=20: wider edges are
+    /// paler.
     pub width_px: f32,
 }
 
-/// Large clouds, as of a wet wash.
+/// Turbulent flow: large clouds of pigment in a wet wash.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FlowSettings {
-    /// How much density changes, 0..=5.
+    /// Strength of the change of density, 0..=5.
     pub strength: f32,
     /// Width of the largest clouds in px, 2..=4096.
     pub size_px: f32,
-    /// How many sizes of clouds, each half as wide as the one before, 1..=8.
+    /// Number of sizes of clouds, each half as wide as the previous one, 1..=8.
     pub octaves: u32,
-    /// The same seed, the same clouds.
+    /// Seed of the random clouds, any number.
     pub seed: u64,
 }
 
-/// Fine grains, as of pigment that flocks.
+/// Pigment dispersion: fine grains of pigment that flocculates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct DispersionSettings {
-    /// How much density changes, 0..=5.
+    /// Strength of the change of density, 0..=5.
     pub strength: f32,
     /// Standard deviation of the finest grains in px, 0.1..=64.
     pub finest_px: f32,
-    /// How many sizes of grains, each twice as wide as the one before, 1..=6.
+    /// Number of sizes of grains, each twice as wide as the previous one, 1..=6.
     pub scales: u32,
-    /// The same seed, the same grains.
+    /// Seed of the random grains, any number.
     pub seed: u64,
 }
 
-/// What is painted on.
+/// The paper under the picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PaperSettings {
-    /// How it was made.
+    /// Finish of the paper: hot-pressed, cold-pressed or rough.
     pub kind: PaperFinish,
-    /// A picture of heights (PNG or JPEG, white the highest) instead.
+    /// Path of a picture of heights (PNG or JPEG, white is high) that replaces the generated
+    /// paper.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scan: Option<String>,
-    /// Px to a pixel of the scan, 0.05..=20.
+    /// Width of a pixel of the scan in px, 0.05..=20.
     pub scan_scale: f32,
-    /// The same seed, the same paper.
+    /// Seed of the generated paper, any number.
     pub seed: u64,
-    /// How much density changes: pigment settles in hollows, 0..=5.
+    /// Strength of the change of density, 0..=5: pigment settles in the hollows.
     pub strength: f32,
-    /// Width of the usual bump of cold-pressed paper in px, 1..=512; of rough paper
-    /// they are wider.
+    /// Usual width of the bumps of cold-pressed paper in px, 1..=512; those of rough paper are
+    /// wider in proportion.
     pub grain_px: f32,
-    /// Its colour, `#rrggbb`.
+    /// Colour of the paper, `#rrggbb`.
     #[serde(rename = "colour")]
     pub color: String,
-    /// How much light from the upper left shows the grain, 0..=1.
+    /// Strength of the shading of the grain by light from the upper left, 0..=1.
     pub relief: f32,
 }
 
-/// A brush that touches the heights of the paper only.
+/// A dry brush, which touches only the high parts of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct DryBrushSettings {
-    /// The share of the paper that stays bare, 0..=1.
+    /// Share of the paper that stays bare, 0..=1.
     pub amount: f32,
-    /// Over how much of the paper's height paint fades out, 0.001..=0.5.
+    /// Width of the band of heights in which paint fades out, 0.001..=0.5.
     pub softness: f32,
-    /// How much of it is kept to patches, 0..=1: at 0 the brush is dry everywhere, at 1
-    /// only where the wash flows thinly.
+    /// Restriction to patches, 0..=1: at 0 the brush is dry everywhere, at 1 only where the
+    /// flow is thin.
     pub patches: f32,
-    /// Only where the wash is of about this colour, `#rrggbb`.
+    /// Colour of the wash to which the dry brush is limited, `#rrggbb`. `None` is no limit.
     #[serde(rename = "colour", skip_serializing_if = "Option::is_none")]
     pub color: Option<String>,
-    /// How far from that colour, in CIELAB, 1..=200.
+    /// Largest distance from that colour in CIELAB, 1..=200.
     pub tolerance: f32,
 }
 

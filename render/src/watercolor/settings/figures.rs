@@ -1,6 +1,6 @@
-//! Numbers that have a range.
+//! Settings that are numbers, with their ranges.
 
-/// A number of the settings with what it may be.
+/// A number of the settings and its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Figure {
     /// Group and key: `wobble.amount_px`.
@@ -15,7 +15,7 @@ impl Figure {
         Self { key, value: value.into(), least, most }
     }
 
-    /// Whether it is a number within its range.
+    /// Whether the value is a number within the range.
     pub(super) fn fits(&self) -> bool {
         (self.least..=self.most).contains(&self.value)
     }

@@ -1,15 +1,37 @@
-//! Settings from TOML, and what can be wrong with such a file.
+//! Settings from TOML, and the errors of such files.
 
 use std::path::Path;
+use std::str::FromStr;
 
 use spectra::color::Rgb;
 use spectra::hint::{Explain, Hint};
 use toml::de::{DeTable, DeValue};
 
+use super::preset::Preset;
 use super::whole::Settings;
 
+impl Preset {
+    /// The settings of the preset.
+    ///
+    /// # Panics
+    /// Never: a test reads all presets.
+    #[must_use]
+    pub fn settings(self) -> Settings {
+        Settings::from_toml(self.name(), self.text()).expect("a shipped preset is valid")
+    }
+}
+
+impl FromStr for Preset {
+    type Err = SettingsError;
+
+    fn from_str(name: &str) -> Result<Self, SettingsError> {
+        let found = Self::ALL.into_iter().find(|preset| preset.name() == name);
+        found.ok_or_else(|| SettingsError::Preset { name: name.to_owned() })
+    }
+}
+
 impl Settings {
-    /// Reads a file; what it leaves out stays at the default.
+    /// Reads a TOML file. Keys that it leaves out have the defaults.
     ///
     /// # Errors
     /// [`SettingsError`] with file, line and key.
@@ -21,10 +43,10 @@ impl Settings {
         }
     }
 
-    /// The same, of a file's text; `name` stands in errors.
+    /// Parses the text of a settings file. Errors call the file `name`.
     ///
     /// # Errors
-    /// [`SettingsError`].
+    /// [`SettingsError`] with line and key.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, SettingsError> {
         let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Line {
             name: name.to_owned(),
@@ -35,7 +57,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Whether all figures lie in their ranges and colours are such.
+    /// Checks that all numbers are within their ranges and colours are written `#rrggbb`.
     fn check(&self, name: &str, text: &str) -> Result<(), SettingsError> {
         let line = |key| line_of(text, start_of(text, key).unwrap_or(0));
         if let Some(figure) = self.figures().into_iter().find(|figure| !figure.fits()) {
@@ -45,7 +67,7 @@ impl Settings {
                 key: figure.key,
                 least: figure.least,
                 most: figure.most,
-                // As the file has it: f32 does not hold every such number.
+                // As f32, which prints the number as the file has it.
                 value: figure.value as f32,
             });
         }
@@ -63,13 +85,13 @@ impl Settings {
     }
 }
 
-/// The line, counted from 1, of a place in `text`.
+/// The line, counted from 1, of a byte offset in `text`.
 fn line_of(text: &str, place: usize) -> usize {
     let before = &text.as_bytes()[..place.min(text.len())];
     1 + before.iter().filter(|byte| **byte == b'\n').count()
 }
 
-/// Where the value of `group.key` starts.
+/// The byte offset at which the value of `group.key` starts.
 fn start_of(text: &str, key: &str) -> Option<usize> {
     let table = DeTable::parse(text).ok()?;
     let mut parts = key.split('.');
@@ -81,59 +103,59 @@ fn start_of(text: &str, key: &str) -> Option<usize> {
     Some(value.span().start)
 }
 
-/// Why a file holds no settings.
+/// Settings cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SettingsError {
-    /// No such file, or not text.
+    /// The file does not exist or is not text.
     #[error("{name}: {reason}")]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         name: String,
-        /// Why not.
+        /// Reason given by the system.
         reason: String,
     },
-    /// Not TOML, a key that is not known, or a value of another kind.
+    /// The text is not TOML, or has an unknown key or a value of a wrong type.
     #[error("{name}, line {line}: {reason}")]
     Line {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
-        /// What is wrong with it.
+        /// Message of the parser.
         reason: String,
     },
-    /// A number out of its range.
+    /// A number is out of its range.
     #[error("{name}, line {line}: {key} takes {least} to {most}, found `{value}`")]
     Figure {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
-        /// Group and key.
+        /// Group and key: `wobble.amount_px`.
         key: &'static str,
-        /// The least.
+        /// Smallest allowed value.
         least: f64,
-        /// The most.
+        /// Largest allowed value.
         most: f64,
-        /// What was given.
+        /// Value in the file.
         value: f32,
     },
-    /// No colour.
+    /// A colour is not written `#rrggbb`.
     #[error("{name}, line {line}: {key} is written #rrggbb, found `{text}`")]
     Color {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
-        /// Group and key.
+        /// Group and key: `paper.colour`.
         key: &'static str,
-        /// What was given.
+        /// Text in the file.
         text: String,
     },
-    /// No such preset.
+    /// There is no preset of this name.
     #[error("there is no preset `{name}`")]
     Preset {
-        /// What was asked for.
+        /// Name that was asked for.
         name: String,
     },
 }
@@ -142,7 +164,7 @@ impl Explain for SettingsError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Unreadable { .. } | Self::Preset { .. } => {
-                let names = super::Preset::ALL.map(super::Preset::name).join(", ");
+                let names = Preset::ALL.map(Preset::name).join(", ");
                 format!("presets are {names}; a file of your own ends in .toml")
             }
             Self::Line { .. } => {

@@ -1,16 +1,16 @@
-//! All that can be set of watercolor, as a file tells it.
-
-mod effects;
+//! The settings of watercolor, and their TOML files.
 
 mod figures;
+
+mod effects;
 
 mod subject;
 
 mod whole;
 
-mod file;
-
 mod preset;
+
+mod file;
 
 mod change;
 

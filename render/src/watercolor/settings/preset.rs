@@ -1,11 +1,6 @@
-//! Settings that come with the program.
+//! The presets that come with the library.
 
-use std::str::FromStr;
-
-use super::file::SettingsError;
-use super::whole::Settings;
-
-/// A set of settings by name.
+/// A shipped style with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Preset {
     /// Soft light, fine grain, edges that stay where they are.
@@ -17,10 +12,10 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All of them.
+    /// All presets, in the order of lists.
     pub const ALL: [Self; 3] = [Self::Portrait, Self::Landscape, Self::Sketch];
 
-    /// As the command line has it.
+    /// The name in lower case, which `parse` accepts.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,7 +25,7 @@ impl Preset {
         }
     }
 
-    /// Its file, a comment above each key.
+    /// The TOML file of the preset, with a comment above each key.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
@@ -38,23 +33,5 @@ impl Preset {
             Self::Landscape => include_str!("../presets/landscape.toml"),
             Self::Sketch => include_str!("../presets/sketch.toml"),
         }
-    }
-
-    /// What its file says.
-    ///
-    /// # Panics
-    /// Never: a test reads all of them.
-    #[must_use]
-    pub fn settings(self) -> Settings {
-        Settings::from_toml(self.name(), self.text()).expect("a preset is sound")
-    }
-}
-
-impl FromStr for Preset {
-    type Err = SettingsError;
-
-    fn from_str(name: &str) -> Result<Self, SettingsError> {
-        let found = Self::ALL.into_iter().find(|preset| preset.name() == name);
-        found.ok_or_else(|| SettingsError::Preset { name: name.to_owned() })
     }
 }

@@ -1,74 +1,74 @@
-//! How photographs and meshes become flat colours, and how noise follows a mesh.
+//! Settings of the flat colours of photographs and meshes, and of noise on moving meshes.
 
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
 
-/// Of photographs: mean shift, then an opening and a closing.
+/// Abstraction of photographs: mean-shift segmentation, then morphological opening and closing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AbstractionSettings {
-    /// Radius in space in px, 1..=128: details up to it merge.
+    /// Radius of the window in the picture in px, 1..=128: smaller details merge.
     pub spatial_px: f32,
-    /// Radius in CIELUV, 1..=100: colours up to it merge.
+    /// Radius of the window in CIELUV, 1..=100: colours less apart merge.
     pub range_luv: f32,
-    /// Gradients are laid in steps of about this, in CIELUV, 0..=200; 0 is in one.
+    /// Step in CIELUV by which gradients are divided into tones, 0..=200; 0 divides nothing.
     pub tone_luv: f32,
-    /// Regions of less than this are merged into a neighbour, in px of area,
-    /// 0..=1e6.
+    /// Area in px below which a region is merged into a neighbour, 0..=1e6.
     pub least_region_px: f32,
-    /// Width of the brush that opens and closes in px, 0..=128; 0 is none.
+    /// Width of the structuring element of opening and closing in px, 0..=128; 0 does
+    /// neither.
     pub brush_px: f32,
 }
 
-/// Of meshes: light in a few steps.
+/// Toon shading of meshes: light in a few steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ToonSettings {
-    /// A picture (PNG or JPEG) whose middle row is the greys from shade to light,
-    /// instead of steps.
+    /// Path of a picture (PNG or JPEG) whose middle row replaces the steps: greys from shade
+    /// to light.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub greys: Option<String>,
-    /// Steps from shade to light, 1..=16; 1 is flat colour.
+    /// Number of steps from shade to light, 1..=16; 1 is flat colour.
     pub levels: u32,
-    /// How much density changes from shade to light, 0..=5.
+    /// Change of density from shade to light, 0..=5.
     pub strength: f32,
-    /// Over what share of a step one runs into the next, 0..=1.
+    /// Share of a step over which it blends into the next, 0..=1.
     pub softness: f32,
-    /// How often normals are averaged over their neighbours, 0..=1000.
+    /// Number of times that normals are averaged with their neighbours, 0..=1000.
     pub smoothing_rounds: u32,
-    /// Where the light stands, in degrees clockwise from the top, -360..=360.
+    /// Direction of the light in degrees clockwise from the top of the picture, -360..=360.
     pub light_azimuth_deg: f32,
-    /// How high it stands, in degrees towards the viewer, 0..=90.
+    /// Elevation of the light in degrees from the picture plane towards the viewer, 0..=90.
     pub light_elevation_deg: f32,
 }
 
-/// What noise holds on to while a mesh moves.
+/// Anchoring of the noise of flow and dispersion while a mesh moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CoherenceMethod {
-    /// The screen (the shower door).
+    /// Fixed to the screen (the shower-door effect).
     Static,
-    /// A few particles of the object, each with a texture.
+    /// Textures attached to a few particles of the mesh.
     Particles,
-    /// Each feature of the noise a quad that sits on the object.
+    /// Each feature of the noise is a quad attached to a point of the mesh.
     #[default]
     Features,
 }
 
-/// Of noise while a mesh moves.
+/// Temporal coherence: noise while a mesh moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CoherenceSettings {
-    /// What noise holds on to.
+    /// Anchoring of the noise.
     pub method: CoherenceMethod,
-    /// How many particles an object has, 1..=256.
+    /// Number of particles of a mesh, 1..=256.
     pub particles: u32,
-    /// Octaves of the infinite zoom, and of features, 1..=8.
+    /// Number of octaves of the infinite zoom and of features, 1..=8.
     pub octaves: u32,
     /// Width of the finest feature in px, 1..=256.
     pub feature_px: f32,
-    /// Features over each place of the object, 0.1..=64.
+    /// Mean number of features that overlap at a point of the mesh, 0.1..=64.
     pub features_per_place: f32,
 }
 

@@ -1,4 +1,4 @@
-//! All settings together.
+//! All settings of watercolor together.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,32 +9,32 @@ use super::effects::{
 use super::figures::Figure;
 use super::subject::{AbstractionSettings, CoherenceSettings, ToonSettings};
 
-/// All that can be set. A file that leaves keys out has these defaults for them.
+/// The style of a watercolor. Keys that a file leaves out have the defaults.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Lengths in px are those of a picture whose longer side has this many,
-    /// 16..=65536; in other pictures they are longer or shorter in proportion.
+    /// Longer side in px of the picture that lengths refer to, 16..=65536; in pictures of
+    /// another size lengths are scaled in proportion.
     pub reference_px: f32,
-    /// Of photographs.
+    /// Flat regions of photographs.
     pub abstraction: AbstractionSettings,
-    /// Of meshes.
+    /// Toon shading of meshes.
     pub toon: ToonSettings,
-    /// Water in the paint.
+    /// Overall density of the paint.
     pub wash: WashSettings,
-    /// Edges that follow the grain.
+    /// Displacement by the grain of the paper.
     pub wobble: WobbleSettings,
     /// Pigment at the rim of a wash.
     pub edges: EdgeSettings,
-    /// Clouds.
+    /// Large clouds of pigment.
     pub flow: FlowSettings,
-    /// Grains of pigment.
+    /// Fine grains of pigment.
     pub dispersion: DispersionSettings,
-    /// What is painted on.
+    /// The paper and its grain.
     pub paper: PaperSettings,
     /// A brush with little water.
     pub dry_brush: DryBrushSettings,
-    /// Of noise while a mesh moves.
+    /// Anchoring of noise while a mesh moves.
     pub coherence: CoherenceSettings,
 }
 
@@ -57,9 +57,9 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The same look in a picture of `width` x `height`: all lengths in its own px,
-    /// which nothing changes a second time. Ranges are those of the reference;
-    /// lengths of small pictures may be less.
+    /// The settings for a picture of `width` x `height` pixels: all lengths are scaled from
+    /// the reference to its pixels. Applying this twice changes nothing. Scaled lengths may be
+    /// outside of the documented ranges, which hold for the reference.
     #[must_use]
     pub fn for_size(&self, width: usize, height: usize) -> Self {
         let longer = width.max(height).max(1) as f32;
@@ -76,7 +76,8 @@ impl Settings {
         own
     }
 
-    /// All effects off, on smooth white paper: what comes in goes out.
+    /// Switches off all effects, on smooth white paper: the pipeline then returns the wash
+    /// unchanged.
     #[must_use]
     pub fn without_effects(mut self) -> Self {
         self.wash.density = 1.0;

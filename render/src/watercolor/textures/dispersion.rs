@@ -7,15 +7,15 @@ use crate::watercolor::settings::DispersionSettings;
 use graphics::field::Field;
 use graphics::noise::random;
 
-/// The standard deviation of the texture, before what little leaves 0..1 is cut.
+/// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
 const SPREAD: f64 = 0.2;
 
-/// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as the
-/// one before and brought to the same spread; Bousseau et al. 2006, section 3.2.
+/// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as that of the
+/// previous one and scaled to the same standard deviation; Bousseau et al. 2006, section 3.2.
 ///
-/// Of mean 0.5 and standard deviation 0.2; what leaves 0..1 (some 1 %) is cut. Blurs are
-/// cut off at three standard deviations; the finest leaves of a wave of `n` px a share of
-/// `exp(-2 (pi finest / n)^2)`.
+/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// Blur kernels end at three standard deviations. The finest blur keeps the share
+/// `exp(-2 (pi finest / n)^2)` of the amplitude of a wave of `n` px.
 #[must_use]
 pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) -> Field<f32> {
     let mut sum = Field::filled(width, height, 0.0_f32);
@@ -23,7 +23,7 @@ pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) ->
     for octave in 0..settings.scales {
         let sigma = f64::from(settings.finest_px) * 2.0_f64.powi(octave as i32);
         let half = half_gaussian(sigma);
-        // Both ways: the square of one way's sum of squares.
+        // The sum of squares of the kernel in one direction; in both it is the square of this.
         let kept = half[0] * half[0] + 2.0 * half[1..].iter().map(|w| w * w).sum::<f64>();
         let weights: Vec<f32> = half.iter().map(|weight| (weight / kept.sqrt()) as f32).collect();
         let seed = settings.seed.wrapping_mul(64).wrapping_add(u64::from(octave));
@@ -33,14 +33,14 @@ pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) ->
     sum
 }
 
-/// Half of a Gaussian, from its middle outwards.
+/// Right half of a Gaussian kernel, centre first, not normalised. `sigma` is in px.
 fn half_gaussian(sigma: f64) -> Vec<f64> {
     let radius = (3.0 * sigma).ceil() as usize;
     (0..=radius).map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp()).collect()
 }
 
-/// Adds blurred white noise of unit variance, times `scale`. Noise goes on beyond the
-/// borders, so that they look like the rest.
+/// Adds blurred white noise of unit variance times `scale`. The noise extends beyond the
+/// borders, so that the texture has the same statistics there.
 fn add_grains(sum: &mut Field<f32>, half: &[f32], seed: u64, scale: f32) {
     let radius = half.len() - 1;
     let (width, height) = (sum.width(), sum.height());
@@ -49,7 +49,7 @@ fn add_grains(sum: &mut Field<f32>, half: &[f32], seed: u64, scale: f32) {
     sideways.par_chunks_mut(width.max(1)).enumerate().for_each_init(
         || vec![0.0; wide],
         |noise, (y, out)| {
-            // A row of its own stream: no thread hears of another.
+            // Each row has its own random stream, so that rows can be computed in any order.
             gaussian(noise, seed, y as u64);
             for (x, out) in out.iter_mut().enumerate() {
                 *out = mean(half, |tap| noise[(x + radius).wrapping_add_signed(tap)]);
@@ -69,7 +69,7 @@ fn mean(half: &[f32], at: impl Fn(isize) -> f32) -> f32 {
     half[0] * at(0) + pairs.map(|(weight, i)| weight * (at(-i) + at(i))).sum::<f32>()
 }
 
-/// Normal numbers by pairs (Box and Muller 1958).
+/// Fills `row` with normally distributed numbers, two at a time (Box and Muller 1958).
 fn gaussian(row: &mut [f32], seed: u64, stream: u64) {
     let mut random = random(seed, stream);
     for pair in row.chunks_mut(2) {

@@ -1,4 +1,4 @@
-//! Turbulent flow: pigment carried along in a wet wash.
+//! Turbulent flow: clouds of pigment carried by the water of a wet wash.
 
 use rayon::prelude::*;
 
@@ -6,15 +6,15 @@ use crate::watercolor::settings::FlowSettings;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
 
-/// The standard deviation of the texture, before what little leaves 0..1 is cut.
+/// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
 const SPREAD: f64 = 0.2;
 
-/// Sums of gradient noise (Perlin 2002), each octave half as wide and half as high
-/// as the one before; Bousseau et al. 2006, section 3.2.
+/// A sum of octaves of gradient noise (Perlin 2002), each with half the wavelength and half
+/// the amplitude of the previous one; Bousseau et al. 2006, section 3.2.
 ///
-/// Of mean 0.5 and standard deviation 0.2; what leaves 0..1 (some 1 %) is cut. Nearly
-/// all of its power lies between half a wave and two waves to the widest cloud and
-/// to the narrowest. Places hold their values however large the field is.
+/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// Nearly all power lies between half a wave per widest cloud and two waves per narrowest
+/// one. The value of a pixel does not depend on the size of the field.
 #[must_use]
 pub fn turbulent_flow(width: usize, height: usize, settings: &FlowSettings) -> Field<f32> {
     let mut random = random(settings.seed, 11);

@@ -1,7 +1,7 @@
-//! What pigment, water and paper look like: fields that change density.
+//! Textures of pigment, water and paper, which change the density of paint.
 //!
-//! All are made with the processor, from seeds or pictures, once; values lie in 0..1
-//! about a mean of 0.5.
+//! The processor computes them once, from seeds or scans. Values lie in 0..1 with a mean of
+//! about 0.5.
 
 mod flow;
 

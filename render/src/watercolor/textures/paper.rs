@@ -1,4 +1,4 @@
-//! The height of paper, 0..1.
+//! The heights of paper, 0..1, generated or scanned.
 
 use std::path::Path;
 
@@ -12,45 +12,47 @@ use graphics::picture::{Photograph, PhotographError};
 use paint::amount::QUANTA_PER_CELL;
 use paint::ground::{GroundError, Paper, PaperFinish};
 
-/// The usual bump of cold-pressed paper in mm.
+/// Usual width of the bumps of cold-pressed paper in mm. It relates pixels to mm.
 const BUMP_MM: f64 = 1.3;
 
-/// The standard deviation of cold-pressed paper, and of scans.
+/// Standard deviation of the heights of cold-pressed paper and of scans. Chosen by eye.
 const SPREAD: f64 = 0.18;
 
-/// Made up: from black to white of a scan, in mm; about what cold-pressed paper has.
+/// Height difference between black and white of a scan in mm: an assumption, close to
+/// the relief of cold-pressed paper.
 const SCAN_MM: f64 = 0.1;
 
-/// The largest scan, in pixels a side.
+/// Largest width or height of a scaled scan in pixels.
 const LARGEST: usize = 16384;
 
-/// Points between which the share of paper below a height is told.
+/// Number of intervals of the table of quantiles.
 const QUANTILES: usize = 1024;
 
-/// Paper as effects see it.
+/// Heights of a paper, with the measures that effects need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperTexture {
-    /// Of mean 0.5. The standard deviation is 0.18 for cold-pressed paper and for scans; of
-    /// other papers it goes with their depth in mm. What leaves 0..1 is cut.
+    /// Heights in 0..1, with a mean of 0.5. The standard deviation is 0.18 for cold-pressed
+    /// paper and for scans; for other papers it is proportional to their relief in mm. Values
+    /// outside 0..1 are clipped.
     pub heights: Field<f32>,
     /// Width of a pixel in mm.
     pub px_mm: f64,
-    /// What a height of 1 is in mm.
+    /// Height in mm of the value 1.
     unit_mm: f64,
-    /// Depth relative to that of cold-pressed paper.
+    /// Relief relative to that of cold-pressed paper.
     depth: f32,
-    /// Root mean square of the slopes' length (height to the right less that to the
-    /// left, and below less above).
+    /// Root mean square length of the gradient (right minus left, below minus above).
     slope: f32,
-    /// Heights below which 0, 1/1024 .. of the paper lies.
+    /// Heights below which 0, 1/1024, 2/1024 .. 1 of the paper lies.
     quantiles: Vec<f32>,
 }
 
 impl PaperTexture {
-    /// The paper of `settings` over `width` x `height` px. Scans go on mirrored.
+    /// The paper of `settings` over `width` x `height` px. A scan smaller than this is
+    /// repeated, mirrored.
     ///
     /// # Errors
-    /// [`PaperTextureError`] if there is no such scan or no such paper.
+    /// [`PaperTextureError`] if the scan cannot be read or a setting is out of its range.
     pub fn new(
         width: usize,
         height: usize,
@@ -76,8 +78,8 @@ impl PaperTexture {
         Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles })
     }
 
-    /// The height below which this share of the paper lies, to a thousandth of the
-    /// paper.
+    /// The height below which this `share` (0..1) of the paper lies, accurate to about 0.001 of
+    /// the paper.
     #[must_use]
     pub fn height_above(&self, share: f32) -> f32 {
         let place = share.clamp(0.0, 1.0) * QUANTILES as f32;
@@ -86,21 +88,22 @@ impl PaperTexture {
         low + (high - low) * (place - first as f32)
     }
 
-    /// What slopes are multiplied with so that their length is `amount`, root mean
-    /// square; 0 on a level paper.
+    /// The factor that scales gradients of the paper to a root mean square length of `amount`;
+    /// 0 if the paper is flat.
     #[must_use]
     pub fn per_slope(&self, amount: f32) -> f32 {
         if self.slope > 0.0 { amount / self.slope } else { 0.0 }
     }
 
-    /// The same with the paper's depth: `amount` is that of cold-pressed paper.
+    /// [`Self::per_slope`] times the relief of the paper relative to cold-pressed paper, so that
+    /// `amount` is reached on cold-pressed paper.
     #[must_use]
     pub fn relief_per_slope(&self, amount: f32) -> f32 {
         self.per_slope(amount * self.depth)
     }
 
-    /// The same heights as a painting has them, in quanta over pixels of
-    /// [`PaperTexture::px_mm`].
+    /// The heights in the integer quanta of a painting, whose cells are
+    /// [`PaperTexture::px_mm`] wide.
     #[must_use]
     pub fn quanta(&self) -> Field<i32> {
         let scale = self.unit_mm / self.px_mm * f64::from(QUANTA_PER_CELL);
@@ -110,8 +113,8 @@ impl PaperTexture {
     }
 }
 
-/// Heights brought to a mean of 0.5 and this standard deviation, and what they were
-/// multiplied with; a level field to 0.5.
+/// Shifts and scales heights to a mean of 0.5 and the standard deviation `deviation`, clipped to
+/// 0..1. Returns them with the scale; a flat field becomes 0.5 with a scale of 0.
 fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
     let count = heights.values().len().max(1) as f64;
     let mean = heights.values().iter().map(|&v| f64::from(v)).sum::<f64>() / count;
@@ -124,7 +127,7 @@ fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
     (heights, scale)
 }
 
-/// Root mean square of the slopes' length.
+/// Root mean square length of the gradient (right minus left, below minus above).
 fn slope(heights: &Field<f32>) -> f32 {
     let (width, height) = (heights.width(), heights.height());
     let squares = |y: usize| -> f64 {
@@ -142,7 +145,8 @@ fn slope(heights: &Field<f32>) -> f32 {
     (rows.iter().sum::<f64>() / (width * height).max(1) as f64).sqrt() as f32
 }
 
-/// A picture's lightness, its pixels `scale` px wide, mirrored where it ends.
+/// The heights of a scan: sRGB-encoded luminance. Its pixels become `scale` px wide; beyond
+/// its borders it is repeated, mirrored.
 fn scanned(
     width: usize,
     height: usize,
@@ -161,14 +165,14 @@ fn scanned(
         for (x, out) in out.iter_mut().enumerate() {
             let rgb = picture[(mirrored(x, columns), row)].map(f64::from);
             let luminance = weights.apply(rgb)[1] / 100.0;
-            // Numbers as a file has them are nearly even to the eye, and so to a scanner.
+            // Encoded values, since they are about proportional to the lightness seen.
             *out = Rgb([luminance.clamp(0.0, 1.0); 3]).encoded().0[0] as f32;
         }
     });
     Ok(heights)
 }
 
-/// `place` on a line that runs to its end, back, and so on.
+/// The index in 0..count for `place` on a line repeated with mirroring.
 fn mirrored(place: usize, count: usize) -> usize {
     let place = place % (2 * count);
     place.min(2 * count - 1 - place)

@@ -13,7 +13,7 @@ pub struct Textures {
     pub flow: Field<f32>,
     /// Grains of pigment, 0 to 1.
     pub dispersion: Field<f32>,
-    /// The paper.
+    /// Heights and measures of the paper.
     pub paper: PaperTexture,
 }
 
@@ -58,7 +58,7 @@ pub struct TextureImages {
     pub flow: GreyImage,
     /// Grains of pigment, 0 to 1.
     pub dispersion: GreyImage,
-    /// The paper.
+    /// Heights and measures of the paper.
     pub paper: PaperImage,
 }
 
