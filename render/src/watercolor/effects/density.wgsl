@@ -42,7 +42,7 @@ fn watercolor_density(@builtin(global_invocation_id) id: vec3<u32>) {
         if params.masked != 0u { share = mask[i]; }
         // A strength of 0 leaves the colour.
         let excess = max(params.strength * (texture - params.pivot) * share, vec4(-1.0));
-        var c = denser(color.xyz, params.overall);
+        var c = at_density(color.xyz, params.overall);
         c = at_density(c, excess.x);
         c = at_density(c, excess.y);
         c = at_density(c, excess.z);
