@@ -39,7 +39,7 @@ pub(crate) struct PhotographOptions {
     /// Width of a cell: smaller ones show finer relief, and take time by their square
     #[arg(long, value_name = "MM", default_value_t = 0.25, conflicts_with = "script")]
     cell_mm: f64,
-    /// What is painted on
+    /// Ground to paint on
     #[arg(long, value_parser = grounds(), default_value = "linen", conflicts_with = "script")]
     ground: GroundKind,
     /// Widths of the brushes in mm, separated by commas; used from the broadest to the finest

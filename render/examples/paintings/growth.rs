@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::easel::{Easel, Place};
-use super::landscape::{HEIGHT, HORIZON, path};
+use super::field_path::{HEIGHT, HORIZON, path};
 
 /// A stroke of `length` whose second half goes another way.
 pub(crate) fn bowed((x, y): Place, first: f64, second: f64, length: f64) -> [Place; 3] {

@@ -12,13 +12,8 @@ use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer
 use render::paint::strokes::{Canvas, StrokeScript};
 
 use super::easel::{Easel, Place};
+use super::field_path::{HEIGHT, HORIZON, WIDTH, path};
 use super::growth::{bowed, bushes, cypress, poppies, shadows, wheat};
-
-pub(crate) const WIDTH: f64 = 200.0;
-pub(crate) const HEIGHT: f64 = 140.0;
-
-/// Where the field begins.
-pub(crate) const HORIZON: f64 = 62.0;
 
 const SUN: Place = (47.0, 25.0);
 
@@ -254,12 +249,6 @@ fn house(easel: &mut Easel) {
     for x in [80.0, 86.0] {
         easel.dab("round", (x, 59.5), 0.5, 0.0);
     }
-}
-
-/// Where the path runs: its middle and half its width at a height.
-pub(crate) fn path(y: f64) -> (f64, f64) {
-    let near = ((y - HORIZON) / (HEIGHT - HORIZON)).clamp(0.0, 1.2);
-    (92.0 - 8.0 * (near * 3.6).sin() + 34.0 * near * near, 1.2 + 13.0 * near.powf(1.4))
 }
 
 fn field(easel: &mut Easel) {

@@ -7,6 +7,8 @@ mod color_study;
 
 mod glaze;
 
+mod field_path;
+
 mod growth;
 
 mod landscape;

@@ -93,7 +93,7 @@ pub struct Document {
     pub dry: Vec<DryLayer>,
     /// Pigments of the wet layer.
     pub slots: Slots,
-    /// Wet paint.
+    /// Amounts of wet paint in every cell.
     pub wet: Layer,
     /// Light that the painting is viewed under.
     pub lighting: Lighting,

@@ -121,7 +121,7 @@ pub enum PlanError {
     Number {
         /// Name of the field.
         field: &'static str,
-        /// Value found.
+        /// Value of the field.
         value: f64,
         /// Range of the field, for people.
         wanted: &'static str,

@@ -129,7 +129,7 @@ pub enum StrokeSettingsError {
     OutOfRange {
         /// Field of [`StrokeSettings`], for example `width_mm`.
         setting: &'static str,
-        /// Value found.
+        /// Value of the field.
         value: f64,
         /// Least value allowed.
         least: f64,

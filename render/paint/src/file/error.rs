@@ -82,7 +82,7 @@ pub enum PaintingFileError {
         x: u32,
         /// Row on the canvas, from 0.
         y: u32,
-        /// Values allowed.
+        /// Range of values allowed.
         wanted: &'static str,
         /// Value found, in mm.
         found: String,
@@ -92,9 +92,9 @@ pub enum PaintingFileError {
     TooLarge {
         /// Path of the file.
         file: String,
-        /// Bytes needed.
+        /// Bytes that the painting needs.
         bytes: u64,
-        /// Bytes allowed.
+        /// Most bytes allowed.
         limit: u64,
     },
     /// The painting is inconsistent, so no file can hold it.

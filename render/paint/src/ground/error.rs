@@ -16,7 +16,7 @@ pub enum GroundError {
         least: f64,
         /// Greatest value allowed.
         most: f64,
-        /// Value given.
+        /// Value that was found.
         value: f64,
     },
     /// The relief is higher than heights in quanta allow.
@@ -30,7 +30,7 @@ pub enum GroundError {
     /// The colour is not written as `#rrggbb`.
     #[error("the colour of a ground is written #rrggbb, found `{text}`")]
     Color {
-        /// Text given.
+        /// Text that was found.
         text: String,
     },
     /// The reflectance spectrum is invalid.

@@ -1,4 +1,4 @@
-//! Watercolour paper.
+//! Watercolour paper, from its finish and a seed.
 
 use serde::{Deserialize, Serialize};
 

@@ -40,7 +40,7 @@ pub struct GroundSpec {
 pub enum GroundRelief {
     /// Primed linen in plain weave.
     Linen(Linen),
-    /// Watercolour paper.
+    /// Watercolour paper, cold pressed by default.
     Paper(Paper),
     /// A primed panel, nearly flat.
     Panel(Panel),

@@ -27,7 +27,7 @@ pub struct ColorErrors {
     pub median: f64,
     /// 95th percentile of CIEDE2000.
     pub p95: f64,
-    /// Largest CIEDE2000.
+    /// Largest CIEDE2000 of all pixels.
     pub max: f64,
     /// Mean CIEDE2000 over the pixels within the palette's gamut; 0 if there are none.
     pub mean_in_gamut: f64,
