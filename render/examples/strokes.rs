@@ -5,6 +5,7 @@
 //! writes `out/painting.exr`, `out/painting.png` and `out/strokes.json`.
 
 use std::error::Error;
+use std::io::Write;
 use std::path::PathBuf;
 
 use pigment::PigmentLibrary;
@@ -25,11 +26,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let painter = StrokePainter::new(&photograph, &oils, &settings)?;
     let mut painted = painter.paint(BackendChoice::Auto, |_| {})?;
 
-    println!("palette: {}", painter.pigments().join(", "));
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "palette: {}", painter.pigments().join(", "))?;
     for level in &painted.levels {
-        println!("{} of {} mm: {} strokes", level.shape, level.size_mm, level.strokes);
+        writeln!(out, "{} of {} mm: {} strokes", level.shape, level.size_mm, level.strokes)?;
     }
-    println!("mean colour error: {:.2} CIEDE2000", painted.error.mean);
+    writeln!(out, "mean colour error: {:.2} CIEDE2000", painted.error.mean)?;
 
     let exports = PaintingExports {
         picture: Some((folder.join("painting.png"), PictureFormat::Png8)),

@@ -61,7 +61,7 @@ impl Primer {
     #[must_use]
     pub fn library_white(library: &PigmentLibrary) -> Vec<f64> {
         let reference = library.reference.as_deref().and_then(|name| library.find(name).ok());
-        let film = reference.and_then(|index| library.mix(&[(index, 1.0)]).ok());
+        let film = reference.and_then(|index| library.mix([(index, 1.0)]).ok());
         film.map_or_else(
             || vec![WHITE; library.grid.count()],
             |film| film.hiding(library.saunderson),
