@@ -11,6 +11,9 @@ mod easel;
 #[path = "../../../render/examples/paintings/glaze.rs"]
 mod glaze;
 
+#[path = "../../../render/examples/paintings/field_path.rs"]
+mod field_path;
+
 #[path = "../../../render/examples/paintings/growth.rs"]
 mod growth;
 
