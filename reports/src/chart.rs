@@ -215,7 +215,7 @@ impl Drawing<'_, '_> {
         let path = vec![point(0.0, 0.0), point(18.0, 0.0)];
         match symbol {
             KeySymbol::Line => {
-                infallible(self.area.draw(&PathElement::new(path, stroke(color, CURVE))))
+                infallible(self.area.draw(&PathElement::new(path, stroke(color, CURVE))));
             }
             KeySymbol::Dashes => {
                 let style = stroke(color, CURVE);

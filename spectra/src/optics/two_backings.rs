@@ -26,9 +26,9 @@ pub struct FilmOptics {
 
 /// Computes K/S and S d of a film over two known backings, without its thickness.
 ///
-/// From Kubelka 1948: with R over a backing g, `a (R + g) + c (R - g) = 1 + R g`, where `a = 1
-/// + K/S` and `c = b coth(b S d)`, `b = sqrt(a^2 - 1)`. Two backings give a 2 x 2 system. Noisy
-/// readings that no film can have (a below 1) give K/S = 0. Returns `None` if the two backings
+/// From Kubelka 1948: with R over a backing g, `a (R + g) + c (R - g) = 1 + R g`, where
+/// `a = 1 + K/S`, `c = b coth(b S d)` and `b = sqrt(a^2 - 1)`. Two backings give a 2 x 2 system.
+/// Noisy readings that no film can have (a below 1) give K/S = 0. Returns `None` if the two backings
 /// are equal, or if the film scatters nothing back over either.
 #[must_use]
 pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option<FilmOptics> {
