@@ -1,21 +1,46 @@
-//! From swatches of paint to a calibrated pigment library.
+//! From measured swatches of paint to a calibrated pigment library.
 //!
-//! In scope: reading measurements of mixtures, K/S of films that hide or not,
-//! fitting each pigment's K and S, what the data cannot tell, validation, and plans
-//! of what to measure. What one does with a library once there is one stands in
-//! the crate `pigment`, whose modules are here too.
+//! ```text
+//! files: CSV, CGATS, CxF, .. --> Readings --> swatches --> K/S --> fit --> PigmentLibrary
+//!        recipes (CSV) -----------^                               |
+//!                                                                 +--> validate: errors of unseen mixtures
+//! ```
 //!
-//! Files stand in an order of dependence; each uses only what stands above it.
+//! ```
+//! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../measurements/van-gogh-oils.csv");
+//! use calibrate::fit::Method;
+//! use calibrate::{FitOptions, Readings};
+//!
+//! let readings = Readings::open(path)?;
+//! let options = FitOptions { method: Method::Weighted, ..FitOptions::default() };
+//! let fit = calibrate::fit(&readings, &options)?;
+//! println!("{}", fit.report().with_samples(10));
+//! assert_eq!(fit.library.reference.as_deref(), Some("Zinc White"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | task | call |
+//! |---|---|
+//! | read measurements of any format | [`Readings::open`], [`Readings::with_recipes`] |
+//! | fit a library | [`fit()`] |
+//! | error of mixtures that the fit has not seen | [`validate`] |
+//! | which swatches to paint | [`plan()`] |
+//! | compare a library with measurements | [`comparison::Comparable`] |
+//! | colours and recipes of a library | [`PigmentLibrary`], from the crate `pigment`, whose modules are here too |
+//!
+//! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub use pigment::{
     Appearance, Backing, BackingError, ColorError, Curves, FilmOver, MixtureColor, PigmentId,
-    PigmentLibrary, Recipe, Viewing, curation, curves, digits, evaluate, library, matching,
-    palette, quadrature, recipe, remark, smooth_reflectance, visible_band,
+    PigmentLibrary, Recipe, Remark, RemarkKind, Viewing, curation, curves, digits, evaluate,
+    library, matching, palette, quadrature, recipe, remark, smooth_reflectance, visible_band,
 };
 
 pub mod measurement;
 
 pub mod swatch;
+
+pub mod readings;
 
 pub mod observation;
 
@@ -29,7 +54,13 @@ pub mod calibration;
 
 pub mod absolute;
 
+pub mod report;
+
+pub mod fitting;
+
 pub mod validation;
+
+pub mod leave_out;
 
 pub mod comparison;
 
@@ -37,6 +68,10 @@ mod cards;
 
 pub mod plan;
 
-pub use plan::plan;
-
 pub mod synthetic;
+
+pub use fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, fit};
+pub use leave_out::{FitValidation, ValidationOptions, validate};
+pub use plan::plan;
+pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};
+pub use report::ErrorReport;

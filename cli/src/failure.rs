@@ -11,7 +11,7 @@ use calibrate::matching::{MatchError, PriceError};
 use calibrate::measurement::{MeasurementError, RecipesError};
 use calibrate::plan::PlanError;
 use calibrate::visible_band::BandError;
-use calibrate::{BackingError, ColorError};
+use calibrate::{BackingError, ColorError, FittingError, ReadingsError};
 use render::camera::CameraPathError;
 use render::export::{FrameError, PaintingExportError, SequenceError};
 use render::gpu::DeviceError;
@@ -99,6 +99,8 @@ fn explained<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a dyn
         as_explained::<LampError>,
         as_explained::<LightError>,
         as_explained::<SwatchFileError>,
+        as_explained::<ReadingsError>,
+        as_explained::<FittingError>,
         as_explained::<MeasurementError>,
         as_explained::<RecipesError>,
         as_explained::<CalibrationError>,
@@ -191,12 +193,27 @@ fn status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     data.then_some(1)
 }
 
-/// Exit status of errors about mixtures and recipes: 2 where an option is wrong, 1 where the data are.
+/// Exit status of errors about fits, mixtures and recipes: 2 where an option is wrong, 1 where the data
+/// are.
 fn color_status(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let backing = |error: &BackingError| match error {
         BackingError::Reflectance { .. } => 2,
         _ => 1,
     };
+    match cause.downcast_ref::<FittingError>() {
+        Some(
+            FittingError::AbsoluteOptions | FittingError::AbsoluteWith | FittingError::Folds { .. },
+        ) => return Some(2),
+        Some(_) => return Some(1),
+        None => {}
+    }
+    match cause.downcast_ref::<ReadingsError>() {
+        Some(ReadingsError::CsvOfCounts { .. })
+        | Some(ReadingsError::References(ReferenceFilesError::Setting { .. })) => return Some(2),
+        Some(error) if error.fault() == Fault::Input => return Some(1),
+        Some(_) => return Some(2),
+        None => {}
+    }
     if let Some(error) = cause.downcast_ref::<MatchError>() {
         return Some(match error {
             MatchError::Backing(error) => backing(error),

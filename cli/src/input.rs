@@ -2,16 +2,14 @@
 
 use std::path::Path;
 
-use anyhow::Context;
 use calibrate::evaluate::Viewing;
-use calibrate::library::{Input, PigmentLibrary};
+use calibrate::library::PigmentLibrary;
+use calibrate::visible_band::check_visible_band;
 use clap::Args;
-use sha2::{Digest, Sha256};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
 
 use crate::console::Console;
-use crate::failure::Refusal;
 
 /// Light and observer.
 #[derive(Debug, Clone, Args)]
@@ -57,44 +55,12 @@ pub(crate) fn color_weights(
 /// Refuses a grid that misses the visible band, and warns of one that covers
 /// little of it.
 pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> anyhow::Result<()> {
-    let (start, end) = (grid.start_nm(), grid.end_nm());
-    if end < 400.0 || start > 700.0 {
-        return Err(Refusal::data(
-            format!("spectra from {start} to {end} nm have no colour"),
-            "measure from 400 to 700 nm or more",
-        ));
-    }
-    if start > 420.0 || end < 680.0 {
-        console.warnings(&[format!(
-            "spectra from {start} to {end} nm; colours take the end values for the rest of the visible band"
-        )])?;
-    }
-    Ok(())
+    console.remarks(&check_visible_band(grid)?)
 }
 
-/// The index of the name that `wanted` is: exactly, else without regard to case.
-pub(crate) fn named(names: &[String], wanted: &str, what: &str) -> anyhow::Result<usize> {
-    let lower = wanted.to_lowercase();
-    let exact = names.iter().position(|name| name == wanted);
-    exact.or_else(|| names.iter().position(|name| name.to_lowercase() == lower)).ok_or_else(|| {
-        Refusal::data(
-            format!("no {what} is called `{wanted}`"),
-            format!("{what}s: {}", names.join(", ")),
-        )
-    })
-}
-
-/// The record of an input file.
-pub(crate) fn input(name: &str, bytes: &[u8]) -> Input {
-    let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    Input { path: name.to_owned(), sha256 }
-}
-
-/// A pigment library.
+/// The pigment library in a file.
 pub(crate) fn library(path: &Path) -> anyhow::Result<PigmentLibrary> {
-    let text = std::fs::read(path).with_context(|| unreadable(path))?;
-    let name = path.display().to_string();
-    Ok(PigmentLibrary::from_json(&name, &String::from_utf8_lossy(&text))?)
+    Ok(PigmentLibrary::open(path)?)
 }
 
 /// The oils of Van Gogh's palette that ship with the program.

@@ -2,12 +2,8 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
-use spectra::instrument::MeasuredSpectrum;
-use spectra::referencing::{DarkFiles, OpenedReferences, ReferenceFiles, Referencing, TileSource};
-
-use crate::console::Console;
+use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
 /// What counts are set against.
 #[derive(Debug, Clone, Default, Args)]
@@ -45,7 +41,7 @@ impl ReferencingOptions {
     }
 
     /// The files as the library opens them; `None` without a white.
-    fn reference_files(&self) -> Option<ReferenceFiles> {
+    pub(crate) fn reference_files(&self) -> Option<ReferenceFiles> {
         let mut files = ReferenceFiles::new(self.white.as_ref()?);
         files.dark = match self.dark.as_slice() {
             [zero] if zero == "0" => DarkFiles::Subtracted,
@@ -58,39 +54,5 @@ impl ReferencingOptions {
         files.full_scale = self.full_scale;
         files.least_light = self.least_light.unwrap_or(files.least_light);
         Some(files)
-    }
-
-    /// Reads the files; `None` without a white.
-    pub(crate) fn read(&self, console: &mut Console<'_>) -> anyhow::Result<Option<References>> {
-        let (Some(name), Some(files)) = (&self.white, self.reference_files()) else {
-            return Ok(None);
-        };
-        if self.tile.is_none() {
-            console.remark("no --tile: the white is taken to reflect everything")?;
-        }
-        let OpenedReferences { referencing, files } = files.open()?;
-        Ok(Some(References { name: name.clone(), referencing, files }))
-    }
-}
-
-/// The readings that [`ReferencingOptions`] name.
-pub(crate) struct References {
-    /// The white as the user named it.
-    name: String,
-    referencing: Referencing,
-    /// The files that were read, with their content.
-    pub(crate) files: Vec<(String, Vec<u8>)>,
-}
-
-impl References {
-    /// The reflectances of the samples among `spectra`, the spectra in `file`.
-    pub(crate) fn reflectances(
-        &self,
-        file: &str,
-        spectra: &[MeasuredSpectrum],
-    ) -> anyhow::Result<Vec<MeasuredSpectrum>> {
-        let name = &self.name;
-        let reflectances = self.referencing.reflectances(spectra);
-        reflectances.with_context(|| format!("{file}: cannot be set against the white of {name}"))
     }
 }

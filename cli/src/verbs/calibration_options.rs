@@ -2,20 +2,15 @@
 
 use std::path::PathBuf;
 
-use calibrate::PigmentId;
-use calibrate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
-use calibrate::calibration::{Calibration, calibrate};
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitSettings, Method, Smoothness};
-use calibrate::library::Input;
+use calibrate::fit::{Method, Smoothness};
+use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
-use calibrate::swatch::SwatchSet;
+use calibrate::{FitOptions, PreparedFit, Readings};
 use clap::{Args, ValueEnum};
-use spectra::optics::{Surface, UnevenFilm};
 
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{named, remark_coverage};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
 use crate::surface::SurfaceOptions;
@@ -87,64 +82,42 @@ pub(super) struct CalibrationOptions {
     reading: ReadingOptions,
 }
 
-/// A calibration to be: readings, and how to fit them.
-pub(super) struct Job {
-    pub(super) set: SwatchSet,
-    pub(super) inputs: Vec<Input>,
-    pub(super) settings: FitSettings,
-    pub(super) kind: Kind,
-}
-
-/// What the amounts mean, with what only that kind needs.
-pub(super) enum Kind {
-    /// The reference white's index, and the surface.
-    Relative(PigmentId, Surface),
-    Absolute(UnevenFilm),
-}
-
 impl CalibrationOptions {
     /// The files that are read.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         self.files.iter().chain(&self.recipes).cloned().chain(self.reading.files()).collect()
     }
 
-    /// Reads the files and settles every option.
-    pub(super) fn job(&self, console: &mut Console<'_>) -> anyhow::Result<Job> {
-        let surface = self.surface.surface()?;
-        let smoothness = self.smoothness()?;
-        let unevenness = self.unevenness()?;
-        let recipes = self.recipes.as_deref();
-        let (table, inputs) = measurements(&self.files, recipes, &self.reading, console)?;
-        remark_coverage(table.grid, console)?;
-        let set = self.without_excluded(SwatchSet::from_table(&table)?)?;
-        let below_surface = match (self.below_surface, surface) {
-            (Some(Below::Refuse), _) | (None, Some(_)) => BelowSurface::Refuse,
-            (Some(Below::Floor), _) | (None, None) => BelowSurface::Floor,
-        };
-        let method = match self.method {
-            MethodName::Qp => Method::Qp,
-            MethodName::Weighted => Method::Weighted,
-            MethodName::Refined => Method::Refined,
-        };
-        let excluded = self.exclude.clone();
-        let settings = FitSettings { method, smoothness, below_surface, excluded };
-        let kind = match self.amounts {
-            Amounts::Relative => {
-                let reference = self.reference(&set)?;
-                console.remark(format!("reference white: {}", set.pigments[reference.index()]))?;
-                Kind::Relative(reference, self.surface.surface_or_usual()?)
-            }
-            Amounts::Absolute => {
-                if self.reference.is_some() || method != Method::Refined {
-                    return Err(Refusal::usage(
-                        "absolute amounts take neither a reference white nor another method",
-                        "leave out --reference and --method",
-                    ));
-                }
-                Kind::Absolute(self.film(&set, surface, unevenness, console)?)
-            }
-        };
-        Ok(Job { set, inputs, settings, kind })
+    /// Reads the files and prints what was read.
+    pub(super) fn readings(&self, console: &mut Console<'_>) -> anyhow::Result<Readings> {
+        measurements(&self.files, self.recipes.as_deref(), &self.reading, console)
+    }
+
+    /// Options of the fit, with colour errors under `viewing`.
+    pub(super) fn fit_options(&self, viewing: Viewing) -> anyhow::Result<FitOptions> {
+        Ok(FitOptions {
+            amounts: match self.amounts {
+                Amounts::Relative => AmountKind::Relative,
+                Amounts::Absolute => AmountKind::Absolute,
+            },
+            method: match self.method {
+                MethodName::Qp => Method::Qp,
+                MethodName::Weighted => Method::Weighted,
+                MethodName::Refined => Method::Refined,
+            },
+            reference: self.reference.clone(),
+            surface: self.surface.surface()?,
+            specular: self.surface.specular(),
+            below_surface: self.below_surface.map(|below| match below {
+                Below::Refuse => BelowSurface::Refuse,
+                Below::Floor => BelowSurface::Floor,
+            }),
+            smoothness: self.smoothness()?,
+            unevenness: self.unevenness()?,
+            exclude: self.exclude.clone(),
+            viewing,
+            ..FitOptions::default()
+        })
     }
 
     fn smoothness(&self) -> anyhow::Result<Smoothness> {
@@ -161,82 +134,24 @@ impl CalibrationOptions {
             text => Some(at_least_zero("--unevenness", text)?),
         })
     }
-
-    fn without_excluded(&self, set: SwatchSet) -> anyhow::Result<SwatchSet> {
-        if self.exclude.is_empty() {
-            return Ok(set);
-        }
-        let samples: Vec<String> = set.swatches.iter().map(|s| s.sample.clone()).collect();
-        let excluded = self
-            .exclude
-            .iter()
-            .map(|name| Ok(&samples[named(&samples, name, "sample")?]))
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        if excluded.len() >= samples.len() {
-            return Err(Refusal::data("every sample is excluded", "leave out some --exclude"));
-        }
-        Ok(set.retaining(|swatch| !excluded.contains(&&swatch.sample)))
-    }
-
-    fn reference(&self, set: &SwatchSet) -> anyhow::Result<PigmentId> {
-        if let Some(name) = &self.reference {
-            return named(&set.pigments, name, "pigment").map(PigmentId);
-        }
-        let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
-        let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
-        let commonest = |indices: Vec<usize>| {
-            // The first of equals, so that the order of columns decides.
-            indices.into_iter().rev().max_by_key(|&index| samples(index))
-        };
-        commonest((0..set.pigments.len()).filter(called_white).collect()).map(PigmentId).ok_or_else(
-            || {
-                Refusal::data(
-                    "no pigment is called white, so none can be the reference whose S is 1",
-                    format!("name it: --reference \"{}\"", set.pigments.first().map_or("", |p| p)),
-                )
-            },
-        )
-    }
-
-    fn film(
-        &self,
-        set: &SwatchSet,
-        surface: Option<Surface>,
-        unevenness: Option<f64>,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<UnevenFilm> {
-        let plain = Surface { k1: 0.0, k2: 0.0, specular: self.surface.specular() };
-        if surface.is_some() || unevenness.is_some() {
-            return Ok(UnevenFilm {
-                surface: surface.unwrap_or(plain),
-                unevenness: unevenness.unwrap_or(0.0),
-            });
-        }
-        let problem = films(set)?;
-        let progress =
-            Progress::new(CHOICE_FITS, "choosing the film model", console.screen.progress);
-        let film = chosen_film(&problem, plain, &|| progress.step())?;
-        progress.done();
-        console.remark(format!(
-            "film model by cross-validation: k2 = {}, unevenness {}",
-            film.surface.k2, film.unevenness
-        ))?;
-        Ok(film)
-    }
 }
 
-impl Job {
-    /// Fits, and signs the library with what it was made from.
-    pub(super) fn calibrate(&self, viewing: &Viewing) -> anyhow::Result<Calibration> {
-        let mut calibration = match self.kind {
-            Kind::Relative(reference, surface) => {
-                calibrate(&self.set, reference, surface, &self.settings, viewing)?
-            }
-            Kind::Absolute(film) => calibrate_absolute(&self.set, film, &self.settings, viewing)?,
-        };
-        calibration.library.inputs = self.inputs.clone();
-        Ok(calibration)
-    }
+/// Settles the options of a fit. Prints what was chosen.
+pub(super) fn prepared(
+    readings: &Readings,
+    options: &FitOptions,
+    console: &mut Console<'_>,
+) -> anyhow::Result<PreparedFit> {
+    let chooses_model = options.amounts == AmountKind::Absolute
+        && options.surface.is_none()
+        && options.unevenness.is_none();
+    let steps = if chooses_model { PreparedFit::MODEL_FITS } else { 0 };
+    let progress =
+        Progress::new(steps, "choosing the film model", console.screen.progress && chooses_model);
+    let prepared = PreparedFit::new(readings, options, &|| progress.step())?;
+    progress.done();
+    console.remarks(&prepared.remarks)?;
+    Ok(prepared)
 }
 
 fn at_least_zero(option: &str, text: &str) -> anyhow::Result<f64> {

@@ -4,20 +4,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context;
-use calibrate::PigmentId;
-use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
-use calibrate::fit::FitSettings;
 use calibrate::library::PigmentLibrary;
-use calibrate::measurement::{MeasurementTable, ScaleChoice};
-use calibrate::observation::BelowSurface;
-use calibrate::swatch::SwatchSet;
+use calibrate::{Fit, FitOptions, Readings};
 use clap::Args;
-use spectra::optics::{Specular, Surface};
 
 use super::{fit_report, library};
 use crate::console::Console;
-use crate::input::input;
 use crate::output::Output;
 
 const NAME: &str = "measurements/van-gogh-oils.csv";
@@ -50,27 +43,27 @@ impl Demo {
         let path = self.out.join("van-gogh-oils.pigments.json");
         let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
-        let library = fitted(&viewing)?;
+        let fit = fitted()?;
+        let library = &fit.library;
         output.write(library.to_json())?;
-        let evidence = library.evidence.as_ref().expect("a fit has evidence");
         let seconds = start.elapsed().as_secs_f64();
         if self.json {
-            return console.json(&fit_report::library_json(&library, evidence, seconds));
+            return console.json(&fit_report::fit_json(&fit, seconds));
         }
         console.line(format!("{} ({})", library.title, library.licence))?;
         console.line("")?;
-        library::print_pigments(&library, &viewing, console)?;
+        library::print_pigments(library, &viewing, console)?;
         console.line("")?;
         console.line("How well the fit reproduces its samples, worst first:")?;
-        fit_report::print(&library, evidence, 12, console)?;
+        console.line(fit.report().with_samples(12).to_string())?;
         console.line("")?;
-        console.line("What the data cannot tell, or tell against themselves:")?;
-        for warning in &evidence.warnings {
+        console.line("Not identified by the data, or inconsistent with it:")?;
+        for warning in fit.warnings() {
             console.line(format!("  {warning}"))?;
         }
         console.line("")?;
         console.line("Mixtures nobody measured:")?;
-        print_mixtures(&library, &viewing, console)?;
+        print_mixtures(library, &viewing, console)?;
         console.line("")?;
         console.remark(format!("written: {} ({seconds:.2} s)", path.display()))?;
         console.line("Next:")?;
@@ -82,20 +75,17 @@ impl Demo {
     }
 }
 
-/// The library of the shipped oils.
-fn fitted(viewing: &Viewing) -> anyhow::Result<PigmentLibrary> {
-    let table = MeasurementTable::from_csv(NAME, OILS, ScaleChoice::ByFile)?;
-    let set = SwatchSet::from_table(&table)?;
-    let white = set.pigments.iter().position(|p| p == "Zinc White").map(PigmentId);
-    let surface = Surface::new(0.03, 0.6, Specular::Included)?;
-    let settings = FitSettings { below_surface: BelowSurface::Floor, ..FitSettings::default() };
-    let white = white.context("the shipped oils have a zinc white")?;
-    let mut library = calibrate(&set, white, surface, &settings, viewing)?.library;
-    library.title = "Van Gogh's oils".to_owned();
-    library.licence = "CC0 1.0".to_owned();
-    library.source = "Geldof, Proano Gaibor, Ligterink, Hendriks, Kirchner, Heritage Science 6:17 (2018), doi 10.1186/s40494-018-0181-6".to_owned();
-    library.inputs = vec![input(NAME, OILS)];
-    Ok(library)
+/// Fit of the shipped oils.
+fn fitted() -> anyhow::Result<Fit> {
+    let readings = Readings::from_csv(NAME, OILS)?;
+    let options = FitOptions {
+        reference: Some("Zinc White".to_owned()),
+        title: Some("Van Gogh's oils".to_owned()),
+        licence: Some("CC0 1.0".to_owned()),
+        source: Some("Geldof, Proano Gaibor, Ligterink, Hendriks, Kirchner, Heritage Science 6:17 (2018), doi 10.1186/s40494-018-0181-6".to_owned()),
+        ..FitOptions::default()
+    };
+    Ok(calibrate::fit(&readings, &options)?)
 }
 
 fn print_mixtures(

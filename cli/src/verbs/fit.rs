@@ -1,11 +1,11 @@
 //! `impasto fit`: measurements to a pigment library.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
 
-use super::calibration_options::CalibrationOptions;
+use super::calibration_options::{CalibrationOptions, prepared};
 use super::fit_report;
 use crate::console::Console;
 use crate::input::ViewingOptions;
@@ -43,32 +43,26 @@ pub(crate) struct Fit {
 impl Fit {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let start = Instant::now();
-        let viewing = self.viewing.viewing()?;
+        let mut options = self.options.fit_options(self.viewing.viewing()?)?;
+        options.title = self.title;
+        options.licence = Some(self.licence);
+        options.source = Some(self.source);
         let open = |path| Output::open(path, &self.options.files());
         let output = self.output.as_deref().map(open).transpose()?;
-        let job = self.options.job(console)?;
+        let readings = self.options.readings(console)?;
+        let prepared = prepared(&readings, &options, console)?;
         let waiting = Waiting::new("fitting", console.screen.progress);
-        let calibration = job.calibrate(&viewing)?;
+        let fit = prepared.fit()?;
         drop(waiting);
-        fit_report::remark_films(&calibration, console)?;
-        let mut library = calibration.library;
-        library.title = self.title.unwrap_or_else(|| stem(&job.inputs[0].path));
-        library.licence = self.licence;
-        library.source = self.source;
-        let text = library.to_json();
-        let evidence = library.evidence.as_ref().expect("a fit has evidence");
+        console.remarks(&fit.remarks)?;
         if let Some(output) = output {
-            output.write(text)?;
+            output.write(fit.library.to_json())?;
         }
         if self.json {
-            return console.json(&fit_report::library_json(
-                &library,
-                evidence,
-                start.elapsed().as_secs_f64(),
-            ));
+            return console.json(&fit_report::fit_json(&fit, start.elapsed().as_secs_f64()));
         }
-        console.warnings(&evidence.warnings)?;
-        fit_report::print(&library, evidence, usize::MAX, console)?;
+        console.warnings(fit.warnings())?;
+        console.line(fit.report().to_string())?;
         match &self.output {
             Some(path) => console.remark(format!("written: {}", path.display())),
             None => {
@@ -76,10 +70,4 @@ impl Fit {
             }
         }
     }
-}
-
-/// A file's name without folder and ending.
-fn stem(path: &str) -> String {
-    let stem = Path::new(path).file_stem();
-    stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

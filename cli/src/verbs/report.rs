@@ -8,7 +8,6 @@ use calibrate::comparison::{Comparable, Comparison};
 use calibrate::library::PigmentLibrary;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
-use calibrate::swatch::SwatchSet;
 use calibrate::validation::Validation;
 use clap::Args;
 use reports::{STEPS, Subject};
@@ -117,9 +116,9 @@ impl Report {
         if self.files.is_empty() {
             return Ok(None);
         }
-        let (table, _) =
-            measurements(&self.files, self.recipes.as_deref(), &self.reading, console)?;
-        Ok(Some(Comparable::of(&SwatchSet::from_table(&table)?, library)?))
+        let recipes = self.recipes.as_deref();
+        let readings = measurements(&self.files, recipes, &self.reading, console)?;
+        Ok(Some(Comparable::of(&readings.swatches()?, library)?))
     }
 
     fn inputs(&self) -> Vec<PathBuf> {

@@ -2,15 +2,15 @@
 
 use std::time::Instant;
 
-use calibrate::observation::Observation;
-use calibrate::validation::{Validation, ValidationPlan, leave_out, leave_out_films};
+use calibrate::ValidationOptions;
+use calibrate::validation::Validation;
 use clap::Args;
 
-use super::calibration_options::{CalibrationOptions, Job, Kind};
+use super::calibration_options::{CalibrationOptions, prepared};
 use super::fit_report;
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{ViewingOptions, named};
+use crate::input::ViewingOptions;
 use crate::progress::Progress;
 
 /// Leave each mixture out in turn, refit, and predict it
@@ -37,86 +37,30 @@ pub(crate) struct Validate {
 impl Validate {
     pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
         let start = Instant::now();
-        let viewing = self.viewing.viewing()?;
         if self.folds.is_some_and(|folds| folds < 2) {
             return Err(Refusal::usage("--folds needs at least 2 groups", "try --folds 10"));
         }
-        let job = self.options.job(console)?;
-        let with = self.with(&job)?;
-        let fitted = job.calibrate(&viewing)?;
-        let is_chosen = |amounts: &[f64]| with.is_empty() || with.iter().any(|&p| amounts[p] > 0.0);
-        let is_mixture = |amounts: &[f64]| amounts.iter().filter(|a| **a > 0.0).count() > 1;
-        let amounts = job.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
-        let count = amounts.filter(|a| is_mixture(a) && is_chosen(a)).count();
-        let progress = Progress::new(count, "leaving out", console.screen.progress);
-        let step = || progress.step();
-        let plan = ValidationPlan {
-            settings: &job.settings,
-            viewing: &viewing,
-            state: fitted.state,
+        let options = ValidationOptions {
+            fit: self.options.fit_options(self.viewing.viewing()?)?,
             folds: self.folds,
-            progress: &step,
+            with: self.with,
         };
-        let validation = match job.kind {
-            Kind::Relative(reference, surface) => {
-                let chosen = |o: &Observation| is_chosen(&o.shares);
-                leave_out(&job.set, reference, surface, &plan, chosen)?
-            }
-            Kind::Absolute(film) => {
-                let plan = ValidationPlan { folds: self.folds.or(Some(10)), ..plan };
-                leave_out_films(&job.set, film, &plan)?
-            }
-        };
+        let readings = self.options.readings(console)?;
+        let prepared = prepared(&readings, &options.fit, console)?;
+        let progress =
+            Progress::new(prepared.mixtures(&options)?, "leaving out", console.screen.progress);
+        let validation = prepared.validate(&options, &|| progress.step())?;
         progress.done();
-        let Validation { rms, delta_e, per_sample, needed } = &validation;
-        if per_sample.is_empty() {
-            let what = if needed.is_empty() {
-                "there is no mixture to leave out".to_owned()
-            } else {
-                format!(
-                    "no mixture can be left out: without it a pigment would not be identified ({})",
-                    needed.join(", ")
-                )
-            };
-            return Err(Refusal::data(
-                what,
-                "measure more mixtures of each pigment (masstone, two tints, a shade)",
-            ));
-        }
-        let warnings: Vec<String> = needed
-            .iter()
-            .map(|sample| {
-                format!("{sample}: not left out, a pigment would not be identified without it")
-            })
-            .collect();
+        let warnings = validation.warnings();
         if self.json {
-            let pigments = fitted.library.pigments.len();
+            let Validation { rms, delta_e, per_sample, .. } = &validation.errors;
+            let pigments = validation.fit.library.pigments.len();
             let seconds = start.elapsed().as_secs_f64();
             return console.json(&fit_report::to_json(
                 pigments, *rms, delta_e, per_sample, &warnings, seconds,
             ));
         }
         console.warnings(&warnings)?;
-        let manner = match (self.folds, &job.kind) {
-            (Some(folds), _) => format!("in {} groups", folds.min(per_sample.len())),
-            (None, Kind::Absolute(_)) => "in 10 groups".to_owned(),
-            (None, Kind::Relative(..)) => "one by one".to_owned(),
-        };
-        console.line(format!("{} mixtures, left out {manner}", per_sample.len()))?;
-        fit_report::print_errors(delta_e, *rms, console)?;
-        console.line(format!(
-            "(CIEDE2000 under {}, observer {}; rms of reflectance)",
-            viewing.illuminant.name(),
-            viewing.observer
-        ))?;
-        fit_report::print_samples(per_sample, usize::MAX, console)
-    }
-
-    /// The indices of the pigments of `--with`.
-    fn with(&self, job: &Job) -> anyhow::Result<Vec<usize>> {
-        if !self.with.is_empty() && matches!(job.kind, Kind::Absolute(_)) {
-            return Err(Refusal::usage("--with needs relative amounts", "leave out --with"));
-        }
-        self.with.iter().map(|name| named(&job.set.pigments, name, "pigment")).collect()
+        console.line(validation.report().to_string())
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::{Index, IndexMut};
 
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm};
 
@@ -85,6 +86,15 @@ pub struct Input {
     pub path: String,
     /// SHA-256 of the bytes, in hexadecimal.
     pub sha256: String,
+}
+
+impl Input {
+    /// Record of the file `path` with the given content.
+    #[must_use]
+    pub fn new(path: impl Into<String>, content: &[u8]) -> Self {
+        let sha256 = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self { path: path.into(), sha256 }
+    }
 }
 
 /// Error of a fit for one sample.

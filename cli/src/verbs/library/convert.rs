@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
-use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
 use spectra::Interpolation;
 
 use super::grid_option::{ResamplingOptions, grid};
 use crate::console::Console;
 use crate::failure::Refusal;
-use crate::input::{input, library};
+use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
 
@@ -122,7 +122,7 @@ impl Convert {
             saunderson: self.surface.surface_or_usual()?,
         };
         let mut library = from_csv(file, &text, frame)?;
-        library.inputs = vec![input(file, text.as_bytes())];
+        library.inputs = vec![Input::new(file, text.as_bytes())];
         Ok(library)
     }
 

@@ -1,0 +1,426 @@
+//! From readings to a library: options, guesses that are reported, and the fit.
+
+use std::path::Path;
+
+use spectra::hint::{Explain, Hint};
+use spectra::optics::{Specular, Surface, UnevenFilm};
+
+use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
+use crate::calibration::{Calibration, CalibrationError, calibrate};
+use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
+use crate::measurement::MeasurementError;
+use crate::observation::{BelowSurface, Observation};
+use crate::readings::Readings;
+use crate::report::ErrorReport;
+use crate::swatch::SwatchSet;
+use pigment::PigmentId;
+use pigment::evaluate::Viewing;
+use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
+use pigment::remark::Remark;
+use pigment::visible_band::{BandError, check_visible_band};
+
+/// k1 and k2 of most paints, within the usual ranges of Saunderson's correction; see [`Surface`].
+const USUAL_SURFACE: (f64, f64) = (0.03, 0.6);
+
+/// Options of [`fit`].
+///
+/// ```
+/// use calibrate::FitOptions;
+/// use calibrate::fit::Method;
+///
+/// let options = FitOptions { method: Method::Weighted, ..FitOptions::default() };
+/// assert!(options.reference.is_none());
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FitOptions {
+    /// Meaning of the amounts in recipes: shares of a mixture, or amounts on a fixed area of a known
+    /// backing.
+    pub amounts: AmountKind,
+    /// Method of the fit; absolute amounts always take `refined`.
+    pub method: Method,
+    /// Name of the white whose S is 1. Default: the pigment called white that occurs in most samples.
+    pub reference: Option<String>,
+    /// Surface of the films. Default: k1 = 0.03 and k2 = 0.6; for absolute amounts k1 = 0 and the k2
+    /// that predicts unseen films best.
+    pub surface: Option<Surface>,
+    /// Whether the readings contain the mirror reflection, where no `surface` says so.
+    pub specular: Specular,
+    /// Treatment of readings below k1. Default: refuse where `surface` is given, else read as black.
+    pub below_surface: Option<BelowSurface>,
+    /// Smoothness of K and S over wavelength.
+    pub smoothness: Smoothness,
+    /// Unevenness of films of absolute amounts, as the standard deviation of log thickness, 0 to 2.
+    /// Default: the value that predicts unseen films best.
+    pub unevenness: Option<f64>,
+    /// Names of the samples to leave out.
+    pub exclude: Vec<String>,
+    /// Light and observer of the colour errors. K and S do not depend on them.
+    pub viewing: Viewing,
+    /// Title of the library. Default: name of the first file.
+    pub title: Option<String>,
+    /// Licence of the library. Default: `not stated`.
+    pub licence: Option<String>,
+    /// Origin of the measurements. Default: `not stated`.
+    pub source: Option<String>,
+}
+
+/// Fits K and S of every pigment to measured swatches.
+///
+/// ```no_run
+/// let readings = calibrate::Readings::open("swatches.csv")?;
+/// let fit = calibrate::fit(&readings, &calibrate::FitOptions::default())?;
+/// println!("{}", fit.report());
+/// for warning in fit.warnings() {
+///     eprintln!("warning: {warning}");
+/// }
+/// fit.library.save("library.json")?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or the
+/// fit fails.
+pub fn fit(readings: &Readings, options: &FitOptions) -> Result<Fit, FittingError> {
+    let prepared = PreparedFit::new(readings, options, &|| ())?;
+    let mut fit = prepared.fit()?;
+    fit.remarks.splice(0..0, prepared.remarks);
+    Ok(fit)
+}
+
+/// A fitted library, with what a user should know about the fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The library, with the evidence of its fit.
+    pub library: PigmentLibrary,
+    /// Choices that were made, and what the films and equations show.
+    pub remarks: Vec<Remark>,
+    /// Swatches as the fit used them; empty for absolute amounts.
+    pub observations: Vec<Observation>,
+    /// Rank and condition of the equations; `None` for absolute amounts.
+    pub condition: Option<Condition>,
+    /// Estimates that a validation reuses.
+    pub(crate) state: Option<RefinedState>,
+}
+
+impl Fit {
+    /// Errors of the fit.
+    ///
+    /// # Panics
+    /// If the evidence was removed from the library.
+    #[must_use]
+    pub fn evidence(&self) -> &Evidence {
+        self.library.evidence.as_ref().expect("a fit has evidence")
+    }
+
+    /// Report of the colour errors of all samples.
+    #[must_use]
+    pub fn report(&self) -> ErrorReport<'_> {
+        let title = format!(
+            "{} pigments from {} samples, {}",
+            self.library.pigments.len(),
+            self.evidence().per_sample.len(),
+            self.library.grid
+        );
+        ErrorReport::of_evidence(title, self.evidence())
+    }
+
+    /// Reservations about the data: what does not identify a pigment, or contradicts itself.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.evidence().warnings
+    }
+}
+
+/// Readings and settled options, ready to be fitted or validated.
+#[derive(Debug, Clone)]
+pub struct PreparedFit {
+    /// Swatches without those that are left out.
+    pub set: SwatchSet,
+    /// Settings of the fit.
+    pub settings: FitSettings,
+    /// Film model of the fit.
+    pub model: FilmModel,
+    /// Choices that were made, and reservations about the wavelengths.
+    pub remarks: Vec<Remark>,
+    viewing: Viewing,
+    inputs: Vec<Input>,
+    title: String,
+    licence: String,
+    source: String,
+}
+
+/// Film model of a fit, by the meaning of the amounts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FilmModel {
+    /// Shares of a mixture.
+    Relative {
+        /// White whose S is 1.
+        reference: PigmentId,
+        /// Surface of the films.
+        surface: Surface,
+    },
+    /// Amounts on known backings.
+    Absolute(UnevenFilm),
+}
+
+impl PreparedFit {
+    /// Number of times that [`Self::new`] calls `progress` if it chooses the film model of absolute
+    /// amounts.
+    pub const MODEL_FITS: usize = CHOICE_FITS;
+
+    /// Settles the options: selects samples, finds the reference white and the surface. `progress` is
+    /// called after each fit by which the film model of absolute amounts is chosen, from any thread.
+    ///
+    /// # Errors
+    /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
+    pub fn new(
+        readings: &Readings,
+        options: &FitOptions,
+        progress: &(impl Fn() + Sync),
+    ) -> Result<Self, FittingError> {
+        let mut remarks = Vec::from_iter(check_visible_band(readings.table.grid)?);
+        let set = without_excluded(readings.swatches()?, &options.exclude)?;
+        let below_surface = options.below_surface.unwrap_or(match options.surface {
+            Some(_) => BelowSurface::Refuse,
+            None => BelowSurface::Floor,
+        });
+        let model = match options.amounts {
+            AmountKind::Relative => {
+                let reference = reference(&set, options.reference.as_deref())?;
+                let name = &set.pigments[reference.index()];
+                let note = Remark::note(format!("reference white: {name}"));
+                remarks.push(note);
+                let (k1, k2) = USUAL_SURFACE;
+                let usual = Surface { k1, k2, specular: options.specular };
+                FilmModel::Relative { reference, surface: options.surface.unwrap_or(usual) }
+            }
+            AmountKind::Absolute => {
+                if options.reference.is_some() || options.method != Method::Refined {
+                    return Err(FittingError::AbsoluteOptions);
+                }
+                FilmModel::Absolute(film_model(&set, options, progress, &mut remarks)?)
+            }
+        };
+        let first = readings.inputs.first().map_or("", |input| input.path.as_str());
+        let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "not stated".into());
+        Ok(Self {
+            set,
+            settings: FitSettings {
+                method: options.method,
+                smoothness: options.smoothness,
+                below_surface,
+                excluded: options.exclude.clone(),
+            },
+            model,
+            remarks,
+            viewing: options.viewing.clone(),
+            inputs: readings.inputs.clone(),
+            title: options.title.clone().unwrap_or_else(|| stem(first)),
+            licence: stated(&options.licence),
+            source: stated(&options.source),
+        })
+    }
+
+    /// Light and observer of the colour errors.
+    #[must_use]
+    pub fn viewing(&self) -> &Viewing {
+        &self.viewing
+    }
+
+    /// Fits the library. The remarks are those of the fit itself.
+    ///
+    /// # Errors
+    /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
+    pub fn fit(&self) -> Result<Fit, FittingError> {
+        let Calibration { mut library, observations, condition, state } = match self.model {
+            FilmModel::Relative { reference, surface } => {
+                calibrate(&self.set, reference, surface, &self.settings, &self.viewing)?
+            }
+            FilmModel::Absolute(film) => {
+                calibrate_absolute(&self.set, film, &self.settings, &self.viewing)?
+            }
+        };
+        library.inputs = self.inputs.clone();
+        library.title = self.title.clone();
+        library.licence = self.licence.clone();
+        library.source = self.source.clone();
+        let remarks = remarks(&observations, condition.as_ref());
+        Ok(Fit { library, remarks, observations, condition, state })
+    }
+}
+
+fn without_excluded(set: SwatchSet, exclude: &[String]) -> Result<SwatchSet, FittingError> {
+    if exclude.is_empty() {
+        return Ok(set);
+    }
+    let samples: Vec<String> = set.swatches.iter().map(|s| s.sample.clone()).collect();
+    let excluded = exclude
+        .iter()
+        .map(|name| Ok(&samples[index_of(&samples, name, "sample")?]))
+        .collect::<Result<Vec<_>, FittingError>>()?;
+    if excluded.len() >= samples.len() {
+        return Err(FittingError::AllExcluded);
+    }
+    Ok(set.retaining(|swatch| !excluded.contains(&&swatch.sample)))
+}
+
+/// The white by name, else the pigment called white that occurs in most samples.
+fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingError> {
+    if let Some(name) = name {
+        return index_of(&set.pigments, name, "pigment").map(PigmentId);
+    }
+    let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
+    let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
+    let whites: Vec<usize> = (0..set.pigments.len()).filter(called_white).collect();
+    // The first of equals, so that the order of columns decides.
+    let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
+    commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
+        first: set.pigments.first().cloned().unwrap_or_default(),
+    })
+}
+
+/// The film model of absolute amounts: as stated, else chosen by cross-validation.
+fn film_model(
+    set: &SwatchSet,
+    options: &FitOptions,
+    progress: &(impl Fn() + Sync),
+    remarks: &mut Vec<Remark>,
+) -> Result<UnevenFilm, FittingError> {
+    let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular };
+    if options.surface.is_some() || options.unevenness.is_some() {
+        return Ok(UnevenFilm {
+            surface: options.surface.unwrap_or(plain),
+            unevenness: options.unevenness.unwrap_or(0.0),
+        });
+    }
+    let problem = films(set)?;
+    let film = chosen_film(&problem, plain, progress).map_err(CalibrationError::from)?;
+    remarks.push(Remark::note(format!(
+        "film model by cross-validation: k2 = {}, unevenness {}",
+        film.surface.k2, film.unevenness
+    )));
+    Ok(film)
+}
+
+/// How the films hid, how far repeated readings spread, and how well the equations are conditioned.
+fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let open = films.iter().filter(|o| o.hiding.hides() == Some(false)).count();
+    if open > 0 {
+        remarks.push(Remark::note(format!(
+            "{open} of {} films let their backing through; their K/S comes from the two backings",
+            films.len()
+        )));
+    }
+    let spreads = || films.iter().filter_map(|o| Some((o.spread?, &o.sample)));
+    if let Some((largest, sample)) = spreads().max_by(|a, b| a.0.total_cmp(&b.0)) {
+        remarks.push(Remark::note(format!(
+            "repeated readings of {} samples averaged; they spread by {largest:.4} at most ({sample})",
+            spreads().count()
+        )));
+    }
+    if let Some(c) = condition {
+        remarks.push(Remark::note(format!(
+            "rank {} of {} unknowns a wavelength; condition {:.0} at worst, at {} nm",
+            c.rank, c.unknowns, c.number, c.nm
+        )));
+    }
+    remarks
+}
+
+/// Index of `wanted` among `names`: exactly, else without regard to case.
+pub(crate) fn index_of(
+    names: &[String],
+    wanted: &str,
+    what: &'static str,
+) -> Result<usize, FittingError> {
+    let lower = wanted.to_lowercase();
+    let exact = names.iter().position(|name| name == wanted);
+    exact.or_else(|| names.iter().position(|name| name.to_lowercase() == lower)).ok_or_else(|| {
+        FittingError::UnknownName { what, name: wanted.to_owned(), known: names.to_vec() }
+    })
+}
+
+/// A file's name without folder and ending.
+fn stem(path: &str) -> String {
+    let stem = Path::new(path).file_stem();
+    stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// A fit or validation that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FittingError {
+    /// A sample or pigment is not among the readings.
+    #[error("no {what} is called `{name}`")]
+    UnknownName {
+        /// `sample` or `pigment`.
+        what: &'static str,
+        /// Name that was looked up.
+        name: String,
+        /// Names that exist.
+        known: Vec<String>,
+    },
+    /// No pigment can be guessed as the reference.
+    #[error("no pigment is called white, so none can be the reference whose S is 1")]
+    NoWhite {
+        /// Name of the first pigment, for advice.
+        first: String,
+    },
+    /// Every sample is excluded.
+    #[error("every sample is excluded")]
+    AllExcluded,
+    /// Absolute amounts have no reference and a method of their own.
+    #[error("absolute amounts take neither a reference white nor another method")]
+    AbsoluteOptions,
+    /// A validation of absolute amounts cannot be limited to pigments.
+    #[error("a validation with certain pigments needs relative amounts")]
+    AbsoluteWith,
+    /// A validation needs two groups or more.
+    #[error("a validation in groups needs at least 2, found `{folds}`")]
+    Folds {
+        /// Number of groups that was given.
+        folds: usize,
+    },
+    /// No mixture can be left out.
+    #[error("{}", nothing_to_leave_out(needed))]
+    NothingToLeaveOut {
+        /// Mixtures without which a pigment would not be identified.
+        needed: Vec<String>,
+    },
+    /// The readings have no visible wavelength.
+    #[error(transparent)]
+    Band(#[from] BandError),
+    /// Readings cannot be used.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// Readings cannot be used, or the fit failed.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+}
+
+fn nothing_to_leave_out(needed: &[String]) -> String {
+    if needed.is_empty() {
+        return "there is no mixture to leave out".to_owned();
+    }
+    let needed = needed.join(", ");
+    format!("no mixture can be left out: without it a pigment would not be identified ({needed})")
+}
+
+impl Explain for FittingError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::UnknownName { what, known, .. } => format!("{what}s: {}", known.join(", ")),
+            Self::NoWhite { first } => format!("name it: [reference=\"{first}\"]"),
+            Self::AllExcluded => "leave out some [exclude]".into(),
+            Self::AbsoluteOptions => "leave out [reference] and [method]".into(),
+            Self::AbsoluteWith => "leave out [with]".into(),
+            Self::Folds { .. } => "try [folds=10]".into(),
+            Self::NothingToLeaveOut { .. } => {
+                "measure more mixtures of each pigment (masstone, two tints, a shade)".into()
+            }
+            Self::Band(error) => return error.hint(),
+            Self::Measurement(error) => return error.hint(),
+            Self::Calibration(error) => return error.hint(),
+        }))
+    }
+}

@@ -1,0 +1,149 @@
+//! Validation of a fit from readings: each mixture predicted without its own measurement.
+
+use crate::fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, index_of};
+use crate::observation::Observation;
+use crate::readings::Readings;
+use crate::report::ErrorReport;
+use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
+use pigment::evaluate::Viewing;
+
+/// Options of [`validate`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ValidationOptions {
+    /// Options of the fits.
+    pub fit: FitOptions,
+    /// Number of seeded groups that are left out in turn, 2 and up. Default: each mixture by itself;
+    /// for absolute amounts 10 groups.
+    pub folds: Option<usize>,
+    /// Names of pigments; only mixtures with one of them are left out. Default: all mixtures.
+    pub with: Vec<String>,
+}
+
+/// Errors of mixtures that were predicted without their own measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitValidation {
+    /// The errors.
+    pub errors: Validation,
+    /// Fit of all samples.
+    pub fit: Fit,
+    /// Number of groups that were left out in turn; `None` for each mixture by itself.
+    pub folds: Option<usize>,
+    viewing: Viewing,
+}
+
+impl FitValidation {
+    /// Report of the colour errors of all mixtures.
+    #[must_use]
+    pub fn report(&self) -> ErrorReport<'_> {
+        let Validation { rms, delta_e, per_sample, .. } = &self.errors;
+        let count = per_sample.len();
+        let manner = match self.folds {
+            Some(folds) => format!("in {} groups", folds.min(count)),
+            None => "one by one".to_owned(),
+        };
+        let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
+        let title = format!("{count} mixtures, left out {manner}");
+        ErrorReport::new(title, delta_e, *rms, light, per_sample)
+    }
+
+    /// Names the mixtures that could not be left out.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let warning = |sample: &String| {
+            format!("{sample}: not left out, a pigment would not be identified without it")
+        };
+        self.errors.needed.iter().map(warning).collect()
+    }
+}
+
+/// Leaves each mixture of two pigments or more out in turn, fits the rest, and predicts it: the error of
+/// mixtures that a fit has not seen.
+///
+/// ```no_run
+/// use calibrate::{Readings, ValidationOptions};
+///
+/// let readings = Readings::open("swatches.csv")?;
+/// let validation = calibrate::validate(&readings, &ValidationOptions::default())?;
+/// println!("{}", validation.report());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`FittingError`] as for [`crate::fit()`], or if no mixture can be left out.
+pub fn validate(
+    readings: &Readings,
+    options: &ValidationOptions,
+) -> Result<FitValidation, FittingError> {
+    let prepared = PreparedFit::new(readings, &options.fit, &|| ())?;
+    prepared.validate(options, &|| ())
+}
+
+impl PreparedFit {
+    /// Number of mixtures that [`Self::validate`] leaves out at most.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name of `options` is unknown, or options exclude each other.
+    pub fn mixtures(&self, options: &ValidationOptions) -> Result<usize, FittingError> {
+        let chosen = self.chosen(options)?;
+        let is_mixture = |amounts: &[f64]| amounts.iter().filter(|a| **a > 0.0).count() > 1;
+        let amounts = self.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
+        Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
+    }
+
+    /// Validates like [`validate`], with these readings and fit options. `progress` is called after
+    /// each mixture, from any thread.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name is unknown, a fit fails, or no mixture can be left out.
+    pub fn validate(
+        &self,
+        options: &ValidationOptions,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<FitValidation, FittingError> {
+        if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
+            return Err(FittingError::Folds { folds });
+        }
+        let chosen = self.chosen(options)?;
+        let fit = self.fit()?;
+        let folds = match self.model {
+            FilmModel::Relative { .. } => options.folds,
+            FilmModel::Absolute(_) => options.folds.or(Some(DEFAULT_FOLDS)),
+        };
+        let viewing = self.viewing().clone();
+        let plan = ValidationPlan {
+            settings: &self.settings,
+            viewing: &viewing,
+            state: fit.state,
+            folds,
+            progress,
+        };
+        let errors = match self.model {
+            FilmModel::Relative { reference, surface } => {
+                let selects = |o: &Observation| chosen.selects(&o.shares);
+                leave_out(&self.set, reference, surface, &plan, selects)?
+            }
+            FilmModel::Absolute(film) => leave_out_films(&self.set, film, &plan)?,
+        };
+        if errors.per_sample.is_empty() {
+            return Err(FittingError::NothingToLeaveOut { needed: errors.needed });
+        }
+        Ok(FitValidation { errors, fit, folds, viewing })
+    }
+
+    fn chosen(&self, options: &ValidationOptions) -> Result<ChosenPigments, FittingError> {
+        if !options.with.is_empty() && matches!(self.model, FilmModel::Absolute(_)) {
+            return Err(FittingError::AbsoluteWith);
+        }
+        let with = options.with.iter().map(|name| index_of(&self.set.pigments, name, "pigment"));
+        with.collect::<Result<_, _>>().map(ChosenPigments)
+    }
+}
+
+/// Pigments of which a mixture must contain one; none for every mixture.
+struct ChosenPigments(Vec<usize>);
+
+impl ChosenPigments {
+    fn selects(&self, amounts: &[f64]) -> bool {
+        self.0.is_empty() || self.0.iter().any(|&pigment| amounts[pigment] > 0.0)
+    }
+}

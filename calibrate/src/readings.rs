@@ -1,0 +1,333 @@
+//! Measurement files of any known format, read together.
+
+use std::path::Path;
+
+use spectra::file::{FileError, read as read_file};
+use spectra::hint::{Explain, Fault, Hint};
+use spectra::instrument::{Format, InstrumentError, InstrumentFile, decode_text, read};
+use spectra::referencing::{
+    OpenedReferences, ReferenceFiles, ReferenceFilesError, ReferencingError, TileSource,
+};
+
+use crate::measurement::{
+    MeasurementError, MeasurementTable, Recipes, RecipesError, RecordChoice, Scale, ScaleChoice,
+    is_measurement_csv,
+};
+use crate::swatch::SwatchSet;
+use pigment::library::Input;
+use pigment::remark::Remark;
+
+/// Format of a measurement file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingFormat {
+    /// The measurement CSV: columns `sample`, `film`, `backing`, one for each pigment, wavelengths.
+    Csv,
+    /// A file as an instrument writes it.
+    Instrument(Format),
+}
+
+impl ReadingFormat {
+    /// Name of the CSV among the formats.
+    pub const CSV_NAME: &'static str = "csv";
+
+    /// Names of all formats.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        std::iter::once(Self::CSV_NAME).chain(Format::ALL.into_iter().map(Format::name))
+    }
+
+    /// The format with this name; `None` for an unknown name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        if name == Self::CSV_NAME {
+            return Some(Self::Csv);
+        }
+        Format::named(name).map(Self::Instrument)
+    }
+}
+
+/// Options of [`Readings::open_all`]. The defaults read every file as it describes itself.
+#[derive(Debug, Clone, Default)]
+pub struct ReadingOptions {
+    /// Format of the files. Default: detected from the content of each.
+    pub format: Option<ReadingFormat>,
+    /// Percent or fraction. Default: what the file states, else what its largest value suggests.
+    pub scale: ScaleChoice,
+    /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
+    /// mode over a white tile. Counts and powers of lamps never do.
+    pub transmittance_is_reflectance: bool,
+    /// White, dark and tile by which counts become reflectances. Default: the files hold reflectances.
+    pub references: Option<ReferenceFiles>,
+}
+
+/// Readings of one or more measurement files.
+///
+/// ```no_run
+/// let readings = calibrate::Readings::open("swatches.ti3")?.with_recipes("recipes.csv")?;
+/// for remark in &readings.remarks {
+///     eprintln!("{remark}");
+/// }
+/// # Ok::<(), calibrate::ReadingsError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Readings {
+    /// Readings of all files on one grid.
+    pub table: MeasurementTable,
+    /// Files that were read, with their hashes: measurements, then references, then recipes.
+    pub inputs: Vec<Input>,
+    /// Contents of each file in short, and reservations about them.
+    pub remarks: Vec<Remark>,
+}
+
+impl Readings {
+    /// Reads one measurement file of any known format.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+        Self::open_all(&[path], &ReadingOptions::default())
+    }
+
+    /// Reads several measurement files, which must have the same pigments and wavelengths.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open_all<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::open_files(paths, options, false)
+    }
+
+    /// Reads the spectra of files whose other columns do not matter, such as recipes.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open_spectra<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::open_files(paths, options, true)
+    }
+
+    /// Reads the measurement CSV in `bytes`, the content of `file`.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Measurement`] with row and column.
+    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, ReadingsError> {
+        let (table, remarks) = csv_table(file, bytes, ScaleChoice::ByFile, false)?;
+        Ok(Self { table, inputs: vec![Input::new(file, bytes)], remarks })
+    }
+
+    /// Adds the recipes of a CSV file (columns `sample`, one for each pigment, optionally `film`,
+    /// `backing`, `thickness_mm` and `reading`) to readings whose own files state none.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes(mut self, path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+        let (file, bytes) = content(path.as_ref())?;
+        let recipes = Recipes::from_csv(&file, &bytes)?;
+        self.table.remarks.clear();
+        self.table = recipes.joined_to(self.table)?;
+        self.remarks.extend(self.table.remarks.iter().map(Remark::warning));
+        self.inputs.push(Input::new(file, &bytes));
+        Ok(self)
+    }
+
+    /// Groups the readings by sample.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for rows that contradict each other, or if there is no film of paint.
+    pub fn swatches(&self) -> Result<SwatchSet, MeasurementError> {
+        SwatchSet::from_table(&self.table)
+    }
+
+    fn open_files<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+        spectra_only: bool,
+    ) -> Result<Self, ReadingsError> {
+        let references = options.references.as_ref().map(References::open).transpose()?;
+        let (mut tables, mut inputs, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
+        remarks.extend(references.iter().flat_map(References::remark));
+        for path in paths {
+            let (file, bytes) = content(path.as_ref())?;
+            inputs.push(Input::new(&file, &bytes));
+            let of_file = match instrument_file(&file, &bytes, options.format)? {
+                Some(spectra) => instrument_table(&file, spectra, options, references.as_ref())?,
+                None if references.is_some() => return Err(ReadingsError::CsvOfCounts { file }),
+                None => csv_table(&file, &bytes, options.scale, spectra_only)?,
+            };
+            tables.push(of_file.0);
+            remarks.extend(of_file.1);
+        }
+        let files = references.iter().flat_map(|references| &references.opened.files);
+        inputs.extend(files.map(|(file, bytes)| Input::new(file, bytes)));
+        Ok(Self { table: MeasurementTable::joined(tables)?, inputs, remarks })
+    }
+}
+
+/// Opened files of white, dark and tile.
+struct References {
+    /// The white as the caller named it.
+    white: String,
+    assumes_tile: bool,
+    opened: OpenedReferences,
+}
+
+impl References {
+    fn open(files: &ReferenceFiles) -> Result<Self, ReferenceFilesError> {
+        let assumes_tile = files.tile == TileSource::Fraction(1.0);
+        Ok(Self { white: files.white.clone(), assumes_tile, opened: files.open()? })
+    }
+
+    fn remark(&self) -> Option<Remark> {
+        let note = Remark::note("the white is taken to reflect everything");
+        self.assumes_tile.then(|| note.with_hint("state its reflectance with [tile]"))
+    }
+}
+
+/// The instrument's file in `bytes`; `None` for the measurement CSV, and for an unknown content, of
+/// which the CSV's reader names the first fault.
+fn instrument_file(
+    file: &str,
+    bytes: &[u8],
+    format: Option<ReadingFormat>,
+) -> Result<Option<InstrumentFile>, InstrumentError> {
+    let format = match format {
+        Some(ReadingFormat::Csv) => None,
+        Some(ReadingFormat::Instrument(format)) => Some(format),
+        None => {
+            let (text, _) = decode_text(bytes);
+            let is_csv = is_measurement_csv(&text);
+            if is_csv { None } else { Format::detect(file, &text) }
+        }
+    };
+    format.map(|format| read(file, bytes, Some(format))).transpose()
+}
+
+fn instrument_table(
+    file: &str,
+    mut content: InstrumentFile,
+    options: &ReadingOptions,
+    references: Option<&References>,
+) -> Result<(MeasurementTable, Vec<Remark>), ReadingsError> {
+    if let Some(References { white, opened, .. }) = references {
+        let reflectances = opened.referencing.reflectances(&content.spectra);
+        content.spectra = reflectances.map_err(|reason| ReadingsError::Referencing {
+            file: file.to_owned(),
+            white: white.clone(),
+            reason,
+        })?;
+    }
+    let choice = RecordChoice {
+        scale: options.scale,
+        transmittance_is_reflectance: options.transmittance_is_reflectance,
+    };
+    let table = MeasurementTable::from_records(file, &content.spectra, choice)?;
+    let count = table.readings.len();
+    let spectra = if count == 1 { "spectrum" } else { "spectra" };
+    let summary = format!("{file}: {}, {count} {spectra}", content.format.title());
+    let remarks = remarks(&summary, &table);
+    Ok((table, remarks))
+}
+
+fn csv_table(
+    file: &str,
+    bytes: &[u8],
+    scale: ScaleChoice,
+    spectra_only: bool,
+) -> Result<(MeasurementTable, Vec<Remark>), MeasurementError> {
+    let table = if spectra_only {
+        MeasurementTable::spectra_from_csv(file, bytes, scale)?
+    } else {
+        MeasurementTable::from_csv(file, bytes, scale)?
+    };
+    let (_, encoding) = decode_text(bytes);
+    let is_utf8 = encoding == "UTF-8";
+    let encoding = if is_utf8 { String::new() } else { format!(" ({encoding})") };
+    let summary = format!("{file}{encoding}: {} readings", table.readings.len());
+    let remarks = remarks(&summary, &table);
+    Ok((table, remarks))
+}
+
+/// Remarks about one file: `summary` with unit and grid, and the table's own as warnings.
+fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
+    let unit = match table.scale {
+        Scale::Percent => "percent",
+        Scale::Fraction => "fractions",
+    };
+    let mut remarks = vec![Remark::note(format!("{summary} in {unit}, {}", table.grid))];
+    remarks.extend(table.resampled_from.map(|count| {
+        Remark::note(format!(
+            "{count} irregular wavelengths brought to that grid by straight lines"
+        ))
+    }));
+    remarks.extend(table.remarks.iter().map(Remark::warning));
+    remarks
+}
+
+fn content(path: &Path) -> Result<(String, Vec<u8>), FileError> {
+    Ok((path.display().to_string(), read_file(path)?))
+}
+
+/// Measurement files that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadingsError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// An instrument's file is faulty.
+    #[error(transparent)]
+    Instrument(#[from] InstrumentError),
+    /// Readings are faulty or contradict each other.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// The recipes are faulty or do not fit the readings.
+    #[error(transparent)]
+    Recipes(#[from] RecipesError),
+    /// White, dark or tile cannot be read.
+    #[error(transparent)]
+    References(#[from] ReferenceFilesError),
+    /// Counts and white do not make a reflectance.
+    #[error("{file}: cannot be set against the white of {white}")]
+    Referencing {
+        /// File of the samples.
+        file: String,
+        /// White as the caller named it.
+        white: String,
+        /// Reason with the wavelength.
+        #[source]
+        reason: ReferencingError,
+    },
+    /// A white is given, but the file is a measurement CSV, which holds reflectances.
+    #[error("a white needs counts as an instrument writes them, found a CSV: `{file}`")]
+    CsvOfCounts {
+        /// File name as the caller gave it.
+        file: String,
+    },
+}
+
+impl Explain for ReadingsError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::File(error) => error.hint(),
+            Self::Instrument(error) => error.hint(),
+            Self::Measurement(error) => error.hint(),
+            Self::Recipes(error) => error.hint(),
+            Self::References(error) => error.hint(),
+            Self::Referencing { reason, .. } => reason.hint(),
+            Self::CsvOfCounts { .. } => Some(Hint::new(
+                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white]",
+            )),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Instrument(error) => error.fault(),
+            Self::References(error) => error.fault(),
+            _ => Fault::Input,
+        }
+    }
+}
