@@ -6,7 +6,7 @@ use calibrate::remark::Remark;
 use serde_json::Value;
 use spectra::color::Rgb;
 
-use crate::failure::flags;
+use crate::failure::{Result, with_options};
 
 /// What the terminal can do.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,19 +30,19 @@ pub(crate) struct Console<'a> {
 
 impl Console<'_> {
     /// A line of results.
-    pub(crate) fn line(&mut self, text: impl AsRef<str>) -> anyhow::Result<()> {
+    pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
         writeln!(self.out, "{}", text.as_ref())?;
         Ok(())
     }
 
     /// A result for programs.
-    pub(crate) fn json(&mut self, value: &Value) -> anyhow::Result<()> {
+    pub(crate) fn json(&mut self, value: &Value) -> Result<()> {
         write!(self.out, "{}", calibrate::library::to_text(value))?;
         Ok(())
     }
 
     /// A line beside the results.
-    pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> anyhow::Result<()> {
+    pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> Result<()> {
         writeln!(self.err, "{}", text.as_ref())?;
         Ok(())
     }
@@ -51,11 +51,11 @@ impl Console<'_> {
     pub(crate) fn remarks<'r>(
         &mut self,
         remarks: impl IntoIterator<Item = &'r Remark>,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         for remark in remarks {
             let mut line = Remark { hint: None, ..remark.clone() }.to_string();
             if let Some(hint) = &remark.hint {
-                line += &format!("; {}", flags(hint));
+                line += &format!("; {}", with_options(hint));
             }
             self.remark(line)?;
         }
@@ -63,7 +63,7 @@ impl Console<'_> {
     }
 
     /// Warnings, one a line.
-    pub(crate) fn warnings(&mut self, warnings: &[String]) -> anyhow::Result<()> {
+    pub(crate) fn warnings(&mut self, warnings: &[String]) -> Result<()> {
         for warning in warnings {
             self.remark(format!("warning: {warning}"))?;
         }

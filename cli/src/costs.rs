@@ -4,10 +4,10 @@ use std::path::Path;
 
 use calibrate::matching::{PriceList, parse_price};
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 /// Prices from texts `NAME=PRICE` and paths of CSV files with the columns `pigment` and `price`.
-pub(crate) fn prices(texts: &[String]) -> anyhow::Result<PriceList> {
+pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
     let mut prices = PriceList::default();
     for text in texts {
         if Path::new(text).is_file() {
@@ -15,7 +15,7 @@ pub(crate) fn prices(texts: &[String]) -> anyhow::Result<PriceList> {
             continue;
         }
         let (name, price) = text.rsplit_once('=').ok_or_else(|| {
-            Refusal::usage(
+            Failure::usage(
                 format!("--cost takes NAME=PRICE or a CSV file that exists, found `{text}`"),
                 "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
             )

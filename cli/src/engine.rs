@@ -8,6 +8,7 @@ use render::paint::engine::PaintEngine;
 use render::paint::painting::UNDO_BYTES;
 
 use crate::console::Console;
+use crate::failure::Result;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BackendName {
@@ -59,7 +60,7 @@ impl EngineOptions {
         &self,
         floor: &Field<i32>,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<PaintEngine> {
+    ) -> Result<PaintEngine> {
         let opened = PaintEngine::open(self.backend.choice(), floor)?;
         if let Some(error) = opened.gave_way {
             console.warnings(&[format!("{error}; painting on the processor")])?;

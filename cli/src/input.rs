@@ -10,6 +10,7 @@ use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
 
 use crate::console::Console;
+use crate::failure::Result;
 
 /// Light and observer.
 #[derive(Debug, Clone, Args)]
@@ -26,13 +27,13 @@ pub(crate) struct ViewingOptions {
 }
 
 impl ViewingOptions {
-    pub(crate) fn viewing(&self) -> anyhow::Result<Viewing> {
+    pub(crate) fn viewing(&self) -> Result<Viewing> {
         viewing(&self.illuminant, &self.observer)
     }
 }
 
 /// A light and an observer by their names.
-pub(crate) fn viewing(illuminant: &str, observer: &str) -> anyhow::Result<Viewing> {
+pub(crate) fn viewing(illuminant: &str, observer: &str) -> Result<Viewing> {
     Ok(Viewing { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
 }
 
@@ -47,19 +48,19 @@ pub(crate) fn color_weights(
     viewing: &Viewing,
     grid: Grid,
     console: &mut Console<'_>,
-) -> anyhow::Result<TristimulusWeights> {
+) -> Result<TristimulusWeights> {
     remark_coverage(grid, console)?;
     Ok(viewing.weights(grid)?)
 }
 
 /// Refuses a grid that misses the visible band, and warns of one that covers
 /// little of it.
-pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> anyhow::Result<()> {
+pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> Result<()> {
     console.remarks(&check_visible_band(grid)?)
 }
 
 /// The pigment library in a file.
-pub(crate) fn library(path: &Path) -> anyhow::Result<PigmentLibrary> {
+pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 

@@ -79,6 +79,6 @@ pub fn run(
     let mut console = Console { out, err, screen, command };
     match parsed.verb.run(&mut console) {
         Ok(()) => 0,
-        Err(error) => failure::report(&error, console.err),
+        Err(failure) => failure.report(console.err),
     }
 }

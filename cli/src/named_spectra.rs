@@ -7,7 +7,7 @@ use spectra::Grid;
 use spectra::instrument::split_file_and_name;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::readings::{ReadingOptions, spectra};
 
 /// How many names an error lists.
@@ -75,7 +75,7 @@ pub(crate) fn chosen(
     text: &str,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<Option<Chosen>> {
+) -> Result<Option<Chosen>> {
     let (file, wanted) = split_file_and_name(text);
     if !Path::new(file).is_file() {
         return Ok(None);
@@ -94,7 +94,7 @@ pub(crate) fn chosen(
 
 /// The indices of the `spectra` called `wanted`, rising: the one of that name, or
 /// all of the sample of that name.
-pub(crate) fn matching(spectra: &[NamedSpectrum], wanted: &str) -> anyhow::Result<Vec<usize>> {
+pub(crate) fn matching(spectra: &[NamedSpectrum], wanted: &str) -> Result<Vec<usize>> {
     if let Some(index) = spectra.iter().position(|one| one.name == wanted) {
         return Ok(vec![index]);
     }
@@ -105,7 +105,7 @@ pub(crate) fn matching(spectra: &[NamedSpectrum], wanted: &str) -> anyhow::Resul
     }
     let mut known: Vec<&str> = spectra.iter().map(|one| one.sample.as_str()).collect();
     known.dedup();
-    Err(Refusal::data(
+    Err(Failure::data(
         format!("no spectrum is called `{wanted}`"),
         format!("samples: {}", first_few(&known, ", ")),
     ))

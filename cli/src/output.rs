@@ -1,86 +1,58 @@
-//! Files that are written whole or not at all.
+//! Output files: checked before the slow part of a verb, then written whole or not at all.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use anyhow::Context;
-use tempfile::NamedTempFile;
+use spectra::file::{FileAction, FileError, check_writable, write_whole};
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
-/// A file to be, known to be writable.
+/// An output file that can be written.
 pub(crate) struct Output {
-    /// Where the user wants it.
+    /// Path as the user gave it.
     path: PathBuf,
-    /// The same with links followed: a link keeps pointing where it does.
+    /// Path with symbolic links resolved.
     target: PathBuf,
 }
 
 impl Output {
-    /// Checks, before the slow part, that `path` can be written and is none of
-    /// `inputs`.
-    pub(crate) fn open(path: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
+    /// Checks that `path` can be written and is not one of `inputs`.
+    pub(crate) fn open(path: &Path, inputs: &[PathBuf]) -> Result<Self> {
         let target = path.canonicalize().or_else(|_| std::path::absolute(path));
-        let target = target.with_context(|| format!("{}: cannot be written", path.display()))?;
+        let target = target.map_err(|reason| FileError {
+            path: path.to_owned(),
+            action: FileAction::Write,
+            reason: Arc::new(reason),
+        })?;
         if target.exists() && !target.is_file() {
-            return Err(Refusal::usage(
-                format!("{}: an ordinary file is wanted", path.display()),
-                "leave out --output and redirect what --json prints",
+            return Err(Failure::usage(
+                format!("{}: is not an ordinary file", path.display()),
+                "leave out --output and redirect the output of --json",
             ));
         }
-        let same = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == target);
-        if inputs.iter().any(same) {
-            return Err(Refusal::usage(
-                format!("{}: is an input, which is never written over", path.display()),
-                "give the output a name of its own",
+        let is_target = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == target);
+        if inputs.iter().any(is_target) {
+            return Err(Failure::usage(
+                format!("{}: is an input, which is never overwritten", path.display()),
+                "give the output another name",
             ));
         }
-        let output = Self { path: path.to_owned(), target };
-        output.beside()?;
-        Ok(output)
+        check_writable(path)?;
+        Ok(Self { path: path.to_owned(), target })
     }
 
-    /// Where the user wants it.
+    /// Path as the user gave it.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether both would be the same file.
+    /// Whether both outputs are the same file.
     pub(crate) fn is_same_as(&self, other: &Self) -> bool {
         self.target == other.target
     }
 
-    /// Writes `content` to a temporary file and gives that the wanted name.
-    pub(crate) fn write(self, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
-        let mut file = self.beside()?;
-        let cannot = || self.unwritable();
-        file.write_all(content.as_ref()).with_context(cannot)?;
-        file.as_file().sync_all().with_context(cannot)?;
-        if let Ok(before) = std::fs::metadata(&self.target) {
-            file.as_file().set_permissions(before.permissions()).with_context(cannot)?;
-        }
-        file.persist(&self.target).with_context(cannot)?;
-        Ok(())
-    }
-
-    /// A temporary file in the same folder; gone when dropped.
-    fn beside(&self) -> anyhow::Result<NamedTempFile> {
-        let folder = match self.target.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".impasto-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // As for any new file; the user's mask takes its share.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        builder.tempfile_in(folder).with_context(|| self.unwritable())
-    }
-
-    fn unwritable(&self) -> String {
-        format!("{}: cannot be written", self.path.display())
+    /// Replaces the file by `content`, or creates it.
+    pub(crate) fn write(self, content: impl AsRef<[u8]>) -> Result<()> {
+        Ok(write_whole(&self.path, content.as_ref())?)
     }
 }

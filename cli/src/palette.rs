@@ -2,23 +2,11 @@
 
 use calibrate::library::PigmentLibrary;
 use render::paint::document::Slots;
-use render::paint::palette::{PaletteError, palette_slots};
-use spectra::hint::Explain;
+use render::paint::palette::palette_slots;
 
-use crate::failure::{Refusal, flags};
+use crate::failure::Result;
 
 /// Slots of the pigments of `--palette`.
-pub(crate) fn palette(names: &[String], library: &PigmentLibrary) -> anyhow::Result<Slots> {
-    palette_slots(names, library).map_err(palette_refusal)
-}
-
-/// An unknown pigment is an error of the data; another error is one of the option.
-pub(crate) fn palette_refusal(error: PaletteError) -> anyhow::Error {
-    match error {
-        PaletteError::Pigment(error) => error.into(),
-        error => {
-            let hint = error.hint().map(|hint| flags(&hint)).unwrap_or_default();
-            Refusal::usage(error.to_string(), hint)
-        }
-    }
+pub(crate) fn palette(names: &[String], library: &PigmentLibrary) -> Result<Slots> {
+    Ok(palette_slots(names, library)?)
 }

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use clap::{Args, ValueEnum};
 use render::export::{self, ClippedColors, PaintingExports, PictureFormat, SpectralBands};
 use render::field::Field;
@@ -10,7 +9,7 @@ use render::paint::painting::Painting;
 use spectra::hint::Explain;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Context, Failure, Result};
 use crate::output::Output;
 
 /// Bits of a channel of a PNG.
@@ -83,12 +82,12 @@ impl Exports {
     }
 
     /// Checks, before the slow part, that all can be written.
-    pub(crate) fn open(self, inputs: &[PathBuf]) -> anyhow::Result<OpenExports> {
-        let wanted = |path: &Option<PathBuf>, endings: &[&str]| -> anyhow::Result<_> {
+    pub(crate) fn open(self, inputs: &[PathBuf]) -> Result<OpenExports> {
+        let wanted = |path: &Option<PathBuf>, endings: &[&str]| -> Result<_> {
             let Some(path) = path else { return Ok(None) };
             let found = path.extension().map(|e| e.to_string_lossy().to_lowercase());
             if !endings.iter().any(|ending| found.as_deref() == Some(ending)) {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("{}: this file ends in .{}", path.display(), endings.join(" or .")),
                     format!("try {}", path.with_extension(endings[0]).display()),
                 ));
@@ -101,7 +100,7 @@ impl Exports {
         let all: Vec<&Output> = [&picture, &spectral, &painting].into_iter().flatten().collect();
         for (index, output) in all.iter().enumerate() {
             if all[..index].iter().any(|other| output.is_same_as(other)) {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("{}: two exports would be this file", output.path().display()),
                     "give each a name of its own",
                 ));
@@ -109,7 +108,7 @@ impl Exports {
         }
         if let Some(folder) = &self.pigment_maps {
             let cannot = || format!("{}: this folder cannot be made", folder.display());
-            std::fs::create_dir_all(folder).with_context(cannot)?;
+            std::fs::create_dir_all(folder).context(cannot)?;
             Output::open(&folder.join("painting.csv"), inputs)?;
         }
         Ok(OpenExports { picture, spectral, painting, options: self })
@@ -134,7 +133,7 @@ impl OpenExports {
         picture: &Field<[f32; 4]>,
         cell_mm: f64,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         let Some(output) = self.picture else { return Ok(()) };
         let format = self.options.bits.format(output.path());
         let file = export::picture_file(picture, cell_mm, format)?;
@@ -143,11 +142,7 @@ impl OpenExports {
     }
 
     /// Computes and writes all files.
-    pub(crate) fn write(
-        self,
-        painting: &mut Painting,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
         let Exports { bits, bands, pigment_maps, .. } = self.options;
         let path = |output: &Output| output.path().to_owned();
         let bands = match bands {
@@ -183,7 +178,7 @@ fn remark_clipping(
     path: &Path,
     clipped: Option<ClippedColors>,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     match clipped.map(|clipped| clipping_remark(path, clipped)) {
         Some(remark) => console.remark(remark),
         None => Ok(()),

@@ -8,6 +8,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use crate::console::Console;
+use crate::failure::Result;
 use crate::referencing::ReferencingOptions;
 
 /// How measurement files are read.
@@ -68,7 +69,7 @@ pub(crate) fn measurements(
     recipes: Option<&Path>,
     options: &ReadingOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<Readings> {
+) -> Result<Readings> {
     let mut readings = Readings::open_all(paths, &options.options())?;
     if let Some(recipes) = recipes {
         readings = readings.with_recipes(recipes)?;
@@ -82,7 +83,7 @@ pub(crate) fn spectra(
     paths: &[PathBuf],
     options: &ReadingOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<MeasurementTable> {
+) -> Result<MeasurementTable> {
     let readings = Readings::open_spectra(paths, &options.options())?;
     console.remarks(&readings.remarks)?;
     Ok(readings.table)

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use spectra::optics::{Specular, Surface};
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SpecularName {
@@ -25,9 +25,9 @@ pub(crate) struct SurfaceOptions {
 
 impl SurfaceOptions {
     /// `None` if not told.
-    pub(crate) fn surface(&self) -> anyhow::Result<Option<Surface>> {
+    pub(crate) fn surface(&self) -> Result<Option<Surface>> {
         let wrong = |text: &str| {
-            Refusal::usage(
+            Failure::usage(
                 format!("--saunderson takes K1,K2 or none, found `{text}`"),
                 "try --saunderson 0.03,0.6",
             )
@@ -44,7 +44,7 @@ impl SurfaceOptions {
     }
 
     /// The surface told, else that of most paints.
-    pub(crate) fn surface_or_usual(&self) -> anyhow::Result<Surface> {
+    pub(crate) fn surface_or_usual(&self) -> Result<Surface> {
         let usual = Surface { k1: 0.03, k2: 0.6, specular: self.specular() };
         Ok(self.surface()?.unwrap_or(usual))
     }

@@ -5,7 +5,7 @@ use calibrate::measurement::Film;
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::remark_coverage;
 use crate::named_spectra::{Chosen, NamedSpectrum, chosen};
 use crate::readings::ReadingOptions;
@@ -15,12 +15,12 @@ pub(crate) fn targets(
     text: &str,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<Vec<ColorTarget>> {
+) -> Result<Vec<ColorTarget>> {
     if let Some(chosen) = chosen(text, reading, console)? {
         return measured(chosen, console);
     }
     let target = text.parse().map_err(|_| {
-        Refusal::usage(
+        Failure::usage(
             format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
             "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
         )
@@ -30,7 +30,7 @@ pub(crate) fn targets(
 
 /// Spectra of paint among `chosen`. Bare cards are left out, unless one is named or there is nothing
 /// else.
-fn measured(chosen: Chosen, console: &mut Console<'_>) -> anyhow::Result<Vec<ColorTarget>> {
+fn measured(chosen: Chosen, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
     let Chosen { file, grid, mut spectra } = chosen;
     remark_coverage(grid, console)?;
     let count = spectra.len();

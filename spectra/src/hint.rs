@@ -91,11 +91,14 @@ fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
     is_name.then_some((name, value, end + 1))
 }
 
-/// Whether the caller's data or the machine caused an error.
+/// Whether the data, a setting or the machine caused an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The data or the request is wrong; the call succeeds with other input.
+    /// The data are wrong; the call succeeds with other data.
     Input,
+    /// A setting is wrong: a name that does not exist, a value out of its range. The call
+    /// succeeds with the same data and another setting.
+    Setting,
     /// The machine is the cause: a file cannot be written, a graphics device was lost.
     Environment,
 }
@@ -108,7 +111,7 @@ pub trait Explain: Error {
         None
     }
 
-    /// Whether the input or the machine caused the error.
+    /// Whether the data, a setting or the machine caused the error.
     fn fault(&self) -> Fault {
         Fault::Input
     }

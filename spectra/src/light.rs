@@ -81,7 +81,8 @@ impl Explain for LightError {
     fn fault(&self) -> Fault {
         match self {
             Self::File(error) => error.fault(),
-            Self::Unknown { .. } | Self::Lamp(_) | Self::Illuminant(_) => Fault::Input,
+            Self::Lamp(error) => error.fault(),
+            Self::Unknown { .. } | Self::Illuminant(_) => Fault::Setting,
         }
     }
 }

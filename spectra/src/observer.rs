@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::grid::Grid;
-use crate::hint::Explain;
+use crate::hint::{Explain, Fault};
 use crate::spectrum::{Response, Spectrum};
 use crate::table;
 
@@ -96,4 +96,8 @@ pub struct ObserverError {
     pub name: String,
 }
 
-impl Explain for ObserverError {}
+impl Explain for ObserverError {
+    fn fault(&self) -> Fault {
+        Fault::Setting
+    }
+}

@@ -10,7 +10,7 @@ use calibrate::{FitOptions, PreparedFit, Readings};
 use clap::{Args, ValueEnum};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
 use crate::surface::SurfaceOptions;
@@ -89,12 +89,12 @@ impl CalibrationOptions {
     }
 
     /// Reads the files and prints what was read.
-    pub(super) fn readings(&self, console: &mut Console<'_>) -> anyhow::Result<Readings> {
+    pub(super) fn readings(&self, console: &mut Console<'_>) -> Result<Readings> {
         measurements(&self.files, self.recipes.as_deref(), &self.reading, console)
     }
 
     /// Options of the fit, with colour errors under `viewing`.
-    pub(super) fn fit_options(&self, viewing: Viewing) -> anyhow::Result<FitOptions> {
+    pub(super) fn fit_options(&self, viewing: Viewing) -> Result<FitOptions> {
         Ok(FitOptions {
             amounts: match self.amounts {
                 Amounts::Relative => AmountKind::Relative,
@@ -120,7 +120,7 @@ impl CalibrationOptions {
         })
     }
 
-    fn smoothness(&self) -> anyhow::Result<Smoothness> {
+    fn smoothness(&self) -> Result<Smoothness> {
         Ok(match self.smoothness.as_str() {
             "auto" => Smoothness::Auto,
             "none" => Smoothness::None,
@@ -128,7 +128,7 @@ impl CalibrationOptions {
         })
     }
 
-    fn unevenness(&self) -> anyhow::Result<Option<f64>> {
+    fn unevenness(&self) -> Result<Option<f64>> {
         Ok(match self.unevenness.as_str() {
             "auto" => None,
             text => Some(at_least_zero("--unevenness", text)?),
@@ -141,7 +141,7 @@ pub(super) fn prepared(
     readings: &Readings,
     options: &FitOptions,
     console: &mut Console<'_>,
-) -> anyhow::Result<PreparedFit> {
+) -> Result<PreparedFit> {
     let chooses_model = options.amounts == AmountKind::Absolute
         && options.surface.is_none()
         && options.unevenness.is_none();
@@ -154,9 +154,9 @@ pub(super) fn prepared(
     Ok(prepared)
 }
 
-fn at_least_zero(option: &str, text: &str) -> anyhow::Result<f64> {
+fn at_least_zero(option: &str, text: &str) -> Result<f64> {
     text.parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0).ok_or_else(|| {
-        Refusal::usage(
+        Failure::usage(
             format!("{option} takes a word or a number of 0 and up, found `{text}`"),
             format!("try {option} auto"),
         )

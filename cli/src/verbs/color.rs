@@ -12,7 +12,7 @@ use spectra::color::{
 
 use super::mix::gamut_note;
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::{remark_coverage, viewing};
 use crate::named_spectra::{NamedSpectrum, matching, named_spectra};
 use crate::readings::{ReadingOptions, spectra};
@@ -79,12 +79,12 @@ struct SpectrumColor {
 }
 
 impl Color {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let lights = self
             .illuminant
             .iter()
             .map(|light| viewing(light, &self.observer))
-            .collect::<anyhow::Result<Vec<Viewing>>>()?;
+            .collect::<Result<Vec<Viewing>>>()?;
         let table = spectra(&self.files, &self.reading, console)?;
         remark_coverage(table.grid, console)?;
         let weights = lights
@@ -122,7 +122,7 @@ impl Color {
                 &[one] => Some(&rows[one]),
                 several => {
                     let names: Vec<&str> = several.iter().map(|&i| rows[i].name.as_str()).collect();
-                    return Err(Refusal::data(
+                    return Err(Failure::data(
                         format!("`{name}` has several spectra"),
                         format!("name one: {}", names.join(", ")),
                     ));
@@ -203,7 +203,7 @@ fn print(
     standard: Option<&Row>,
     whites: &[Xyz],
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
     let mut heading =
         format!("{:width$}        X       Y       Z      L*      a*      b*", "sample");

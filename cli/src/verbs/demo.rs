@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::Context;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::{Fit, FitOptions, Readings};
@@ -11,6 +10,7 @@ use clap::Args;
 
 use super::{fit_report, library};
 use crate::console::Console;
+use crate::failure::{Context, Result};
 use crate::output::Output;
 
 const NAME: &str = "measurements/van-gogh-oils.csv";
@@ -36,10 +36,10 @@ pub(crate) struct Demo {
 }
 
 impl Demo {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
         std::fs::create_dir_all(&self.out)
-            .with_context(|| format!("{}: cannot be made", self.out.display()))?;
+            .context(|| format!("{}: cannot be made", self.out.display()))?;
         let path = self.out.join("van-gogh-oils.pigments.json");
         let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
@@ -76,7 +76,7 @@ impl Demo {
 }
 
 /// Fit of the shipped oils.
-fn fitted() -> anyhow::Result<Fit> {
+fn fitted() -> Result<Fit> {
     let readings = Readings::from_csv(NAME, OILS)?;
     let options = FitOptions {
         reference: Some("Zinc White".to_owned()),
@@ -92,7 +92,7 @@ fn print_mixtures(
     library: &PigmentLibrary,
     viewing: &Viewing,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let width = MIXTURES.iter().map(|(title, _)| title.len()).max().unwrap_or(0);
     for (title, recipe) in MIXTURES {
         let color = library.color(recipe.iter().copied(), viewing)?;

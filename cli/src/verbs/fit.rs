@@ -8,6 +8,7 @@ use clap::Args;
 use super::calibration_options::{CalibrationOptions, prepared};
 use super::fit_report;
 use crate::console::Console;
+use crate::failure::Result;
 use crate::input::ViewingOptions;
 use crate::output::Output;
 use crate::progress::Waiting;
@@ -41,7 +42,7 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
         let mut options = self.options.fit_options(self.viewing.viewing()?)?;
         options.title = self.title;

@@ -6,6 +6,7 @@ use render::paint::engine::max_canvas_cells;
 use serde_json::{Value, json};
 
 use crate::console::Console;
+use crate::failure::Result;
 
 /// Tell which graphics adapter painting would use, and why
 ///
@@ -22,7 +23,7 @@ pub(crate) struct Gpu {
 }
 
 impl Gpu {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let found = adapters();
         let used = best(&found, BackendChoice::Auto);
         let forced = best(&found, BackendChoice::Gpu);

@@ -9,7 +9,7 @@ use serde_json::json;
 use spectra::color::RgbSpace;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::ground::ground;
 use crate::input::{ViewingOptions, library};
 
@@ -40,14 +40,14 @@ pub(crate) struct Mix {
 }
 
 impl Mix {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
         let parts = parsed_recipe(&self.recipe)?;
         let absolute = library.amounts == AmountKind::Absolute;
         let hides = self.thickness.is_none() && !absolute;
         if hides && self.over.is_some() {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "a film that hides shows no ground",
                 "give --over a --thickness, such as 1",
             ));
@@ -105,12 +105,12 @@ pub(super) fn gamut_note(inside: bool) -> String {
 }
 
 /// Names and parts of `NAME=PARTS`.
-fn parsed_recipe(texts: &[String]) -> anyhow::Result<Vec<(&str, f64)>> {
+fn parsed_recipe(texts: &[String]) -> Result<Vec<(&str, f64)>> {
     texts
         .iter()
         .map(|text| {
             let wrong = || {
-                Refusal::usage(
+                Failure::usage(
                     format!("a part of a recipe is NAME=PARTS, found `{text}`"),
                     "try \"Zinc White=9\" \"Cobalt Blue=1\"",
                 )

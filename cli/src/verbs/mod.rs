@@ -41,6 +41,7 @@ mod gpu;
 use clap::Subcommand;
 
 use crate::console::Console;
+use crate::failure::Result;
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -62,7 +63,7 @@ pub(crate) enum Verb {
 }
 
 impl Verb {
-    pub(crate) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
         match self {
             Self::Fit(verb) => verb.run(console),
             Self::Validate(verb) => verb.run(console),

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::export::{PictureFormat, picture_file};
 use render::paint::document::Document;
 use render::paint::ground::GroundRelief;
 use render::paint::painting::Painting;
+use render::paint::session::ReplayError;
 use render::paint::session::{PaintingSession, ReplayReport};
 use render::paint::strokes::{Action, StrokeScript};
 use serde_json::json;
@@ -18,7 +18,7 @@ use serde_json::json;
 use super::paint_photograph::PhotographOptions;
 use crate::console::Console;
 use crate::engine::EngineOptions;
-use crate::failure::Refusal;
+use crate::failure::{Context, Failure, Result};
 use crate::input::{built_in_library, library, unreadable};
 use crate::output::Output;
 use crate::pictures::{Exports, clipping_remark};
@@ -55,7 +55,7 @@ pub(crate) struct Paint {
 }
 
 impl Paint {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         match &self.script {
             Some(script) => {
                 let script = script.clone();
@@ -72,9 +72,9 @@ impl Paint {
         }
     }
 
-    fn script(self, path: &Path, console: &mut Console<'_>) -> anyhow::Result<()> {
+    fn script(self, path: &Path, console: &mut Console<'_>) -> Result<()> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).with_context(|| unreadable(path))?;
+        let bytes = std::fs::read(path).context(|| unreadable(path))?;
         let mut script = StrokeScript::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
@@ -86,7 +86,7 @@ impl Paint {
         script.resolve(&library)?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
         if !self.exports.any() && !saves {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture painting.png, or --output painting.exr",
             ));
@@ -103,7 +103,7 @@ impl Paint {
         inputs.extend(start.iter().map(|(path, _)| path.clone()));
         let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
         let exports = self.exports.open(&inputs)?;
-        check_saves(&script, &folder, &inputs).with_context(|| name.clone())?;
+        check_saves(&script, &folder, &inputs).context(|| name.clone())?;
         let mut session = set_up(&self.engine, canvas, palette, console)?;
         let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
         let mut remarks = Vec::new();
@@ -119,23 +119,16 @@ impl Paint {
         for remark in remarks {
             console.remark(remark)?;
         }
-        let report = match report {
-            Ok(report) => report,
-            Err(error) => return Err(anyhow::Error::new(error).context(name)),
-        };
+        let report = report.map_err(|error| replay_failure(error).within(name))?;
         exports.write(session.canvas_mut(), console)?;
         tell(&report, session.canvas(), self.json, console)
     }
 
     /// The painting that the script goes on with, if with one.
-    fn start(
-        &self,
-        script: &StrokeScript,
-        folder: &Path,
-    ) -> anyhow::Result<Option<(PathBuf, Document)>> {
+    fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<(PathBuf, Document)>> {
         let Some(start) = &script.start else { return Ok(None) };
         if self.library.is_some() {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!("the script goes on with {start}, which has a library of its own"),
                 "leave --library out",
             ));
@@ -150,7 +143,7 @@ impl Paint {
         script: &StrokeScript,
         folder: &Path,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<PigmentLibrary> {
+    ) -> Result<PigmentLibrary> {
         if let Some(path) = &self.library {
             return library(path);
         }
@@ -176,7 +169,7 @@ fn set_up(
     canvas: Document,
     palette: Option<Document>,
     console: &mut Console<'_>,
-) -> anyhow::Result<PaintingSession> {
+) -> Result<PaintingSession> {
     let undo_bytes = engine.undo_bytes();
     let backend = engine.engine(&canvas.ground.height, console)?;
     let canvas = Painting::open(canvas, backend, undo_bytes)?;
@@ -188,30 +181,43 @@ fn set_up(
     Ok(session)
 }
 
-/// An error of saving, with all its causes.
+/// A failed save, as the replay of a script carries it.
 #[derive(Debug, thiserror::Error)]
-#[error("{0:#}")]
-struct Saving(anyhow::Error);
+#[error("{0}")]
+struct Saving(Failure);
+
+/// The failure of a replay, with the action that failed.
+fn replay_failure(error: ReplayError<Saving>) -> Failure {
+    match error {
+        ReplayError::Script(error) => error.into(),
+        ReplayError::Action { index, kind, error } => {
+            Failure::from(error).within(format!("action {index} ({kind})"))
+        }
+        ReplayError::Save { index, error: Saving(failure) } => {
+            failure.within(format!("action {index} (save)"))
+        }
+    }
+}
 
 /// Checks, before the slow part, that all that the script saves can be written.
-fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> anyhow::Result<()> {
+fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Result<()> {
     let mut checked = BTreeSet::new();
     for (index, action) in script.actions.iter().enumerate() {
         if let Action::Save { path } = action
             && checked.insert(path)
         {
-            open_save(folder, path, inputs).with_context(|| format!("action {index} (save)"))?;
+            open_save(folder, path, inputs).context(|| format!("action {index} (save)"))?;
         }
     }
     Ok(())
 }
 
 /// The file of an action that saves, below the script's folder.
-fn open_save(folder: &Path, path: &str, inputs: &[PathBuf]) -> anyhow::Result<Output> {
+fn open_save(folder: &Path, path: &str, inputs: &[PathBuf]) -> Result<Output> {
     let path = folder.join(path);
     if let Some(parent) = path.parent() {
         let cannot = || format!("{}: this folder cannot be made", parent.display());
-        std::fs::create_dir_all(parent).with_context(cannot)?;
+        std::fs::create_dir_all(parent).context(cannot)?;
     }
     Output::open(&path, inputs)
 }
@@ -223,7 +229,7 @@ fn save(
     inputs: &[PathBuf],
     painting: &mut Painting,
     remarks: &mut Vec<String>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let output = open_save(folder, path, inputs)?;
     let path = output.path();
     let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
@@ -242,7 +248,7 @@ fn tell(
     painting: &Painting,
     as_json: bool,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let bounds = painting.bounds();
     let ReplayReport { actions, strokes, substeps, cells, idle, not_undoable } = *report;
     if idle > 0 {

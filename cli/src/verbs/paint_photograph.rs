@@ -16,9 +16,8 @@ use spectra::hint::Explain;
 
 use crate::console::Console;
 use crate::engine::EngineOptions;
-use crate::failure::{Refusal, flags};
+use crate::failure::{Failure, Result, with_options};
 use crate::output::Output;
-use crate::palette::palette_refusal;
 use crate::pictures::Exports;
 use crate::progress::{Progress, Waiting};
 
@@ -73,11 +72,11 @@ impl PhotographOptions {
         exports: Exports,
         as_json: bool,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         let from = self.from.clone().unwrap_or_default();
         let paints = exports.any() || self.strokes_out.is_some();
         if !paints && self.separate.is_none() {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture painting.png, --output painting.exr, or --separate FOLDER",
             ));
@@ -85,7 +84,7 @@ impl PhotographOptions {
         let settings = self.settings();
         settings.check().map_err(settings_refusal)?;
         if paints && self.thin {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "--thin is for --separate alone: strokes lie over each other and hide",
                 "leave --thin out, or separate first and paint in a second run",
             ));
@@ -146,25 +145,24 @@ fn grounds() -> impl TypedValueParser<Value = GroundKind> {
     names.try_map(|name| name.parse::<GroundKind>())
 }
 
-/// Options that are out of range, or name no palette, are the user's; other errors stay.
-fn refusal(error: StrokePainterError) -> anyhow::Error {
+/// Names the option where a setting is out of range.
+fn refusal(error: StrokePainterError) -> Failure {
     match error {
         StrokePainterError::Settings(error) => settings_refusal(error),
-        StrokePainterError::Palette(error) => palette_refusal(error),
         error => error.into(),
     }
 }
 
-fn settings_refusal(error: StrokeSettingsError) -> anyhow::Error {
-    let hint = error.hint().map(|hint| flags(&hint)).unwrap_or_default();
+fn settings_refusal(error: StrokeSettingsError) -> Failure {
+    let hint = error.hint().map(|hint| with_options(&hint)).unwrap_or_default();
     let StrokeSettingsError::OutOfRange { setting, value, least, most } = error else {
-        return Refusal::usage(error.to_string(), hint);
+        return Failure::usage(error.to_string(), hint);
     };
     let option = match setting {
         "brushes_mm" => "--brushes".to_owned(),
         setting => format!("--{}", setting.replace('_', "-")),
     };
-    Refusal::usage(format!("{option} takes {least} to {most}, found `{value}`"), hint)
+    Failure::usage(format!("{option} takes {least} to {most}, found `{value}`"), hint)
 }
 
 fn report_separation(
@@ -172,7 +170,7 @@ fn report_separation(
     pigments: &[String],
     as_json: bool,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     if as_json {
         return console.json(&json!({"palette": pigments, "error": separated.error}));
     }
@@ -185,7 +183,7 @@ fn report(
     pigments: &[String],
     as_json: bool,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let PaintedPhotograph { session, levels, error, .. } = painted;
     let (bounds, backend) = (session.canvas().bounds(), session.canvas().backend());
     if as_json {

@@ -9,7 +9,7 @@ use spectra::Grid;
 
 use super::plan_report;
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
@@ -65,7 +65,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let form = MeasurementForm { grid: self.grid()?, replicates: self.replicates()? };
         let noise = self.noise()?;
         let inputs: Vec<PathBuf> = self.prior.iter().cloned().collect();
@@ -73,7 +73,7 @@ impl Plan {
             let output = Output::open(path, &inputs)?;
             // It may hold a day's readings by now.
             if path.exists() {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("{}: is there already, and is not written over", path.display()),
                     "give another name, or remove the file first",
                 ));
@@ -120,19 +120,19 @@ impl Plan {
         }
     }
 
-    fn replicates(&self) -> anyhow::Result<usize> {
+    fn replicates(&self) -> Result<usize> {
         if (1..=100).contains(&self.replicates) {
             return Ok(self.replicates);
         }
-        Err(Refusal::usage(
+        Err(Failure::usage(
             format!("--replicates takes 1 to 100, found `{}`", self.replicates),
             "two readings, the sample turned between them, show how far they repeat",
         ))
     }
 
-    fn grid(&self) -> anyhow::Result<Grid> {
+    fn grid(&self) -> Result<Grid> {
         let wrong = || {
-            Refusal::usage(
+            Failure::usage(
                 format!(
                     "--grid takes FIRST,LAST,STEP in nm, within 200 to 2500 and LAST a whole number of steps from FIRST, found `{}`",
                     self.grid
@@ -149,7 +149,7 @@ impl Plan {
         Ok(Grid::from_nm(first, step, steps.round() as usize + 1)?)
     }
 
-    fn noise(&self) -> anyhow::Result<Option<ExpectedNoise>> {
+    fn noise(&self) -> Result<Option<ExpectedNoise>> {
         let Some(text) = &self.noise else { return Ok(None) };
         match numbers(text) {
             Some([constant, even])
@@ -159,7 +159,7 @@ impl Plan {
             {
                 Ok(Some(ExpectedNoise { constant, even }))
             }
-            _ => Err(Refusal::usage(
+            _ => Err(Failure::usage(
                 format!("--noise takes CONSTANT,EVEN, each 0 to 1 and one above 0, found `{text}`"),
                 "try --noise 0.002,0.01",
             )),

@@ -5,8 +5,9 @@ use calibrate::{PigmentId, Recipe};
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
+use crate::failure::Result;
 
-pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> anyhow::Result<()> {
+pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> Result<()> {
     let word =
         |&(paint, grams): &(PigmentId, f64)| format!("{grams} g {}", plan.paints.name(paint));
     let words = |grams: &Recipe| grams.iter().map(word).collect::<Vec<_>>().join(" + ");
@@ -20,7 +21,7 @@ pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> anyhow::
     Ok(())
 }
 
-pub(super) fn print_totals(plan: &Plan, console: &mut Console<'_>) -> anyhow::Result<()> {
+pub(super) fn print_totals(plan: &Plan, console: &mut Console<'_>) -> Result<()> {
     console.line("")?;
     console.line("Paint for all of them:")?;
     for (name, total) in plan.paints.names.iter().zip(plan.totals_g()) {
@@ -33,7 +34,7 @@ pub(super) fn print_forecast(
     paints: &PaintSet,
     forecast: &Forecast,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     console.line(format!(
         "the usual plan of as many swatches has {:.0} % of this one's information (D-efficiency)",
         100.0 * forecast.usual_efficiency

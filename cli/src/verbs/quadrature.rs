@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, color_weights, library};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -48,7 +48,7 @@ pub(crate) struct Quadrature {
 }
 
 impl Quadrature {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = self.library.as_deref().map(library).transpose()?;
         let method = self.method.unwrap_or(match library {
@@ -60,7 +60,7 @@ impl Quadrature {
             (MethodName::Moments, _) => Rule::moments(&viewing, self.nodes)?,
             (MethodName::Library, Some(library)) => Rule::library(&viewing, library, self.nodes)?,
             (MethodName::Library, None) => {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     "--method library needs a pigment library",
                     "try impasto quadrature LIBRARY.json",
                 ));

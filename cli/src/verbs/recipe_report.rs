@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb};
 
 use crate::console::Console;
+use crate::failure::Result;
 use crate::input::srgb;
 
 /// CIEDE2000 above which a difference is plain to see side by side; chosen by eye.
@@ -43,11 +44,7 @@ impl RecipeReport<'_> {
         }
     }
 
-    pub(super) fn print(
-        &self,
-        matched: &RecipeMatches,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    pub(super) fn print(&self, matched: &RecipeMatches, console: &mut Console<'_>) -> Result<()> {
         let target = &matched.target;
         let wanted = target.lab[0];
         let rgb = self.shown(wanted);
@@ -80,7 +77,7 @@ impl RecipeReport<'_> {
         rank: &str,
         recipe: &RecipeMatch,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         // Under the light's name, which may be the path of a lamp's file.
         let under = |(difference, light): (&f64, &str)| {
             format!("{difference:width$.2}", width = light.chars().count().max(8))

@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::recipe_report::RecipeReport;
 use crate::console::Console;
 use crate::costs::prices;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::ground::ground;
 use crate::input::{library, viewing};
 use crate::progress::Progress;
@@ -84,7 +84,7 @@ pub(crate) struct Match {
 }
 
 impl Match {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let library = library(&self.library)?;
         let options = self.options(&library, console)?;
         let search = library.recipe_search(&options)?;
@@ -115,19 +115,15 @@ impl Match {
         Ok(())
     }
 
-    fn options(
-        &self,
-        library: &PigmentLibrary,
-        console: &mut Console<'_>,
-    ) -> anyhow::Result<MatchOptions> {
+    fn options(&self, library: &PigmentLibrary, console: &mut Console<'_>) -> Result<MatchOptions> {
         if let Some(grams) = self.grams.filter(|grams| !(*grams > 0.0 && *grams < 1e9)) {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!("--grams must be above 0, found `{grams}`"),
                 "try --grams 40",
             ));
         }
         if self.grams.is_some() && library.amounts == AmountKind::Absolute {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "--grams shares out a mixture, but this library's amounts are absolute",
                 "leave it out: the recipe tells each amount on the library's area",
             ));
@@ -135,11 +131,11 @@ impl Match {
         let conditions = self.illuminant.iter().map(|text| self.condition(text));
         let with = self.with.iter().map(|text| required(text, library));
         Ok(MatchOptions {
-            conditions: conditions.collect::<anyhow::Result<_>>()?,
+            conditions: conditions.collect::<Result<_>>()?,
             thickness: self.thickness.as_deref().map(thickness).transpose()?,
             over: self.over.as_deref().map(|text| ground(text, console)).transpose()?,
             only: self.only.clone(),
-            with: with.collect::<anyhow::Result<_>>()?,
+            with: with.collect::<Result<_>>()?,
             without: self.without.clone(),
             at_most: self.at_most,
             least_share: share("--least", &self.least)?,
@@ -151,7 +147,7 @@ impl Match {
     }
 
     /// Viewing condition of `LIGHT` or `LIGHT=WEIGHT`.
-    fn condition(&self, text: &str) -> anyhow::Result<ViewingCondition> {
+    fn condition(&self, text: &str) -> Result<ViewingCondition> {
         let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
             let weight: f64 = weight.parse().ok()?;
             Some((light, weight))
@@ -162,7 +158,7 @@ impl Match {
 }
 
 /// Thickness of `T` or `LEAST:MOST`.
-fn thickness(text: &str) -> anyhow::Result<Thickness> {
+fn thickness(text: &str) -> Result<Thickness> {
     let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= 1e9);
     let thickness = match text.split_once(':') {
         Some((least, most)) => number(least)
@@ -172,7 +168,7 @@ fn thickness(text: &str) -> anyhow::Result<Thickness> {
         None => number(text).map(Thickness::Fixed),
     };
     thickness.ok_or_else(|| {
-        Refusal::usage(
+        Failure::usage(
             format!("--thickness is T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
             "try --thickness 1 or --thickness 0.2:3",
         )
@@ -180,7 +176,7 @@ fn thickness(text: &str) -> anyhow::Result<Thickness> {
 }
 
 /// Pigment and fixed share of `PIGMENT` or `PIGMENT=SHARE`.
-fn required(text: &str, library: &PigmentLibrary) -> anyhow::Result<RequiredName> {
+fn required(text: &str, library: &PigmentLibrary) -> Result<RequiredName> {
     // A pigment's own name may hold an equals sign.
     let (name, fixed) = match text.rsplit_once('=') {
         Some((name, fixed)) if library.find(text).is_err() => (name, Some(fixed)),
@@ -191,14 +187,14 @@ fn required(text: &str, library: &PigmentLibrary) -> anyhow::Result<RequiredName
 }
 
 /// A share from 0 to 1: a number, or a fraction such as 1/50.
-fn share(option: &str, text: &str) -> anyhow::Result<f64> {
+fn share(option: &str, text: &str) -> Result<f64> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let value = match text.split_once('/') {
         Some((above, below)) => number(above).zip(number(below)).map(|(a, b)| a / b),
         None => number(text),
     };
     value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {
-        Refusal::usage(
+        Failure::usage(
             format!("{option} takes a share from 0 to 1, found `{text}`"),
             format!(
                 "try {option} {}0.25 or a fraction such as 1/4",

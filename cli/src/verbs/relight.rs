@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::console::Console;
 use crate::engine::EngineOptions;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::viewing;
 use crate::pictures::Exports;
 
@@ -57,7 +57,7 @@ pub(crate) struct Relight {
 }
 
 impl Relight {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let mut document = Document::open(&self.painting)?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
@@ -76,10 +76,10 @@ impl Relight {
         tell(&mut painting, self.json, console)
     }
 
-    fn lighting(&self, saved: &Lighting) -> anyhow::Result<Lighting> {
+    fn lighting(&self, saved: &Lighting) -> Result<Lighting> {
         let number = |name: &str, given: Option<f64>, saved: f64, least: f64, most: f64| match given
         {
-            Some(value) if !(least..=most).contains(&value) => Err(Refusal::usage(
+            Some(value) if !(least..=most).contains(&value) => Err(Failure::usage(
                 format!("--{name} takes {least} to {most}, found `{value}`"),
                 "see impasto relight --help",
             )),
@@ -97,9 +97,9 @@ impl Relight {
 }
 
 /// `LAYER:FROM=TO`.
-fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
+fn swap(painting: &mut Painting, text: &str) -> Result<()> {
     let wrong = || {
-        Refusal::usage(
+        Failure::usage(
             format!("--swap takes LAYER:FROM=TO, found `{text}`"),
             "try --swap \"all:Emerald Green=Viridian\"",
         )
@@ -118,7 +118,7 @@ fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
             };
             let found: Vec<LayerRef> = all.into_iter().filter(has).collect();
             if found.is_empty() {
-                return Err(Refusal::data(
+                return Err(Failure::data(
                     format!("no layer has {}", painting.library().pigments[from].name),
                     "impasto relight PAINTING tells what each layer has",
                 ));
@@ -134,9 +134,9 @@ fn swap(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
 }
 
 /// `LAYER=X`.
-fn opacity(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
+fn opacity(painting: &mut Painting, text: &str) -> Result<()> {
     let wrong = || {
-        Refusal::usage(format!("--opacity takes LAYER=X, found `{text}`"), "try --opacity 0=0.5")
+        Failure::usage(format!("--opacity takes LAYER=X, found `{text}`"), "try --opacity 0=0.5")
     };
     let (layer, value) = text.split_once('=').ok_or_else(wrong)?;
     let layer = layer.trim().parse().map_err(|_| wrong())?;
@@ -144,9 +144,9 @@ fn opacity(painting: &mut Painting, text: &str) -> anyhow::Result<()> {
     Ok(painting.set_opacity(LayerRef::Dry(layer), value)?)
 }
 
-fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
+fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> Result<()> {
     let bounds = painting.bounds();
-    let names = |coating| -> anyhow::Result<Vec<String>> {
+    let names = |coating| -> Result<Vec<String>> {
         let slots = painting.slots(coating)?;
         let name = |&index: &usize| painting.library().pigments[index].name.clone();
         Ok(slots.iter().flatten().map(name).collect())
@@ -169,7 +169,7 @@ fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> an
             "canvas": [bounds.width, bounds.height],
             "cell_mm": painting.cell_mm(),
             "layers": layers,
-            "lighting": serde_json::to_value(lighting)?,
+            "lighting": serde_json::to_value(lighting).expect("a lighting is JSON"),
             "wavelengths_nm": nodes,
         }));
     }

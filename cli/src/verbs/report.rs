@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use anyhow::Context;
 use calibrate::comparison::{Comparable, Comparison};
 use calibrate::library::PigmentLibrary;
 use calibrate::palette::Cards;
@@ -14,7 +13,7 @@ use reports::{STEPS, Subject};
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Context, Failure, Result};
 use crate::input::{ViewingOptions, color_weights, library};
 use crate::output::Output;
 use crate::progress::Progress;
@@ -55,7 +54,7 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
         let weights = color_weights(&viewing, library.grid, console)?;
@@ -66,7 +65,7 @@ impl Report {
         if let Some((first, second)) = pair
             && first == second
         {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!("--pair takes two pigments, found {} twice", library[first].name),
                 "name another pigment beside it",
             ));
@@ -102,7 +101,8 @@ impl Report {
             quadratures,
             pair,
         };
-        let report = reports::Report::draw(&subject, &step)?;
+        let report = reports::Report::draw(&subject, &step)
+            .map_err(|error| Failure::caused_by("a figure cannot be drawn", &error))?;
         progress.done();
         self.write(&report, page)?;
         self.tell(&report, &subject, console)
@@ -112,7 +112,7 @@ impl Report {
         &self,
         library: &PigmentLibrary,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<Option<Comparable>> {
+    ) -> Result<Option<Comparable>> {
         if self.files.is_empty() {
             return Ok(None);
         }
@@ -127,15 +127,15 @@ impl Report {
     }
 
     /// The page, known to be writable before the slow part.
-    fn page(&self) -> anyhow::Result<Output> {
+    fn page(&self) -> Result<Output> {
         let figures = self.out.join("figures");
         std::fs::create_dir_all(&figures)
-            .with_context(|| format!("{}: cannot be made", figures.display()))?;
+            .context(|| format!("{}: cannot be made", figures.display()))?;
         Output::open(&self.out.join(PAGE), &self.inputs())
     }
 
     /// Writes the figures, and last the page that shows them.
-    fn write(&self, report: &reports::Report, page: Output) -> anyhow::Result<()> {
+    fn write(&self, report: &reports::Report, page: Output) -> Result<()> {
         let inputs = self.inputs();
         let mut outputs = Vec::new();
         let mut page = Some(page);
@@ -155,7 +155,7 @@ impl Report {
         report: &reports::Report,
         subject: &Subject<'_>,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         let path = |inside: &str| self.out.join(inside).display().to_string();
         let Subject { comparison, validation, .. } = subject;
         if self.json {

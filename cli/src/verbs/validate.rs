@@ -9,7 +9,7 @@ use clap::Args;
 use super::calibration_options::{CalibrationOptions, prepared};
 use super::fit_report;
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::ViewingOptions;
 use crate::progress::Progress;
 
@@ -35,10 +35,10 @@ pub(crate) struct Validate {
 }
 
 impl Validate {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
         if self.folds.is_some_and(|folds| folds < 2) {
-            return Err(Refusal::usage("--folds needs at least 2 groups", "try --folds 10"));
+            return Err(Failure::usage("--folds needs at least 2 groups", "try --folds 10"));
         }
         let options = ValidationOptions {
             fit: self.options.fit_options(self.viewing.viewing()?)?,

@@ -1,7 +1,7 @@
 //! Pigments of a palette by name.
 
 use pigment::{PigmentLibrary, RecipeError};
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::document::Slots;
 use crate::layer::SLOTS;
@@ -54,6 +54,13 @@ impl Explain for PaletteError {
             }
             Self::Repeated { .. } => Some(Hint::new("leave the second out")),
             Self::Pigment(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::TooMany { .. } | Self::Repeated { .. } => Fault::Setting,
+            Self::Pigment(error) => error.fault(),
         }
     }
 }

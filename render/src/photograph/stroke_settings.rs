@@ -1,6 +1,6 @@
 //! Settings of a photograph painted in strokes.
 
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use super::plan::Plan;
 use paint::canvas::Canvas;
@@ -159,5 +159,9 @@ impl Explain for StrokeSettingsError {
                 "take larger cells ([cell_mm]) or a smaller painting ([width_mm])"
             }
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
     }
 }

@@ -182,7 +182,7 @@ impl Explain for PhotographPainterError {
 
     fn fault(&self) -> Fault {
         match self {
-            Self::Abstraction(error) => error.fault(),
+            Self::Abstraction(_) => Fault::Setting,
             Self::Paper(error) => error.fault(),
             Self::Device(error) => error.fault(),
         }

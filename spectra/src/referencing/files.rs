@@ -157,7 +157,8 @@ impl Explain for ReferenceFilesError {
     fn fault(&self) -> Fault {
         match self {
             Self::Open(error) => error.fault(),
-            Self::Tile { .. } | Self::Constant(_) | Self::Setting { .. } => Fault::Input,
+            Self::Setting { .. } => Fault::Setting,
+            Self::Tile { .. } | Self::Constant(_) => Fault::Input,
         }
     }
 }

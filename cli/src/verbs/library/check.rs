@@ -8,7 +8,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, library};
 
 /// How many of the worst samples are shown.
@@ -32,7 +32,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
         let health = health(&library, &viewing);
@@ -42,7 +42,7 @@ impl Check {
             print(&library, &health, console)?;
         }
         if health.faulty() {
-            return Err(Refusal::data(
+            return Err(Failure::data(
                 format!("{}: the library is faulty", self.library.display()),
                 "see its faults above; fit again, or mend the file",
             ));
@@ -88,11 +88,7 @@ fn as_json(library: &PigmentLibrary, health: &Health) -> Value {
     })
 }
 
-fn print(
-    library: &PigmentLibrary,
-    health: &Health,
-    console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+fn print(library: &PigmentLibrary, health: &Health, console: &mut Console<'_>) -> Result<()> {
     console.line(format!("{} pigments, {}", library.pigments.len(), library.grid))?;
     if let Some(evidence) = &library.evidence {
         console.line(format!(

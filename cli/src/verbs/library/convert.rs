@@ -3,7 +3,6 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
 use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
@@ -11,7 +10,7 @@ use spectra::Interpolation;
 
 use super::grid_option::{ResamplingOptions, grid};
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Context, Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
@@ -63,7 +62,7 @@ pub(super) struct Convert {
 }
 
 impl Convert {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let wanted = self.grid.as_deref().map(grid).transpose()?;
         let file = self.library.display().to_string();
@@ -72,7 +71,7 @@ impl Convert {
         } else {
             self.refuse_table_options()?;
             if wanted.is_none() && self.reference.is_none() {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     "nothing to convert to",
                     "say --grid START,END,STEP or --reference PIGMENT",
                 ));
@@ -100,12 +99,11 @@ impl Convert {
         ))
     }
 
-    fn table(&self, file: &str) -> anyhow::Result<PigmentLibrary> {
-        let bytes =
-            std::fs::read(&self.library).with_context(|| format!("{file}: cannot be read"))?;
+    fn table(&self, file: &str) -> Result<PigmentLibrary> {
+        let bytes = std::fs::read(&self.library).context(|| format!("{file}: cannot be read"))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
-            Refusal::data(
+            Failure::data(
                 format!("{file}, byte {at}: text must be UTF-8"),
                 "save the file as CSV in UTF-8",
             )
@@ -126,7 +124,7 @@ impl Convert {
         Ok(library)
     }
 
-    fn refuse_table_options(&self) -> anyhow::Result<()> {
+    fn refuse_table_options(&self) -> Result<()> {
         let given = [
             ("--amounts", self.amounts.is_some()),
             ("--saunderson", self.surface.given()),
@@ -136,7 +134,7 @@ impl Convert {
         ];
         match given.into_iter().find(|(_, given)| *given) {
             None => Ok(()),
-            Some((option, _)) => Err(Refusal::usage(
+            Some((option, _)) => Err(Failure::usage(
                 format!("{option} is for tables (CSV); a library says so itself"),
                 "shares cannot become amounts, nor K and S hold under another surface: fit again",
             )),
@@ -152,7 +150,7 @@ fn remark_reference(
     before: &PigmentLibrary,
     after: &PigmentLibrary,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     if before.reference == after.reference {
         return Ok(());
     }

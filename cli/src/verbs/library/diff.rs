@@ -8,7 +8,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::{library, remark_coverage, viewing};
 
 /// How far two libraries of the same pigments are apart, in CIEDE2000
@@ -44,9 +44,9 @@ pub(super) struct Diff {
 }
 
 impl Diff {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if !(self.tolerance.is_finite() && self.tolerance >= 0.0) {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!("--tolerance is 0 and up, found `{}`", self.tolerance),
                 "try --tolerance 1",
             ));
@@ -55,7 +55,7 @@ impl Diff {
             .illuminant
             .iter()
             .map(|light| viewing(light, &self.observer))
-            .collect::<anyhow::Result<Vec<Viewing>>>()?;
+            .collect::<Result<Vec<Viewing>>>()?;
         let (first, second) = (library(&self.first)?, library(&self.second)?);
         for library in [&first, &second] {
             remark_coverage(library.grid, console)?;
@@ -65,7 +65,7 @@ impl Diff {
             .map(|viewing| difference(&first, &second, viewing, self.pairs, self.seed))
             .collect();
         if found[0].pigments.is_empty() {
-            return Err(Refusal::data(
+            return Err(Failure::data(
                 "the two libraries have no pigment in common",
                 "give the same names first: impasto library rename",
             ));
@@ -89,7 +89,7 @@ impl Diff {
             }
         }
         if largest > self.tolerance {
-            return Err(Refusal::data(
+            return Err(Failure::data(
                 format!(
                     "the libraries differ by up to {largest:.2} CIEDE2000; the tolerance is `{}`",
                     self.tolerance
@@ -127,7 +127,7 @@ impl Diff {
     }
 }
 
-fn print(viewing: &Viewing, found: &Difference, console: &mut Console<'_>) -> anyhow::Result<()> {
+fn print(viewing: &Viewing, found: &Difference, console: &mut Console<'_>) -> Result<()> {
     console.line(format!("{}, observer {}", viewing.illuminant.name(), viewing.observer))?;
     let width = found.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(7);
     console.line(format!("{:width$}  masstone  tint 1:9", "pigment"))?;

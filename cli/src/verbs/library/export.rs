@@ -14,7 +14,7 @@ use spectra::swatch_file::{
 use spectra::{Reflectance, Spectrum, TristimulusWeights};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, color_weights, library, srgb};
 use crate::output::Output;
 
@@ -66,12 +66,12 @@ pub(super) struct Export {
 }
 
 impl Export {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if self.space == Space::Lab && !matches!(self.to, Format::Ase | Format::Aco) {
-            return Err(Refusal::usage("only .ase and .aco hold Lab", "leave out --space"));
+            return Err(Failure::usage("only .ase and .aco hold Lab", "leave out --space"));
         }
         if self.to == Format::Csv && !self.tints.is_empty() {
-            return Err(Refusal::usage("a table of K and S has no tints", "leave out --tints"));
+            return Err(Failure::usage("a table of K and S has no tints", "leave out --tints"));
         }
         let tints = tints(&self.tints)?;
         let viewing = self.viewing.viewing()?;
@@ -132,17 +132,17 @@ fn colors(
     library: &PigmentLibrary,
     weights: &TristimulusWeights,
     tints: &[f64],
-) -> anyhow::Result<Vec<NamedColor>> {
+) -> Result<Vec<NamedColor>> {
     let white = library.reference.as_deref().map(|name| library.find(name)).transpose()?;
     if !tints.is_empty() && (white.is_none() || library.amounts == AmountKind::Absolute) {
-        return Err(Refusal::data(
+        return Err(Failure::data(
             "the library has no reference white to tint with",
             "leave out --tints",
         ));
     }
     let mut colors = Vec::new();
     for (index, pigment) in library.ids().zip(&library.pigments) {
-        let mut add = |name: String, recipe: &[(PigmentId, f64)]| -> anyhow::Result<()> {
+        let mut add = |name: String, recipe: &[(PigmentId, f64)]| -> Result<()> {
             let reflectance = library.mix(recipe)?.hiding(library.saunderson);
             let xyz = weights.xyz(&reflectance);
             let rgb = srgb(xyz, weights.white());
@@ -161,11 +161,11 @@ fn colors(
 }
 
 /// The spectra of `colors`, as CxF3.
-fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> anyhow::Result<String> {
+fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> Result<String> {
     let spectra = colors
         .iter()
         .map(|color| Ok(Spectrum::new(library.grid, color.reflectance.clone())?))
-        .collect::<anyhow::Result<Vec<Spectrum<Reflectance>>>>()?;
+        .collect::<Result<Vec<Spectrum<Reflectance>>>>()?;
     let named: Vec<(&str, &Spectrum<Reflectance>)> =
         colors.iter().map(|color| color.name.as_str()).zip(&spectra).collect();
     let head = CxfHead {
@@ -182,10 +182,10 @@ fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {
     Lab::from_xyz(adapt(xyz, white, d50, Adaptation::Bradford), d50)
 }
 
-fn tints(texts: &[String]) -> anyhow::Result<Vec<f64>> {
+fn tints(texts: &[String]) -> Result<Vec<f64>> {
     let parts = texts.iter().map(|text| {
         text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && *v <= 1e6).ok_or_else(|| {
-            Refusal::usage(
+            Failure::usage(
                 format!("--tints takes parts of white above 0 and up to 1e6, found `{text}`"),
                 "try --tints=1,4,9",
             )
@@ -194,10 +194,7 @@ fn tints(texts: &[String]) -> anyhow::Result<Vec<f64>> {
     parts.collect()
 }
 
-fn remark_what_csv_lacks(
-    library: &PigmentLibrary,
-    console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+fn remark_what_csv_lacks(library: &PigmentLibrary, console: &mut Console<'_>) -> Result<()> {
     let guessed = library.pigments.iter().filter(|pigment| pigment.guessed);
     let guessed: Vec<String> = guessed
         .map(|pigment| format!("{} is guessed, which the table does not say", pigment.name))

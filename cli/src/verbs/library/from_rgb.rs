@@ -11,7 +11,7 @@ use spectra::hint::Explain;
 use spectra::{Grid, TristimulusWeights};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
@@ -54,13 +54,13 @@ pub(super) struct FromRgb {
 }
 
 impl FromRgb {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let (path, color) = self.library_and_color()?;
         let inputs: Vec<PathBuf> = path.iter().cloned().collect();
         let output = Output::open(&self.output, &inputs)?;
         let mut library = match &path {
             Some(_) if self.surface.given() => {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     "--saunderson is for a new library; this one has its surface",
                     "leave out --saunderson",
                 ));
@@ -70,10 +70,10 @@ impl FromRgb {
         };
         let name = self.name.trim();
         if name.is_empty() || name.contains(char::is_control) {
-            return Err(Refusal::usage("a pigment needs a name", "say --name \"Sky Blue\""));
+            return Err(Failure::usage("a pigment needs a name", "say --name \"Sky Blue\""));
         }
         if library.pigments.iter().any(|pigment| pigment.name == name) {
-            return Err(Refusal::data(
+            return Err(Failure::data(
                 format!("the library has a pigment called `{name}`"),
                 "choose another --name",
             ));
@@ -104,18 +104,18 @@ impl FromRgb {
         ))
     }
 
-    fn library_and_color(&self) -> anyhow::Result<(Option<PathBuf>, &str)> {
+    fn library_and_color(&self) -> Result<(Option<PathBuf>, &str)> {
         match self.library_and_color.as_slice() {
             [color] => Ok((None, color.trim())),
             [library, color] => Ok((Some(PathBuf::from(library)), color.trim())),
-            more => Err(Refusal::usage(
+            more => Err(Failure::usage(
                 format!("a library and one colour are wanted, found `{}` words", more.len()),
                 "quote a colour that holds spaces: \"40, 5, -45\"",
             )),
         }
     }
 
-    fn new_library(&self) -> anyhow::Result<PigmentLibrary> {
+    fn new_library(&self) -> Result<PigmentLibrary> {
         Ok(PigmentLibrary {
             title: String::new(),
             licence: String::new(),
@@ -134,10 +134,10 @@ impl FromRgb {
 }
 
 /// XYZ under D65 of a colour in words.
-fn wanted(text: &str, weights: &TristimulusWeights) -> anyhow::Result<Xyz> {
+fn wanted(text: &str, weights: &TristimulusWeights) -> Result<Xyz> {
     let code: ColorCode = text.parse().map_err(|error: ColorCodeError| {
         let hint = error.hint().map(|hint| hint.to_string());
-        Refusal::usage(error.to_string(), hint.unwrap_or_default())
+        Failure::usage(error.to_string(), hint.unwrap_or_default())
     })?;
     Ok(code.xyz(weights.white()))
 }

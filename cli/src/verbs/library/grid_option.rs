@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use spectra::{Extrapolation, Grid, Interpolation};
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum InterpolationName {
@@ -39,9 +39,9 @@ impl ResamplingOptions {
 }
 
 /// The grid `START,END,STEP` in nm.
-pub(super) fn grid(text: &str) -> anyhow::Result<Grid> {
+pub(super) fn grid(text: &str) -> Result<Grid> {
     let wrong = || {
-        Refusal::usage(
+        Failure::usage(
             format!(
                 "--grid takes START,END,STEP in nm, END a whole number of steps on, found `{text}`"
             ),

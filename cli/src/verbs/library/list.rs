@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use spectra::color::Lab;
 
 use crate::console::Console;
+use crate::failure::Result;
 use crate::input::{ViewingOptions, library, srgb};
 
 /// The pigments, each with its masstone and a tint in the reference white
@@ -24,7 +25,7 @@ pub(super) struct List {
 }
 
 impl List {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
         let library = library(&self.library)?;
         if !self.json {
@@ -64,7 +65,7 @@ impl List {
                     "notes": pigment.notes,
                 }))
             })
-            .collect::<anyhow::Result<Vec<Value>>>()?;
+            .collect::<Result<Vec<Value>>>()?;
         console.json(&Value::from(rows))
     }
 }
@@ -74,7 +75,7 @@ pub(crate) fn print_pigments(
     library: &PigmentLibrary,
     viewing: &calibrate::evaluate::Viewing,
     console: &mut Console<'_>,
-) -> anyhow::Result<()> {
+) -> Result<()> {
     let weights = viewing.weights(library.grid)?;
     let white = library.reference.as_deref().and_then(|name| library.find(name).ok());
     let width = library.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
@@ -84,7 +85,7 @@ pub(crate) fn print_pigments(
     let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
     console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;
     for (index, pigment) in library.ids().zip(&library.pigments) {
-        let color = |recipe: &[(PigmentId, f64)]| -> anyhow::Result<String> {
+        let color = |recipe: &[(PigmentId, f64)]| -> Result<String> {
             let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));
             let rgb = srgb(xyz, weights.white());
             Ok(format!("{}{}", console.patch(rgb), rgb.to_hex()))

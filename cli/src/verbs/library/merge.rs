@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::grid_option::ResamplingOptions;
 use crate::console::Console;
+use crate::failure::Result;
 use crate::input::{ViewingOptions, library};
 use crate::output::Output;
 
@@ -60,13 +61,13 @@ pub(super) struct Merge {
 }
 
 impl Merge {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let output = Output::open(&self.output, &self.libraries)?;
         let sources = self
             .libraries
             .iter()
             .map(|path| Ok(Source { file: path.display().to_string(), library: library(path)? }))
-            .collect::<anyhow::Result<Vec<Source>>>()?;
+            .collect::<Result<Vec<Source>>>()?;
         let settings = MergeSettings {
             reference: self.reference,
             aliases: self.aliases,

@@ -25,6 +25,7 @@ mod diff;
 use clap::{Args, Subcommand};
 
 use crate::console::Console;
+use crate::failure::Result;
 
 pub(super) use list::print_pigments;
 
@@ -50,7 +51,7 @@ enum What {
 }
 
 impl Library {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         match self.what {
             What::List(verb) => verb.run(console),
             What::Show(verb) => verb.run(console),

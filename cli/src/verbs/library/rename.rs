@@ -6,7 +6,7 @@ use calibrate::curation::{renamed, with_color_indices};
 use clap::Args;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
@@ -27,9 +27,9 @@ pub(super) struct Rename {
 }
 
 impl Rename {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if self.names.is_empty() && self.color_index.is_empty() {
-            return Err(Refusal::usage("nothing to rename", "say OLD=NEW, or --colour-index"));
+            return Err(Failure::usage("nothing to rename", "say OLD=NEW, or --colour-index"));
         }
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let before = library(&self.library)?;
@@ -50,11 +50,11 @@ impl Rename {
     }
 }
 
-fn pairs(texts: &[String]) -> anyhow::Result<Vec<(String, String)>> {
+fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
     let pair = |text: &String| {
         let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
         let (name, value) = parts.ok_or_else(|| {
-            Refusal::usage(
+            Failure::usage(
                 format!("a name and its change are NAME=CHANGE, found `{text}`"),
                 "try \"Viridian=Viridian (batch 2)\"",
             )

@@ -6,6 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::console::Console;
+use crate::failure::Result;
 use crate::input::library;
 
 /// K and S of one pigment, with their standard deviations
@@ -21,11 +22,11 @@ pub(super) struct Show {
 }
 
 impl Show {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let library = library(&self.library)?;
         let pigment = &library[library.find(&self.pigment)?];
         if self.json {
-            let mut value = serde_json::to_value(pigment)?;
+            let mut value = serde_json::to_value(pigment).expect("a pigment is JSON");
             let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
             value["wavelengths_nm"] = json!(wavelengths);
             return console.json(&value);

@@ -6,7 +6,7 @@ use calibrate::curation::{subset, with_reference};
 use clap::Args;
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
@@ -33,9 +33,9 @@ pub(super) struct Subset {
 }
 
 impl Subset {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if self.keep.is_empty() && self.without.is_empty() {
-            return Err(Refusal::usage("nothing to leave out", "name pigments, or say --without"));
+            return Err(Failure::usage("nothing to leave out", "name pigments, or say --without"));
         }
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let mut before = library(&self.library)?;

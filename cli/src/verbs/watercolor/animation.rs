@@ -8,7 +8,7 @@ use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, Sequence
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use crate::output::Output;
 use crate::progress::Progress;
 
@@ -57,7 +57,7 @@ impl AnimationOptions {
     }
 
     /// Checks that the animation can be written.
-    pub(super) fn open(&self, inputs: &[PathBuf]) -> anyhow::Result<Option<Animation>> {
+    pub(super) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
         let rate = FrameRate::new(self.rate)?;
         let file = match &self.animation {
             None => None,
@@ -69,12 +69,12 @@ impl AnimationOptions {
     }
 }
 
-fn format(path: &Path) -> anyhow::Result<Format> {
+fn format(path: &Path) -> Result<Format> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
         Some("gif") => Ok(Format::Gif),
         Some("png" | "apng") => Ok(Format::Apng),
-        _ => Err(Refusal::usage(
+        _ => Err(Failure::usage(
             format!("{}: an animation ends in .gif, .png or .apng", path.display()),
             format!("try {}", path.with_extension("gif").display()),
         )),
@@ -114,7 +114,7 @@ impl Animation {
         digest: FramesDigest,
         frames: usize,
         size: (usize, usize),
-    ) -> anyhow::Result<Recording> {
+    ) -> Result<Recording> {
         let digest = digest.0.finalize();
         let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         let (width, height) = size;
@@ -130,8 +130,8 @@ impl Recording {
     pub(super) fn paint(
         self,
         console: &Console<'_>,
-        mut picture: impl FnMut(usize) -> anyhow::Result<Frame>,
-    ) -> anyhow::Result<usize> {
+        mut picture: impl FnMut(usize) -> Result<Frame>,
+    ) -> Result<usize> {
         let Self { animation, mut sequence, frames, size } = self;
         let remaining = sequence.remaining().to_vec();
         let bar = Progress::new(remaining.len(), "painting", console.screen.progress);
@@ -151,7 +151,7 @@ impl Recording {
     }
 }
 
-fn gif(sequence: &Sequence, size: (usize, usize), rate: FrameRate) -> anyhow::Result<Vec<u8>> {
+fn gif(sequence: &Sequence, size: (usize, usize), rate: FrameRate) -> Result<Vec<u8>> {
     let table = ColorTable::of(sequence.frames())?;
     let mut gif = Gif::new(Vec::new(), size, rate, &table)?;
     for frame in sequence.frames() {
@@ -165,7 +165,7 @@ fn apng(
     size: (usize, usize),
     rate: FrameRate,
     frames: usize,
-) -> anyhow::Result<Vec<u8>> {
+) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut apng = Apng::new(&mut bytes, size, rate, frames)?;
     for frame in sequence.frames() {

@@ -12,7 +12,7 @@ use super::job::{Job, Made};
 use super::photograph::pigment_names;
 use super::pigments::opened;
 use crate::console::Console;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 pub(super) fn paint(
     compute: Compute,
@@ -21,7 +21,7 @@ pub(super) fn paint(
     cameras: &[Camera],
     size: (usize, usize),
     console: &mut Console<'_>,
-) -> anyhow::Result<Made> {
+) -> Result<Made> {
     let Job { title, settings, mut glazes, outputs, animation } = job;
     let (width, height) = size;
     let controls = outputs.masks()?.controls(width, height);
@@ -37,7 +37,7 @@ pub(super) fn paint(
     let mut painter = ModelPainter::new(compute, mesh, &settings, size)?;
     painter.set_controls(controls);
     let Some(first) = cameras.first() else {
-        return Err(Refusal::data("a camera's path without a frame", "give frames = 60"));
+        return Err(Failure::data("a camera's path without a frame", "give frames = 60"));
     };
     let recording = match animation {
         Some(animation) => Some(animation.begin(digest, cameras.len(), size)?),

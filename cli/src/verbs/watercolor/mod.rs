@@ -24,7 +24,7 @@ use serde_json::json;
 
 use crate::console::Console;
 use crate::engine::BackendOption;
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 use animation::{Animation, AnimationOptions};
 use job::{Job, Made};
 use outputs::OutputOptions;
@@ -66,13 +66,13 @@ pub(crate) struct Watercolor {
 }
 
 impl Watercolor {
-    pub(super) fn run(self, console: &mut Console<'_>) -> anyhow::Result<()> {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if let Some(preset) = self.show_preset {
             return console.line(preset.text().trim_end());
         }
         let path = self.subject.clone().unwrap_or_default();
         if !self.outputs.any() && !self.animation.any() {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture watercolor.png, --stages FOLDER, or --animation turning.gif",
             ));
@@ -87,7 +87,7 @@ impl Watercolor {
             Subject::Mesh(_, cameras, _) => cameras.len() < 2,
         };
         if still && self.animation.any() {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 "--animation and --frames need a mesh and a camera that moves",
                 "add --turntable 60, or --camera path.toml with keyframes",
             ));
@@ -113,7 +113,7 @@ impl Watercolor {
     }
 }
 
-fn report(made: &Made, as_json: bool, console: &mut Console<'_>) -> anyhow::Result<()> {
+fn report(made: &Made, as_json: bool, console: &mut Console<'_>) -> Result<()> {
     let Made { size: (width, height), backend, regions, frames, pigments } = made;
     if as_json {
         return console.json(&json!({

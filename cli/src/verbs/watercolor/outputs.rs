@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use clap::Args;
 use render::encoding::over_white;
 use render::export::{frame_of, frame_png};
@@ -10,7 +9,7 @@ use render::field::Field;
 use render::picture::Photograph;
 use render::watercolor::Masks;
 
-use crate::failure::Refusal;
+use crate::failure::{Context, Failure, Result};
 use crate::output::Output;
 use crate::pictures::{Exports, OpenExports};
 
@@ -53,10 +52,10 @@ impl OutputOptions {
     }
 
     /// Refuses options that need pigments if the picture is painted without them.
-    pub(super) fn check(&self, pigments: bool) -> anyhow::Result<()> {
+    pub(super) fn check(&self, pigments: bool) -> Result<()> {
         match self.exports.of_paint().filter(|_| !pigments) {
             None => Ok(()),
-            Some(option) => Err(Refusal::usage(
+            Some(option) => Err(Failure::usage(
                 format!("{option} needs pigments, and this picture has none"),
                 "add --pigments LIBRARY",
             )),
@@ -68,11 +67,11 @@ impl OutputOptions {
         self,
         inputs: Vec<PathBuf>,
         animation: Option<&Output>,
-    ) -> anyhow::Result<OpenOutputs> {
+    ) -> Result<OpenOutputs> {
         let Self { exports, stages, dry_brush_mask, density_mask } = self;
         let exports = exports.open(&inputs)?;
         if let Some(animation) = animation.filter(|animation| exports.writes(animation)) {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!(
                     "{}: the picture and the animation would be this file",
                     animation.path().display()
@@ -82,7 +81,7 @@ impl OutputOptions {
         }
         if let Some(folder) = &stages {
             let cannot = || format!("{}: this folder cannot be made", folder.display());
-            std::fs::create_dir_all(folder).with_context(cannot)?;
+            std::fs::create_dir_all(folder).context(cannot)?;
             Output::open(&stage_path(folder, 1, "stage"), &inputs)?;
         }
         Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask, inputs })
@@ -100,19 +99,18 @@ impl OpenOutputs {
     }
 
     /// Reads the masks.
-    pub(super) fn masks(&self) -> anyhow::Result<Masks> {
+    pub(super) fn masks(&self) -> Result<Masks> {
         let open = |path: &Option<PathBuf>| path.as_deref().map(Photograph::open).transpose();
         Ok(Masks { dry_brush: open(&self.dry_brush_mask)?, density: open(&self.density_mask)? })
     }
 
     /// Writes the stages, numbered in their order.
-    pub(super) fn write_stages(&self, stages: &[NamedStage]) -> anyhow::Result<()> {
+    pub(super) fn write_stages(&self, stages: &[NamedStage]) -> Result<()> {
         let Some(folder) = &self.stages else { return Ok(()) };
         let path = |(number, (name, _)): (usize, &NamedStage)| stage_path(folder, number, name);
         let open = |path: PathBuf| Output::open(&path, &self.inputs);
         // All are opened first, so that nothing is written if one cannot be.
-        let outputs: Vec<Output> =
-            (1..).zip(stages).map(path).map(open).collect::<anyhow::Result<_>>()?;
+        let outputs: Vec<Output> = (1..).zip(stages).map(path).map(open).collect::<Result<_>>()?;
         for (output, (_, picture)) in outputs.into_iter().zip(stages) {
             output.write(frame_png(&frame_of(&over_white(picture)))?)?;
         }

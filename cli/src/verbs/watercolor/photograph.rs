@@ -9,6 +9,7 @@ use super::job::{Job, Made};
 use super::outputs::NamedStage;
 use super::pigments::opened;
 use crate::console::Console;
+use crate::failure::Result;
 use crate::progress::Waiting;
 
 pub(super) fn paint(
@@ -17,7 +18,7 @@ pub(super) fn paint(
     photograph: &Photograph,
     width: usize,
     console: &mut Console<'_>,
-) -> anyhow::Result<Made> {
+) -> Result<Made> {
     let Job { title, settings, mut glazes, outputs, .. } = job;
     let mut painter = PhotographPainter::new(settings)
         .with_compute(compute)

@@ -10,6 +10,7 @@ use render::paint::painting::Painting;
 use render::watercolor::{GlazePainter, Settings};
 
 use crate::console::Console;
+use crate::failure::Result;
 use crate::ground::ground;
 use crate::input::{library, viewing};
 use crate::palette::palette;
@@ -45,7 +46,7 @@ impl PigmentOptions {
         &self,
         settings: &Settings,
         console: &mut Console<'_>,
-    ) -> anyhow::Result<Option<GlazePainter>> {
+    ) -> Result<Option<GlazePainter>> {
         let Some(path) = &self.pigments else { return Ok(None) };
         let library = library(path)?;
         let palette = match self.palette.is_empty() {
@@ -71,7 +72,7 @@ impl PigmentOptions {
 }
 
 /// Opens a painting of glazes under the light that they were matched under.
-pub(super) fn opened(document: Document, glazes: &GlazePainter) -> anyhow::Result<Painting> {
+pub(super) fn opened(document: Document, glazes: &GlazePainter) -> Result<Painting> {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     Ok(Painting::open_under(document, glazes.light().clone(), engine, 0)?)
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use render::watercolor::{Preset, Settings, SettingsError};
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Look")]
@@ -24,7 +24,7 @@ pub(super) struct StyleOptions {
 
 impl StyleOptions {
     /// The settings, and the files they were read from.
-    pub(super) fn settings(&self) -> anyhow::Result<(Settings, Vec<PathBuf>)> {
+    pub(super) fn settings(&self) -> Result<(Settings, Vec<PathBuf>)> {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
         let mut inputs = Vec::new();
         if let Some(path) = &self.settings {
@@ -46,7 +46,7 @@ impl StyleOptions {
         }
         for change in &self.set {
             let Some((key, value)) = change.split_once('=') else {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("--set takes KEY=VALUE, found `{change}`"),
                     "--set edges.strength=2 is such a change",
                 ));

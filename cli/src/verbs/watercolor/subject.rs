@@ -8,7 +8,7 @@ use render::mesh::{Mesh, SampleModel};
 use render::picture::Photograph;
 use render::watercolor::PhotographPainter;
 
-use crate::failure::Refusal;
+use crate::failure::{Failure, Result};
 
 /// Number of triangles of a built-in model.
 const TRIANGLES: usize = 60_000;
@@ -48,12 +48,12 @@ pub(super) enum Subject {
 
 impl SubjectOptions {
     /// Reads the subject, and returns it with the files it was read from.
-    pub(super) fn subject(&self, path: &Path) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
+    pub(super) fn subject(&self, path: &Path) -> Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
                 let names = SampleModel::ALL.map(SampleModel::name).join(", ");
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("there is no shape `{name}`"),
                     format!("shapes are {names}"),
                 ));
@@ -70,7 +70,7 @@ impl SubjectOptions {
             ("--height", self.height.is_some()),
         ] {
             if given {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("{option} is for meshes, and {text} is none"),
                     "meshes end in .obj, .gltf, .glb or .ply; shape:village is one too",
                 ));
@@ -82,13 +82,13 @@ impl SubjectOptions {
         let width = self.width.map_or_else(usual, |width| width as usize);
         let rows = (width as f64 * height as f64 / own_width as f64).round();
         if self.width.is_none() && width.max(height) < LEAST as usize {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!("{text}: {width} x {height} pixels are too few for a picture"),
                 format!("give --width {LEAST} or more"),
             ));
         }
         if rows > MOST as f64 {
-            return Err(Refusal::usage(
+            return Err(Failure::usage(
                 format!(
                     "{text}: a picture has {MOST} pixels a side at most, and this has {rows} rows"
                 ),
@@ -98,11 +98,7 @@ impl SubjectOptions {
         Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
     }
 
-    fn mesh(
-        &self,
-        mesh: Mesh,
-        mut inputs: Vec<PathBuf>,
-    ) -> anyhow::Result<(Subject, Vec<PathBuf>)> {
+    fn mesh(&self, mesh: Mesh, mut inputs: Vec<PathBuf>) -> Result<(Subject, Vec<PathBuf>)> {
         let width = self.width.map_or(WIDTH, |width| width as usize);
         let height = self.height.map_or(width * 3 / 4, |height| height as usize).max(1);
         let bounds = mesh.bounds();
@@ -114,7 +110,7 @@ impl SubjectOptions {
                 CameraPath::open(Path::new(path))?.cameras(bounds)
             }
             (Some(path), Some(_)) => {
-                return Err(Refusal::usage(
+                return Err(Failure::usage(
                     format!("--turntable moves the camera, and {path} does so too"),
                     "leave one of both out",
                 ));
@@ -130,11 +126,11 @@ impl SubjectOptions {
         Ok((Subject::Mesh(Box::new(mesh), cameras, (width, height)), inputs))
     }
 
-    fn framing(&self, aspect: f32) -> anyhow::Result<Framing> {
+    fn framing(&self, aspect: f32) -> Result<Framing> {
         let usual = Framing { aspect, ..Framing::default() };
         let Some(text) = &self.camera else { return Ok(usual) };
         let refused = || {
-            Refusal::usage(
+            Failure::usage(
                 format!(
                     "--camera takes degrees around the mesh, above the horizon (-90 to 90) and of view (1 to 170), or a .toml file, found `{text}`"
                 ),

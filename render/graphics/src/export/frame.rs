@@ -4,7 +4,7 @@ use std::io::{BufRead, Seek};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
 
@@ -73,6 +73,10 @@ impl Explain for FrameError {
             Self::Unreadable { .. } => "remove the file, and it is rendered again",
             _ => return None,
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
     }
 }
 

@@ -83,9 +83,6 @@ impl Explain for PaintLightError {
     }
 
     fn fault(&self) -> Fault {
-        match self {
-            Self::Light(error) => error.fault(),
-            Self::Observer(_) | Self::Quadrature(_) => Fault::Input,
-        }
+        Fault::Setting
     }
 }
