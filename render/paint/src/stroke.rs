@@ -1,5 +1,9 @@
-//! From samples of a pen to sub-steps of at most one cell, and what a head
-//! touches in each.
+//! Strokes: the smooth path through pen samples, cut into sub-steps of at most one cell,
+//! and the contacts of a head along it.
+
+mod decimals;
+
+mod limits;
 
 mod error;
 
@@ -7,7 +11,9 @@ mod piece;
 
 mod path;
 
+pub use decimals::SampleDecimals;
 pub use error::StrokeError;
+pub use limits::MOST_SUBSTEPS;
 pub use path::Path;
 
 use super::brush::{Head, Relief};
@@ -15,28 +21,20 @@ use super::contact::Contact;
 use super::pose::{Pose, Sample};
 use graphics::tile::Rect;
 
-/// The most sub-steps a stroke may take.
-pub const MOST_SUBSTEPS: u64 = 10_000_000;
-
-/// How far from the canvas's origin a sample may be, in cells.
-const FARTHEST: f64 = 1e9;
-
-/// Pressures of a dab, as shares of its sample's: down, and up again.
-const DAB: [f64; 8] = [0.0, 0.25, 0.5, 0.75, 1.0, 0.67, 0.33, 0.0];
-
-/// The poses of a stroke, each at most one cell from the last, the first at the
-/// first sample and the last at the last.
+/// Poses of a stroke, each at most one cell from the previous one, from the first sample to
+/// the last.
 ///
-/// The path is smooth through the samples (centripetal Catmull-Rom, Yuksel,
-/// Schaefer and Keyser 2011); pressure, tilt and twist run straight between
-/// them, twist the shorter way. Poses are one cell of way apart, or nearer where
-/// the hand turns: 1/16 of pressure, 3 degrees. Time counts for nothing else: a
-/// brush at rest makes no sub-steps. Samples all at one place and pose are a
+/// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
+/// Keyser 2011); pressure, tilt and twist are interpolated linearly, twist the shorter way
+/// round. Poses are one cell of path apart, or nearer while pressure changes by more than
+/// 1/16 or an angle by more than 3 degrees a cell. Time only orders the samples: a brush at
+/// rest makes no sub-steps. If all samples have the same position and pose, the stroke is a
 /// dab: lowered, pressed and lifted there.
 ///
 /// # Errors
-/// [`StrokeError`] if there is no sample, a number is none or out of its range,
-/// time runs backwards, a place is 1e9 cells away, or the way is longer than [`MOST_SUBSTEPS`].
+/// [`StrokeError`] if there is no sample, a number is not finite or out of range, time runs
+/// backwards, a position is more than 1e9 cells away, or the path takes more than
+/// [`MOST_SUBSTEPS`].
 pub fn substeps(
     samples: &[Sample],
     cell_mm: f64,
@@ -50,9 +48,8 @@ pub fn substeps(
     Ok(path)
 }
 
-/// What `head` touches along `poses`: set down at the first without dragging,
-/// then a contact for each. Poses that touch nothing give none. The head is
-/// lifted at the end.
+/// Contacts of `head` with the canvas along `poses`. The head is set down at the first pose
+/// without dragging and lifted after the last. Poses that touch nothing give no contact.
 pub fn contacts(
     head: &mut Head,
     poses: impl Iterator<Item = Pose>,
@@ -85,6 +82,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::super::brush::HeadShape;
+    use super::limits::DAB;
     use super::*;
 
     const SAMPLE: Sample = Sample {
@@ -146,7 +144,7 @@ mod tests {
     }
 
     /// Samples with repeated places, rests and turns.
-    fn any_hand(random: &mut ChaCha8Rng) -> Vec<Sample> {
+    fn random_samples(random: &mut ChaCha8Rng) -> Vec<Sample> {
         let count = random.random_range(1..12);
         let still = random.random_range(0..4) == 0;
         let (mut samples, mut sample): (Vec<Sample>, _) = (Vec::new(), SAMPLE);
@@ -166,11 +164,11 @@ mod tests {
     }
 
     #[test]
-    fn poses_told_piece_by_piece_are_those_of_the_whole() {
+    fn poses_of_a_stroke_in_pieces_are_those_of_the_whole() {
         let mut dabs = 0;
         for seed in 0..300 {
             let random = &mut ChaCha8Rng::seed_from_u64(seed);
-            let samples = any_hand(random);
+            let samples = random_samples(random);
             let whole = poses(&samples);
             dabs += usize::from(whole.len() == DAB.len());
             let mut path = Path::new(0.1).unwrap();
@@ -263,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_hand_does_is_refused_with_its_place() {
+    fn impossible_samples_are_refused_with_their_index() {
         let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1).err().unwrap();
         let error = refused(Sample { pressure: 1.5, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: pressure is from 0 to 1: `1.5`");

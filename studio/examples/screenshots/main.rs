@@ -22,7 +22,7 @@ use eframe::egui::{Event, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use render::paint::document::Lighting;
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, SurfaceId};
+use render::paint::strokes::{Action, SampleDecimals, SurfaceId};
 use session::{Command, PenSample};
 use studio::app::Tab;
 use studio::panels::Mode;
@@ -72,7 +72,11 @@ fn at_work(window: &mut Window) {
     carry_out(window, hand);
     window.studio_mut().tools.brush = "round".to_owned();
     let brush = "round".to_owned();
-    window.studio_mut().ask(Command::PenDown { surface: SurfaceId::Canvas, brush });
+    window.studio_mut().ask(Command::PenDown {
+        surface: SurfaceId::Canvas,
+        brush,
+        decimals: SampleDecimals::RECORDING,
+    });
     let mut led = samples(&study::AT_WORK, 0.55);
     // Before the pen is lifted.
     led.truncate(led.len() * 4 / 5);

@@ -1,35 +1,34 @@
-//! What computes the paintings: the processor or a graphics device.
+//! Choice of the backend: the processor or a graphics device.
 
 use render::field::Field;
 use render::gpu::BackendChoice;
 use render::paint::engine::{OpenedEngine, PaintEngine};
 
-/// Where to compute.
+/// Backend for new paintings.
 #[derive(Debug)]
 pub(super) struct Backend {
     choice: BackendChoice,
 }
 
 impl Backend {
-    /// As the painter asks.
+    /// The backend that the painter chose.
     pub(super) fn new(choice: BackendChoice) -> Self {
         Self { choice }
     }
 
-    /// Whether a device may compute.
+    /// Whether a graphics device may be used.
     pub(super) fn is_device(&self) -> bool {
         self.choice != BackendChoice::Cpu
     }
 
-    /// Computes on the processor from now on.
+    /// Uses the processor from now on.
     pub(super) fn fall_back(&mut self) {
         self.choice = BackendChoice::Cpu;
     }
 
-    /// An engine over the ground `floor`, without paint. Each has a device of its
-    /// own. Where there is none, or none that holds the canvas, the processor
-    /// paints from now on, and why comes with it if a device was asked for or
-    /// there.
+    /// An engine without paint on a ground with the heights `floor`. Each engine has a device
+    /// of its own. If there is no device whose memory holds the canvas, the processor is used
+    /// from now on; the reason is returned if a device was chosen or present.
     pub(super) fn engine(&mut self, floor: &Field<i32>) -> (PaintEngine, Option<String>) {
         let opened = PaintEngine::open(self.choice, floor).unwrap_or_else(|error| OpenedEngine {
             engine: PaintEngine::on_cpu(floor.clone()),

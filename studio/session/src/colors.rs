@@ -1,4 +1,4 @@
-//! Paint as it looks in a film that hides.
+//! Colours of opaque films of paint.
 
 use std::sync::Arc;
 
@@ -10,35 +10,35 @@ use render::light::Light;
 use render::paint::document::Slots;
 use spectra::TristimulusWeights;
 
-/// Parts of white to one of pigment in a tint.
+/// Parts of white to one part of pigment in a tint.
 const TINT: f64 = 9.0;
 
-/// Colours of paint from tubes and brushes, under one light.
+/// Colours of the paint of tubes and brushes under one light.
 #[derive(Debug, Clone)]
 pub(super) struct Colors {
     library: Arc<PigmentLibrary>,
     light: Arc<Light>,
     weights: TristimulusWeights,
-    /// The pigment that lightens.
+    /// Pigment used to lighten.
     white: Option<PigmentId>,
 }
 
 impl Colors {
-    /// Paint of `library` under `light`.
+    /// Colours of the paint of `library` under `light`.
     pub(super) fn new(library: Arc<PigmentLibrary>, light: Arc<Light>) -> Self {
         let weights = light.viewing.weights(library.grid);
-        let weights = weights.expect("a light that was taken up fits its library");
+        let weights = weights.expect("the light was made for this library");
         let mut colors = Self { library, light, weights, white: None };
         colors.white = colors.lightener();
         colors
     }
 
-    /// Whether they are of this library and light.
-    pub(super) fn are_of(&self, library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> bool {
+    /// Whether these are the colours of this library and light.
+    pub(super) fn is_for(&self, library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> bool {
         Arc::ptr_eq(&self.library, library) && Arc::ptr_eq(&self.light, light)
     }
 
-    /// The reference white, or the lightest pigment that can be mixed.
+    /// The reference white, or else the lightest pigment whose scattering is known.
     fn lightener(&self) -> Option<PigmentId> {
         let mixed = || self.library.ids().filter(|id| self.library[*id].identified);
         let reference = self.library.reference_id();
@@ -56,14 +56,14 @@ impl Colors {
         Some(mixture.hiding(self.library.saunderson))
     }
 
-    /// sRGB of a recipe, adapted from the light to the screen; none without
+    /// sRGB of a recipe, adapted from the light to the screen; `None` for a recipe without
     /// parts.
     pub(super) fn of(&self, recipe: &[(PigmentId, f64)]) -> Option<[u8; 3]> {
         let xyz = self.weights.xyz(&self.film(recipe)?);
         Some(Appearance::of(xyz, self.weights.white()).srgb.to_bytes())
     }
 
-    /// sRGB of parts by slot.
+    /// sRGB of a mixture with these parts by slot.
     pub(super) fn of_slots(&self, slots: &Slots, parts: &[f64; SLOTS]) -> Option<[u8; 3]> {
         let filled = slots.iter().zip(parts).filter(|(_, part)| **part > 0.0);
         let recipe: Vec<_> =
@@ -71,13 +71,13 @@ impl Colors {
         self.of(&recipe)
     }
 
-    /// Each slot's pigment alone.
+    /// sRGB of the pigment of each slot alone.
     pub(super) fn masstones(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| self.of(&[(PigmentId(slot?), 1.0)]))
     }
 
-    /// Each slot's pigment, one part in ten of white; none for one whose
-    /// scattering nobody knows.
+    /// sRGB of one part of the pigment of each slot in nine parts of white; `None` for a
+    /// pigment whose scattering is unknown.
     pub(super) fn tints(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| {
             let (pigment, white) = (PigmentId(slot?), self.white?);
@@ -95,7 +95,7 @@ mod tests {
     use pigment::library::PigmentLibrary;
 
     #[test]
-    fn tubes_show_what_the_calibration_says() {
+    fn masstones_and_tints_are_those_of_the_library() {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "A", "1931-2").unwrap());
         let colors = Colors::new(Arc::clone(&library), Arc::clone(&light));

@@ -1,149 +1,149 @@
-//! What the window asks of the worker.
+//! Commands of the front end.
 
 use std::time::Instant;
 
 use pigment::library::PigmentLibrary;
 use render::paint::document::{Document, Lighting};
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, BrushSpec, Recipe, StrokeScript, SurfaceId};
+use render::paint::strokes::{Action, BrushSpec, Recipe, SampleDecimals, StrokeScript, SurfaceId};
 
 use super::event::Picked;
 
-/// A sample of the pen, and when it arrived.
+/// A sample of the pen and its time of arrival.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PenSample {
-    /// Where the brush is held, in mm of the surface.
+    /// Position, pressure and angles of the brush over the surface.
     pub sample: Sample,
-    /// When the system told it; latency is counted from here.
+    /// Time at which the system reported it; latency is measured from here.
     pub arrived: Instant,
 }
 
-/// How fast a recording is played.
+/// Pace of a replay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
-    /// As fast as the machine can.
+    /// As fast as the machine allows.
     Fast,
-    /// As it was painted, by the seconds of its samples.
+    /// At the pace of the painter, by the seconds of the samples.
     AsPainted,
 }
 
-/// Where a painting begins.
+/// State that a painting starts from.
 #[derive(Debug, Clone)]
 pub enum Origin {
-    /// A canvas without paint: the header of a script, its actions not played.
+    /// A canvas without paint, described by the header of a script. Its actions are not played.
     Blank {
-        /// Canvas, palette, medium, light.
+        /// Script with canvas, pigments, medium and light.
         script: Box<StrokeScript>,
-        /// The pigments that it names.
+        /// Library of the pigments that it names.
         library: Box<PigmentLibrary>,
     },
-    /// A painting from a file, with what it was read from, if that is where it
-    /// may be saved again.
+    /// A painting that was read from a file.
     Painting(Box<Document>),
-    /// A painting and the palette beside it, as recovered.
+    /// Canvas and palette recovered from an autosave.
     Recovered {
-        /// The canvas.
+        /// Document of the canvas.
         canvas: Box<Document>,
-        /// The palette.
+        /// Document of the palette.
         palette: Box<Document>,
     },
 }
 
-/// What the window asks for. Commands are carried out in order.
+/// A request to the worker. Commands are executed in their order.
 #[derive(Debug)]
 pub enum Command {
-    /// Takes up another painting, in place of the one there is.
+    /// Opens a painting in place of the open one.
     Open(Origin),
-    /// Takes a brush into the stand under a name, or exchanges the one of that
-    /// name for another.
+    /// Adds a brush under a name, or replaces the one with that name.
     SetBrush {
-        /// Its name in recordings.
+        /// Name of the brush.
         name: String,
-        /// Its head.
+        /// Shape and size of its head.
         spec: BrushSpec,
     },
     /// Sets a brush down; samples follow.
     PenDown {
-        /// Where.
+        /// Surface to paint on.
         surface: SurfaceId,
-        /// Which brush.
+        /// Name of the brush.
         brush: String,
+        /// Decimals that the samples of the stroke are rounded to.
+        decimals: SampleDecimals,
     },
-    /// Leads the brush on.
+    /// Adds samples to the open stroke.
     PenMove(Vec<PenSample>),
-    /// Lifts the brush.
+    /// Lifts the brush, which ends the stroke.
     PenUp,
-    /// One action of the history. A stroke that is open ends first.
+    /// Applies an action. An open stroke is finished first.
     Apply(Action),
-    /// As `Act` while a control is being dragged: of light, gloss or opacity. All
-    /// until [`Command::EndAdjustment`] are one action.
+    /// Applies an action of light, gloss or opacity while its slider is dragged. All of them
+    /// until [`Command::EndAdjustment`] count as one action.
     Adjust(Action),
-    /// The control was let go.
+    /// Ends an adjustment: the slider was released.
     EndAdjustment,
-    /// Goes to a place in the history: so many actions done.
+    /// Undoes or repeats actions until this number of actions of the history is done.
     GoTo(usize),
-    /// A second light for the split view, or none.
+    /// Sets the second light of the split view; `None` turns it off.
     SetSecondLight(Option<Lighting>),
-    /// What lies at a place; the answer is [`Event::Picked`](super::Event::Picked).
+    /// Asks for reflectance and paint at a position. The answer is
+    /// [`Event::Picked`](super::Event::Picked).
     Pick {
-        /// Where.
+        /// Surface to pick from.
         surface: SurfaceId,
-        /// From the left edge, in mm.
+        /// Distance from the left edge in mm.
         x_mm: f64,
-        /// From the upper edge, in mm.
+        /// Distance from the upper edge in mm.
         y_mm: f64,
-        /// Mean over cells this near, in mm; 0 is one cell.
+        /// Radius of the circle that is averaged, in mm; 0 is one cell.
         radius_mm: f64,
     },
-    /// The documents as they are now, for saving and exporting; the answer is
-    /// [`Event::Snapshot`](super::Event::Snapshot) with the same number.
+    /// Asks for the documents as they are now, for saving and exporting. The answer is
+    /// [`Event::Snapshot`](super::Event::Snapshot) with this number.
     Snapshot(u64),
-    /// The recording since the painting was taken up; the answer is
-    /// [`Event::Recording`](super::Event::Recording) with the same number.
+    /// Asks for the recording since the painting was opened. The answer is
+    /// [`Event::Recording`](super::Event::Recording) with this number.
     Recording(u64),
-    /// Plays a script on the painting that it describes.
+    /// Opens the painting that a script describes and plays the script on it.
     Replay {
-        /// The script.
+        /// Script to play.
         script: Box<StrokeScript>,
-        /// Its pigments.
+        /// Library of its pigments.
         library: Box<PigmentLibrary>,
-        /// How fast.
+        /// Pace of the replay.
         pace: Pace,
     },
-    /// Ends a replay where it is.
+    /// Ends a replay.
     Cancel,
-    /// Puts what was picked on a brush, as it is: the mean paint of its wet layer.
+    /// Washes a brush and loads it with the mean wet paint that was picked.
     LoadPicked {
-        /// Which brush.
+        /// Name of the brush.
         brush: String,
-        /// What was picked.
+        /// Answer to [`Command::Pick`].
         picked: Box<Picked>,
-        /// How high it lies on the head, in mm.
+        /// Height of the paint on the head, in mm.
         amount_mm: f64,
     },
-    /// Puts a heap of paint on the palette, as [`Action::Squeeze`], at the first of
-    /// some places that has no wet paint around it; if none has, where there is the
-    /// least.
+    /// Squeezes a heap of paint on the palette ([`Action::Squeeze`]) at the first of some
+    /// positions without wet paint around it; if there is none, where there is the least.
     SqueezeInFreeSpace {
-        /// The paint, by names of the library.
+        /// Parts of pigments by their names in the library.
         recipe: Recipe,
-        /// Share of the whole that is clear vehicle, 0..1.
+        /// Fraction of clear vehicle, 0 to 1.
         vehicle: f64,
-        /// How much, in cubic millimetres.
+        /// Volume of the heap in mm3.
         volume_mm3: f64,
-        /// Places from the upper left corner, in mm; the most welcome first.
+        /// Positions from the upper left corner in mm, in order of preference.
         places: Vec<[f64; 2]>,
-        /// How far around a place must be free, in mm.
+        /// Half the side of the square around a position that must be free, in mm.
         reach_mm: f64,
     },
-    /// Bytes that undo may keep from now on.
+    /// Sets the limit of the memory for undo, in bytes.
     SetUndoBytes(u64),
     /// Ends the thread.
     Quit,
 }
 
 impl Command {
-    /// What it is, for people.
+    /// Name of the command for messages.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Open(_) => "opening",

@@ -1,4 +1,4 @@
-//! The painting that is there at once.
+//! Default canvas, palette and brushes.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use render::paint::strokes::{Action, BrushSpec, Canvas, Load, PaletteSpec, Strok
 
 use super::command::{Command, Origin};
 
-/// Squeezed out at first: white, a cool and a warm one of each primary, black.
+/// Pigments of the default palette: white, a cool and a warm one of each primary, black.
 const TUBES: [&str; 8] = [
     "Zinc White",
     "Chrome Yellow (Otero)",
@@ -21,8 +21,8 @@ const TUBES: [&str; 8] = [
     "Bone Black",
 ];
 
-/// The stand: name, shape and size in mm.
-const STAND: [(&str, HeadShape, f64); 6] = [
+/// Default brushes: name, shape and size in mm.
+const BRUSHES: [(&str, HeadShape, f64); 6] = [
     ("round", HeadShape::Round, 6.0),
     ("flat", HeadShape::Flat, 10.0),
     ("filbert", HeadShape::Filbert, 8.0),
@@ -31,16 +31,15 @@ const STAND: [(&str, HeadShape, f64); 6] = [
     ("knife", HeadShape::Knife, 14.0),
 ];
 
-/// The brushes that stand there at first.
+/// Default brushes by name.
 #[must_use]
 pub fn default_brushes() -> BTreeMap<String, BrushSpec> {
     let spec =
         |(name, shape, size_mm): (&str, _, _)| (name.to_owned(), BrushSpec { shape, size_mm });
-    STAND.into_iter().map(spec).collect()
+    BRUSHES.into_iter().map(spec).collect()
 }
 
-/// A wooden palette beside a canvas of cells of this width, 640 x 420 of them;
-/// 64 x 42 mm beside the usual canvas.
+/// A wooden palette of 640 x 420 cells of `cell_mm` mm: 64 x 42 mm for cells of 0.1 mm.
 #[must_use]
 pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
     let ground = GroundKind::Wood.spec(1);
@@ -48,10 +47,9 @@ pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
     Canvas { width_mm, height_mm, cell_mm, ground }
 }
 
-/// A bare canvas, `width_mm` x `height_mm` of primed linen in cells of
-/// `cell_mm`, with pigments of `library` and the usual brushes. The oils give
-/// the tubes a painter would choose, any other library its white and the first
-/// that can be mixed.
+/// A canvas of `width_mm` x `height_mm` mm of primed linen with cells of `cell_mm` mm, pigments
+/// of `library` and the default brushes. The Van Gogh oils give a painter's choice of eight
+/// pigments, any other library its white and the first pigments whose scattering is known.
 #[must_use]
 pub fn blank_canvas(
     library: PigmentLibrary,
@@ -75,8 +73,8 @@ pub fn blank_canvas(
     Origin::Blank { script: Box::new(script), library: Box::new(library) }
 }
 
-/// What a window asks for first: 1920 x 1080 cells of linen, 192 x 108 mm, and
-/// the round brush loaded with blue.
+/// First commands of a front end: a linen canvas of 1920 x 1080 cells (192 x 108 mm), and blue
+/// on the round brush.
 #[must_use]
 pub fn initial_commands() -> Vec<Command> {
     let paint = Load {
@@ -96,10 +94,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_there_at_first_can_be_painted_with() {
+    fn the_initial_commands_are_valid() {
         let mut commands = initial_commands().into_iter();
         let Some(Command::Open(Origin::Blank { mut script, library })) = commands.next() else {
-            panic!("a canvas is taken up first");
+            panic!("a canvas is opened first");
         };
         for command in commands {
             let Command::Apply(action) = command else { panic!("then there are actions only") };
@@ -114,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn another_library_opens_with_its_white_and_what_can_be_mixed() {
+    fn another_library_opens_with_its_white_and_identified_pigments() {
         let mut library = PigmentLibrary::van_gogh_oils();
         library.pigments.retain(|pigment| pigment.name != "Vermilion");
         library.pigments[3].identified = false;

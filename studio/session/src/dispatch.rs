@@ -1,4 +1,4 @@
-//! Commands carried out, in their order.
+//! Executes commands in their order.
 
 use std::sync::Arc;
 
@@ -10,34 +10,34 @@ use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
 
 use super::command::{Command, PenSample};
 use super::event::{Event, Picked, Snapshot};
-use super::free_space::roomiest;
-use super::pick::{Place, picked};
+use super::free_space::freest_place;
+use super::pick::{Place, pick};
 use super::report::WorkerStatus;
 use super::state::PaintingState;
-use super::stroke::LiveStroke;
+use super::stroke_timing::{StrokeTiming, is_lifted, waiting_substeps};
 use super::worker::{OpenPainting, WorkerLoop};
 
-/// What the stage always has.
-const PALETTE: &str = "every painting has a palette beside it";
+/// Message of a broken invariant: every session of the worker has a palette.
+const PALETTE: &str = "every session of the worker has a palette";
 
 impl WorkerLoop<'_> {
-    /// Does the next thing: plays a slice of a stroke, or a command.
+    /// Paints a slice of a stroke, or executes the next command.
     pub(super) fn work(&mut self) -> Result<(), SessionError> {
         if self.playing.is_some() {
             for question in self.inbox.take_questions() {
                 self.answer(question)?;
             }
             self.play()
-        } else if self.live.is_some() {
+        } else if self.stroke.is_some() {
             self.paint()
         } else if let Some(command) = self.inbox.next() {
-            self.act_on(command)
+            self.execute(command)
         } else {
             Ok(())
         }
     }
 
-    /// A stroke goes on: all samples there are, then a slice of its paint.
+    /// Goes on with the open stroke: adds all samples that arrived, then paints a slice.
     fn paint(&mut self) -> Result<(), SessionError> {
         while let Some(Command::PenMove(samples)) =
             self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
@@ -54,7 +54,8 @@ impl WorkerLoop<'_> {
                     | Command::EndAdjustment
             )
         };
-        if self.live.as_ref().is_some_and(|live| live.waiting == 0)
+        let waiting = self.open.as_ref().map_or(0, |open| waiting_substeps(open.session()));
+        if waiting == 0
             && let Some(question) = self.inbox.next_if(is_question)
         {
             return self.answer(question);
@@ -62,83 +63,86 @@ impl WorkerLoop<'_> {
         if self.inbox.next_if(|command| matches!(command, Command::PenUp)).is_some()
             || self.inbox.next_is(|command| !is_question(command))
         {
-            // Whatever else comes ends the stroke first.
+            // Any other command finishes the stroke first.
             self.lift()?;
         }
-        self.slice()
+        self.paint_slice()
     }
 
     fn extend(&mut self, samples: &[PenSample]) -> Result<(), SessionError> {
-        let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
-        if live.lifted {
+        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+        let session = &mut open.prepared.session;
+        if is_lifted(session) {
             return Ok(());
         }
         for PenSample { sample, arrived } in samples {
-            if let Err(error) = live.extend(&mut stage.opened.session, sample, *arrived)
-                && !std::mem::replace(&mut live.refused, true)
+            if let Err(error) = stroke.extend(session, sample, *arrived)
+                && !std::mem::replace(&mut stroke.refused, true)
             {
                 let hint = Some(Hint::new("the stroke goes on without it"));
-                (self.tell)(Event::Message { text: error.to_string(), hint, failed: true });
+                (self.send)(Event::Message { text: error.to_string(), hint, failed: true });
             }
         }
-        live.know(&mut stage.opened.session)
+        session.advance(0).map(|_| ())
     }
 
-    /// No more samples come to the stroke.
+    /// Lifts the brush of the open stroke, if one is open.
     pub(super) fn lift(&mut self) -> Result<(), SessionError> {
-        match (&mut self.live, &mut self.stage) {
-            (Some(live), Some(stage)) => live.lift(&mut stage.opened.session),
+        match (&self.stroke, &mut self.open) {
+            (Some(_), Some(open)) => open.prepared.session.lift(),
             _ => Ok(()),
         }
     }
 
-    /// Paints on for a slice; closes the stroke once all is painted.
-    pub(super) fn slice(&mut self) -> Result<(), SessionError> {
-        let (Some(live), Some(stage)) = (&mut self.live, &mut self.stage) else { return Ok(()) };
-        let session = &mut stage.opened.session;
-        let painted = live.slice(session, &mut self.meter, &mut self.outbox)?;
-        self.unseen |= painted;
+    /// Paints a slice of the open stroke; closes the stroke once all is painted.
+    pub(super) fn paint_slice(&mut self) -> Result<(), SessionError> {
+        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+        let session = &mut open.prepared.session;
+        let painted = stroke.paint_slice(session, &mut self.meter, &mut self.outbox)?;
+        self.picture_stale |= painted;
         self.revision += u64::from(painted);
-        if live.is_over() {
-            let brush = live.brush().to_owned();
-            self.live = None;
+        if is_lifted(session) && waiting_substeps(session) == 0 {
+            let brush = session.open_stroke().map(|(_, brush)| brush.to_owned());
+            self.stroke = None;
             session.end_stroke()?;
-            stage.teller.brushes.remove(&brush);
-            (self.unseen, self.stale) = (true, true);
+            if let Some(brush) = brush {
+                open.reporter.brushes.remove(&brush);
+            }
+            (self.picture_stale, self.state_stale) = (true, true);
         }
         Ok(())
     }
 
-    /// Carries out one command; no stroke is open, nothing is played.
-    fn act_on(&mut self, command: Command) -> Result<(), SessionError> {
+    /// Executes one command while no stroke is open and nothing is played.
+    fn execute(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
             Command::Open(origin) => self.open(origin),
             Command::Replay { script, library, pace } => self.replay(*script, &library, pace),
             Command::SetUndoBytes(bytes) => {
                 self.undo_bytes = bytes;
-                if let Some(stage) = &mut self.stage {
-                    stage.opened.session.set_undo_bytes(bytes);
-                    self.stale = true;
+                if let Some(open) = &mut self.open {
+                    open.prepared.session.set_undo_bytes(bytes);
+                    self.state_stale = true;
                 }
             }
-            // Of a stroke that ended before the pen was lifted.
+            // These belong to a stroke that ended before the pen was lifted.
             Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
-            command if self.stage.is_some() => return self.change(command),
+            command if self.open.is_some() => return self.execute_on_painting(command),
             command => {
                 let text = format!("no painting is open for {}", command.name());
-                self.say(text, Some(Hint::new("open one, or begin a new one")), true);
+                self.send_message(text, Some(Hint::new("open one, or begin a new one")), true);
             }
         }
         Ok(())
     }
 
-    /// What needs a painting.
-    fn change(&mut self, command: Command) -> Result<(), SessionError> {
+    /// Executes a command that needs a painting.
+    fn execute_on_painting(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
-            Command::PenDown { surface, brush } => {
-                let begun = LiveStroke::begin(self.session(), surface, &brush)?;
-                self.live = Some(begun);
-                self.stale = true;
+            Command::PenDown { surface, brush, decimals } => {
+                self.session().begin_rounded_stroke(surface, &brush, decimals)?;
+                self.stroke = Some(StrokeTiming::default());
+                self.state_stale = true;
                 Ok(())
             }
             Command::SetBrush { name, spec } => {
@@ -153,13 +157,13 @@ impl WorkerLoop<'_> {
                 Ok(())
             }
             Command::GoTo(done) => {
-                let travelled = self.session().go_to(done);
+                let result = self.session().go_to(done);
                 self.all_changed();
-                travelled
+                result
             }
             Command::SetSecondLight(lighting) => {
                 self.session().canvas_mut().set_second_light(lighting)?;
-                (self.unseen, self.stale) = (true, true);
+                (self.picture_stale, self.state_stale) = (true, true);
                 Ok(())
             }
             Command::LoadPicked { brush, picked, amount_mm } => {
@@ -167,10 +171,10 @@ impl WorkerLoop<'_> {
             }
             Command::SqueezeInFreeSpace { recipe, vehicle, volume_mm3, places, reach_mm } => {
                 let palette = self.session().painting_mut(SurfaceId::Palette).expect(PALETTE);
-                let Some([x_mm, y_mm]) = roomiest(palette, &places, reach_mm)? else {
+                let Some([x_mm, y_mm]) = freest_place(palette, &places, reach_mm)? else {
                     let hint = "squeeze it out of the tubes";
                     let text = "there is no place for it on the palette";
-                    self.say(text.to_owned(), Some(Hint::new(hint)), true);
+                    self.send_message(text.to_owned(), Some(Hint::new(hint)), true);
                     return Ok(());
                 };
                 let on = SurfaceId::Palette;
@@ -194,27 +198,27 @@ impl WorkerLoop<'_> {
                     Action::Redo {} => "there is nothing to redo",
                     _ => "there is nothing to do",
                 };
-                self.say(text.to_owned(), None, false);
+                self.send_message(text.to_owned(), None, false);
             }
             _ => self.all_changed(),
         }
         Ok(())
     }
 
-    /// Puts what was picked on a brush, in place of what it holds.
+    /// Washes a brush and loads it with picked paint.
     fn load_picked(
         &mut self,
         brush: String,
         picked: &Picked,
         amount_mm: f64,
     ) -> Result<(), SessionError> {
-        let library = Arc::clone(&self.stage_mut().opened.library);
+        let library = Arc::clone(&self.open_mut().prepared.library);
         let wet = picked.layers.last();
         let amounts = wet.map_or([0.0; SLOTS + 1], |wet| wet.amounts_mm);
         let total: f64 = amounts.iter().sum();
         if total <= 0.0 {
             let hint = "dry paint stays where it is; its recipe can be loaded from the tubes";
-            self.say("there was no wet paint".to_owned(), Some(Hint::new(hint)), true);
+            self.send_message("there was no wet paint".to_owned(), Some(Hint::new(hint)), true);
             return Ok(());
         }
         let slots = wet.map_or([None; SLOTS], |wet| wet.slots);
@@ -234,9 +238,9 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Answers what changes nothing.
+    /// Executes a command that changes no paint.
     pub(super) fn answer(&mut self, question: Command) -> Result<(), SessionError> {
-        if self.stage.is_none() {
+        if self.open.is_none() {
             return Ok(());
         }
         match question {
@@ -246,66 +250,77 @@ impl WorkerLoop<'_> {
                 let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
                 let snapshot = Snapshot { number, canvas, palette, revision };
                 self.keep(&snapshot);
-                (self.tell)(Event::Snapshot(snapshot));
+                (self.send)(Event::Snapshot(snapshot));
             }
             Command::Recording(number) => match self.session().recording().cloned() {
                 Some(script) => {
-                    (self.tell)(Event::Recording { number, script: Arc::new(script) });
+                    (self.send)(Event::Recording { number, script: Arc::new(script) });
+                    self.open_mut().recording_stop_reported = false;
+                    self.report_recording_stop();
                 }
                 None => {
                     let text = "a painting that was recovered has no recording";
-                    self.say(text.to_owned(), Some(Hint::new("save the painting itself")), true);
+                    self.send_message(
+                        text.to_owned(),
+                        Some(Hint::new("save the painting itself")),
+                        true,
+                    );
                 }
             },
             Command::Pick { surface, x_mm, y_mm, radius_mm } => {
                 let place = Place { surface, x_mm, y_mm, radius_mm };
                 let painting = self.session().painting_mut(surface).expect(PALETTE);
-                if let Some(picked) = picked(painting, place)? {
-                    (self.tell)(Event::Picked(Arc::new(picked)));
+                if let Some(picked) = pick(painting, place)? {
+                    (self.send)(Event::Picked(Arc::new(picked)));
                 }
             }
             Command::SetUndoBytes(bytes) => {
                 self.undo_bytes = bytes;
                 self.session().set_undo_bytes(bytes);
-                self.stale = true;
+                self.state_stale = true;
             }
             Command::EndAdjustment => {
                 self.session().end_adjustment();
-                self.stale = true;
+                self.state_stale = true;
             }
-            other => unreachable!("{} is no question", other.name()),
+            other => unreachable!("`{}` changes paint", other.name()),
         }
         Ok(())
     }
 
-    /// Everything about the painting but its pixels.
+    /// State of the painting besides its pixels.
     pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
-        let Some(OpenPainting { opened, teller }) = &mut self.stage else { return Ok(None) };
-        let beside = WorkerStatus { revision: self.revision, stroke_open: self.live.is_some() };
-        Ok(Some(Arc::new(teller.state(opened, &beside, self.outbox.bytes())?)))
+        let Some(OpenPainting { prepared, reporter, .. }) = &mut self.open else {
+            return Ok(None);
+        };
+        let status = WorkerStatus { revision: self.revision, stroke_open: self.stroke.is_some() };
+        Ok(Some(Arc::new(reporter.state(prepared, &status, self.outbox.bytes())?)))
     }
 
-    /// The session of the painting that is known to be open.
+    /// Session of the painting.
+    ///
+    /// # Panics
+    /// If no painting is open.
     pub(super) fn session(&mut self) -> &mut PaintingSession {
-        &mut self.stage_mut().opened.session
+        &mut self.open_mut().prepared.session
     }
 
-    pub(super) fn stage_mut(&mut self) -> &mut OpenPainting {
-        self.stage.as_mut().expect("a painting is open, as the caller saw")
+    pub(super) fn open_mut(&mut self) -> &mut OpenPainting {
+        self.open.as_mut().expect("a painting is open")
     }
 
     fn brush_changed(&mut self, brush: &str) {
-        self.stage_mut().teller.brushes.remove(brush);
-        self.stale = true;
+        self.open_mut().reporter.brushes.remove(brush);
+        self.state_stale = true;
     }
 
     fn changed(&mut self) {
         self.revision += 1;
-        (self.unseen, self.stale) = (true, true);
+        (self.picture_stale, self.state_stale) = (true, true);
     }
 
     pub(super) fn all_changed(&mut self) {
-        self.stage_mut().teller.brushes.clear();
+        self.open_mut().reporter.brushes.clear();
         self.changed();
     }
 }

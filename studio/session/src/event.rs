@@ -1,4 +1,4 @@
-//! What the worker tells the window.
+//! Events that the worker sends to the front end.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -11,118 +11,118 @@ use spectra::hint::Hint;
 
 use super::state::{PaintingState, Performance};
 
-/// A rectangle of the picture, ready for the screen.
+/// Pixels of a rectangle of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TilePixels {
-    /// Its cells.
+    /// Cells of the rectangle; one pixel is one cell.
     pub rect: Rect,
-    /// sRGB, 8 bits, row by row.
+    /// sRGB and alpha with 8 bits each, row by row.
     pub pixels: Vec<[u8; 4]>,
 }
 
-/// Paint of one layer at a place.
+/// Mean paint of one layer in a picked circle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PickedLayer {
-    /// Its pigments.
+    /// Pigment of each slot.
     pub slots: Slots,
-    /// Mean height of each slot's paint, and of vehicle last, in mm.
+    /// Mean height of each slot and, last, of the vehicle, in mm.
     pub amounts_mm: [f64; SLOTS + 1],
-    /// What its optical thickness is multiplied with.
+    /// Factor of the optical thickness.
     pub opacity: f64,
 }
 
-/// What lies at a place.
+/// Reflectance and paint at a position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picked {
-    /// Where.
+    /// Surface that was picked from.
     pub surface: SurfaceId,
-    /// From the left edge, in mm.
+    /// Distance from the left edge in mm.
     pub x_mm: f64,
-    /// From the upper edge, in mm.
+    /// Distance from the upper edge in mm.
     pub y_mm: f64,
-    /// Reflectance on the grid of the library, mean over the cells, as an
-    /// instrument would read it: no relief, no gloss.
+    /// Mean reflectance on the grid of the library, as an instrument would measure it: without
+    /// relief and gloss.
     pub reflectance: Vec<f64>,
-    /// Dry layers from the lowest, the wet one last.
+    /// Dry layers from the lowest, then the wet layer.
     pub layers: Vec<PickedLayer>,
 }
 
-/// The painting at one moment.
+/// Copy of the painting at one moment.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
-    /// As the caller numbered it.
+    /// Number of the request.
     pub number: u64,
-    /// The canvas.
+    /// Document of the canvas.
     pub canvas: Arc<Document>,
-    /// The palette.
+    /// Document of the palette.
     pub palette: Arc<Document>,
-    /// Counts changes of paint; equal means nothing happened in between.
+    /// Counter of changes of the painting: two equal values mean no change in between.
     pub revision: u64,
 }
 
-/// What the worker tells.
+/// A message of the worker.
 #[derive(Debug, Clone)]
 pub enum Event {
-    /// Another painting is there: both pictures follow whole.
+    /// Another painting was opened. Both pictures follow completely.
     Opened(Arc<PaintingState>),
-    /// Something other than pixels changed.
+    /// State besides pixels changed.
     State(Arc<PaintingState>),
     /// Part of a picture changed.
     Tiles {
-        /// Of which surface.
+        /// Surface of the picture.
         surface: SurfaceId,
         /// Whether it is the picture under the second light.
         second: bool,
-        /// What changed.
+        /// Pixels of the changed tiles.
         tiles: Vec<TilePixels>,
-        /// When the newest sample that it shows had arrived.
+        /// Arrival time of the newest pen sample that the tiles show.
         newest: Option<Instant>,
     },
-    /// The head as it is bent now, or lifted.
+    /// Shape of the head as it is bent now; `None` after it was lifted.
     Head(Option<Arc<HeadOnCanvas>>),
-    /// How the worker keeps up.
+    /// Painting speed and latency changed.
     Performance(Performance),
-    /// What lies at a place.
+    /// Answer to [`Command::Pick`](super::Command::Pick).
     Picked(Arc<Picked>),
-    /// The documents asked for.
+    /// Answer to [`Command::Snapshot`](super::Command::Snapshot).
     Snapshot(Snapshot),
-    /// The recording asked for.
+    /// Answer to [`Command::Recording`](super::Command::Recording).
     Recording {
-        /// As the caller numbered it.
+        /// Number of the request.
         number: u64,
-        /// The script.
+        /// The recording so far.
         script: Arc<StrokeScript>,
     },
-    /// How far a replay is: actions done, of how many.
+    /// Progress of a replay.
     Progress {
-        /// Actions done.
+        /// Number of actions played.
         done: usize,
-        /// Of how many.
+        /// Number of actions of the script.
         of: usize,
     },
-    /// A replay ended, as wanted or cancelled.
+    /// A replay ended or was cancelled.
     Replayed,
-    /// Something to be said to the painter; `true` if it is an error.
+    /// A message for the painter, for example that the recording ended early.
     Message {
         /// One sentence.
         text: String,
-        /// What to try.
+        /// Advice on what to do, if there is any.
         hint: Option<Hint>,
         /// Whether something failed.
         failed: bool,
     },
 }
 
-/// The surface of a head over the canvas, for drawing.
+/// Surface of a head over the canvas, for drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadOnCanvas {
-    /// Over which surface.
+    /// Surface that the head is over.
     pub surface: SurfaceId,
-    /// Vertices around the head.
+    /// Number of vertices around the head.
     pub around: usize,
-    /// Vertices from the ferrule to the tip.
+    /// Number of vertices from the ferrule to the tip.
     pub along: usize,
-    /// `around * along` places: x and y in cells of the canvas, height in cells;
-    /// the ferrule first.
+    /// `around * along` vertices, the ferrule first: x and y in cells of the canvas, height in
+    /// cells.
     pub vertices: Vec<[f32; 3]>,
 }

@@ -1,51 +1,54 @@
-//! What went wrong with a file, for the painter.
+//! Errors of autosave files.
 
 use std::path::Path;
 
-use spectra::hint::Explain;
+use spectra::hint::{Explain, Fault, Hint};
 
-/// One sentence, and what to try.
+/// A file or folder that cannot be used, with the causes in one sentence.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
 pub struct FileFailure {
-    /// The file, and what is wrong with it.
+    /// Path, and what is wrong with it.
     pub what: String,
-    /// The way out, where there is one.
-    pub hint: Option<String>,
+    /// Advice on what to do, if there is any.
+    pub hint: Option<Hint>,
 }
 
 impl FileFailure {
-    /// A failure with a way out.
-    #[must_use]
-    pub fn new(what: impl Into<String>, hint: impl Into<String>) -> Self {
-        Self { what: what.into(), hint: Some(hint.into()) }
-    }
-
-    /// What a library says of a file, with the hint that it has.
-    pub fn told(error: &dyn std::error::Error, hint: Option<impl Into<String>>) -> Self {
-        let mut what = error.to_string();
-        let mut cause = error.source();
-        while let Some(deeper) = cause {
-            what = format!("{what}: {deeper}");
-            cause = deeper.source();
-        }
-        Self { what, hint: hint.map(Into::into) }
-    }
-
     /// A failure with the message, the causes and the hint of a library's error.
     pub fn explained(error: &dyn Explain) -> Self {
-        Self::told(error, error.hint().map(|hint| hint.to_string()))
+        Self { what: with_causes(error), hint: error.hint() }
     }
 
-    /// `path` cannot be `verb`ed: what the system says.
-    pub fn io(path: &Path, verb: &str, error: &std::io::Error) -> Self {
-        let hint = match error.kind() {
-            std::io::ErrorKind::NotFound => Some("look whether the folder is still there"),
-            std::io::ErrorKind::PermissionDenied => Some("choose a folder that is yours"),
-            std::io::ErrorKind::StorageFull => Some("make room on the disk, or choose another"),
-            _ => None,
-        };
-        let what = format!("{}: cannot be {verb}: {error}", path.display());
-        Self { what, hint: hint.map(str::to_owned) }
+    /// A failure of the operating system: `path` cannot be `participle` (read, written).
+    pub fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
+        let what = format!("{}: cannot be {participle}: {error}", path.display());
+        Self { what, hint: error.hint() }
     }
+
+    /// A failure without advice, with the causes of `error`.
+    pub(crate) fn without_hint(error: &dyn std::error::Error) -> Self {
+        Self { what: with_causes(error), hint: None }
+    }
+}
+
+impl Explain for FileFailure {
+    fn hint(&self) -> Option<Hint> {
+        self.hint.clone()
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Environment
+    }
+}
+
+/// Messages of an error and of all its causes.
+fn with_causes(error: &(impl std::error::Error + ?Sized)) -> String {
+    let mut what = error.to_string();
+    let mut cause = error.source();
+    while let Some(deeper) = cause {
+        what = format!("{what}: {deeper}");
+        cause = deeper.source();
+    }
+    what
 }

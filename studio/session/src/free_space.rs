@@ -1,21 +1,21 @@
-//! Where on a surface there is room for a heap of paint.
+//! Free positions for a heap of paint.
 
 use render::paint::painting::{Painting, PaintingError};
 use render::tile::Rect;
 
-/// The first of `places`, in mm, with no wet paint nearer than `reach_mm`; if there
-/// is none, the one with the least. `None` if no place is on the surface.
+/// The first of `places`, in mm, without wet paint within `reach_mm`; if there is none, the
+/// one with the least wet paint. `None` if no place is on the surface.
 ///
 /// # Errors
 /// [`PaintingError`] if the device was lost.
-pub(super) fn roomiest(
+pub(super) fn freest_place(
     painting: &mut Painting,
     places: &[[f64; 2]],
     reach_mm: f64,
 ) -> Result<Option<[f64; 2]>, PaintingError> {
     let mut best: Option<([f64; 2], u64)> = None;
     for &place in places {
-        let Some(quanta) = around(painting, place, reach_mm)? else { continue };
+        let Some(quanta) = wet_paint_around(painting, place, reach_mm)? else { continue };
         if best.is_none_or(|(_, least)| quanta < least) {
             best = Some((place, quanta));
         }
@@ -26,8 +26,8 @@ pub(super) fn roomiest(
     Ok(best.map(|(place, _)| place))
 }
 
-/// Quanta of wet paint in the square around a place; `None` beside the surface.
-fn around(
+/// Wet paint in the square around a place, in quanta; `None` outside the surface.
+fn wet_paint_around(
     painting: &mut Painting,
     [x_mm, y_mm]: [f64; 2],
     reach_mm: f64,

@@ -1,4 +1,4 @@
-//! What the window asked for and is not done yet.
+//! Commands of the front end that wait to be executed.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
@@ -8,70 +8,69 @@ use render::paint::strokes::Action;
 
 use super::command::Command;
 
-/// What reaches the thread.
+/// Message to the worker thread.
 #[derive(Debug)]
 pub(super) enum Input {
-    /// The window asks for something.
+    /// A command.
     Command(Command),
-    /// The window took this many parts of the picture.
-    Taken(usize),
+    /// The front end received this many parts of pictures.
+    Confirmed(usize),
 }
 
-/// Commands in order, and what cannot wait for its turn.
+/// Commands in their order, and urgent requests.
 #[derive(Debug)]
 pub(super) struct Inbox {
-    heard: Receiver<Input>,
+    receiver: Receiver<Input>,
     waiting: VecDeque<Command>,
-    /// Parts of pictures that the window took since this was last looked at.
-    pub(super) taken: usize,
-    /// Whether a replay is to end.
+    /// Number of parts of pictures that the front end confirmed since this was last reset.
+    pub(super) confirmed: usize,
+    /// Whether the replay must end.
     pub(super) cancelled: bool,
-    /// Whether the thread is to end, or the window is gone.
+    /// Whether the thread must end, also because the front end is gone.
     pub(super) quit: bool,
 }
 
 impl Inbox {
-    pub(super) fn new(heard: Receiver<Input>) -> Self {
-        Self { heard, waiting: VecDeque::new(), taken: 0, cancelled: false, quit: false }
+    pub(super) fn new(receiver: Receiver<Input>) -> Self {
+        Self { receiver, waiting: VecDeque::new(), confirmed: 0, cancelled: false, quit: false }
     }
 
-    /// Takes in all that was said; with `patience` waits for something, at most
-    /// so long.
-    pub(super) fn listen(&mut self, patience: Wait) {
-        let first = match patience {
+    /// Receives all messages; if there is none, waits for one as long as `wait` allows.
+    pub(super) fn receive(&mut self, wait: Wait) {
+        let first = match wait {
             Wait::None => None,
-            Wait::Forever => match self.heard.recv() {
-                Ok(said) => Some(said),
+            Wait::Forever => match self.receiver.recv() {
+                Ok(input) => Some(input),
                 Err(_) => return self.quit = true,
             },
             Wait::Until(then) => {
-                match self.heard.recv_timeout(then.saturating_duration_since(Instant::now())) {
-                    Ok(said) => Some(said),
+                match self.receiver.recv_timeout(then.saturating_duration_since(Instant::now())) {
+                    Ok(input) => Some(input),
                     Err(RecvTimeoutError::Timeout) => None,
                     Err(RecvTimeoutError::Disconnected) => return self.quit = true,
                 }
             }
         };
-        if let Some(said) = first {
-            self.take_in(said);
+        if let Some(input) = first {
+            self.sort_in(input);
         }
         loop {
-            match self.heard.try_recv() {
-                Ok(said) => self.take_in(said),
+            match self.receiver.try_recv() {
+                Ok(input) => self.sort_in(input),
                 Err(TryRecvError::Empty) => break,
                 Err(TryRecvError::Disconnected) => return self.quit = true,
             }
         }
     }
 
-    fn take_in(&mut self, said: Input) {
-        match said {
-            Input::Taken(parts) => self.taken += parts,
+    fn sort_in(&mut self, input: Input) {
+        match input {
+            Input::Confirmed(parts) => self.confirmed += parts,
             Input::Command(Command::Quit) => self.quit = true,
             Input::Command(Command::Cancel) => self.cancelled = true,
             Input::Command(command) => {
                 if let Some(last) = self.waiting.back_mut()
-                    && outdated(last, &command)
+                    && is_outdated_by(last, &command)
                 {
                     *last = command;
                 } else {
@@ -81,22 +80,22 @@ impl Inbox {
         }
     }
 
-    /// The next in order.
+    /// Removes the next command.
     pub(super) fn next(&mut self) -> Option<Command> {
         self.waiting.pop_front()
     }
 
-    /// The next in order, if `wanted`.
+    /// Removes the next command if it is `wanted`.
     pub(super) fn next_if(&mut self, wanted: impl FnOnce(&Command) -> bool) -> Option<Command> {
         if wanted(self.waiting.front()?) { self.waiting.pop_front() } else { None }
     }
 
-    /// Whether the next in order is `wanted`.
+    /// Whether the next command is `wanted`.
     pub(super) fn next_is(&self, wanted: impl FnOnce(&Command) -> bool) -> bool {
         self.waiting.front().is_some_and(wanted)
     }
 
-    /// Questions that a replay can answer on its way, out of their order.
+    /// Removes the commands that can be executed during a replay, out of their order.
     pub(super) fn take_questions(&mut self) -> Vec<Command> {
         let is_question = |command: &Command| {
             matches!(
@@ -109,12 +108,12 @@ impl Inbox {
         Vec::from(questions)
     }
 
-    /// Whether nothing waits.
+    /// Whether no command waits.
     pub(super) fn is_empty(&self) -> bool {
         self.waiting.is_empty()
     }
 
-    /// Samples of strokes that wait.
+    /// Number of pen samples in waiting commands.
     pub(super) fn samples(&self) -> usize {
         let samples = |command: &Command| match command {
             Command::PenMove(samples) => samples.len(),
@@ -124,20 +123,20 @@ impl Inbox {
     }
 }
 
-/// How long to wait for something to be said.
+/// How long to wait for a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wait {
-    /// Not at all: there is work.
+    /// Not at all: there is work to do.
     None,
-    /// Until then.
+    /// Until this time at most.
     Until(Instant),
-    /// As long as it takes.
+    /// Without limit.
     Forever,
 }
 
-/// Whether `waiting` need not be done when `new` follows: a control that is
-/// dragged is only ever set to its last place.
-fn outdated(waiting: &Command, new: &Command) -> bool {
+/// Whether `new` makes `waiting` unnecessary: of a slider that is dragged, only the last
+/// value counts.
+fn is_outdated_by(waiting: &Command, new: &Command) -> bool {
     match (waiting, new) {
         (Command::Adjust(Action::Light(_)), Command::Adjust(Action::Light(_)))
         | (Command::Adjust(Action::Gloss { .. }), Command::Adjust(Action::Gloss { .. }))
@@ -159,13 +158,13 @@ mod tests {
 
     use super::*;
 
-    fn heard(commands: Vec<Command>) -> Inbox {
-        let (say, heard) = channel();
-        let mut inbox = Inbox::new(heard);
+    fn received(commands: Vec<Command>) -> Inbox {
+        let (sender, receiver) = channel();
+        let mut inbox = Inbox::new(receiver);
         for command in commands {
-            say.send(Input::Command(command)).unwrap();
+            sender.send(Input::Command(command)).unwrap();
         }
-        inbox.listen(Wait::None);
+        inbox.receive(Wait::None);
         inbox
     }
 
@@ -174,10 +173,10 @@ mod tests {
     }
 
     #[test]
-    fn of_a_drag_only_the_last_place_is_kept() {
+    fn only_the_last_value_of_a_drag_is_kept() {
         let opacity =
             |layer, value| Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value });
-        let mut inbox = heard(vec![
+        let mut inbox = received(vec![
             Command::Adjust(light(1.0)),
             Command::Adjust(light(2.0)),
             opacity(0, 0.5),
@@ -187,7 +186,7 @@ mod tests {
             Command::Apply(light(3.0)),
             Command::Apply(light(4.0)),
         ]);
-        let told: Vec<String> =
+        let commands: Vec<String> =
             std::iter::from_fn(|| inbox.next()).map(|command| format!("{command:?}")).collect();
         let wanted = [
             Command::Adjust(light(2.0)),
@@ -197,12 +196,12 @@ mod tests {
             Command::Apply(light(3.0)),
             Command::Apply(light(4.0)),
         ];
-        assert_eq!(told, wanted.map(|command| format!("{command:?}")));
+        assert_eq!(commands, wanted.map(|command| format!("{command:?}")));
     }
 
     #[test]
-    fn what_is_urgent_does_not_wait_for_its_turn() {
-        let mut inbox = heard(vec![
+    fn urgent_commands_skip_the_queue() {
+        let mut inbox = received(vec![
             Command::PenUp,
             Command::Snapshot(1),
             Command::Cancel,
@@ -226,10 +225,10 @@ mod tests {
 
     #[test]
     fn a_window_that_is_gone_ends_the_thread() {
-        let (say, heard) = channel::<Input>();
-        drop(say);
-        let mut inbox = Inbox::new(heard);
-        inbox.listen(Wait::Forever);
+        let (sender, receiver) = channel::<Input>();
+        drop(sender);
+        let mut inbox = Inbox::new(receiver);
+        inbox.receive(Wait::Forever);
         assert!(inbox.quit, "nobody is left to ask");
     }
 }

@@ -1,4 +1,4 @@
-//! What is known of the dry layers, looked at when there is time.
+//! Summaries of the dry layers, computed while the worker is idle.
 
 use std::sync::Arc;
 
@@ -9,72 +9,71 @@ use super::srgb::SrgbBytes;
 use super::state::{LayerState, Thumbnail};
 use super::thumbnail::LayerSummary;
 
-/// One layer.
+/// Summary of one layer.
 #[derive(Debug)]
-struct Known {
-    /// Whether it was looked at since dry paint last changed.
-    looked: bool,
-    glance: Option<LayerSummary>,
-    /// As last told, and the light of its thumbnail.
-    told: Option<(LayerState, Arc<Light>)>,
+struct LayerEntry {
+    /// Whether the summary is of the dry paint as it is now.
+    current: bool,
+    summary: Option<LayerSummary>,
+    /// State as last sent, and the light of its thumbnail.
+    sent: Option<(LayerState, Arc<Light>)>,
 }
 
-/// All dry layers.
+/// Summaries of all dry layers.
 #[derive(Debug, Default)]
 pub(super) struct Layers {
     changes: u64,
-    known: Vec<Known>,
+    entries: Vec<LayerEntry>,
 }
 
 impl Layers {
-    /// Follows `painting`: after dry paint came or went all layers are looked at
-    /// anew, and shown as they were until then.
-    pub(super) fn follow(&mut self, painting: &Painting) {
+    /// Marks all summaries as outdated if dry paint of `painting` changed. They are used until
+    /// they are computed anew.
+    pub(super) fn update(&mut self, painting: &Painting) {
         let count = painting.state().dry.len();
-        if painting.dry_changes() != self.changes || count != self.known.len() {
+        if painting.dry_changes() != self.changes || count != self.entries.len() {
             self.changes = painting.dry_changes();
-            self.known.resize_with(count, || Known { looked: false, glance: None, told: None });
-            for known in &mut self.known {
-                known.looked = false;
+            let new = || LayerEntry { current: false, summary: None, sent: None };
+            self.entries.resize_with(count, new);
+            for entry in &mut self.entries {
+                entry.current = false;
             }
         }
     }
 
-    /// Whether a layer waits to be looked at.
+    /// Whether a summary is outdated.
     pub(super) fn is_behind(&self) -> bool {
-        self.known.iter().any(|known| !known.looked)
+        self.entries.iter().any(|entry| !entry.current)
     }
 
-    /// Looks at one layer that waits.
+    /// Computes the first summary that is outdated.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
-    pub(super) fn look(&mut self, painting: &mut Painting) -> Result<(), PaintingError> {
-        let waits = self.known.iter().position(|known| !known.looked);
-        let Some(index) = waits else { return Ok(()) };
+    pub(super) fn summarize_next(&mut self, painting: &mut Painting) -> Result<(), PaintingError> {
+        let outdated = self.entries.iter().position(|entry| !entry.current);
+        let Some(index) = outdated else { return Ok(()) };
         let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
-        let glance = LayerSummary::at(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
-        let told = None;
-        self.known[index] = Known { looked: true, glance: Some(glance), told };
+        let summary = LayerSummary::new(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
+        self.entries[index] = LayerEntry { current: true, summary: Some(summary), sent: None };
         Ok(())
     }
 
-    /// The layers for the window; one that nobody looked at yet has no figures and
-    /// an empty thumbnail.
+    /// States of all layers. A layer without a summary has zeros and an empty thumbnail.
     pub(super) fn states(&mut self, painting: &Painting, bytes: &SrgbBytes) -> Vec<LayerState> {
-        self.follow(painting);
+        self.update(painting);
         let light = painting.light();
-        let layers = self.known.iter_mut().zip(&painting.state().dry);
-        let state = |(known, dry): (&mut Known, &render::paint::painting::DryLayerState)| {
-            let Some(glance) = &known.glance else { return blank(dry.slots, dry.opacity) };
-            if let Some((told, under)) = &known.told
-                && (told.slots, told.opacity) == (dry.slots, dry.opacity)
+        let layers = self.entries.iter_mut().zip(&painting.state().dry);
+        let state = |(entry, dry): (&mut LayerEntry, &render::paint::painting::DryLayerState)| {
+            let Some(summary) = &entry.summary else { return blank(dry.slots, dry.opacity) };
+            if let Some((sent, under)) = &entry.sent
+                && (sent.slots, sent.opacity) == (dry.slots, dry.opacity)
                 && Arc::ptr_eq(under, light)
             {
-                return told.clone();
+                return sent.clone();
             }
-            let state = glance.state(dry.slots, dry.opacity, painting, bytes);
-            known.told = Some((state.clone(), Arc::clone(light)));
+            let state = summary.state(dry.slots, dry.opacity, painting, bytes);
+            entry.sent = Some((state.clone(), Arc::clone(light)));
             state
         };
         layers.map(state).collect()

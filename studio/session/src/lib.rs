@@ -6,11 +6,11 @@
 //!
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
 
-mod command;
+mod state;
 
 mod event;
 
-mod state;
+mod command;
 
 mod defaults;
 
@@ -40,7 +40,7 @@ mod prepare;
 
 mod report;
 
-mod stroke;
+mod stroke_timing;
 
 mod replay;
 
@@ -54,9 +54,10 @@ mod thread;
 
 mod failure;
 
-pub mod whole;
-
 mod autosave;
+
+#[cfg(test)]
+mod tests;
 
 pub use autosave::{Autosave, LostSession, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};

@@ -1,4 +1,4 @@
-//! Paintings that come: opened, played from a recording, or taken up again.
+//! Opening paintings, playing recordings, and recovering after a lost device.
 
 use std::time::Instant;
 
@@ -9,137 +9,136 @@ use spectra::hint::{Explain, Hint};
 
 use super::command::{Origin, Pace};
 use super::event::{Event, Snapshot};
-use super::prepare::{OpenError, PreparedPainting, from_script, opened};
+use super::prepare::{OpenError, PreparedPainting, prepare, prepare_script};
 use super::replay::{Replay, Step};
 use super::report::Reporter;
 use super::worker::{OpenPainting, WorkerLoop};
 
 impl WorkerLoop<'_> {
-    /// Takes up a painting in place of the one there is, which stays if that
-    /// fails.
+    /// Opens a painting in place of the open one, which stays if that fails.
     pub(super) fn open(&mut self, origin: Origin) {
-        let opened = opened(origin, &mut self.backend, self.undo_bytes);
-        self.put_up(opened);
+        let prepared = prepare(origin, &mut self.backend, self.undo_bytes);
+        self.replace_painting(prepared);
     }
 
-    /// Puts a painting on the stage; whether there was one.
-    fn put_up(&mut self, opened: Result<PreparedPainting, OpenError>) -> bool {
-        let mut opened = match opened {
-            Ok(opened) => opened,
+    /// Makes a prepared painting the open one, or reports why it could not be prepared.
+    /// Returns whether it is open.
+    fn replace_painting(&mut self, prepared: Result<PreparedPainting, OpenError>) -> bool {
+        let mut prepared = match prepared {
+            Ok(prepared) => prepared,
             Err(error) => {
-                self.say(error.to_string(), error.hint(), true);
+                self.send_message(error.to_string(), error.hint(), true);
                 return false;
             }
         };
-        for remark in std::mem::take(&mut opened.remarks) {
-            self.say(remark, None, false);
+        for remark in std::mem::take(&mut prepared.remarks) {
+            self.send_message(remark, None, false);
         }
-        let teller = Reporter::new(&opened);
-        self.stage = Some(OpenPainting { opened, teller });
-        self.live = None;
+        let reporter = Reporter::new(&prepared);
+        self.open = Some(OpenPainting { prepared, reporter, recording_stop_reported: false });
+        self.stroke = None;
         self.kept = None;
         self.revision += 1;
         self.outbox.clear();
-        (self.unseen, self.stale) = (true, false);
+        (self.picture_stale, self.state_stale) = (true, false);
         match self.state() {
-            Ok(Some(state)) => (self.tell)(Event::Opened(state)),
+            Ok(Some(state)) => (self.send)(Event::Opened(state)),
             Ok(None) => {}
-            Err(error) => self.failed(&error),
+            Err(error) => self.report_failure(&error),
         }
         true
     }
 
-    /// Begins to play a script on the painting that it describes.
+    /// Starts to play a script on the painting that it describes.
     pub(super) fn replay(&mut self, script: StrokeScript, library: &PigmentLibrary, pace: Pace) {
-        // Before anything is taken away; what a painting of its own has for
-        // pigments is known only with that painting.
+        // Checked before the open painting is replaced. The pigments of a script that
+        // continues a painting are known only with that painting.
         if script.start.is_none()
             && let Err(error) = script.resolve(library)
         {
-            return self.say(error.to_string(), error.hint(), true);
+            return self.send_message(error.to_string(), error.hint(), true);
         }
-        let opened = from_script(&script, library, &mut self.backend, self.undo_bytes);
-        if self.put_up(opened) {
+        let prepared = prepare_script(&script, library, &mut self.backend, self.undo_bytes);
+        if self.replace_painting(prepared) {
             self.playing = Some(Replay::new(script, pace));
         }
     }
 
-    /// Plays on for a moment.
+    /// Plays a moment of the recording.
     pub(super) fn play(&mut self) -> Result<(), SessionError> {
-        let (Some(playing), Some(stage)) = (&mut self.playing, &mut self.stage) else {
+        let (Some(playing), Some(open)) = (&mut self.playing, &mut self.open) else {
             return Ok(());
         };
-        let session = &mut stage.opened.session;
-        let step = match &mut self.live {
-            Some(live) => playing.feed(session, live),
-            None => playing.go(session, &mut self.live),
+        let session = &mut open.prepared.session;
+        let step = match &mut self.stroke {
+            Some(stroke) => playing.add_samples(session, stroke),
+            None => playing.next_action(session, &mut self.stroke),
         };
         self.pause = None;
         match step {
             Ok(Step::Paint) => {
-                self.slice()?;
-                if self.live.is_none()
+                self.paint_slice()?;
+                if self.stroke.is_none()
                     && let Some(playing) = &mut self.playing
                 {
                     playing.next += 1;
                 }
             }
             Ok(Step::Wait(then)) => self.pause = Some(then),
-            Ok(Step::Go) => self.all_changed(),
-            Ok(Step::Over) => return self.end_replay(),
+            Ok(Step::Next) => self.all_changed(),
+            Ok(Step::End) => return self.end_replay(),
             Err(error) => {
-                let text = format!("the recording ends at {}: {error}", playing.place());
-                self.say(text, error.hint(), true);
+                let text = format!("the recording ends at {}: {error}", playing.current_action());
+                self.send_message(text, error.hint(), true);
                 return self.end_replay();
             }
         }
         if let Some(event) = self.playing.as_mut().and_then(|p| p.progress(Instant::now())) {
-            (self.tell)(event);
+            (self.send)(event);
         }
         Ok(())
     }
 
-    /// Ends a replay where it is; the painting stays as far as it came.
+    /// Ends a replay; the painting stays as it is then.
     pub(super) fn cancel(&mut self) {
         if self.playing.is_some()
             && let Err(error) = self.end_replay()
         {
-            self.failed(&error);
+            self.report_failure(&error);
         }
     }
 
     fn end_replay(&mut self) -> Result<(), SessionError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
-        // What its stroke was told is painted by and by, as after any pen.
+        // The samples of its open stroke are still painted, as after any pen.
         self.lift()?;
-        (self.tell)(playing.progress_now());
+        (self.send)(playing.progress_now());
         if playing.unsaved > 0 {
             let text =
                 format!("{} files that the recording saves were not written", playing.unsaved);
-            self.say(text, Some(Hint::new("save the painting yourself")), false);
+            self.send_message(text, Some(Hint::new("save the painting yourself")), false);
         }
-        self.stale = true;
-        (self.tell)(Event::Replayed);
+        self.state_stale = true;
+        (self.send)(Event::Replayed);
         Ok(())
     }
 
-    /// Keeps what was last told whole, to go on with if the device is lost.
+    /// Keeps a snapshot to go on with if the device is lost.
     pub(super) fn keep(&mut self, snapshot: &Snapshot) {
         if self.backend.is_device() {
             self.kept = Some(snapshot.clone());
         }
     }
 
-    /// The device was lost, and all that was on it: goes on with what was last
-    /// told whole, on the processor.
+    /// Goes on with the last snapshot on the processor after the device was lost.
     pub(super) fn recover(&mut self) {
-        (self.stage, self.live, self.playing, self.pause) = (None, None, None, None);
+        (self.open, self.stroke, self.playing, self.pause) = (None, None, None, None);
         self.backend.fall_back();
         let Some(Snapshot { canvas, palette, .. }) = self.kept.take() else {
             let hint = "open the painting again; what was saved by itself can be recovered";
             let text = "the painting was on the device, and is lost".to_owned();
-            return self.say(text, Some(Hint::new(hint)), true);
+            return self.send_message(text, Some(Hint::new(hint)), true);
         };
         let session = Origin::Recovered {
             canvas: Box::new((*canvas).clone()),
@@ -147,7 +146,7 @@ impl WorkerLoop<'_> {
         };
         self.open(session);
         let text = "the painting was taken up on the processor as it was last saved".to_owned();
-        self.say(text, None, false);
+        self.send_message(text, None, false);
     }
 }
 
@@ -169,15 +168,15 @@ mod tests {
     use super::super::inbox::Inbox;
     use super::*;
 
-    /// Paints, loses the device, and gives what was told since; `saved` if a
-    /// snapshot was told before.
+    /// Paints and loses the device; returns the snapshot, if it was recovered, and the events
+    /// since. `saved`: a snapshot was sent before.
     fn lost(saved: bool) -> (Option<Snapshot>, Vec<Event>) {
-        let told = RefCell::new(Vec::new());
-        let tell = |event| told.borrow_mut().push(event);
-        let (_say, heard) = channel();
+        let events = RefCell::new(Vec::new());
+        let send = |event| events.borrow_mut().push(event);
+        let (_sender, receiver) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
-        let mut workshop = WorkerLoop::new(Inbox::new(heard), backend, 1 << 24, &tell);
-        workshop.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
+        let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, &send);
+        worker.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
             on: SurfaceId::Canvas,
             recipe: [("Vermilion".to_owned(), 1.0)].into(),
@@ -186,44 +185,46 @@ mod tests {
             y_mm: 2.0,
             volume_mm3: 2.0,
         });
-        workshop.session().apply(&heap).unwrap();
-        let (canvas, palette) = workshop.session().documents().unwrap();
+        worker.session().apply(&heap).unwrap();
+        let (canvas, palette) = worker.session().documents().unwrap();
         let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
         let snapshot = Snapshot { number: 1, canvas, palette, revision: 1 };
         // As on a device.
-        workshop.kept = saved.then(|| snapshot.clone());
-        told.borrow_mut().clear();
+        worker.kept = saved.then(|| snapshot.clone());
+        events.borrow_mut().clear();
         let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
-        workshop.failed(&SessionError::Painting(PaintingError::Engine(gone)));
-        let found = workshop.stage.as_mut().map(|stage| stage.opened.session.documents().unwrap());
+        worker.report_failure(&SessionError::Painting(PaintingError::Engine(gone)));
+        let found = worker.open.as_mut().map(|open| open.prepared.session.documents().unwrap());
         if let Some((canvas, palette)) = found {
             assert!(canvas == *snapshot.canvas, "the canvas as it was saved");
             assert_eq!(palette.as_ref(), Some(&*snapshot.palette), "the palette as well");
             assert!(canvas.wet.totals()[3] > 0, "there is paint on it");
         }
-        let kept = workshop.stage.is_some().then_some(snapshot);
-        (kept, told.take())
+        let kept = worker.open.is_some().then_some(snapshot);
+        (kept, events.take())
     }
 
     #[test]
     fn a_device_that_is_lost_takes_no_more_than_what_came_since_the_last_save() {
-        let (kept, told) = lost(true);
+        let (kept, events) = lost(true);
         assert!(kept.is_some(), "one can paint on");
-        let [first, Event::Opened(_), last] = &told[..] else { panic!("three events: {told:?}") };
-        let said = |event: &Event| match event {
+        let [first, Event::Opened(_), last] = &events[..] else {
+            panic!("three events: {events:?}")
+        };
+        let message = |event: &Event| match event {
             Event::Message { text, failed, .. } => (text.clone(), *failed),
             other => panic!("no message: {other:?}"),
         };
-        assert!(said(first).0.contains("pulled out") && said(first).1, "the loss is told");
-        assert!(said(last).0.contains("processor") && !said(last).1, "and the way on");
+        assert!(message(first).0.contains("pulled out") && message(first).1, "the loss is told");
+        assert!(message(last).0.contains("processor") && !message(last).1, "and the way on");
     }
 
     #[test]
     fn a_device_that_is_lost_before_any_save_is_told_of() {
-        let (kept, told) = lost(false);
+        let (kept, events) = lost(false);
         assert!(kept.is_none(), "there is no painting");
-        let Some(Event::Message { hint: Some(hint), failed: true, .. }) = told.last() else {
-            panic!("a message with a hint: {told:?}");
+        let Some(Event::Message { hint: Some(hint), failed: true, .. }) = events.last() else {
+            panic!("a message with a hint: {events:?}");
         };
         assert!(hint.to_string().contains("recovered"), "{hint}");
     }

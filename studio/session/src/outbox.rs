@@ -1,4 +1,4 @@
-//! The pictures on their way to the window: never more than it takes.
+//! Sends pictures to the front end, never more than it receives.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -12,22 +12,22 @@ use render::tile::{Rect, TileSet};
 use super::event::{Event, HeadOnCanvas};
 use super::meter::Meter;
 use super::srgb::SrgbBytes;
-use super::tiles::encoded;
+use super::tiles::encode;
 
-/// Parts of pictures that may be on their way at once: two frames' worth and a
-/// little, so that a window that is late finds the newest.
-const UNTAKEN: usize = 4;
+/// Maximum number of parts sent and not confirmed: a little more than two frames, so that a
+/// late front end finds the newest pictures.
+const MOST_UNCONFIRMED: usize = 4;
 
-/// Tiles told at once, so that a whole picture comes piece by piece.
-const PIECE: usize = 128;
+/// Maximum number of tiles in a part.
+const PART_TILES: usize = 128;
 
-/// The least time between two looks at what changed: 60 a second.
-const PACE: Duration = Duration::from_micros(16_000);
+/// Minimum time between two renderings: 60 a second.
+const SHORTEST_INTERVAL: Duration = Duration::from_micros(16_000);
 
-/// The most, if showing takes long.
-const SLOWEST: Duration = Duration::from_millis(33);
+/// Maximum time between two renderings, if they take long.
+const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
-/// One picture, and what of it the window has not been told.
+/// One picture and the tiles that must be sent.
 #[derive(Debug)]
 struct View {
     surface: SurfaceId,
@@ -35,14 +35,15 @@ struct View {
     unsent: TileSet,
 }
 
-/// What the window has yet to be told of the pictures.
+/// Parts of all pictures that must be sent.
 #[derive(Debug)]
 pub(super) struct Outbox {
     bytes: SrgbBytes,
     views: [View; 3],
-    untaken: usize,
+    /// Number of parts sent and not confirmed.
+    unconfirmed: usize,
     next: Instant,
-    /// When the samples arrived that the paint has reached but nobody saw.
+    /// Arrival times of samples that the paint has reached and that were not sent.
     arrived: VecDeque<Instant>,
 }
 
@@ -56,7 +57,7 @@ impl Outbox {
                 view(SurfaceId::Palette, false),
                 view(SurfaceId::Canvas, true),
             ],
-            untaken: 0,
+            unconfirmed: 0,
             next: Instant::now(),
             arrived: VecDeque::new(),
         }
@@ -66,7 +67,7 @@ impl Outbox {
         &self.bytes
     }
 
-    /// Forgets what was not told: other pictures came.
+    /// Drops everything that was not sent, as another painting was opened.
     pub(super) fn clear(&mut self) {
         for view in &mut self.views {
             view.unsent = TileSet::default();
@@ -74,52 +75,53 @@ impl Outbox {
         self.arrived.clear();
     }
 
-    /// The window took `parts`.
-    pub(super) fn taken(&mut self, parts: usize) {
-        self.untaken = self.untaken.saturating_sub(parts);
+    /// Counts `parts` as received by the front end.
+    pub(super) fn confirm(&mut self, parts: usize) {
+        self.unconfirmed = self.unconfirmed.saturating_sub(parts);
     }
 
-    /// The paint has reached a sample that had arrived then.
-    pub(super) fn reached(&mut self, arrived: Instant) {
+    /// Adds a sample that the paint has reached, by its arrival time.
+    pub(super) fn add_reached(&mut self, arrived: Instant) {
         self.arrived.push_back(arrived);
     }
 
-    /// Whether the window would take something now.
+    /// Whether pictures may be rendered and sent now.
     pub(super) fn is_due(&self, now: Instant) -> bool {
-        self.untaken < UNTAKEN && now >= self.next
+        self.unconfirmed < MOST_UNCONFIRMED && now >= self.next
     }
 
-    /// When to look again; none while the window has not taken what it was told.
+    /// Time of the next rendering; `None` while too many parts are not confirmed.
     pub(super) fn due(&self) -> Option<Instant> {
-        (self.untaken < UNTAKEN).then_some(self.next)
+        (self.unconfirmed < MOST_UNCONFIRMED).then_some(self.next)
     }
 
-    /// Tells where the head is; a part like those of pictures.
-    pub(super) fn tell_head(&mut self, head: HeadOnCanvas, tell: &dyn Fn(Event)) {
-        tell(Event::Head(Some(Arc::new(head))));
-        self.untaken += 1;
+    /// Sends the head; it counts as a part.
+    pub(super) fn send_head(&mut self, head: HeadOnCanvas, send: &dyn Fn(Event)) {
+        send(Event::Head(Some(Arc::new(head))));
+        self.unconfirmed += 1;
     }
 
-    /// Whether something is computed that was not told.
+    /// Whether rendered tiles must still be sent.
     pub(super) fn is_behind(&self) -> bool {
         self.views.iter().any(|view| !view.unsent.is_empty())
     }
 
-    /// Computes what changed and tells as much of it as the window takes.
+    /// Renders the changed tiles and sends as many as the front end can receive.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
-    pub(super) fn show(
+    pub(super) fn send_changes(
         &mut self,
         session: &mut PaintingSession,
         meter: &mut Meter,
-        tell: &dyn Fn(Event),
+        send: &dyn Fn(Event),
     ) -> Result<(), PaintingError> {
-        let began = Instant::now();
+        let start = Instant::now();
         for view in &mut self.views {
             let painting = session.painting_mut(view.surface);
-            let seen = |painting: &&mut Painting| !view.second || painting.second_light().is_some();
-            let Some(painting) = painting.filter(seen) else {
+            let exists =
+                |painting: &&mut Painting| !view.second || painting.second_light().is_some();
+            let Some(painting) = painting.filter(exists) else {
                 view.unsent = TileSet::default();
                 continue;
             };
@@ -127,29 +129,29 @@ impl Outbox {
             for tile in painting.refresh(view.second)?.iter() {
                 view.unsent.insert_tile(tile);
             }
-            while self.untaken < UNTAKEN && !view.unsent.is_empty() {
-                let piece = first_tiles(&mut view.unsent, PIECE);
+            while self.unconfirmed < MOST_UNCONFIRMED && !view.unsent.is_empty() {
+                let part = take_first_tiles(&mut view.unsent, PART_TILES);
                 let read = |rect: Rect| painting.picture_in(view.second, rect);
-                let tiles = encoded(&piece, bounds, &self.bytes, read)?;
-                let whole = view.unsent.is_empty();
-                let newest = self.arrived.back().copied().filter(|_| whole && !view.second);
-                tell(Event::Tiles { surface: view.surface, second: view.second, tiles, newest });
-                self.untaken += 1;
+                let tiles = encode(&part, bounds, &self.bytes, read)?;
+                let complete = view.unsent.is_empty();
+                let newest = self.arrived.back().copied().filter(|_| complete && !view.second);
+                send(Event::Tiles { surface: view.surface, second: view.second, tiles, newest });
+                self.unconfirmed += 1;
             }
         }
         let now = Instant::now();
         if !self.is_behind() {
             for arrived in self.arrived.drain(..) {
-                meter.shown(now, arrived);
+                meter.add_sample(now, arrived);
             }
         }
-        self.next = began + (3 * (now - began)).clamp(PACE, SLOWEST);
+        self.next = start + (3 * (now - start)).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
         Ok(())
     }
 }
 
-/// Takes the first `most` tiles out of `set`.
-fn first_tiles(set: &mut TileSet, most: usize) -> TileSet {
+/// Removes the first `most` tiles from `set` and returns them.
+fn take_first_tiles(set: &mut TileSet, most: usize) -> TileSet {
     let (mut first, mut rest) = (TileSet::default(), TileSet::default());
     for (index, tile) in set.iter().enumerate() {
         if index < most {
@@ -167,17 +169,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_whole_picture_comes_piece_by_piece_and_no_tile_twice() {
+    fn a_whole_picture_is_sent_in_parts_and_no_tile_twice() {
         let all = TileSet::all(Rect { x: 0, y: 0, width: 1920, height: 1080 });
-        let (mut left, mut told) = (all.clone(), TileSet::default());
-        let mut pieces = Vec::new();
+        let (mut left, mut sent) = (all.clone(), TileSet::default());
+        let mut parts = Vec::new();
         while !left.is_empty() {
-            let piece = first_tiles(&mut left, PIECE);
-            pieces.push(piece.len());
-            for tile in piece.iter() {
-                assert!(told.insert_tile(tile), "{tile:?} is told once");
+            let part = take_first_tiles(&mut left, PART_TILES);
+            parts.push(part.len());
+            for tile in part.iter() {
+                assert!(sent.insert_tile(tile), "{tile:?} is sent once");
             }
         }
-        assert_eq!((pieces, told), (vec![128, 128, 128, 126], all));
+        assert_eq!((parts, sent), (vec![128, 128, 128, 126], all));
     }
 }

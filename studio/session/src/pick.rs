@@ -1,4 +1,4 @@
-//! What lies at a place.
+//! Picking paint and reflectance at a position.
 
 use render::amount::mm_from_quanta;
 use render::layer::{Layer, SLOTS};
@@ -8,7 +8,7 @@ use render::tile::Rect;
 
 use super::event::{Picked, PickedLayer};
 
-/// A place on a surface.
+/// A circle on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) surface: SurfaceId,
@@ -17,15 +17,12 @@ pub(super) struct Place {
     pub(super) radius_mm: f64,
 }
 
-/// The mean of what lies around `place` on `painting`, which is that surface;
-/// none beside it.
+/// Mean reflectance and paint of the cells within `place` on `painting`, which is that
+/// surface; `None` if the centre is outside.
 ///
 /// # Errors
 /// [`PaintingError`] if the device was lost.
-pub(super) fn picked(
-    painting: &mut Painting,
-    place: Place,
-) -> Result<Option<Picked>, PaintingError> {
+pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picked>, PaintingError> {
     let cell_mm = painting.cell_mm();
     let rows = rows(painting.bounds(), cell_mm, place);
     let cells: usize = rows.iter().map(|row| row.width).sum();
@@ -51,8 +48,7 @@ pub(super) fn picked(
     Ok(Some(Picked { surface, x_mm, y_mm, reflectance, layers }))
 }
 
-/// Mean height of each slot's paint over the cells of `rows`, and of vehicle
-/// last.
+/// Mean height of each slot and, last, of the vehicle over the cells of `rows`, in mm.
 fn mean_mm(
     rows: &[Rect],
     cell_mm: f64,
@@ -68,8 +64,8 @@ fn mean_mm(
     Ok(totals.map(|total| total as f64 / cells as f64 * mm_from_quanta(1, cell_mm)))
 }
 
-/// The cells whose middle lies within the radius, and the one at the place, row
-/// by row.
+/// Cells whose centre lies within the radius, and the cell at the centre, as one rectangle a
+/// row.
 fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
     let [x, y, radius] = [place.x_mm, place.y_mm, place.radius_mm.max(0.0)].map(|mm| mm / cell_mm);
     if !(x >= 0.0 && y >= 0.0 && x < bounds.width as f64 && y < bounds.height as f64) {

@@ -1,4 +1,4 @@
-//! Paintings taken up.
+//! Preparing paintings to be worked on.
 
 use std::sync::Arc;
 
@@ -15,18 +15,18 @@ use super::backend::Backend;
 use super::command::Origin;
 use super::defaults::{default_brushes, default_mixing_canvas};
 
-/// A painting on the session, with what of it never changes.
+/// A session and its constant properties.
 #[derive(Debug)]
 pub(super) struct PreparedPainting {
     pub(super) session: PaintingSession,
     pub(super) library: Arc<PigmentLibrary>,
-    /// Reflectance of the ground.
+    /// Reflectance of the ground on the grid of the library.
     pub(super) ground: Arc<Vec<f64>>,
-    /// What was not as asked for.
+    /// Messages about differences from the request.
     pub(super) remarks: Vec<String>,
 }
 
-/// Why a painting cannot be taken up.
+/// Why a painting cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
     #[error(transparent)]
@@ -35,9 +35,9 @@ pub(super) enum OpenError {
     Painting(#[from] PaintingError),
     #[error(transparent)]
     Session(#[from] SessionError),
-    #[error("the painting that the script goes on with: {path}: {reason}")]
+    #[error("the painting that the script continues: {path}: {reason}")]
     Start { path: String, reason: String },
-    #[error("the painting that the script goes on with: {0}")]
+    #[error("the painting that the script continues: {0}")]
     StartFile(#[from] PaintingFileError),
 }
 
@@ -53,38 +53,38 @@ impl Explain for OpenError {
     }
 }
 
-/// Takes up what `origin` tells.
+/// Prepares the painting of `origin`.
 ///
 /// # Errors
-/// [`OpenError`]; nothing was changed then.
-pub(super) fn opened(
+/// [`OpenError`]; nothing is changed then.
+pub(super) fn prepare(
     origin: Origin,
     backend: &mut Backend,
     undo_bytes: u64,
 ) -> Result<PreparedPainting, OpenError> {
     match origin {
-        Origin::Blank { script, library } => from_script(&script, &library, backend, undo_bytes),
+        Origin::Blank { script, library } => prepare_script(&script, &library, backend, undo_bytes),
         Origin::Painting(canvas) => {
             let script = continue_from(&canvas);
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
             let surfaces = || Ok(script.surfaces(&canvas.library.clone(), Some(*canvas))?);
-            let begun = Surfaces::new(&library, &lighting, surfaces)?;
-            begun.set_up(Some(&script), backend, undo_bytes)
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            surfaces.into_session(Some(&script), backend, undo_bytes)
         }
         Origin::Recovered { canvas, palette } => {
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
-            let begun = Surfaces::new(&library, &lighting, || Ok((*canvas, Some(*palette))))?;
-            begun.set_up(None, backend, undo_bytes)
+            let surfaces = Surfaces::new(&library, &lighting, || Ok((*canvas, Some(*palette))))?;
+            surfaces.into_session(None, backend, undo_bytes)
         }
     }
 }
 
-/// The surfaces that a script begins on. A script without a palette gets one;
-/// the painting that it goes on with is read from where it says.
+/// Prepares the surfaces that a script starts on. A script without a palette gets one; the
+/// painting that it continues is read from its path.
 ///
 /// # Errors
-/// As [`opened`].
-pub(super) fn from_script(
+/// [`OpenError`]; nothing is changed then.
+pub(super) fn prepare_script(
     script: &StrokeScript,
     library: &PigmentLibrary,
     backend: &mut Backend,
@@ -98,8 +98,8 @@ pub(super) fn from_script(
         Some(start) => start.lighting.clone(),
         None => script.lighting.clone().unwrap_or_default(),
     };
-    let begun = Surfaces::new(&library, &lighting, || Ok(script.surfaces(&library, start)?))?;
-    begun.set_up(Some(&script), backend, undo_bytes)
+    let surfaces = Surfaces::new(&library, &lighting, || Ok(script.surfaces(&library, start)?))?;
+    surfaces.into_session(Some(&script), backend, undo_bytes)
 }
 
 fn read(path: &str) -> Result<Document, OpenError> {
@@ -108,7 +108,7 @@ fn read(path: &str) -> Result<Document, OpenError> {
     Ok(render::paint::file::read(path, &bytes)?)
 }
 
-/// A header for what is done to a painting from now on.
+/// Header of a recording that continues a painting.
 fn continue_from(canvas: &Document) -> StrokeScript {
     let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
     let mut script = StrokeScript::continue_from(&format!("{title}.exr"), canvas);
@@ -116,7 +116,7 @@ fn continue_from(canvas: &Document) -> StrokeScript {
     script
 }
 
-/// Canvas and palette at rest, and their light.
+/// Documents of canvas and palette, and their light.
 struct Surfaces {
     canvas: Document,
     palette: Option<Document>,
@@ -125,9 +125,8 @@ struct Surfaces {
 }
 
 impl Surfaces {
-    /// Makes the surfaces while another thread works out the light, which takes
-    /// as long. A painting whose light is gone (a lamp's file) is shown under the
-    /// usual one.
+    /// Makes the surfaces while another thread computes the light, which takes as long. If the
+    /// light is unknown (a lamp from a file), the default light is used.
     fn new(
         library: &PigmentLibrary,
         lighting: &Lighting,
@@ -139,21 +138,21 @@ impl Surfaces {
         let (mut canvas, mut palette) = surfaces?;
         let mut remarks = Vec::new();
         let light = light.or_else(|error| {
-            let usual = Lighting::default();
-            let Lighting { illuminant, observer, .. } = usual.clone();
+            let fallback = Lighting::default();
+            let Lighting { illuminant, observer, .. } = fallback.clone();
             remarks.push(format!("{error}; shown under {illuminant}"));
             for document in std::iter::once(&mut canvas).chain(&mut palette) {
                 document.lighting.illuminant.clone_from(&illuminant);
                 document.lighting.observer.clone_from(&observer);
             }
-            named(&usual)
+            named(&fallback)
         });
         let light = light.map_err(PaintingError::from)?;
         Ok(Self { canvas, palette, light, remarks })
     }
 
-    /// Puts them on an session that records under the header of `script`.
-    fn set_up(
+    /// A session on these surfaces, which records if `script`, the header, is given.
+    fn into_session(
         self,
         script: Option<&StrokeScript>,
         backend: &mut Backend,
@@ -168,7 +167,7 @@ impl Surfaces {
             (palette, engine)
         });
         remarks.extend(reason.map(|reason| format!("{reason}; painting on the processor")));
-        // The same, so that nobody takes it for another one.
+        // Shared, as paintings compare lights by address.
         let light = Arc::new(light);
         let (canvas, palette) = rayon::join(
             || Painting::open_under(canvas, Arc::clone(&light), engine, undo_bytes),
@@ -184,8 +183,8 @@ impl Surfaces {
             None => PaintingSession::new(canvas, palette)?,
         };
         session.set_undo_bytes(undo_bytes);
-        let stand = script.map(|script| &script.brushes).filter(|stand| !stand.is_empty());
-        for (name, spec) in stand.cloned().unwrap_or_else(default_brushes) {
+        let brushes = script.map(|script| &script.brushes).filter(|brushes| !brushes.is_empty());
+        for (name, spec) in brushes.cloned().unwrap_or_else(default_brushes) {
             session.set_brush(&name, &spec)?;
         }
         Ok(PreparedPainting { session, library, ground, remarks })

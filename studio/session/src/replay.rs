@@ -1,4 +1,4 @@
-//! A recording that is being played.
+//! Playing a recording.
 
 use std::time::{Duration, Instant};
 
@@ -7,71 +7,73 @@ use render::paint::strokes::{Action, Stroke, StrokeScript};
 
 use super::command::Pace;
 use super::event::Event;
-use super::stroke::LiveStroke;
+use super::stroke_timing::{StrokeTiming, waiting_substeps};
 
-/// Samples that a stroke is told ahead of its paint, so that it can end soon
-/// after a cancel.
+/// Maximum number of samples added ahead of the paint, so that a stroke can end soon after a
+/// cancel.
 const AHEAD: usize = 64;
 
-/// The least time between two tellings of progress.
-const PROGRESS: Duration = Duration::from_millis(100);
+/// Minimum time between two reports of progress.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A script and how far it is.
+/// A script and the position in it.
 #[derive(Debug)]
 pub(super) struct Replay {
     script: StrokeScript,
     pace: Pace,
-    /// The action that comes next, or whose stroke is open.
+    /// Index of the next action, or of the open stroke.
     pub(super) next: usize,
-    /// Samples of that stroke that were told.
-    fed: usize,
-    /// When its first sample was due.
-    began: Instant,
-    /// Actions that save, which were passed over.
+    /// Number of samples of that stroke that were added.
+    added: usize,
+    /// Time at which its first sample was due.
+    start: Instant,
+    /// Number of actions that save a file, which are skipped.
     pub(super) unsaved: usize,
-    progress: Instant,
+    /// Time of the next report of progress.
+    progress_due: Instant,
 }
 
-/// What there is to do next.
+/// Next step of a replay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
-    /// To paint what the open stroke was told.
+    /// Paint the samples of the open stroke.
     Paint,
-    /// Nothing before then.
+    /// Wait until this time.
     Wait(Instant),
-    /// Another action.
-    Go,
-    /// All is played.
-    Over,
+    /// Apply the next action.
+    Next,
+    /// The script has ended.
+    End,
 }
 
 impl Replay {
-    /// From the first action.
+    /// A replay from the first action.
     pub(super) fn new(script: StrokeScript, pace: Pace) -> Self {
         let now = Instant::now();
-        Self { script, pace, next: 0, fed: 0, began: now, unsaved: 0, progress: now }
+        Self { script, pace, next: 0, added: 0, start: now, unsaved: 0, progress_due: now }
     }
 
-    /// Which action is played, in words: `action 3 (stroke)`.
-    pub(super) fn place(&self) -> String {
+    /// Index and key of the current action, such as `action 3 (stroke)`.
+    pub(super) fn current_action(&self) -> String {
         let kind = self.script.actions.get(self.next).map_or("end", Action::kind);
         format!("action {} ({kind})", self.next)
     }
 
-    /// The next action that is no stroke is done; a stroke begins.
+    /// Applies the next action, or begins its stroke.
     ///
     /// # Errors
-    /// [`SessionError`] for what the session refuses.
-    pub(super) fn go(
+    /// [`SessionError`] if the session refuses the action.
+    pub(super) fn next_action(
         &mut self,
         session: &mut PaintingSession,
-        live: &mut Option<LiveStroke>,
+        open: &mut Option<StrokeTiming>,
     ) -> Result<Step, SessionError> {
-        let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::Over) };
+        let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::End) };
         match action {
             Action::Stroke(stroke) => {
-                *live = Some(LiveStroke::begin(session, stroke.on, &stroke.brush)?);
-                (self.fed, self.began) = (0, Instant::now());
+                session.begin_stroke(stroke.on, &stroke.brush)?;
+                *open = Some(StrokeTiming::default());
+                (self.added, self.start) = (0, Instant::now());
                 return Ok(Step::Paint);
             }
             Action::Save { .. } => self.unsaved += 1,
@@ -80,33 +82,33 @@ impl Replay {
             }
         }
         self.next += 1;
-        Ok(Step::Go)
+        Ok(Step::Next)
     }
 
-    /// Tells the open stroke the samples whose time has come.
+    /// Adds the samples that are due to the open stroke.
     ///
     /// # Errors
     /// [`SessionError`] for an impossible sample.
-    pub(super) fn feed(
+    pub(super) fn add_samples(
         &mut self,
         session: &mut PaintingSession,
-        live: &mut LiveStroke,
+        timing: &mut StrokeTiming,
     ) -> Result<Step, SessionError> {
         let Some(Action::Stroke(Stroke { samples, .. })) = self.script.actions.get(self.next)
         else {
-            return Ok(Step::Over);
+            return Ok(Step::End);
         };
         let now = Instant::now();
         let first = samples.first().map_or(0.0, |sample| sample.seconds);
-        let fed = self.fed;
-        while let Some(sample) = samples.get(self.fed) {
+        let added = self.added;
+        while let Some(sample) = samples.get(self.added) {
             let arrived = match self.pace {
-                Pace::Fast if live.waiting > 0 || self.fed - fed == AHEAD => break,
+                Pace::Fast if waiting_substeps(session) > 0 || self.added - added == AHEAD => break,
                 Pace::Fast => now,
                 Pace::AsPainted => {
-                    let due = self.began + Duration::from_secs_f64(sample.seconds - first);
+                    let due = self.start + Duration::from_secs_f64(sample.seconds - first);
                     if due > now {
-                        if live.waiting == 0 && self.fed == fed {
+                        if waiting_substeps(session) == 0 && self.added == added {
                             return Ok(Step::Wait(due));
                         }
                         break;
@@ -114,21 +116,21 @@ impl Replay {
                     due
                 }
             };
-            live.extend(session, sample, arrived)?;
-            self.fed += 1;
+            timing.extend(session, sample, arrived)?;
+            self.added += 1;
         }
-        if self.fed == samples.len() {
-            live.lift(session)?;
+        if self.added == samples.len() {
+            session.lift()?;
         }
         Ok(Step::Paint)
     }
 
-    /// How far it is, if that is worth telling again.
+    /// The progress, if it is due for a report.
     pub(super) fn progress(&mut self, now: Instant) -> Option<Event> {
-        if now < self.progress {
+        if now < self.progress_due {
             return None;
         }
-        self.progress = now + PROGRESS;
+        self.progress_due = now + PROGRESS_INTERVAL;
         Some(self.progress_now())
     }
 

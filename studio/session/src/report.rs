@@ -1,4 +1,4 @@
-//! What the window is told of the painting besides its pixels.
+//! State of the painting besides its pixels, for the front end.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,47 +15,48 @@ use super::prepare::PreparedPainting;
 use super::srgb::SrgbBytes;
 use super::state::{BrushState, PaintingState};
 
-/// What is kept from one telling to the next.
+/// Makes the reports, and caches what is slow to compute.
 #[derive(Debug)]
 pub(super) struct Reporter {
     colors: Colors,
     pub(super) layers: Layers,
-    /// Paint on brushes by name, as heights in mm; cleared when it may have
-    /// changed.
+    /// Mean heights of the paint on brushes in mm, by name. Entries that may have changed are
+    /// removed.
     pub(super) brushes: BTreeMap<String, [f64; SLOTS + 1]>,
 }
 
-/// What of a telling the session does not know.
+/// State that the worker adds to each report.
 #[derive(Debug, Clone)]
 pub(super) struct WorkerStatus {
+    /// Counter of changes of the painting.
     pub(super) revision: u64,
     /// Whether a stroke is open.
     pub(super) stroke_open: bool,
 }
 
 impl Reporter {
-    pub(super) fn new(opened: &PreparedPainting) -> Self {
-        let light = Arc::clone(opened.session.canvas().light());
-        let colors = Colors::new(Arc::clone(&opened.library), light);
+    pub(super) fn new(prepared: &PreparedPainting) -> Self {
+        let light = Arc::clone(prepared.session.canvas().light());
+        let colors = Colors::new(Arc::clone(&prepared.library), light);
         Self { colors, layers: Layers::default(), brushes: BTreeMap::new() }
     }
 
-    /// All of it, as it is now.
+    /// The whole state as it is now.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
     pub(super) fn state(
         &mut self,
-        opened: &mut PreparedPainting,
-        beside: &WorkerStatus,
+        prepared: &mut PreparedPainting,
+        status: &WorkerStatus,
         bytes: &SrgbBytes,
     ) -> Result<PaintingState, SessionError> {
-        let PreparedPainting { session, library, ground, .. } = opened;
+        let PreparedPainting { session, library, ground, .. } = prepared;
         let light: Arc<Light> = Arc::clone(session.canvas().light());
-        if !self.colors.are_of(library, &light) {
+        if !self.colors.is_for(library, &light) {
             self.colors = Colors::new(Arc::clone(library), Arc::clone(&light));
         }
-        let brushes = self.stand(session)?;
+        let brushes = self.brush_states(session)?;
         let palette = session.painting(SurfaceId::Palette).map(|palette| palette.bounds());
         let (history, done) = session.history();
         let history = history.into_iter().map(str::to_owned).collect();
@@ -83,17 +84,20 @@ impl Reporter {
             undo_bytes,
             brushes,
             backend: canvas.backend(),
-            revision: beside.revision,
-            stroke_open: beside.stroke_open,
+            revision: status.revision,
+            stroke_open: status.stroke_open,
         })
     }
 
-    /// The brushes, in the order of their names.
-    fn stand(&mut self, session: &mut PaintingSession) -> Result<Vec<BrushState>, SessionError> {
+    /// States of all brushes, in the order of their names.
+    fn brush_states(
+        &mut self,
+        session: &mut PaintingSession,
+    ) -> Result<Vec<BrushState>, SessionError> {
         let slots = session.canvas().state().slots;
         let specs: Vec<(String, BrushSpec)> =
             session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
-        let mut stand = Vec::with_capacity(specs.len());
+        let mut states = Vec::with_capacity(specs.len());
         for (name, spec) in specs {
             let heights = match self.brushes.get(&name) {
                 Some(heights) => *heights,
@@ -107,7 +111,7 @@ impl Reporter {
             let pigments: f64 = heights[..SLOTS].iter().sum();
             let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
             let parts = std::array::from_fn(|slot| share(pigments, heights[slot]));
-            stand.push(BrushState {
+            states.push(BrushState {
                 color: self.colors.of_slots(&slots, &parts),
                 vehicle: share(amount_mm, heights[SLOTS]),
                 name,
@@ -116,11 +120,11 @@ impl Reporter {
                 parts,
             });
         }
-        Ok(stand)
+        Ok(states)
     }
 }
 
-/// Mean heights of the paint on a brush: of each slot, and of vehicle last.
+/// Mean height of each slot and, last, of the vehicle on a brush, in mm.
 fn heights_mm(session: &mut PaintingSession, name: &str) -> Result<[f64; SLOTS + 1], SessionError> {
     let cell_mm = session.canvas().cell_mm();
     let Some(paint) = session.brush_paint(name)? else { return Ok([0.0; SLOTS + 1]) };

@@ -1,56 +1,56 @@
-//! Linear light to 8-bit sRGB, as fast as a table and as exact as the export.
+//! Linear light to 8-bit sRGB by a table, with the same bytes as the PNG export.
 
 use spectra::color::Rgb;
 
-/// Buckets of equal width between 0 and 1. Narrower than the nearest two
-/// thresholds lie apart (1 / 255 / 12.92), so that none holds two.
+/// Number of buckets of equal width between 0 and 1. They are narrower than the smallest
+/// distance of two thresholds (1 / 255 / 12.92), so that none contains two.
 const BUCKETS: usize = 4096;
 
-/// From linear sRGB to the byte that a PNG of the same picture holds
+/// Tables from linear sRGB to the bytes of a PNG of the same picture
 /// ([`render::export::png8`]).
 #[derive(Debug, Clone)]
 pub(super) struct SrgbBytes {
-    /// The byte of each bucket's lower end.
+    /// Byte at the lower end of each bucket.
     lowest: Vec<u8>,
-    /// The least value that gives each byte; none gives 256.
+    /// Smallest value that gives each byte, and infinity for 256.
     least: [f32; 257],
 }
 
 impl SrgbBytes {
-    /// The tables; they take about a tenth of a millisecond.
+    /// Computes the tables, in about 0.1 ms.
     pub(super) fn new() -> Self {
         let mut least = [f32::INFINITY; 257];
         for (byte, least) in least.iter_mut().enumerate().take(256) {
             *least = least_giving(byte as u8);
         }
         let bucket = |index: usize| exact(index as f32 / BUCKETS as f32);
-        // One more for white itself.
+        // One more bucket for white itself.
         Self { lowest: (0..=BUCKETS).map(bucket).collect(), least }
     }
 
-    /// The byte of one channel; what lies outside 0..1 is cut off.
+    /// Byte of one channel; values outside 0 to 1 are clipped.
     #[inline(always)]
     pub(super) fn byte(&self, linear: f32) -> u8 {
         let linear = linear.clamp(0.0, 1.0);
-        // Exact, as the number of buckets is a power of two; no number gives 0.
+        // Exact, as the number of buckets is a power of two; NaN gives 0.
         let lowest = self.lowest[(linear * BUCKETS as f32) as usize];
         lowest + u8::from(linear >= self.least[usize::from(lowest) + 1])
     }
 
-    /// An opaque pixel.
+    /// The opaque pixel of a colour.
     #[inline(always)]
     pub(super) fn pixel(&self, [r, g, b, _]: [f32; 4]) -> [u8; 4] {
         [self.byte(r), self.byte(g), self.byte(b), 255]
     }
 }
 
-/// The byte by the curve itself.
+/// Byte computed by the sRGB curve.
 fn exact(linear: f32) -> u8 {
     Rgb([f64::from(linear); 3]).encoded().to_bytes()[0]
 }
 
-/// The least value in 0..=1 whose byte is `byte`, or more: halved over the bits,
-/// whose order is that of positive numbers.
+/// Smallest value in 0 to 1 whose byte is at least `byte`: bisection over the bits, whose
+/// order is that of positive numbers.
 fn least_giving(byte: u8) -> f32 {
     let (mut low, mut high) = (0, 1.0_f32.to_bits());
     while low < high {

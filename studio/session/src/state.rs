@@ -1,4 +1,4 @@
-//! What the window knows of the painting.
+//! State of the painting besides its pixels.
 
 use std::sync::Arc;
 
@@ -7,109 +7,109 @@ use render::light::Light;
 use render::paint::document::{Lighting, Medium, Slots};
 use render::paint::strokes::BrushSpec;
 
-/// A small picture, sRGB.
+/// A small sRGB picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Thumbnail {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: usize,
-    /// Rows.
+    /// Height in pixels.
     pub height: usize,
-    /// Row by row; transparent where there is no paint.
+    /// Pixels with alpha row by row; transparent where there is no paint.
     pub pixels: Vec<[u8; 4]>,
 }
 
-/// A dry layer.
+/// State of a dry layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerState {
-    /// Its pigments.
+    /// Pigment of each slot.
     pub slots: Slots,
-    /// What its optical thickness is multiplied with; 0 hides it.
+    /// Factor of the optical thickness; 0 hides the layer.
     pub opacity: f64,
-    /// Mean height where it has paint, in mm.
+    /// Mean height of the cells with paint, in mm.
     pub mean_mm: f64,
-    /// Greatest height, in mm.
+    /// Maximum height in mm.
     pub max_mm: f64,
-    /// Share of the canvas that it covers, 0..1.
+    /// Fraction of the canvas with paint of this layer, 0 to 1.
     pub coverage: f64,
-    /// The layer alone over the ground.
+    /// Picture of the layer alone over the ground.
     pub thumbnail: Arc<Thumbnail>,
 }
 
-/// A brush in the stand.
+/// State of a brush.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BrushState {
-    /// Its name.
+    /// Name of the brush.
     pub name: String,
-    /// Its head.
+    /// Shape and size of its head.
     pub spec: BrushSpec,
-    /// Mean height of the paint on it, in mm; 0 is clean.
+    /// Mean height of the paint on it, in mm; 0 if it is clean.
     pub amount_mm: f64,
-    /// Share of it that is vehicle, 0..1.
+    /// Fraction of vehicle in this paint, 0 to 1.
     pub vehicle: f64,
-    /// Parts by slot of the palette, summing to 1; all 0 without pigment.
+    /// Parts by slot of the palette, with sum 1; all 0 without pigment.
     pub parts: [f64; render::layer::SLOTS],
-    /// sRGB of its mixture in a film that hides, if it has pigment.
+    /// sRGB of its mixture in an opaque film, if it has pigment.
     pub color: Option<[u8; 3]>,
 }
 
-/// Everything about the painting but its pixels.
+/// State of the painting besides its pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaintingState {
-    /// What it is called.
+    /// Title of the painting.
     pub title: String,
-    /// Cells of the canvas.
+    /// Columns and rows of cells of the canvas.
     pub canvas_cells: (usize, usize),
-    /// Cells of the palette.
+    /// Columns and rows of cells of the palette.
     pub palette_cells: (usize, usize),
-    /// Width of a cell of both in mm.
+    /// Width of a cell of canvas and palette in mm.
     pub cell_mm: f64,
-    /// The pigments there are.
+    /// Library of the pigments.
     pub library: Arc<PigmentLibrary>,
-    /// Those on the palette.
+    /// Pigment of each slot of the palette.
     pub slots: Slots,
-    /// sRGB of each slot's pigment in a film that hides, under the light.
+    /// sRGB of the pigment of each slot in an opaque film, under the light.
     pub masstones: [Option<[u8; 3]>; render::layer::SLOTS],
-    /// The same, one part in ten of the library's white.
+    /// sRGB of one part of the pigment of each slot in nine parts of white.
     pub tints: [Option<[u8; 3]>; render::layer::SLOTS],
     /// Dry layers, lowest first.
     pub layers: Vec<LayerState>,
-    /// The light.
+    /// Names of the light, and its direction.
     pub lighting: Lighting,
-    /// The same with its curve and wavelengths.
+    /// Spectrum and wavelengths of the light.
     pub light: Arc<Light>,
-    /// The second light of the split view.
+    /// Second light of the split view, if it is on.
     pub second_lighting: Option<Lighting>,
-    /// The binder.
+    /// Scattering per mm and gloss of the binder.
     pub medium: Medium,
-    /// The reflectance of the ground, on the library's grid.
+    /// Reflectance of the ground on the grid of the library.
     pub ground_reflectance: Arc<Vec<f64>>,
-    /// What each action of the history was, oldest first; those after `done` were
-    /// taken back.
+    /// Labels of the actions of the history, the oldest first. Those from `history_done` on
+    /// were undone.
     pub history: Vec<String>,
-    /// How many of them are done.
+    /// Number of actions of the history that are done.
     pub history_done: usize,
-    /// Bytes that undo keeps, and may keep.
+    /// Memory that undo takes, and its limit, in bytes.
     pub undo_bytes: (u64, u64),
-    /// The stand.
+    /// All brushes, in the order of their names.
     pub brushes: Vec<BrushState>,
-    /// What computes.
+    /// Name of the backend.
     pub backend: String,
-    /// Counts changes of paint.
+    /// Counter of changes of the painting.
     pub revision: u64,
     /// Whether a stroke is open.
     pub stroke_open: bool,
 }
 
-/// How the worker keeps up.
+/// Painting speed and latency of the worker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Performance {
-    /// Sub-steps of the last second.
+    /// Number of sub-steps in the last second.
     pub substeps_per_second: f64,
-    /// Sub-steps that wait.
+    /// Number of sub-steps that wait.
     pub waiting_substeps: usize,
-    /// From the arrival of a sample to its tiles being ready, in ms, the mean of
-    /// the last second.
+    /// Mean time from the arrival of a sample until its tiles are sent, in ms, over the last
+    /// second.
     pub mean_latency_ms: f64,
-    /// The longest of the last second.
+    /// Longest such time of the last second, in ms.
     pub max_latency_ms: f64,
 }

@@ -1,4 +1,4 @@
-//! The worker, seen from the window.
+//! The worker as the front end sees it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -14,12 +14,12 @@ use super::event::Event;
 use super::inbox::{Inbox, Input};
 use super::worker::WorkerLoop;
 
-/// What a worker is told once.
+/// Settings of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorkerOptions {
-    /// What computes.
+    /// Backend that computes the paint; the best one there is by default.
     pub backend: BackendChoice,
-    /// Bytes that undo may keep at first.
+    /// Limit of the memory for undo, in bytes; 512 MiB by default.
     pub undo_bytes: u64,
 }
 
@@ -29,63 +29,61 @@ impl Default for WorkerOptions {
     }
 }
 
-/// The thread that owns the paint.
+/// Handle of the thread that owns the paint.
 #[derive(Debug)]
 pub struct Worker {
-    said: Sender<Input>,
+    inputs: Sender<Input>,
     events: Receiver<Event>,
 }
 
 impl Worker {
-    /// Starts the thread; it has no painting until it is asked to open one.
-    /// `wake` is called from it after every event, so that the window draws
-    /// again.
+    /// Starts the thread. It has no painting until [`Command::Open`]. `wake` is called on the
+    /// thread after each event, so that a window can be drawn again.
     ///
-    /// Only a few parts of the picture are told before the window takes them
-    /// with [`Worker::events`]; a window that draws rarely gets what changed in
-    /// between at once.
+    /// The worker sends only a few parts of pictures before they are received with
+    /// [`Worker::events`]; a front end that reads rarely gets all changes in between at once.
     #[must_use]
     pub fn start(options: WorkerOptions, wake: impl Fn() + Send + 'static) -> Self {
-        let (said, heard) = channel();
-        let (told, events) = channel();
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
         thread::spawn(move || {
-            let tell = move |event| {
-                // A window that is gone hears nothing.
-                let _ = told.send(event);
+            let send = move |event| {
+                // Nobody receives if the front end is gone.
+                let _ = sender.send(event);
                 wake();
             };
-            watched(&tell, || {
+            report_panic(&send, || {
                 let backend = Backend::new(options.backend);
-                WorkerLoop::new(Inbox::new(heard), backend, options.undo_bytes, &tell).run();
+                WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, &send).run();
             });
         });
-        Self { said, events }
+        Self { inputs, events }
     }
 
-    /// Asks for something. A worker that ended takes no more.
+    /// Sends a command. Has no effect after the worker has ended.
     pub fn ask(&self, command: Command) {
-        let _ = self.said.send(Input::Command(command));
+        let _ = self.inputs.send(Input::Command(command));
     }
 
-    /// What was told since the last call.
+    /// Events since the last call.
     pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
         let events: Vec<Event> = self.events.try_iter().collect();
         let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
-        let taken = events.iter().filter(paced).count();
-        if taken > 0 {
-            let _ = self.said.send(Input::Taken(taken));
+        let received = events.iter().filter(paced).count();
+        if received > 0 {
+            let _ = self.inputs.send(Input::Confirmed(received));
         }
         events.into_iter()
     }
 }
 
-/// Works, and tells if that ends in a panic.
-fn watched(tell: &dyn Fn(Event), work: impl FnOnce()) {
+/// Runs `work`, and sends a message if it panics.
+fn report_panic(send: &dyn Fn(Event), work: impl FnOnce()) {
     let Err(panic) = catch_unwind(AssertUnwindSafe(work)) else { return };
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let reason = text.unwrap_or("no reason given");
-    tell(Event::Message {
+    send(Event::Message {
         text: format!("painting has stopped by a fault of the program: {reason}"),
         hint: Some(Hint::new("start it again; it takes up what was saved last")),
         failed: true,
@@ -99,15 +97,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_told() {
-        let told = RefCell::new(Vec::new());
-        let tell = |event| told.borrow_mut().push(event);
-        watched(&tell, || {});
-        assert!(told.borrow().is_empty(), "nothing happened");
+    fn a_panic_is_reported() {
+        let events = RefCell::new(Vec::new());
+        let send = |event| events.borrow_mut().push(event);
+        report_panic(&send, || {});
+        assert!(events.borrow().is_empty(), "nothing happened");
         let cells = 3;
-        watched(&tell, || assert!(cells > 7, "there are {cells} cells"));
-        let [Event::Message { text, hint, failed: true }] = &told.borrow()[..] else {
-            panic!("one message: {told:?}");
+        report_panic(&send, || assert!(cells > 7, "there are {cells} cells"));
+        let [Event::Message { text, hint, failed: true }] = &events.borrow()[..] else {
+            panic!("one message: {events:?}");
         };
         assert!(text.contains("there are 3 cells") && hint.is_some(), "{text}");
     }

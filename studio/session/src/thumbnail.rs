@@ -1,4 +1,4 @@
-//! A dry layer at a glance: a few of its cells, and figures of all.
+//! Summary of a dry layer: statistics of all cells, and some cells for a thumbnail.
 
 use std::sync::Arc;
 
@@ -13,29 +13,29 @@ use render::tile::{Rect, TILE};
 use super::srgb::SrgbBytes;
 use super::state::{LayerState, Thumbnail};
 
-/// Pixels of a thumbnail's longer side.
+/// Longer side of a thumbnail in pixels.
 const LONGEST: usize = 96;
 
-/// Cells looked at for a pixel, in each direction.
+/// Number of cells per pixel in each direction.
 const PROBES: usize = 2;
 
-/// What is kept of a dry layer's paint.
+/// Statistics and sampled cells of a dry layer.
 #[derive(Debug, Clone)]
 pub(super) struct LayerSummary {
     mean_mm: f64,
     max_mm: f64,
     coverage: f64,
-    /// `PROBES` x `PROBES` cells of every pixel.
+    /// `PROBES` x `PROBES` cells for each pixel of the thumbnail.
     cells: Layer,
 }
 
 impl LayerSummary {
-    /// Looks at a layer of `bounds`, whose paint `read` gives; it is asked for
-    /// rows of tiles.
+    /// Summary of a layer of `bounds`. `read` returns the paint of a rectangle; it is called
+    /// for rows of tiles.
     ///
     /// # Errors
-    /// Those of `read`.
-    pub(super) fn at<E>(
+    /// The errors of `read`.
+    pub(super) fn new<E>(
         bounds: Rect,
         cell_mm: f64,
         mut read: impl FnMut(Rect) -> Result<Layer, E>,
@@ -75,8 +75,7 @@ impl LayerSummary {
         })
     }
 
-    /// The layer of `painting` as the window is told of it, with its pigments at
-    /// `slots`.
+    /// State of the layer, with its pigments at `slots`.
     pub(super) fn state(
         &self,
         slots: Slots,
@@ -94,7 +93,7 @@ impl LayerSummary {
         }
     }
 
-    /// The layer alone, as thick as it is seen, over the ground.
+    /// Picture of the layer alone over the ground, with its opacity.
     fn thumbnail(
         &self,
         slots: Slots,
@@ -104,9 +103,9 @@ impl LayerSummary {
     ) -> Thumbnail {
         let (columns, rows) = (self.cells.width(), self.cells.height());
         let layer = DryLayer { slots, opacity, paint: self.cells.clone() };
-        let document = alone(painting, layer);
+        let document = document_of(painting, layer);
         let mut scene = scene::scene(&document, painting.light());
-        // Neighbours here lie apart on the canvas: no relief, no gloss.
+        // Neighbours are apart on the canvas, so that relief has no meaning here.
         scene.lamp.relief = 0.0;
         let picture = scene::picture(&document, &scene);
         let (width, height) = (columns / PROBES, rows / PROBES);
@@ -121,7 +120,7 @@ impl LayerSummary {
                     }
                 }
             }
-            // The fourth counts the probes that met paint.
+            // The fourth channel counts the cells with paint.
             let count = sum[3];
             let [r, g, b, _] = bytes.pixel(sum.map(|value| value / count.max(1.0)));
             [r, g, b, (255.0 * count / (PROBES * PROBES) as f32).round() as u8]
@@ -130,8 +129,8 @@ impl LayerSummary {
     }
 }
 
-/// `layer` over the level ground of `painting`.
-fn alone(painting: &Painting, layer: DryLayer) -> Document {
+/// Document of `layer` over the ground of `painting` without relief.
+fn document_of(painting: &Painting, layer: DryLayer) -> Document {
     let (width, height) = (layer.paint.width(), layer.paint.height());
     let Ground { name, reflectance, gloss, .. } = painting.ground();
     let level = Ground {
@@ -148,7 +147,7 @@ fn alone(painting: &Painting, layer: DryLayer) -> Document {
     document
 }
 
-/// Pixels of the thumbnail of a canvas: never more than it has cells.
+/// Width and height of the thumbnail of a canvas in pixels, at most one pixel a cell.
 fn size(bounds: Rect) -> (usize, usize) {
     let longer = bounds.width.max(bounds.height);
     let side = |cells: usize| (cells * LONGEST.min(longer) / longer.max(1)).max(1);

@@ -1,4 +1,4 @@
-//! Parts of a picture, ready for the screen.
+//! Encoding tiles of a picture as sRGB.
 
 use rayon::prelude::*;
 use render::field::Field;
@@ -7,22 +7,22 @@ use render::tile::{Rect, TileSet};
 use super::event::TilePixels;
 use super::srgb::SrgbBytes;
 
-/// The pixels of `tiles` on a canvas of `bounds`. `read` gives cells of the
-/// picture in linear sRGB; it is asked for whole runs of tiles side by side, as
-/// each may cost a way to the device and back.
+/// Pixels of `tiles` on a canvas of `bounds`. `read` returns a rectangle of the picture in
+/// linear sRGB; it is called once for each run of neighbouring tiles, as each call may be a
+/// transfer from the device.
 ///
 /// # Errors
-/// Those of `read`.
-pub(super) fn encoded<E: Send>(
+/// The errors of `read`.
+pub(super) fn encode<E: Send>(
     tiles: &TileSet,
     bounds: Rect,
     bytes: &SrgbBytes,
     mut read: impl FnMut(Rect) -> Result<Field<[f32; 4]>, E>,
 ) -> Result<Vec<TilePixels>, E> {
-    let mut told = Vec::with_capacity(tiles.len());
+    let mut encoded = Vec::with_capacity(tiles.len());
     for (run, parts) in runs(tiles, bounds) {
         let picture = read(run)?;
-        let encoded = parts.into_par_iter().map(|rect| {
+        let tiles = parts.into_par_iter().map(|rect| {
             let mut pixels = Vec::with_capacity(rect.width * rect.height);
             for y in 0..rect.height {
                 let row = picture.row(rect.y - run.y + y, rect.x - run.x, rect.width);
@@ -30,12 +30,12 @@ pub(super) fn encoded<E: Send>(
             }
             TilePixels { rect, pixels }
         });
-        told.par_extend(encoded);
+        encoded.par_extend(tiles);
     }
-    Ok(told)
+    Ok(encoded)
 }
 
-/// Tiles that lie side by side in a row, as one rectangle with its parts.
+/// Runs of neighbouring tiles in a row: the rectangle of each, and its tiles.
 fn runs(tiles: &TileSet, bounds: Rect) -> Vec<(Rect, Vec<Rect>)> {
     let mut runs: Vec<(Rect, Vec<Rect>)> = Vec::new();
     for rect in tiles.iter().map(|tile| tile.rect(bounds)) {
@@ -58,7 +58,7 @@ mod tests {
 
     use super::*;
 
-    /// Colours of all kinds, in gamut and out of it.
+    /// A picture with colours inside and outside the gamut.
     fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
         let color = |index: usize| {
             let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
@@ -79,11 +79,11 @@ mod tests {
         let bounds = picture.bounds();
         let bytes = SrgbBytes::new();
         let read = |rect| Ok::<_, Infallible>(part(&picture, rect));
-        let told = encoded(&TileSet::all(bounds), bounds, &bytes, read).unwrap();
+        let tiles = encode(&TileSet::all(bounds), bounds, &bytes, read).unwrap();
         let file = png8(&picture, 0.1).unwrap().bytes;
         let exported = image::load_from_memory(&file).unwrap().into_rgb8();
         let mut cells = 0;
-        for TilePixels { rect, pixels } in told {
+        for TilePixels { rect, pixels } in tiles {
             for (index, [r, g, b, a]) in pixels.into_iter().enumerate() {
                 let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
                 assert_eq!(exported[(x as u32, y as u32)].0, [r, g, b], "column {x}, row {y}");
@@ -91,7 +91,7 @@ mod tests {
                 cells += 1;
             }
         }
-        assert_eq!(cells, 150 * 70, "every cell is told once");
+        assert_eq!(cells, 150 * 70, "every cell is encoded once");
     }
 
     #[test]

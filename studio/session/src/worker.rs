@@ -1,10 +1,10 @@
-//! The loop: hears the window, paints for a moment, shows it, and so on.
+//! The loop of the worker thread: receives commands, paints for a moment, sends events.
 
 use std::time::{Duration, Instant};
 
 use render::gpu::DeviceError;
 use render::paint::painting::PaintingError;
-use render::paint::session::SessionError;
+use render::paint::session::{PaintingSession, SessionError};
 use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
@@ -16,46 +16,58 @@ use super::prepare::PreparedPainting;
 use super::replay::Replay;
 use super::report::Reporter;
 use super::state::Performance;
-use super::stroke::LiveStroke;
+use super::stroke_timing::{StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
 
-/// The least time between two tellings of the state: 20 a second.
-const STATES: Duration = Duration::from_millis(50);
+/// Minimum time between two states: 20 a second.
+const STATE_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Between two tellings of the figures, while there is a stroke and else.
-const FIGURES: [Duration; 2] = [Duration::from_millis(250), Duration::from_secs(1)];
+/// Time between two reports of performance while a stroke is open.
+const STROKE_REPORT_INTERVAL: Duration = Duration::from_millis(250);
 
-/// All that the thread owns.
+/// Time between two reports of performance while no stroke is open.
+const IDLE_REPORT_INTERVAL: Duration = Duration::from_secs(1);
+
+/// State of the worker thread.
 pub(super) struct WorkerLoop<'a> {
-    pub(super) tell: &'a dyn Fn(Event),
+    pub(super) send: &'a dyn Fn(Event),
     pub(super) inbox: Inbox,
     pub(super) outbox: Outbox,
     pub(super) meter: Meter,
     pub(super) backend: Backend,
     pub(super) undo_bytes: u64,
-    pub(super) stage: Option<OpenPainting>,
-    pub(super) live: Option<LiveStroke>,
+    pub(super) open: Option<OpenPainting>,
+    /// Timing of the open stroke, if one is open.
+    pub(super) stroke: Option<StrokeTiming>,
     pub(super) playing: Option<Replay>,
-    /// When the recording that is played goes on.
+    /// Time at which a replay at the pace of the painter goes on.
     pub(super) pause: Option<Instant>,
-    /// What was last told whole, if a device may be lost.
+    /// The last snapshot sent, kept while the paint is on a device that may be lost.
     pub(super) kept: Option<Snapshot>,
-    /// Counts changes of the painting.
+    /// Counter of changes of the painting.
     pub(super) revision: u64,
-    /// Whether the window is to be told of the state.
-    pub(super) stale: bool,
-    /// Whether pictures may have changed since they were last computed.
-    pub(super) unseen: bool,
+    /// Whether a state must be sent.
+    pub(super) state_stale: bool,
+    /// Whether pictures may have changed since they were last rendered.
+    pub(super) picture_stale: bool,
     state_due: Instant,
-    figures_told: Option<Instant>,
-    figures: Performance,
-    /// Whether the window draws the head.
-    head: bool,
+    performance_sent: Option<Instant>,
+    performance: Performance,
+    /// Whether the front end shows the head.
+    head_shown: bool,
 }
 
-/// The painting, and what is kept to tell of it.
+/// The open painting and its reporter.
 pub(super) struct OpenPainting {
-    pub(super) opened: PreparedPainting,
-    pub(super) teller: Reporter,
+    pub(super) prepared: PreparedPainting,
+    pub(super) reporter: Reporter,
+    /// Whether a message said that the recording ended early.
+    pub(super) recording_stop_reported: bool,
+}
+
+impl OpenPainting {
+    pub(super) fn session(&self) -> &PaintingSession {
+        &self.prepared.session
+    }
 }
 
 impl<'a> WorkerLoop<'a> {
@@ -63,139 +75,162 @@ impl<'a> WorkerLoop<'a> {
         inbox: Inbox,
         backend: Backend,
         undo_bytes: u64,
-        tell: &'a dyn Fn(Event),
+        send: &'a dyn Fn(Event),
     ) -> Self {
         let now = Instant::now();
         Self {
-            tell,
+            send,
             inbox,
             outbox: Outbox::new(),
             meter: Meter::default(),
             backend,
             undo_bytes,
-            stage: None,
-            live: None,
+            open: None,
+            stroke: None,
             playing: None,
             pause: None,
             kept: None,
             revision: 0,
-            stale: false,
-            unseen: false,
+            state_stale: false,
+            picture_stale: false,
             state_due: now,
-            figures_told: None,
-            figures: Performance::default(),
-            head: false,
+            performance_sent: None,
+            performance: Performance::default(),
+            head_shown: false,
         }
     }
 
-    /// Works until it is told to quit.
+    /// Works until the command to quit.
     pub(super) fn run(mut self) {
         loop {
-            self.inbox.listen(self.patience());
+            self.inbox.receive(self.wait_time());
             if self.inbox.quit {
                 break;
             }
-            self.outbox.taken(std::mem::take(&mut self.inbox.taken));
+            self.outbox.confirm(std::mem::take(&mut self.inbox.confirmed));
             if std::mem::take(&mut self.inbox.cancelled) {
                 self.cancel();
             }
-            let done = self.work().and_then(|()| self.show()).and_then(|()| self.tell_state());
-            if let Err(error) = done {
-                self.failed(&error);
+            let result = self.work().and_then(|()| self.send_pictures());
+            if let Err(error) = result.and_then(|()| self.send_state()) {
+                self.report_failure(&error);
             }
-            self.tell_figures();
+            self.report_recording_stop();
+            self.send_performance();
         }
     }
 
-    /// How long nothing need be done.
-    fn patience(&self) -> Wait {
-        let paints = self.live.as_ref().is_some_and(|live| live.waiting > 0 || live.lifted);
+    /// How long to wait for commands before there is work to do.
+    fn wait_time(&self) -> Wait {
+        let paints = self
+            .open
+            .as_ref()
+            .is_some_and(|open| waiting_substeps(open.session()) > 0 || is_lifted(open.session()));
         let plays = self.playing.is_some() && self.pause.is_none();
         let waits = !self.inbox.is_empty() && self.playing.is_none();
-        let looks = self.stage.as_ref().is_some_and(|stage| stage.teller.layers.is_behind());
-        if paints || plays || waits || looks {
+        let summarizes = self.open.as_ref().is_some_and(|open| open.reporter.layers.is_behind());
+        if paints || plays || waits || summarizes {
             return Wait::None;
         }
-        let shows = self.unseen || self.outbox.is_behind();
+        let shows = self.picture_stale || self.outbox.is_behind();
         let times = [
             self.pause,
             self.outbox.due().filter(|_| shows),
-            self.stale.then_some(self.state_due),
-            self.figures_due().filter(|_| self.live.is_some() || !self.meter.is_idle()),
+            self.state_stale.then_some(self.state_due),
+            self.performance_due().filter(|_| self.stroke.is_some() || !self.meter.is_idle()),
         ];
         times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
     }
 
-    /// Computes and tells what changed of the pictures, and the head with them.
-    fn show(&mut self) -> Result<(), SessionError> {
-        let Some(stage) = &mut self.stage else { return Ok(()) };
-        let session = &mut stage.opened.session;
-        if self.outbox.is_due(Instant::now()) && (self.unseen || self.outbox.is_behind()) {
-            self.unseen = false;
-            self.outbox.show(session, &mut self.meter, self.tell)?;
-            if let Some(head) = self.live.as_ref().and_then(|live| live.head(session)) {
-                self.outbox.tell_head(head, self.tell);
-                self.head = true;
+    /// Renders and sends the changed parts of the pictures, and the head with them.
+    fn send_pictures(&mut self) -> Result<(), SessionError> {
+        let Some(open) = &mut self.open else { return Ok(()) };
+        let session = &mut open.prepared.session;
+        if self.outbox.is_due(Instant::now()) && (self.picture_stale || self.outbox.is_behind()) {
+            self.picture_stale = false;
+            self.outbox.send_changes(session, &mut self.meter, self.send)?;
+            if let Some(head) = head_on_canvas(session) {
+                self.outbox.send_head(head, self.send);
+                self.head_shown = true;
             }
         }
-        if self.head && self.live.is_none() {
-            self.head = false;
-            (self.tell)(Event::Head(None));
+        if self.head_shown && self.stroke.is_none() {
+            self.head_shown = false;
+            (self.send)(Event::Head(None));
         }
         Ok(())
     }
 
-    /// Tells what changed besides pixels, or looks at a layer where there is time.
-    fn tell_state(&mut self) -> Result<(), SessionError> {
-        if self.stale && Instant::now() >= self.state_due {
-            self.stale = false;
+    /// Sends the state if it changed. While idle, summarizes a dry layer.
+    fn send_state(&mut self) -> Result<(), SessionError> {
+        if self.state_stale && Instant::now() >= self.state_due {
+            self.state_stale = false;
             if let Some(state) = self.state()? {
-                (self.tell)(Event::State(state));
+                (self.send)(Event::State(state));
             }
-            self.state_due = Instant::now() + STATES;
+            self.state_due = Instant::now() + STATE_INTERVAL;
         }
-        let busy = self.live.is_some() || self.playing.is_some() || !self.inbox.is_empty();
-        if let Some(OpenPainting { opened, teller }) = &mut self.stage
+        let busy = self.stroke.is_some() || self.playing.is_some() || !self.inbox.is_empty();
+        if let Some(OpenPainting { prepared, reporter, .. }) = &mut self.open
             && !busy
-            && teller.layers.is_behind()
+            && reporter.layers.is_behind()
         {
-            teller.layers.look(opened.session.canvas_mut())?;
-            self.stale = true;
+            reporter.layers.summarize_next(prepared.session.canvas_mut())?;
+            self.state_stale = true;
         }
         Ok(())
     }
 
-    /// Tells how it keeps up: while painting often, then until nothing happens.
-    fn tell_figures(&mut self) {
+    /// Sends a message, once for each painting, if its recording ended early.
+    pub(super) fn report_recording_stop(&mut self) {
+        let Some(open) = &mut self.open else { return };
+        if let Some(reason) = open.prepared.session.recording_stopped()
+            && !std::mem::replace(&mut open.recording_stop_reported, true)
+        {
+            let text = format!("the recording ended early: {reason}");
+            let hint = Hint::new("save the painting itself; the recording holds all before");
+            self.send_message(text, Some(hint), false);
+        }
+    }
+
+    /// Sends the performance, often while a stroke is open, if it changed.
+    fn send_performance(&mut self) {
         let now = Instant::now();
-        if self.figures_due().is_some_and(|due| now < due) {
+        if self.performance_due().is_some_and(|due| now < due) {
             return;
         }
-        let behind = self.live.as_ref().map_or(0, |live| {
-            live.waiting + (self.inbox.samples() as f64 * live.substeps_a_sample()) as usize
-        });
-        let figures = self.meter.figures(now, behind);
-        if figures != self.figures {
-            self.figures = figures;
-            (self.tell)(Event::Performance(figures));
+        let behind = match (&self.stroke, &self.open) {
+            (Some(stroke), Some(open)) => {
+                let per_sample = stroke.substeps_per_sample(open.session());
+                let unread = (self.inbox.samples() as f64 * per_sample) as usize;
+                waiting_substeps(open.session()) + unread
+            }
+            _ => 0,
+        };
+        let performance = self.meter.performance(now, behind);
+        if performance != self.performance {
+            self.performance = performance;
+            (self.send)(Event::Performance(performance));
         }
-        self.figures_told = Some(now);
+        self.performance_sent = Some(now);
     }
 
-    fn figures_due(&self) -> Option<Instant> {
-        Some(self.figures_told? + FIGURES[usize::from(self.live.is_none())])
+    fn performance_due(&self) -> Option<Instant> {
+        let open = self.stroke.is_some();
+        let interval = if open { STROKE_REPORT_INTERVAL } else { IDLE_REPORT_INTERVAL };
+        Some(self.performance_sent? + interval)
     }
 
-    /// Tells why something could not be done.
-    pub(super) fn say(&self, text: String, hint: Option<Hint>, failed: bool) {
-        (self.tell)(Event::Message { text, hint, failed });
+    /// Sends a message to the painter.
+    pub(super) fn send_message(&self, text: String, hint: Option<Hint>, failed: bool) {
+        (self.send)(Event::Message { text, hint, failed });
     }
 
-    /// Something could not be done; the painting is as it was, unless its device
-    /// was lost.
-    pub(super) fn failed(&mut self, error: &SessionError) {
-        self.say(error.to_string(), error.hint(), true);
-        self.stale = true;
+    /// Sends the message of an error. The painting is unchanged, unless its device was lost:
+    /// then it is recovered on the processor.
+    pub(super) fn report_failure(&mut self, error: &SessionError) {
+        self.send_message(error.to_string(), error.hint(), true);
+        self.state_stale = true;
         if let SessionError::Painting(PaintingError::Engine(
             DeviceError::Lost { .. } | DeviceError::Refused { .. },
         )) = error

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use eframe::egui::{Context, Order, Popup, RawInput, Ui};
+use render::paint::strokes::SampleDecimals;
 
 use super::hover::Hover;
 use super::studio::Studio;
@@ -64,7 +65,7 @@ impl Studio {
             PenEvent::Down { surface, device } => {
                 self.hover = None;
                 let brush = self.brush_for(device);
-                self.ask(Command::PenDown { surface, brush });
+                self.ask(Command::PenDown { surface, brush, decimals: SampleDecimals::PEN });
             }
             PenEvent::Move(samples) => self.ask(Command::PenMove(samples)),
             PenEvent::Up => {

@@ -56,7 +56,7 @@ impl From<FileError> for Problem {
 
 impl From<FileFailure> for Problem {
     fn from(failure: FileFailure) -> Self {
-        Self { text: failure.what, hint: failure.hint }
+        Self { text: failure.what, hint: failure.hint.as_ref().map(with_panel_names) }
     }
 }
 

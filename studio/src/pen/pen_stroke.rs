@@ -1,4 +1,4 @@
-//! The open stroke of a pen: turns device states into samples.
+//! Turns the states of a pressed device into samples of a stroke.
 
 use std::time::{Duration, Instant};
 
@@ -200,15 +200,10 @@ impl PenStroke {
         self.push(Sample { pressure, seconds, ..sample }, at);
     }
 
-    /// Adds a sample, rounded to the digits of a recording and with its time not before the
-    /// last one.
+    /// Adds a sample, with its time not before the last one.
     fn push(&mut self, sample: Sample, arrived: Instant) {
         let earliest = self.last.map_or(0.0, |last| last.seconds);
-        let sample = Sample {
-            seconds: digits(sample.seconds, 1e4).max(earliest),
-            pressure: digits(sample.pressure, 1e4),
-            ..rounded(&sample)
-        };
+        let sample = Sample { seconds: sample.seconds.max(earliest), ..sample };
         self.last = Some(sample);
         self.samples.push(PenSample { sample, arrived });
     }
@@ -240,25 +235,6 @@ pub(super) fn brush_sample(
     let tilt = transform.surface_tilt(tilt.unwrap_or_else(|| settings.grip.tilt_deg()));
     let twist = state.twist_deg.filter(|_| settings.pen_tilt).unwrap_or(twist);
     let twist_deg = transform.surface_twist(twist);
-    let (tilt_x_deg, tilt_y_deg) = tilt;
-    let sample =
-        Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg };
-    rounded(&sample)
-}
-
-/// Rounds positions to 0.001 mm and angles to 0.01 degrees.
-fn rounded(sample: &Sample) -> Sample {
-    Sample {
-        x_mm: digits(sample.x_mm, 1e3),
-        y_mm: digits(sample.y_mm, 1e3),
-        tilt_x_deg: digits(sample.tilt_x_deg.clamp(-90.0, 90.0), 1e2),
-        tilt_y_deg: digits(sample.tilt_y_deg.clamp(-90.0, 90.0), 1e2),
-        twist_deg: digits(sample.twist_deg, 1e2),
-        ..*sample
-    }
-}
-
-fn digits(number: f64, scale: f64) -> f64 {
-    // Adding 0 turns -0 into 0, so that no recording contains -0.
-    (number * scale).round() / scale + 0.0
+    let (tilt_x_deg, tilt_y_deg) = (tilt.0.clamp(-90.0, 90.0), tilt.1.clamp(-90.0, 90.0));
+    Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }
 }

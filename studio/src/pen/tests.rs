@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2};
 use render::paint::pose::Sample;
-use render::paint::strokes::SurfaceId;
+use render::paint::strokes::{SampleDecimals, SurfaceId};
 
 use super::{
     Device, Pen, PenEvent, PenSettings, PenTargets, PointerState, Report, ReportKind, Script,
@@ -67,9 +67,14 @@ fn state(x: f32, pressure: f64) -> PointerState {
     PointerState { at: pos2(x, 40.0), pressure: Some(pressure), tilt_deg, twist_deg }
 }
 
+/// All samples, rounded as the stroke rounds them.
 fn samples(output: &[PenEvent]) -> Vec<PenSample> {
+    let round = |sample: &PenSample| PenSample {
+        sample: SampleDecimals::PEN.round(&sample.sample),
+        ..*sample
+    };
     let moves = output.iter().filter_map(|event| match event {
-        PenEvent::Move(samples) => Some(samples.clone()),
+        PenEvent::Move(samples) => Some(samples.iter().map(round).collect::<Vec<_>>()),
         _ => None,
     });
     moves.flatten().collect()

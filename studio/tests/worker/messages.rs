@@ -5,7 +5,7 @@ use std::sync::Arc;
 use render::gpu::BackendChoice;
 use render::paint::brush::HeadShape;
 use render::paint::document::Lighting;
-use render::paint::strokes::{Action, BrushSpec, LayerRef, SurfaceId};
+use render::paint::strokes::{Action, BrushSpec, LayerRef, SampleDecimals, SurfaceId};
 use session::{Command, Event, Origin};
 
 use super::pen::{load, wander};
@@ -31,7 +31,11 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
         (Command::Apply(other), "Ultramarine is still wet", Some("dry the painting")),
         (Command::SetBrush { name: "broom".to_owned(), spec: broom }, "4000", None),
         (
-            Command::PenDown { surface: SurfaceId::Canvas, brush: "fann".to_owned() },
+            Command::PenDown {
+                surface: SurfaceId::Canvas,
+                brush: "fann".to_owned(),
+                decimals: SampleDecimals::RECORDING,
+            },
             "fann",
             Some("fan"),
         ),

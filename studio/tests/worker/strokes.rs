@@ -10,7 +10,7 @@ use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
 use render::paint::session::PaintingSession;
-use render::paint::strokes::{Action, SurfaceId};
+use render::paint::strokes::{Action, SampleDecimals, SurfaceId};
 use session::{Command, Event, Origin, Snapshot};
 
 use super::pen::{load, stroke, wander};
@@ -85,7 +85,11 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     let samples = wander(4, 200, 32.0, 20.0);
     session.apply(&load("filbert", "Prussian Blue")).unwrap();
     window.act(load("filbert", "Prussian Blue"));
-    window.ask(Command::PenDown { surface: SurfaceId::Canvas, brush: "filbert".to_owned() });
+    window.ask(Command::PenDown {
+        surface: SurfaceId::Canvas,
+        brush: "filbert".to_owned(),
+        decimals: SampleDecimals::RECORDING,
+    });
     let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
         let sample = |&sample| session::PenSample { sample, arrived };

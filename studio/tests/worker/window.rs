@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, StrokeScript, SurfaceId};
+use render::paint::strokes::{Action, SampleDecimals, StrokeScript, SurfaceId};
 use session::{
     Command, Event, Origin, PaintingState, PenSample, Performance, Snapshot, Worker, WorkerOptions,
     default_brushes, default_mixing_canvas,
@@ -75,7 +75,11 @@ impl Window {
         brush: &str,
         pieces: impl IntoIterator<Item = &'a [render::paint::pose::Sample]>,
     ) {
-        self.ask(Command::PenDown { surface, brush: brush.to_owned() });
+        self.ask(Command::PenDown {
+            surface,
+            brush: brush.to_owned(),
+            decimals: SampleDecimals::RECORDING,
+        });
         for piece in pieces {
             let arrived = Instant::now();
             let samples = piece.iter().map(|&sample| PenSample { sample, arrived });

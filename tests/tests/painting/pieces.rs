@@ -34,26 +34,26 @@ fn in_pieces(
     samples: &[Sample],
     random: &mut ChaCha8Rng,
 ) -> (u64, u64, bool) {
-    painting.begin_stroke(brush).unwrap();
+    let mut stroke = painting.begin_stroke(brush).unwrap();
     let mut rest = samples;
     while !rest.is_empty() {
         let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
-        painting.extend_stroke(now).unwrap();
+        stroke.extend(now).unwrap();
         rest = later;
         for _ in 0..random.random_range(0..6) {
-            painting.advance_stroke(random.random_range(0..70)).unwrap();
+            stroke.advance(painting, random.random_range(0..70)).unwrap();
         }
     }
     if random.random_range(0..2) == 0 {
-        painting.lift_stroke();
-        while painting.advance_stroke(50).unwrap() > 0 {
-            let reached = painting.stroke_reached();
+        stroke.lift();
+        while stroke.advance(painting, 50).unwrap() > 0 {
+            let reached = stroke.reached();
             assert!(reached <= samples.len(), "{reached} of {}", samples.len());
         }
-        assert_eq!(painting.stroke_reached(), samples.len(), "not all were reached");
+        assert_eq!(stroke.reached(), samples.len(), "not all were reached");
     }
     assert!(painting.stroke_open(), "closed too early");
-    let report = painting.end_stroke().unwrap();
+    let report = stroke.finish(painting).unwrap();
     assert!(!painting.stroke_open(), "still open");
     (report.substeps, report.cells, report.undoable)
 }
@@ -103,16 +103,17 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             assert_eq!(loaded(&mut cut, HeadShape::Round, 4.0, BLUE, 0.4), brush);
             let clean = paint(&mut cut, 1);
             whole.stroke(brush, &samples[..3]).unwrap();
-            cut.begin_stroke(brush).unwrap();
-            cut.extend_stroke(&samples[..2]).unwrap();
-            cut.advance_stroke(20).unwrap();
+            let mut stroke = cut.begin_stroke(brush).unwrap();
+            stroke.extend(&samples[..2]).unwrap();
+            stroke.advance(&mut cut, 20).unwrap();
             // The good one before it counts, the one after it does not.
-            let error = cut.extend_stroke(&[samples[2], bad, samples[3]]).unwrap_err();
+            let error = stroke.extend(&[samples[2], bad, samples[3]]).unwrap_err();
+            let error = PaintingError::from(error);
             assert!(matches!(error, PaintingError::Stroke(_)), "{error}");
             assert!(error.to_string().starts_with("sample 3: "), "{error}");
             assert!(error.hint().is_some(), "{error}");
-            cut.advance_stroke(20).unwrap();
-            cut.end_stroke().unwrap();
+            stroke.advance(&mut cut, 20).unwrap();
+            stroke.finish(&mut cut).unwrap();
             assert!(paint(&mut cut, 1) == paint(&mut whole, 1), "{bad:?}");
             assert!(cut.undo().unwrap(), "no undo");
             assert!(paint(&mut cut, 1) == clean, "undone");
@@ -126,15 +127,15 @@ fn a_stroke_without_samples_is_no_action() {
         let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
         let error = painting.stroke(brush, &[]).unwrap_err();
         assert!(matches!(error, PaintingError::Stroke(StrokeError::Empty)), "{error}");
-        painting.begin_stroke(brush).unwrap();
-        assert_eq!(painting.advance_stroke(10).unwrap(), 0);
-        assert_eq!(painting.end_stroke().unwrap().substeps, 0);
+        let mut stroke = painting.begin_stroke(brush).unwrap();
+        assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0);
+        assert_eq!(stroke.finish(&mut painting).unwrap().substeps, 0);
         assert!(!painting.undo().unwrap(), "something to undo");
         // One sample alone is a dab.
-        painting.begin_stroke(brush).unwrap();
-        painting.extend_stroke(&along(&[(9.0, 9.0)], 0.6)).unwrap();
-        assert_eq!(painting.advance_stroke(10).unwrap(), 0, "no dab before the end");
-        assert!(painting.end_stroke().unwrap().substeps > 3, "a dab");
+        let mut stroke = painting.begin_stroke(brush).unwrap();
+        stroke.extend(&along(&[(9.0, 9.0)], 0.6)).unwrap();
+        assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0, "no dab before the end");
+        assert!(stroke.finish(&mut painting).unwrap().substeps > 3, "a dab");
         assert!(painting.undo().unwrap(), "no undo of a dab");
     }
 }
@@ -149,10 +150,10 @@ fn a_brush_that_comes_with_paint_gets_back_what_it_held_here() {
             let pigments = std::array::from_fn(|slot| if slot == BLUE { 700_000 } else { 0 });
             other.set_cell(index, Cell { pigments, vehicle: 90_000 });
         }
-        painting.begin_stroke_with(brush, &other).unwrap();
+        let mut stroke = painting.begin_stroke_with(brush, &other).unwrap();
         assert!(painting.brush_paint(brush).unwrap() == other, "handed over");
-        painting.extend_stroke(&along(&[(3.0, 4.0), (20.0, 9.0)], 0.6)).unwrap();
-        painting.end_stroke().unwrap();
+        stroke.extend(&along(&[(3.0, 4.0), (20.0, 9.0)], 0.6)).unwrap();
+        stroke.finish(&mut painting).unwrap();
         let totals = painting.wet().unwrap().totals();
         assert!(totals[BLUE] > 0 && totals[WHITE] == 0, "{totals:?}");
         let after = painting.brush_paint(brush).unwrap();
@@ -173,10 +174,10 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     painting.hover(brush, &samples[0]);
     let hovering = painting.head(brush).mesh().unwrap();
     assert!(painting.wet().unwrap().totals()[BLUE] == 0, "it touched");
-    painting.begin_stroke(brush).unwrap();
-    painting.extend_stroke(&samples).unwrap();
-    painting.lift_stroke();
-    painting.advance_stroke(32).unwrap();
+    let mut stroke = painting.begin_stroke(brush).unwrap();
+    stroke.extend(&samples).unwrap();
+    stroke.lift();
+    stroke.advance(&mut painting, 32).unwrap();
     let bent = painting.head(brush).mesh().unwrap();
     let lowest = |mesh: &HeadMesh| {
         mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min)
@@ -184,7 +185,7 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     assert!(lowest(&bent) < lowest(&hovering), "not pressed");
     painting.hover(brush, &samples[0]);
     assert_eq!(painting.head(brush).mesh(), Some(bent), "it hovers while it paints");
-    painting.end_stroke().unwrap();
+    stroke.finish(&mut painting).unwrap();
 }
 
 #[test]
@@ -192,6 +193,6 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
 fn other_actions_wait_for_the_stroke_to_end() {
     let mut painting = on_both(&bare(40, 40)).remove(0);
     let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
-    painting.begin_stroke(brush).unwrap();
+    let _stroke = painting.begin_stroke(brush).unwrap();
     let _ = painting.undo();
 }

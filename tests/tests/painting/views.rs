@@ -76,11 +76,11 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 15, "nothing");
         painting.stroke(brush, &along(&[(3.0, 4.0), (12.0, 5.0)], 0.5)).unwrap();
         check(&mut painting, 6, "a stroke");
-        painting.begin_stroke(blue).unwrap();
-        painting.extend_stroke(&along(&[(40.0, 26.0), (56.0, 30.0), (58.0, 34.0)], 0.5)).unwrap();
-        assert!(painting.advance_stroke(30).unwrap() > 0, "a stroke of 30 sub-steps");
+        let mut stroke = painting.begin_stroke(blue).unwrap();
+        stroke.extend(&along(&[(40.0, 26.0), (56.0, 30.0), (58.0, 34.0)], 0.5)).unwrap();
+        assert!(stroke.advance(&mut painting, 30).unwrap() > 0, "a stroke of 30 sub-steps");
         check(&mut painting, 6, "half a stroke");
-        painting.end_stroke().unwrap();
+        stroke.finish(&mut painting).unwrap();
         check(&mut painting, 6, "the rest of it");
         painting.undo().unwrap();
         check(&mut painting, 12, "undo");

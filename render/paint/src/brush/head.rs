@@ -16,6 +16,7 @@ use crate::amount::QUANTA_PER_CELL;
 use crate::contact::Contact;
 use crate::pose::Pose;
 use graphics::tile::Rect;
+use spectra::hint::{Explain, Hint};
 
 /// The sizes of heads there are, in mm.
 const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
@@ -280,39 +281,37 @@ fn tufts(surface: &Surface, spines: usize) -> Vec<bool> {
     (0..around * along).map(hair).collect()
 }
 
-/// Why there is no such head.
+/// Why a head cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BrushError {
-    /// Too small, too large, or not a number.
+    /// The width of the head is out of range.
     #[error("a head is 0.2 to 100 mm wide: `{size_mm}` mm")]
     Size {
-        /// As it was given.
+        /// Width of the head in mm.
         size_mm: f64,
     },
-    /// Cells without width.
+    /// The width of a cell is not above 0.
     #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
     Cell {
-        /// As it was given.
+        /// Width of a cell in mm.
         cell_mm: f64,
     },
-    /// More cells than a head may have.
+    /// The head would have more cells than allowed.
     #[error("a head is at most 2048 cells wide: `{size_mm}` mm over cells of {cell_mm} mm")]
     TooFine {
-        /// Width of the head.
+        /// Width of the head in mm.
         size_mm: f64,
-        /// Width of a cell.
+        /// Width of a cell in mm.
         cell_mm: f64,
     },
 }
 
-impl BrushError {
-    /// The way out.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for BrushError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
             Self::Size { .. } => "give the width of the head in mm, such as 6",
             Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
             Self::TooFine { .. } => "take a smaller brush or larger cells",
-        }
+        }))
     }
 }

@@ -1,32 +1,23 @@
-//! The brushes of a painting, and the paint on them.
+//! Brushes of a painting and the paint on them.
 
 use super::failure::PaintingError;
-use super::state::Painting;
+use super::state::{Brush, Painting};
 use crate::amount::{MAX_COLUMN, mm_from_quanta, quanta_from_mm};
 use crate::brush::{Head, HeadShape};
-use crate::engine::BrushId;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::pose::Sample;
 
-/// A brush in hand.
-#[derive(Debug)]
-pub struct Brush {
-    pub(super) id: BrushId,
-    pub(super) head: Head,
-    pub(super) cells: (usize, usize),
-}
-
-/// The most that a cell of a head holds, as quanta: 64 cell widths, far more
-/// than clings to bristles, and little enough that no pile reaches [`MAX_COLUMN`].
+/// Maximum paint in a cell of a head, in quanta: 64 cell widths, far more than clings to
+/// bristles, and little enough that no pile reaches [`MAX_COLUMN`].
 const CAPACITY: u32 = MAX_COLUMN / 16;
 
 impl Painting {
-    /// Takes a new, clean brush; its number, by which the other calls know it, is
-    /// the number of brushes before it.
+    /// Adds a clean brush of `size_mm` mm and returns its index, which is the number of
+    /// brushes before it.
     ///
     /// # Errors
-    /// [`PaintingError`] for a size that no brush has, or where the device has
-    /// no room.
+    /// [`PaintingError`] if the size is out of range, or the memory of the device does not
+    /// suffice.
     pub fn add_brush(&mut self, shape: HeadShape, size_mm: f64) -> Result<usize, PaintingError> {
         let head = Head::new(shape, size_mm, self.cell_mm)?;
         let cells = head.paint_grid();
@@ -35,17 +26,16 @@ impl Painting {
         Ok(self.brushes.len() - 1)
     }
 
-    /// Takes up paint from the palette: to every cell of the head `amount_mm` of
-    /// the mixture of `recipe` (parts by slot), of which the share `vehicle`
-    /// (0..1) is clear medium; with 1 the recipe may be empty. It joins what the
-    /// brush already holds.
+    /// Adds paint to a brush: to every cell of the head `amount_mm` mm of the mixture of
+    /// `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear medium.
+    /// With `vehicle` 1 the recipe may be empty.
     ///
     /// # Errors
-    /// [`PaintingError`] for parts of slots that hold no pigment, for no parts,
-    /// and where the brush would hold more than it can.
+    /// [`PaintingError`] if the recipe has no parts or parts of an empty slot, or if the
+    /// brush cannot hold that much.
     ///
     /// # Panics
-    /// If there is no such brush, as the calls below.
+    /// If there is no such brush.
     pub fn load(
         &mut self,
         brush: usize,
@@ -68,7 +58,7 @@ impl Painting {
         self.change_brush(brush, &paint)
     }
 
-    /// The share of each slot and, last, of vehicle in a mixture.
+    /// Fraction of each slot and, last, of vehicle in a mixture.
     pub(super) fn shares(
         &self,
         recipe: &[f64; SLOTS],
@@ -96,7 +86,7 @@ impl Painting {
         Ok(shares)
     }
 
-    /// One cell's worth of a mixture.
+    /// Paint of one cell: `amount_mm` mm of a mixture.
     fn mixture(
         &self,
         recipe: &[f64; SLOTS],
@@ -112,10 +102,13 @@ impl Painting {
         Ok(Cell { pigments, vehicle })
     }
 
-    /// Wipes a brush on a rag: of its paint the share `kept` (0..1) stays.
+    /// Wipes a brush on a rag; the fraction `kept` (0 to 1) of its paint stays.
     ///
     /// # Errors
-    /// [`PaintingError`] for a share outside 0..1.
+    /// [`PaintingError`] if `kept` is outside 0 to 1.
+    ///
+    /// # Panics
+    /// If there is no such brush.
     pub fn wipe(&mut self, brush: usize, kept: f64) -> Result<(), PaintingError> {
         let share = share_of_65536_parts("kept", kept)?;
         let mut paint = self.engine.brush_paint(self.brushes[brush].id)?;
@@ -125,48 +118,77 @@ impl Painting {
         self.change_brush(brush, &paint)
     }
 
-    /// Washes a brush: nothing stays.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    pub fn wash(&mut self, brush: usize) -> Result<(), PaintingError> {
-        let (width, height) = self.brushes[brush].cells;
-        self.change_brush(brush, &Layer::empty(width, height))
-    }
-
-    /// The paint on a brush.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
-        Ok(self.engine.brush_paint(self.brushes[brush].id)?)
-    }
-
-    /// Puts `paint` on a brush in place of what it holds: paint that comes from
-    /// elsewhere, of this painting's palette. No action of its own, as loading and
-    /// washing; see [`Painting::begin_stroke_with`] for a part of a stroke.
+    /// Removes all paint from a brush.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     ///
     /// # Panics
-    /// If `paint` has not the cells of the head.
+    /// If there is no such brush.
+    pub fn wash(&mut self, brush: usize) -> Result<(), PaintingError> {
+        let (width, height) = self.brushes[brush].cells;
+        self.change_brush(brush, &Layer::empty(width, height))
+    }
+
+    /// Paint on a brush.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush.
+    pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
+        Ok(self.engine.brush_paint(self.brushes[brush].id)?)
+    }
+
+    /// Replaces the paint on a brush by `paint`, whose slots are those of this painting's
+    /// palette. Not an action of the history.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or `paint` does not have the cells of the head.
     pub fn set_brush_paint(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
         self.change_brush(brush, paint)
     }
 
-    /// The head of a brush, as it is bent now.
+    /// Head of a brush, as it is bent now.
+    ///
+    /// # Panics
+    /// If there is no such brush.
     #[must_use]
     pub fn head(&self, brush: usize) -> &Head {
         &self.brushes[brush].head
     }
 
-    /// Holds a brush just above the canvas, as to draw its [`Painting::head`]
-    /// there. While a stroke with it is open nothing happens.
+    /// Holds a brush just above the canvas, for drawing its [`Painting::head`] there. Does
+    /// nothing while a stroke with this brush is open.
+    ///
+    /// # Panics
+    /// If there is no such brush.
     pub fn hover(&mut self, brush: usize, sample: &Sample) {
-        if !self.strokes_with(brush) {
+        if self.stroke_brush != Some(brush) {
             self.brushes[brush].head.hover(&sample.pose(self.cell_mm), &self.relief);
         }
+    }
+
+    /// Removes the paint of a brush and returns it, for the brush of another painting (see
+    /// [`Painting::begin_stroke_with`]). An action of the history: an undo puts it back.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn take_brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
+        self.apply_action(|painting| {
+            let id = painting.brushes[brush].id;
+            painting.history.save_brush(&mut painting.engine, id)?;
+            let paint = painting.engine.brush_paint(id)?;
+            painting.wash(brush)?;
+            Ok(paint)
+        })
     }
 
     fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
@@ -174,7 +196,7 @@ impl Painting {
     }
 }
 
-/// A share of 0..1 as 65536 parts.
+/// A fraction of 0 to 1 as parts of 65536.
 pub(super) fn share_of_65536_parts(what: &'static str, value: f64) -> Result<u32, PaintingError> {
     if !(0.0..=1.0).contains(&value) {
         return Err(PaintingError::Share { what, value });

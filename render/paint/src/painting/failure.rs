@@ -161,8 +161,8 @@ impl Explain for PaintingError {
         let hint = match self {
             Self::Engine(error) => return error.hint(),
             Self::Light(error) => return error.hint(),
-            Self::Brush(error) => error.hint(),
-            Self::Stroke(error) => error.hint(),
+            Self::Brush(error) => return error.hint(),
+            Self::Stroke(error) => return error.hint(),
             Self::TooHigh { .. } => "paint thinner, or with larger cells",
             Self::StillWet { .. } => "dry the painting and wash the brushes first",
             Self::TooManyPigments { .. } => "dry the painting, then go on with another palette",

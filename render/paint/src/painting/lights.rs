@@ -1,4 +1,4 @@
-//! The lights that a painting is seen under.
+//! Lights and gloss of a painting.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use pigment::evaluate::Viewing;
 
 use super::failure::PaintingError;
 use super::state::Painting;
-use super::views::{SecondLight, Unseen};
+use super::views::{PendingTiles, SecondLight};
 use crate::document::Lighting;
 use crate::engine::View;
 use crate::light::Light;
@@ -14,73 +14,80 @@ use crate::optics::Gloss;
 use graphics::tile::TileSet;
 
 impl Painting {
-    /// Shows the painting under another light, one that has a name.
+    /// Shows the painting under another light, given by name.
     ///
     /// # Errors
-    /// [`PaintingError`] for a light that nobody knows.
+    /// [`PaintingError::Light`] if the light is unknown.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn relight(&mut self, lighting: Lighting) -> Result<(), PaintingError> {
-        let light = if same_lamp(&self.state.lighting, &lighting) {
+        let light = if same_light(&self.state.lighting, &lighting) {
             None
         } else {
             Some(Light::named(&self.library, &lighting.illuminant, &lighting.observer)?)
         };
-        self.shine(lighting, light)
+        self.set_light(lighting, light)
     }
 
-    /// Shows the painting under a measured light, which `lighting` calls by some
-    /// name of its own.
+    /// Shows the painting under a measured light. The illuminant of `lighting` is only its
+    /// name.
     ///
     /// # Errors
-    /// [`PaintingError`] for a light without wavelengths to choose from.
+    /// [`PaintingError::Light`] if the light has no wavelengths in common with the library.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn relight_with(
         &mut self,
         viewing: &Viewing,
         lighting: Lighting,
     ) -> Result<(), PaintingError> {
         let light = Light::new(&self.library, viewing)?;
-        self.shine(lighting, Some(light))
+        self.set_light(lighting, Some(light))
     }
 
-    fn shine(&mut self, lighting: Lighting, light: Option<Light>) -> Result<(), PaintingError> {
-        self.acting(|painting| {
+    fn set_light(&mut self, lighting: Lighting, light: Option<Light>) -> Result<(), PaintingError> {
+        self.apply_action(|painting| {
             painting.state.lighting = lighting;
             match light {
                 Some(light) => {
                     painting.light = Arc::new(light);
-                    painting.views.first.unbake(painting.engine.bounds());
+                    painting.views.first.mark_all(painting.engine.bounds());
                 }
-                None => painting.views.first.shown = TileSet::all(painting.engine.bounds()),
+                None => painting.views.first.wet = TileSet::all(painting.engine.bounds()),
             }
             Ok(())
         })
     }
 
-    /// Other shine of wet and of dry paint.
+    /// Sets the gloss of wet and of dry paint.
     ///
     /// # Errors
-    /// [`PaintingError::Gloss`] for strengths outside 0..100 or exponents outside
-    /// 0..1e6.
+    /// [`PaintingError::Gloss`] if a strength is outside 0 to 100 or an exponent outside 0 to
+    /// 1e6.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn set_gloss(&mut self, wet: Gloss, dry: Gloss) -> Result<(), PaintingError> {
         for Gloss { strength, exponent } in [wet, dry] {
             if !((0.0..=100.0).contains(&strength) && (0.0..=1e6).contains(&exponent)) {
                 return Err(PaintingError::Gloss { strength, exponent });
             }
         }
-        self.acting(|painting| {
+        self.apply_action(|painting| {
             let medium = &mut painting.state.medium;
             (medium.wet, medium.dry) = (wet, dry);
-            painting.views.unshown();
+            painting.views.mark_all_wet();
             Ok(())
         })
     }
 
-    /// Keeps the picture under a second light beside the first, for a view split
-    /// between the two; none gives its memory back. It is no action: undo leaves
-    /// it as it is.
+    /// Also keeps a picture under a second light, for a view that is split between the two;
+    /// `None` frees its memory. Not an action of the history.
     ///
     /// # Errors
-    /// [`PaintingError`] for a light that nobody knows; the second light stays as
-    /// it was.
+    /// [`PaintingError::Light`] if the light is unknown; the second light stays unchanged.
     pub fn set_second_light(&mut self, lighting: Option<Lighting>) -> Result<(), PaintingError> {
         let Some(lighting) = lighting else {
             self.views.second = None;
@@ -90,27 +97,29 @@ impl Painting {
         let known = self.views.second.as_ref();
         let known = known.map(|second| (&second.lighting, &second.light));
         let known = known.into_iter().chain([(&self.state.lighting, &self.light)]);
-        let light = match known.into_iter().find(|(known, _)| same_lamp(known, &lighting)) {
+        let light = match known.into_iter().find(|(known, _)| same_light(known, &lighting)) {
             Some((_, light)) => Arc::clone(light),
             None => {
                 let Lighting { illuminant, observer, .. } = &lighting;
                 Arc::new(Light::named(&self.library, illuminant, observer)?)
             }
         };
-        self.shine_second(lighting, light);
+        self.replace_second_light(lighting, light);
         Ok(())
     }
 
-    fn shine_second(&mut self, lighting: Lighting, light: Arc<Light>) {
+    fn replace_second_light(&mut self, lighting: Lighting, light: Arc<Light>) {
         let bounds = self.engine.bounds();
-        let unseen = match self.views.second.take() {
-            Some(SecondLight { light: before, mut unseen, .. }) if Arc::ptr_eq(&before, &light) => {
-                unseen.shown = TileSet::all(bounds);
-                unseen
+        let pending = match self.views.second.take() {
+            Some(SecondLight { light: before, mut pending, .. })
+                if Arc::ptr_eq(&before, &light) =>
+            {
+                pending.wet = TileSet::all(bounds);
+                pending
             }
-            _ => Unseen::all(bounds),
+            _ => PendingTiles::all(bounds),
         };
-        self.views.second = Some(SecondLight { lighting, light, unseen });
+        self.views.second = Some(SecondLight { lighting, light, pending });
     }
 
     /// The second light, if there is one.
@@ -118,8 +127,30 @@ impl Painting {
     pub fn second_light(&self) -> Option<&Lighting> {
         self.views.second.as_ref().map(|second| &second.lighting)
     }
+
+    /// Shows the painting under the light of another painting of the same library.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn relight_as(&mut self, other: &Self) -> Result<(), PaintingError> {
+        self.apply_action(|painting| {
+            painting.state.lighting = other.state.lighting.clone();
+            let bounds = painting.engine.bounds();
+            if Arc::ptr_eq(&painting.light, &other.light) {
+                painting.views.first.wet = TileSet::all(bounds);
+            } else {
+                painting.light = Arc::clone(&other.light);
+                painting.views.first.mark_all(bounds);
+            }
+            Ok(())
+        })
+    }
 }
 
-fn same_lamp(a: &Lighting, b: &Lighting) -> bool {
+/// Whether both name the same illuminant and observer.
+fn same_light(a: &Lighting, b: &Lighting) -> bool {
     (&a.illuminant, &a.observer) == (&b.illuminant, &b.observer)
 }

@@ -1,38 +1,31 @@
-//! A painting at work: a backend, brushes, the light, and undo.
+//! A painting while it is worked on: an engine, brushes, lights and undo.
 //!
-//! Everything that changes paint, layers or light is an action, which undo takes
-//! back whole. One is done at a time: while a stroke is open
-//! ([`Painting::begin_stroke`]) every other one, undo and redo too, panics;
-//! reading paint and pictures is always allowed, and shows the stroke as far as
-//! it is.
+//! Every change of paint, layers or light is an action, which one undo takes back. Only one
+//! action is open at a time: while a stroke is open ([`OpenStroke`]), all others panic,
+//! undo and redo included. Paint and pictures can always be read, and show the stroke as far
+//! as it is painted.
+
+mod failure;
 
 mod views;
 
 mod state;
 
-mod failure;
+mod undo;
 
 mod brushes;
 
-mod strokes;
+mod open_stroke;
 
-mod tubes;
+mod heaps;
 
 mod layers;
 
-mod undoing;
-
 mod lights;
 
-mod showing;
+mod pictures;
 
-mod merging;
-
-mod sharing;
-
-pub use brushes::Brush;
 pub use failure::PaintingError;
-pub use layers::LayerRef;
-pub use merging::MERGE_TOLERANCE;
-pub use state::{DryLayerState, Painting, State, UNDO_BYTES};
-pub use strokes::StrokeReport;
+pub use layers::{LayerRef, MERGE_TOLERANCE};
+pub use open_stroke::{OpenStroke, StrokeReport};
+pub use state::{Brush, DryLayerState, Painting, State, UNDO_BYTES};

@@ -1,18 +1,15 @@
-//! What a painting consists of while it is worked on.
+//! State of a painting while it is worked on.
 
 use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
 
-use super::brushes::Brush;
 use super::failure::PaintingError;
-use super::strokes::OpenStroke;
-use super::undoing::{Adjusting, Before};
 use super::views::Views;
 use crate::amount::{MAX_COLUMN, mm_from_quanta};
-use crate::brush::Relief;
+use crate::brush::{Head, Relief};
 use crate::document::{Document, DryLayer, Lighting, Medium, Slots};
-use crate::engine::PaintEngine;
+use crate::engine::{BrushId, PaintEngine};
 use crate::ground::Ground;
 use crate::history::History;
 use crate::layer::{Layer, SLOTS};
@@ -20,29 +17,56 @@ use crate::light::Light;
 use crate::motion::MotionConstants;
 use graphics::tile::Rect;
 
-/// How a dry layer is seen: what can be changed of it later.
+/// Properties of a dry layer that can be changed later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryLayerState {
-    /// Its pigments.
+    /// Pigment of each slot, as an index into the library.
     pub slots: Slots,
-    /// What its optical thickness is multiplied with.
+    /// Factor of the optical thickness: 1 as painted, 0 hides the layer.
     pub opacity: f64,
 }
 
-/// All of a painting that is no paint; an undo brings it back with the paint.
+/// Properties of a painting besides its paint. An undo restores them with the paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// The pigments of the wet layer.
+    /// Pigment of each slot of the wet layer.
     pub slots: Slots,
     /// The dry layers, lowest first.
     pub dry: Vec<DryLayerState>,
-    /// The light.
+    /// Light that the painting is shown under.
     pub lighting: Lighting,
-    /// The binder.
+    /// Scattering per mm and gloss of the binder.
     pub medium: Medium,
 }
 
-/// A painting at work.
+/// A brush of a painting.
+#[derive(Debug)]
+pub struct Brush {
+    pub(super) id: BrushId,
+    pub(super) head: Head,
+    /// Columns and rows of the paint on the head.
+    pub(super) cells: (usize, usize),
+}
+
+/// State that an undo restores besides paint.
+#[derive(Debug, Clone)]
+pub(super) struct UndoState {
+    pub(super) state: State,
+    pub(super) light: Arc<Light>,
+    /// Number of brushes at that time.
+    pub(super) brushes: usize,
+}
+
+/// Progress of an open adjustment.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Adjusting {
+    /// Nothing was changed yet, and no action is open in the history.
+    Unchanged,
+    /// The changes so far are an open action of the history.
+    Changed,
+}
+
+/// A painting while it is worked on: wet and dry paint, brushes, lights and undo.
 #[derive(Debug)]
 pub struct Painting {
     pub(super) title: String,
@@ -54,32 +78,32 @@ pub struct Painting {
     pub(super) state: State,
     pub(super) light: Arc<Light>,
     pub(super) relief: Relief,
-    /// How often the floor was felt anew.
+    /// Number of times that `relief` was computed.
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
-    pub(super) history: History<Before>,
-    /// The stroke that is being drawn, if one is.
-    pub(super) stroke: Option<OpenStroke>,
-    /// The adjustment that is open, if one is.
+    pub(super) history: History<UndoState>,
+    /// Index of the brush of the open stroke, if one is open.
+    pub(super) stroke_brush: Option<usize>,
+    /// The open adjustment, if one is open.
     pub(super) adjusting: Option<Adjusting>,
-    /// What of its pictures is out of date.
+    /// Parts of the pictures that are out of date.
     pub(super) views: Views,
 }
 
-/// The most that ground and dry paint rise together, and wet paint on them, in
-/// quanta: 512 cell widths, so that no sum passes 32 bits.
+/// Maximum height of ground and dry paint together, and of wet paint on them, in quanta:
+/// 512 cell widths, so that no sum overflows 32 bits.
 pub(super) const HIGHEST: u32 = MAX_COLUMN / 2;
 
-/// The bytes that undo may keep unless told otherwise: 512 MiB.
+/// Default of the memory for undo, in bytes: 512 MiB.
 pub const UNDO_BYTES: u64 = 512 << 20;
 
 impl Painting {
-    /// Takes up the painting of `document` with a backend made for its ground
-    /// (`engine`, without paint yet); undo keeps at most `undo_bytes`.
+    /// Opens the painting of `document` on `engine`, which must have been made for its
+    /// ground and hold no paint. Undo keeps at most `undo_bytes`.
     ///
     /// # Errors
-    /// [`PaintingError`] if the light is unknown, for paint piled too high, or if
-    /// the device has no room.
+    /// [`PaintingError`] if the light is unknown, if paint is piled too high, or if the
+    /// memory of the device does not suffice.
     pub fn open(
         document: Document,
         engine: PaintEngine,
@@ -90,11 +114,12 @@ impl Painting {
         Self::open_under(document, light, engine, undo_bytes)
     }
 
-    /// The same under a light that is known already, made for the document's
-    /// library, such as a measured one; the document calls it by some name.
+    /// Opens the painting of `document` under a light that was made for its library, such as
+    /// a measured one, in place of the light that the document names.
     ///
     /// # Errors
-    /// [`PaintingError`] for paint piled too high, or if the device has no room.
+    /// [`PaintingError`] if paint is piled too high, or if the memory of the device does not
+    /// suffice.
     pub fn open_under(
         document: Document,
         light: impl Into<Arc<Light>>,
@@ -125,13 +150,13 @@ impl Painting {
             dry_changes: 0,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
-            stroke: None,
+            stroke_brush: None,
             adjusting: None,
             views,
         })
     }
 
-    /// The painting as a file keeps it.
+    /// The painting with all its paint, as a file keeps it.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -154,7 +179,7 @@ impl Painting {
         })
     }
 
-    /// The cells of the canvas.
+    /// Rectangle of all cells of the canvas.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         self.engine.bounds()
@@ -166,57 +191,57 @@ impl Painting {
         self.cell_mm
     }
 
-    /// What is no paint.
+    /// Properties besides paint.
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The pigments that the slots name.
+    /// Library that the slots refer to.
     #[must_use]
     pub fn library(&self) -> &PigmentLibrary {
         &self.library
     }
 
-    /// What it is called.
+    /// Title of the painting.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The light that the picture is computed for.
+    /// Light that the picture is computed for.
     #[must_use]
     pub fn light(&self) -> &Arc<Light> {
         &self.light
     }
 
-    /// Counts how often dry paint came or went, by undo too: while it stays, the
-    /// paint of the dry layers is the same.
+    /// Counter of changes of dry paint, including undo. While it stays the same, so does the
+    /// paint of the dry layers.
     #[must_use]
     pub fn dry_changes(&self) -> u64 {
         self.dry_changes
     }
 
-    /// The binder.
+    /// Scattering per mm and gloss of the binder.
     #[must_use]
     pub fn medium(&self) -> &Medium {
         &self.state.medium
     }
 
-    /// What is painted on.
+    /// Relief and reflectance under the paint.
     #[must_use]
     pub fn ground(&self) -> &Ground {
         &self.ground
     }
 
-    /// What computes.
+    /// Name of the backend: the processor or a graphics device.
     #[must_use]
     pub fn backend(&self) -> String {
         self.engine.name()
     }
 
-    /// All wet paint, on the canvas and on the brushes: the height in mm of each
-    /// slot and of vehicle last, summed over cells.
+    /// Wet paint on the canvas and on all brushes: the height in mm of each slot and, last, of
+    /// the vehicle, summed over cells.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -231,7 +256,7 @@ impl Painting {
         Ok(totals.map(|quanta| quanta as f64 * mm_from_quanta(1, self.cell_mm)))
     }
 
-    /// The wet paint.
+    /// Wet paint of the whole canvas.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -239,24 +264,25 @@ impl Painting {
         Ok(self.engine.wet()?)
     }
 
-    /// The wet paint in `rect`; costs no more than `rect` holds, as the next.
+    /// Wet paint in `rect`. Only these cells are read from the device.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     ///
     /// # Panics
-    /// If `rect` has cells that the canvas has not.
+    /// If `rect` is not within the canvas.
     pub fn wet_in(&mut self, rect: Rect) -> Result<Layer, PaintingError> {
         Ok(self.engine.wet_in(rect)?)
     }
 
-    /// The dry layer `index`, counted from the lowest, in `rect`.
+    /// Paint of the dry layer `index` (0 is the lowest) in `rect`. Only these cells are read
+    /// from the device.
     ///
     /// # Errors
-    /// [`PaintingError`] for a layer that is not there, or if the device was lost.
+    /// [`PaintingError`] if there is no such layer, or if the device was lost.
     ///
     /// # Panics
-    /// If `rect` has cells that the canvas has not.
+    /// If `rect` is not within the canvas.
     pub fn dry_in(&mut self, index: usize, rect: Rect) -> Result<Layer, PaintingError> {
         let count = self.state.dry.len();
         if index >= count {
@@ -266,7 +292,7 @@ impl Painting {
     }
 }
 
-/// Refuses paint that rises above [`HIGHEST`].
+/// Refuses paint higher than [`HIGHEST`].
 fn check_heights(document: &Document) -> Result<(), PaintingError> {
     let width = document.wet.width();
     let lowest = -i64::from(HIGHEST);

@@ -1,4 +1,4 @@
-//! What of the pictures is out of date.
+//! Parts of the pictures of a painting that are out of date.
 
 use std::sync::Arc;
 
@@ -6,84 +6,84 @@ use crate::document::Lighting;
 use crate::light::Light;
 use graphics::tile::{Rect, Tile, TileSet};
 
-/// What of one picture was not yet computed, and not yet told.
+/// Tiles of one picture that are out of date or were not reported.
 #[derive(Debug, Default)]
-pub(super) struct Unseen {
-    /// Tiles whose dry paint was not yet seen under this light.
-    pub(super) baked: TileSet,
-    /// Tiles whose wet paint was not yet seen.
-    pub(super) shown: TileSet,
-    /// Tiles computed since changes were last told.
-    pub(super) untold: TileSet,
+pub(super) struct PendingTiles {
+    /// Tiles whose dry paint must be rendered under the light.
+    pub(super) dry: TileSet,
+    /// Tiles whose wet paint must be rendered.
+    pub(super) wet: TileSet,
+    /// Tiles rendered since changes were last reported.
+    pub(super) unreported: TileSet,
 }
 
-/// A second light, and what of its picture is out of date.
+/// A second light and the state of its picture.
 #[derive(Debug)]
 pub(super) struct SecondLight {
     pub(super) lighting: Lighting,
     pub(super) light: Arc<Light>,
-    pub(super) unseen: Unseen,
+    pub(super) pending: PendingTiles,
 }
 
-/// All pictures of a painting.
+/// State of the pictures of a painting.
 #[derive(Debug)]
 pub(super) struct Views {
     bounds: Rect,
-    pub(super) first: Unseen,
+    pub(super) first: PendingTiles,
     pub(super) second: Option<SecondLight>,
 }
 
-impl Unseen {
-    /// Nothing of a canvas of `bounds` was seen.
+impl PendingTiles {
+    /// All tiles of a canvas of `bounds`.
     pub(super) fn all(bounds: Rect) -> Self {
         let all = TileSet::all(bounds);
-        Self { baked: all.clone(), shown: all, untold: TileSet::default() }
+        Self { dry: all.clone(), wet: all, unreported: TileSet::default() }
     }
 
-    /// After the light changed.
-    pub(super) fn unbake(&mut self, bounds: Rect) {
-        self.baked = TileSet::all(bounds);
-        self.shown = TileSet::all(bounds);
+    /// Marks dry and wet paint of all tiles.
+    pub(super) fn mark_all(&mut self, bounds: Rect) {
+        self.dry = TileSet::all(bounds);
+        self.wet = TileSet::all(bounds);
     }
 }
 
 impl Views {
-    /// One picture, of which nothing was seen.
+    /// One picture that was not rendered yet.
     pub(super) fn new(bounds: Rect) -> Self {
-        Self { bounds, first: Unseen::all(bounds), second: None }
+        Self { bounds, first: PendingTiles::all(bounds), second: None }
     }
 
-    fn each(&mut self) -> impl Iterator<Item = &mut Unseen> {
-        let second = self.second.as_mut().map(|second| &mut second.unseen);
+    fn each(&mut self) -> impl Iterator<Item = &mut PendingTiles> {
+        let second = self.second.as_mut().map(|second| &mut second.pending);
         std::iter::once(&mut self.first).chain(second)
     }
 
-    /// After the wet paint in `rect` changed.
-    pub(super) fn touch(&mut self, rect: Rect) {
-        // The relief of a cell reaches to its neighbours.
+    /// Marks `rect` after its wet paint changed.
+    pub(super) fn mark_wet(&mut self, rect: Rect) {
+        // The shading of the relief reads neighbouring cells.
         let reach = rect.grown(1, self.bounds);
-        self.each().for_each(|unseen| unseen.shown.insert(reach));
+        self.each().for_each(|pending| pending.wet.insert(reach));
     }
 
-    /// After the wet paint of `tile` changed.
-    pub(super) fn touch_tile(&mut self, tile: Tile) {
-        self.touch(tile.rect(self.bounds));
+    /// Marks `tile` after its wet paint changed.
+    pub(super) fn mark_wet_tile(&mut self, tile: Tile) {
+        self.mark_wet(tile.rect(self.bounds));
     }
 
-    /// After the dry paint of `tile` changed.
-    pub(super) fn touch_dry(&mut self, tile: Tile) {
-        self.each().for_each(|unseen| _ = unseen.baked.insert_tile(tile));
+    /// Marks `tile` after its dry paint changed.
+    pub(super) fn mark_dry_tile(&mut self, tile: Tile) {
+        self.each().for_each(|pending| _ = pending.dry.insert_tile(tile));
     }
 
-    /// After what is dry, or a pigment, changed everywhere.
-    pub(super) fn unseen(&mut self) {
+    /// Marks all tiles after dry paint or a pigment changed everywhere.
+    pub(super) fn mark_all(&mut self) {
         let bounds = self.bounds;
-        self.each().for_each(|unseen| unseen.unbake(bounds));
+        self.each().for_each(|pending| pending.mark_all(bounds));
     }
 
-    /// After the shine of paint changed.
-    pub(super) fn unshown(&mut self) {
+    /// Marks the wet paint of all tiles after the gloss changed.
+    pub(super) fn mark_all_wet(&mut self) {
         let bounds = self.bounds;
-        self.each().for_each(|unseen| unseen.shown = TileSet::all(bounds));
+        self.each().for_each(|pending| pending.wet = TileSet::all(bounds));
     }
 }

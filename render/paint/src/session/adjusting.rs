@@ -1,25 +1,8 @@
-//! Sliders: what is changed bit by bit and counts as one action.
+//! Adjustments: changes by a slider that count as one action.
 
 use super::failure::SessionError;
-use super::state::PaintingSession;
-use crate::strokes::{Action, ActionPigments, LayerRef};
-
-/// What is being adjusted.
-#[derive(Debug)]
-pub(super) struct Adjusting {
-    control: Control,
-    /// As it stands now.
-    action: Action,
-    on: [bool; 2],
-}
-
-/// What a slider changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Control {
-    Light,
-    Gloss,
-    Opacity(LayerRef),
-}
+use super::state::{Adjusting, Control, PaintingSession};
+use crate::strokes::{Action, ActionPigments};
 
 impl Control {
     fn of(action: &Action) -> Result<Self, SessionError> {
@@ -33,19 +16,18 @@ impl Control {
 }
 
 impl PaintingSession {
-    /// Does what [`PaintingSession::apply`] does, while a control is being dragged: all of one
-    /// control until [`PaintingSession::end_adjustment`] is one action, and is recorded as it stood
-    /// last. Another control begins another action.
+    /// Applies an action of light, gloss or opacity while its slider is dragged. All changes of
+    /// one property until [`PaintingSession::end_adjustment`] count as one action, which is
+    /// recorded with its last values. A change of another property begins another action.
     ///
     /// # Errors
-    /// [`SessionError`] as of [`PaintingSession::apply`], and for actions other than light,
-    /// gloss and opacity.
+    /// [`SessionError`] for other actions, and the errors of [`PaintingSession::apply`].
     pub fn adjust(&mut self, action: &Action) -> Result<(), SessionError> {
         let control = Control::of(action)?;
         if self.adjusting.as_ref().is_none_or(|adjusting| adjusting.control != control) {
             self.finish_open()?;
         }
-        let (action, pigments) = self.understood(action)?;
+        let (action, pigments) = self.rounded(action)?;
         if self.adjusting.is_none() {
             self.canvas.begin_adjusting();
             self.palette.iter_mut().for_each(|palette| palette.begin_adjusting());
@@ -65,20 +47,20 @@ impl PaintingSession {
         }
     }
 
-    /// The control was let go. Without one that is being dragged nothing happens.
+    /// Ends the open adjustment; does nothing if none is open.
     pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
-        self.did(&action, &ActionPigments::None, on);
+        self.record_done(&action, &ActionPigments::None, on);
     }
 
-    /// Ends whatever is open: a stroke, or what is being adjusted.
+    /// Finishes the open stroke or adjustment, if there is one.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
     pub fn finish_open(&mut self) -> Result<(), SessionError> {
         self.end_adjustment();
-        if self.live.is_some() {
+        if self.stroke.is_some() {
             self.end_stroke()?;
         }
         Ok(())

@@ -1,11 +1,10 @@
-//! What an action was, for people.
+//! Labels of actions for the history.
 
 use pigment::library::PigmentLibrary;
 
 use crate::strokes::{Action, ActionPigments, LayerRef, SurfaceId};
 
-/// `action`, done with the pigments that it names; brushes go by the name they
-/// were taken under.
+/// Label of an action with the pigments that it names.
 pub(super) fn label(
     action: &Action,
     pigments: &ActionPigments,

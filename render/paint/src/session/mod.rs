@@ -1,23 +1,21 @@
-//! The easel: a canvas, a palette to mix on, and brushes that go between them.
+//! A painting session: a canvas, a palette to mix on, and brushes that are used on both.
 //!
-//! An [`PaintingSession`] carries out [`Action`](crate::strokes::Action)s, whether a
-//! hand makes them, a script tells them or a recording is played again: one form
-//! for all three. Numbers are rounded as a script has them before anything is
-//! painted, so that what was recorded replays to the bit.
+//! A [`PaintingSession`] applies [`Action`](crate::strokes::Action)s. They come from a hand, a
+//! script or a recording that is played. Numbers are rounded to the digits of a script before
+//! anything is painted, so that a recording replays to the bit.
 //!
-//! **Brushes** go by name. The paint on one is where it was last used; a stroke
-//! on the other surface takes it there, and that is part of the stroke: undone,
-//! the paint is back where it was.
+//! **Brushes** have names. The paint on a brush is on the surface where it was last used; a
+//! stroke on the other surface moves it there as part of the stroke, and an undo moves it
+//! back.
 //!
-//! **One history** for both surfaces, in the order in which things were done. Each
-//! painting keeps its part of it within its own share of the memory; an action
-//! that one of them had to forget makes all before it unreachable, so that
-//! nothing is ever taken back out of order. Loading, wiping and washing a brush
-//! are no actions of the history, as in a painting alone: a stroke taken back
-//! takes its brush back to what it held before.
+//! **One history** covers both surfaces, in the order of the actions. Each painting keeps its
+//! part within its own memory; when one of them drops an action, all earlier ones become
+//! unreachable, so that nothing is undone out of order. Loading, wiping and washing a brush
+//! are not actions of the history: the undo of a stroke restores the paint that its brush
+//! held before.
 //!
-//! **The recording** holds all that was done since the easel was set up, undo and
-//! redo too, as a script of `strokes/1`.
+//! **The recording** holds all actions since the session started, undo and redo included, as
+//! a script of the format `strokes/1`.
 
 mod failure;
 
@@ -31,13 +29,13 @@ mod label;
 
 mod state;
 
-mod acting;
+mod actions;
 
 mod adjusting;
 
-mod live;
+mod open_stroke;
 
-mod undoing;
+mod undo;
 
 mod replay;
 

@@ -1,14 +1,14 @@
-//! What was done, as a script.
+//! The recording of a session as a script.
 
 use crate::strokes::{
     Action, BrushSpec, MAX_ACTIONS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES, StrokeScript,
     action_line,
 };
 
-/// Bytes of a file that are kept for all but its actions.
+/// Bytes of a file that are reserved for everything but its actions.
 const HEADER_BYTES: usize = 1 << 20;
 
-/// How much a recording may hold: as much as can be read again.
+/// Maximum size of a recording: as much as can be read again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     pub(super) actions: usize,
@@ -24,25 +24,25 @@ impl Default for Limits {
     }
 }
 
-/// A script that grows.
+/// A recording and its size.
 #[derive(Debug)]
 pub(super) struct Record {
     pub(super) script: StrokeScript,
     samples: usize,
     bytes: usize,
     pub(super) limits: Limits,
-    /// Why it holds no more.
+    /// Reason why it ended, if it did.
     pub(super) stopped: Option<String>,
 }
 
 impl Record {
-    /// Under a header, whose numbers are rounded, without brushes and actions.
+    /// An empty recording with this header, whose numbers must be rounded.
     pub(super) fn new(header: StrokeScript) -> Self {
         Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
     }
 
-    /// Adds an action done with a brush that has this name and head, if with one;
-    /// or stops, and holds what came before.
+    /// Appends an action and, if it uses one, its brush. An action that would exceed a limit
+    /// ends the recording.
     pub(super) fn add(&mut self, action: Action, brush: Option<(&str, &BrushSpec)>) {
         if self.stopped.is_some() {
             return;
@@ -56,7 +56,7 @@ impl Record {
         };
         let new_name = brush.filter(|(name, _)| !self.script.brushes.contains_key(*name));
         let most = self.limits;
-        // With comma, line break and indent.
+        // 6 bytes for comma, line break and indent.
         let bytes = self.bytes + text.len() + 6;
         if self.script.actions.len() >= most.actions {
             self.stop(&format!("a recording holds {} actions", most.actions));

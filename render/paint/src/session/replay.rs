@@ -1,68 +1,89 @@
-//! A script played on an session.
+//! Playing a script on a session.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
+
+use spectra::hint::{Explain, Fault, Hint};
 
 use super::failure::SessionError;
 use super::state::{Outcome, PaintingSession};
 use crate::painting::{Painting, StrokeReport};
 use crate::strokes::{Action, ScriptError, StrokeScript};
 
-/// What a replay did.
+/// Counts of a replay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ReplayReport {
-    /// Actions played.
+    /// Number of actions played.
     pub actions: u64,
-    /// Strokes among them.
+    /// Number of strokes among them.
     pub strokes: u64,
-    /// Sub-steps of all strokes in which the head was over the canvas.
+    /// Number of sub-steps of all strokes in which the head was over the canvas.
     pub substeps: u64,
-    /// Cells of all their rectangles.
+    /// Number of cells of the rectangles of these sub-steps.
     pub cells: u64,
-    /// Undo and redo that found nothing to do.
+    /// Number of undo and redo actions without anything to undo or redo.
     pub idle: u64,
-    /// Strokes too large for undo.
+    /// Number of strokes too large for undo.
     pub not_undoable: u64,
 }
 
-/// Why a replay ended early; `E` is the saver's own error.
+/// Why a replay failed; `E` is the error of the function that saves.
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError<E: std::error::Error + 'static> {
-    /// No script that can be played.
+    /// The script is invalid.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// An action that the session refuses.
+    /// The session refuses an action.
     #[error("action {index} ({kind})")]
     Action {
-        /// Which action, counted from 0.
+        /// Index of the action, from 0.
         index: usize,
-        /// Its key in the file.
+        /// Key of the action in the file.
         kind: &'static str,
-        /// Why.
+        /// Error of the session.
         #[source]
         error: SessionError,
     },
-    /// A file that could not be saved.
+    /// A file cannot be saved.
     #[error("action {index} (save)")]
     Save {
-        /// Which action, counted from 0.
+        /// Index of the action, from 0.
         index: usize,
-        /// Why.
+        /// Error of the function that saves.
         #[source]
         error: E,
     },
 }
 
+impl<E: Explain + 'static> Explain for ReplayError<E> {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Script(error) => error.hint(),
+            Self::Action { error, .. } => error.hint(),
+            Self::Save { error, .. } => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Script(error) => error.fault(),
+            Self::Action { error, .. } => error.fault(),
+            Self::Save { error, .. } => error.fault(),
+        }
+    }
+}
+
 impl StrokeScript {
-    /// Plays all actions on `session`, which stands on the surfaces of this script
-    /// (see [`StrokeScript::surfaces`]); brushes that it has already under the same name
-    /// are used as they are. `save` is called for each action that saves, with
-    /// its path and the canvas; `step` after each action: it may end the replay
-    /// there, and the report tells after how many.
+    /// Plays all actions on `session`, whose surfaces must be those of this script (see
+    /// [`StrokeScript::surfaces`]). Brushes that the session has under the same name are used
+    /// as they are.
+    ///
+    /// `save` is called with path and canvas for each action that saves a file; `step` is
+    /// called after each action and can end the replay.
     ///
     /// # Errors
-    /// [`ReplayError`] at the first action that cannot be done, and before any
-    /// for scripts that nobody can play (see [`StrokeScript::resolve`]).
+    /// [`ReplayError`] before the first action if the script is invalid (see
+    /// [`StrokeScript::resolve`]), else at the first action that fails.
     pub fn replay<E: std::error::Error + 'static>(
         &self,
         session: &mut PaintingSession,
@@ -70,9 +91,9 @@ impl StrokeScript {
         mut step: impl FnMut() -> ControlFlow<()>,
     ) -> Result<ReplayReport, ReplayError<E>> {
         self.resolve(session.canvas().library())?;
-        session.know(&self.palette).map_err(ScriptError::from)?;
+        session.add_names_of(&self.palette).map_err(ScriptError::from)?;
         let mut report = ReplayReport::default();
-        let mut taken = BTreeSet::new();
+        let mut used = BTreeSet::new();
         for (index, action) in self.actions.iter().enumerate() {
             let failed = |error| ReplayError::Action { index, kind: action.kind(), error };
             if let Action::Save { path } = action {
@@ -80,9 +101,9 @@ impl StrokeScript {
                 let canvas = session.canvas_mut();
                 save(path, canvas).map_err(|error| ReplayError::Save { index, error })?;
             } else {
-                // A brush is taken from the jar when it is first used.
+                // Brushes are added when they are first used.
                 if let Some(name) = action.brush()
-                    && taken.insert(name)
+                    && used.insert(name)
                 {
                     session.set_brush(name, &self.brushes[name]).map_err(failed)?;
                 }

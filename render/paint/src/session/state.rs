@@ -1,56 +1,89 @@
-//! What an session consists of.
+//! State of a painting session.
 
-use super::adjusting::Adjusting;
-use super::brushes::{Brushes, Taken};
+use super::brushes::{Added, Brushes};
 use super::failure::SessionError;
 use super::history::SharedHistory;
-use super::live::Live;
 use super::record::Record;
 use crate::brush::Head;
 use crate::document::Document;
 use crate::layer::Layer;
-use crate::painting::{Painting, PaintingError, StrokeReport};
+use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport};
+use crate::pose::Sample;
+use crate::stroke::SampleDecimals;
 use crate::strokes::{
-    Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, PaletteSpec, PigmentNames,
-    StrokeScript, SurfaceId, check_size, pigment_names, six_digits,
+    Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, PaletteSpec, PerSurface,
+    PigmentNames, StrokeScript, SurfaceId, check_size, pigment_names, six_digits,
 };
 
-/// A canvas, a palette beside it, brushes, and the record of what was done.
+/// The open stroke of a session.
+#[derive(Debug)]
+pub(super) struct SessionStroke {
+    pub(super) on: SurfaceId,
+    /// Index of the brush.
+    pub(super) tool: usize,
+    /// Decimals that samples are rounded to.
+    pub(super) decimals: SampleDecimals,
+    /// Rounded samples that were accepted.
+    pub(super) samples: Vec<Sample>,
+    /// Surface that the brush came from; `None` before the first sample.
+    pub(super) from: Option<SurfaceId>,
+    pub(super) stroke: OpenStroke,
+}
+
+/// The open adjustment of a session.
+#[derive(Debug)]
+pub(super) struct Adjusting {
+    pub(super) control: Control,
+    /// The action with the latest values.
+    pub(super) action: Action,
+    /// Surfaces that it changes.
+    pub(super) on: PerSurface<bool>,
+}
+
+/// Property that an adjustment changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Control {
+    Light,
+    Gloss,
+    Opacity(LayerRef),
+}
+
+/// A canvas, an optional palette to mix on, brushes, and a recording of all actions.
 #[derive(Debug)]
 pub struct PaintingSession {
     pub(super) canvas: Painting,
     pub(super) palette: Option<Painting>,
     pub(super) brushes: Brushes,
-    /// What names of pigments mean by now.
+    /// Pigments that names mean after the actions so far.
     pub(super) scope: PigmentNames,
     pub(super) history: SharedHistory,
     pub(super) record: Option<Record>,
-    pub(super) live: Option<Live>,
+    pub(super) stroke: Option<SessionStroke>,
     pub(super) adjusting: Option<Adjusting>,
 }
 
-/// What an action came to.
+/// Result of an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// It was done.
+    /// The action changed something.
     Done,
-    /// There was nothing to do: no wet paint to dry or to scrape away, nothing
-    /// to take back.
+    /// There was nothing to do: no wet paint to dry or scrape away, nothing to undo or
+    /// redo.
     Nothing,
     /// A stroke was painted.
     Painted(StrokeReport),
 }
 
 impl PaintingSession {
-    /// Sets up a canvas, and a palette to mix on, if there is to be one. Both are
-    /// of one library, show the same pigments in the same slots under the same
-    /// light, and have cells of the same width. Nothing is recorded.
+    /// Starts a session on a canvas and, optionally, a palette to mix on. Both must have the
+    /// same library, the same pigments in the same slots, the same light and medium, and
+    /// cells of the same width. Nothing is recorded.
     ///
-    /// Each keeps its own part of what can be undone, within the memory that it
-    /// was opened with; see [`PaintingSession::set_undo_bytes`].
+    /// Each keeps its own part of the history, within the memory that it was opened with; see
+    /// [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
-    /// [`SessionError::Unlike`] for two that do not go together.
+    /// [`SessionError::Unlike`] if canvas and palette do not go together.
     pub fn new(canvas: Painting, palette: Option<Painting>) -> Result<Self, SessionError> {
         if let Some(palette) = &palette {
             let unlike = [
@@ -73,17 +106,17 @@ impl PaintingSession {
             scope,
             history: SharedHistory::default(),
             record: None,
-            live: None,
+            stroke: None,
             adjusting: None,
         })
     }
 
-    /// The same, and records all that is done from now on under the header of
-    /// `script`, which must describe these surfaces as they are now, as
-    /// [`StrokeScript::surfaces`] makes them.
+    /// Starts a session like [`PaintingSession::new`] that records all actions under the
+    /// header of `script`, which must describe these surfaces as they are now (see
+    /// [`StrokeScript::surfaces`]).
     ///
     /// # Errors
-    /// [`SessionError`] where the header describes others.
+    /// [`SessionError`] if the header describes other surfaces.
     pub fn recorded(
         canvas: Painting,
         palette: Option<Painting>,
@@ -115,7 +148,7 @@ impl PaintingSession {
         Ok(session)
     }
 
-    /// The painting of a surface, if there is one.
+    /// Painting of a surface, if the session has it.
     #[must_use]
     pub fn painting(&self, surface: SurfaceId) -> Option<&Painting> {
         match surface {
@@ -124,8 +157,8 @@ impl PaintingSession {
         }
     }
 
-    /// The same, for its pictures and its paint to be read. What changes a
-    /// painting goes through the session: the history would not know it.
+    /// Painting of a surface, for reading its pictures and paint. Changes must go through the
+    /// session: its history would not know of others.
     pub fn painting_mut(&mut self, surface: SurfaceId) -> Option<&mut Painting> {
         match surface {
             SurfaceId::Canvas => Some(&mut self.canvas),
@@ -133,24 +166,24 @@ impl PaintingSession {
         }
     }
 
-    /// What is painted on.
+    /// Painting of the canvas.
     #[must_use]
     pub fn canvas(&self) -> &Painting {
         &self.canvas
     }
 
-    /// The same, to be read as with [`PaintingSession::painting_mut`].
+    /// Painting of the canvas, for reading (see [`PaintingSession::painting_mut`]).
     pub fn canvas_mut(&mut self) -> &mut Painting {
         &mut self.canvas
     }
 
-    /// Takes a clean brush under a name, or another head in place of the one of
-    /// that name, which is washed; the same head stays as it is. What is open
-    /// ends first.
+    /// Adds a clean brush under a name. If the name belongs to another head, that one is
+    /// washed and replaced; if it belongs to the same head, nothing changes. Any open stroke
+    /// or adjustment is finished first.
     ///
     /// # Errors
-    /// [`SessionError`] for heads that there are not on cells of this width, or if
-    /// the device was lost.
+    /// [`SessionError`] for a head that cannot be made on cells of this width, or if the
+    /// device was lost.
     pub fn set_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), SessionError> {
         let spec = BrushSpec { size_mm: six_digits(spec.size_mm), ..spec.clone() };
         check_size(&CheckContext::default(), "size_mm", spec.size_mm)?;
@@ -161,20 +194,19 @@ impl PaintingSession {
         if now.is_some_and(|tool| tool.spec != spec && tool.used()) {
             self.apply(&wash)?;
         }
-        // An undo may have given paint back to one that was there before.
-        if self.brushes.take(name, &spec) == Taken::Used {
+        // An undo may have restored paint on a head that had this name before.
+        if self.brushes.add(name, &spec) == Added::Used {
             self.apply(&wash)?;
         }
         Ok(())
     }
 
-    /// The brushes there are, in the order of their names.
+    /// All brushes, in the order of their names.
     pub fn brushes(&self) -> impl Iterator<Item = (&str, &BrushSpec)> {
         self.brushes.names().map(|(name, tool)| (name, &tool.spec))
     }
 
-    /// The paint on a brush; nothing if there is no such brush, or if it was
-    /// never used.
+    /// Paint on a brush; `None` if there is no such brush, or if it was never used.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -186,14 +218,14 @@ impl PaintingSession {
         Ok(Some(painting.brush_paint(number)?))
     }
 
-    /// The number of a brush in the painting of a surface, once it was used there.
+    /// Index of a brush in the painting of a surface, once it was used there.
     #[must_use]
     pub fn brush_number(&self, name: &str, surface: SurfaceId) -> Option<usize> {
         let tool = self.brushes.find(name)?;
-        self.brushes.tools[tool].numbers[surface as usize]
+        self.brushes.tools[tool].numbers[surface]
     }
 
-    /// Canvas and palette as they are now, a stroke that is open as far as it is.
+    /// Canvas and palette as they are now, with the painted part of an open stroke.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -203,22 +235,22 @@ impl PaintingSession {
         Ok((canvas, palette))
     }
 
-    /// All that was done so far, without what is open; none if nothing is
-    /// recorded.
+    /// The recording so far, without an open stroke or adjustment; `None` if the session
+    /// records nothing.
     #[must_use]
     pub fn recording(&self) -> Option<&StrokeScript> {
         self.record.as_ref().map(|record| &record.script)
     }
 
-    /// Why the recording ended before now, if it did: it holds no more than can
-    /// be read again, and painting goes on without it.
+    /// Reason why the recording ended early, if it did: it holds no more than a script may, or
+    /// the backend failed. The session goes on without recording.
     #[must_use]
     pub fn recording_stopped(&self) -> Option<&str> {
         self.record.as_ref()?.stopped.as_deref()
     }
 
-    /// From now on `palette`'s short names mean its pigments.
-    pub(super) fn know(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
+    /// Adds the short names of `palette`.
+    pub(super) fn add_names_of(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
         let action = Action::Palette(palette.clone());
         let slots =
             self.scope.pigments_of(&CheckContext::default(), &action, self.canvas.library())?;
@@ -226,7 +258,7 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Where actions may be, for checks.
+    /// Sizes of the surfaces, for the checks of actions.
     pub(super) fn surfaces(&self) -> ActionLimits {
         let side_mm = |painting: &Painting| {
             let bounds = painting.bounds();
@@ -239,7 +271,7 @@ impl PaintingSession {
         self.recording().map_or(own, StrokeScript::limits)
     }
 
-    /// The painting of a surface; a fault where there is none.
+    /// Painting of a surface; an error if the session does not have it.
     pub(super) fn surface_mut(
         &mut self,
         surface: SurfaceId,

@@ -1,4 +1,4 @@
-//! Laws of the record: it can always be read again.
+//! Tests of the recording: it can always be read again.
 
 use pigment::library::PigmentLibrary;
 
@@ -105,7 +105,7 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     dab(&mut session);
     session.undo().unwrap();
     let reason = DeviceError::NoAdapter { reason: "it burnt".to_owned() };
-    let failed = session.followed::<()>(Err(SessionError::Painting(reason.into())));
+    let failed = session.follow_failure::<()>(Err(SessionError::Painting(reason.into())));
     assert!(failed.is_err(), "it is told");
     assert_eq!(session.history(), (Vec::new(), 0));
     assert!(!session.undo().unwrap() && !session.redo().unwrap(), "nothing is known of before");

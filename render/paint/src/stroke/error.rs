@@ -1,66 +1,69 @@
-//! Why samples are no stroke.
+//! Errors of strokes.
 
-use super::MOST_SUBSTEPS;
+use spectra::hint::{Explain, Hint};
 
-/// Why samples are no stroke. Samples are counted from 0.
+use super::limits::MOST_SUBSTEPS;
+
+/// Why samples cannot be painted. Samples are counted from 0, the first of the stroke.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StrokeError {
-    /// No sample.
+    /// The stroke has no sample.
     #[error("a stroke without samples")]
     Empty,
-    /// Cells without width.
+    /// The width of a cell is not above 0.
     #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
     Cell {
-        /// As it was given.
+        /// Width of a cell in mm.
         cell_mm: f64,
     },
-    /// Infinite, or not a number.
+    /// A number is infinite or NaN.
     #[error("sample {sample}: {field} is no number: `{found}`")]
     NoNumber {
-        /// Which sample.
+        /// Index of the sample.
         sample: usize,
-        /// Which of its fields.
+        /// Name of the field.
         field: &'static str,
-        /// What it says.
+        /// Value of the field.
         found: f64,
     },
-    /// Beyond what the field can be.
+    /// A number is out of range.
     #[error("sample {sample}: {field} is from {lowest} to {highest}: `{found}`")]
     Range {
-        /// Which sample.
+        /// Index of the sample.
         sample: usize,
-        /// Which of its fields.
+        /// Name of the field.
         field: &'static str,
-        /// What it says.
+        /// Value of the field.
         found: f64,
-        /// The least it can be.
+        /// Lowest value allowed.
         lowest: f64,
-        /// The most it can be.
+        /// Highest value allowed.
         highest: f64,
     },
-    /// A sample earlier than the one before it.
+    /// A sample is earlier than the one before it.
     #[error("sample {sample}: seconds fall, from {before} to `{found}`")]
     Backwards {
-        /// Which sample.
+        /// Index of the sample.
         sample: usize,
-        /// What it says.
+        /// Value of the field.
         found: f64,
-        /// What the sample before it says.
+        /// Seconds of the sample before it.
         before: f64,
     },
-    /// More sub-steps than a stroke may take.
+    /// The stroke needs more than [`MOST_SUBSTEPS`] sub-steps.
     #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
     TooLong {
-        /// What it would take at most.
+        /// Upper bound of the sub-steps that the stroke would take.
         substeps: f64,
     },
+    /// A sample came after the brush was lifted.
+    #[error("the brush was lifted, so the stroke takes no more samples")]
+    Lifted,
 }
 
-impl StrokeError {
-    /// The way out.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+impl Explain for StrokeError {
+    fn hint(&self) -> Option<Hint> {
+        let hint = match self {
             Self::Empty => "give at least one sample",
             Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
             Self::NoNumber { .. } => "leave the sample out",
@@ -71,6 +74,8 @@ impl StrokeError {
             Self::Range { .. } => "tilts are degrees from upright",
             Self::Backwards { .. } => "sort the samples by time",
             Self::TooLong { .. } => "places are in mm; cut the stroke in pieces",
-        }
+            Self::Lifted => "begin another stroke",
+        };
+        Some(Hint::new(hint))
     }
 }

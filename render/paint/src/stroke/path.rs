@@ -1,40 +1,39 @@
-//! The smooth path through samples as they come, in even steps.
+//! The smooth path through samples as they arrive, in even steps.
 
 use std::collections::VecDeque;
 
 use super::error::StrokeError;
+use super::limits::{DAB, FARTHEST, MOST_SUBSTEPS};
 use super::piece::{Piece, distance, turned};
-use super::{DAB, FARTHEST, MOST_SUBSTEPS};
 use crate::pose::{Pose, Sample};
 
-/// The poses of a stroke, told piece by piece: they are to the bit those of
-/// [`substeps`](super::substeps) of all samples, however these are cut.
+/// Iterator over the poses of a stroke whose samples arrive in portions. The poses are the
+/// same to the bit as those of [`substeps`](super::substeps) for all samples at once.
 ///
-/// The curve to a sample bends with the one after it, so poses lag one sample
-/// behind until the path is finished; of samples all at one place and pose, a
-/// dab, there are none before.
+/// The curve to a sample depends on the one after it, so poses lag one sample behind until
+/// the path is finished. A dab (all samples at one position and pose) has none before.
 #[derive(Debug, Clone)]
 pub struct Path {
     cell_mm: f64,
     samples: usize,
     seconds: f64,
-    /// The last samples, the newest last; three are enough to bend a piece.
+    /// Poses of the last three samples, the newest last: enough to bend a piece.
     recent: [Option<Pose>; 3],
-    /// Pieces whose curve is known and that were not yet walked to their end.
+    /// Pieces whose curve is known and that are not yet walked to their end.
     pieces: VecDeque<Piece>,
-    /// Sizes of all pieces whose curve is known.
+    /// Sum of the sizes of all pieces whose curve is known, in sub-steps.
     length: f64,
     first: Option<Pose>,
     finished: bool,
-    /// Of [`DAB`], or of the last pose, what was given.
+    /// Number of poses returned of a dab, or 1 after the last pose of a path.
     ended: usize,
-    /// Pieces walked to their end.
+    /// Number of pieces walked to their end.
     walked: usize,
-    /// Where in the first piece.
+    /// Position in the first piece, in looks.
     look: u64,
-    /// Sub-steps, as far as looked, since the last pose given.
+    /// Fraction of a sub-step from the last pose returned to `look`.
     since: f64,
-    /// A pose looked at, but not yet given.
+    /// Next pose, if it was computed and not yet returned.
     next: Option<Pose>,
 }
 
@@ -64,18 +63,17 @@ impl Path {
         })
     }
 
-    /// Leads the path on through `samples`. If one is refused the path ends at
-    /// the one before it, and can be led on from there.
+    /// Appends samples. If one is refused, the path ends at the one before it, and others
+    /// can be appended there.
     ///
     /// # Errors
-    /// [`StrokeError`] for a sample that no hand gives, and for a way that would
-    /// be longer than [`MOST_SUBSTEPS`]; samples are counted from the first of
-    /// the path.
+    /// [`StrokeError`] for an impossible sample, and for a path of more than
+    /// [`MOST_SUBSTEPS`]; samples are counted from the first of the path.
     ///
     /// # Panics
     /// If the path is finished.
     pub fn push(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
-        assert!(!self.finished, "a path that is not finished, to be led on");
+        assert!(!self.finished, "a path takes no samples after it is finished");
         samples.iter().try_for_each(|sample| self.push_one(sample))
     }
 
@@ -103,7 +101,7 @@ impl Path {
         self.pieces.extend(piece);
     }
 
-    /// No more samples come: the way to the last one is known now.
+    /// Ends the path at the last sample; its last poses can be computed now.
     pub fn finish(&mut self) {
         let [before, from, to] = self.recent;
         if !self.finished {
@@ -112,19 +110,13 @@ impl Path {
         self.finished = true;
     }
 
-    /// Whether [`Path::finish`] was called.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.finished
-    }
-
-    /// How many samples it has.
+    /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// How many of them the poses given have reached.
+    /// Number of samples that the returned poses have reached.
     #[must_use]
     pub fn reached(&self) -> usize {
         match (self.finished && self.ended > 0, self.first) {
@@ -134,8 +126,8 @@ impl Path {
         }
     }
 
-    /// How many poses can be given now, as far as known: at most so many, and at
-    /// least one unless it is 0.
+    /// Upper bound of the number of poses that can be computed now; 0 exactly if there is
+    /// none.
     pub fn waiting(&mut self) -> usize {
         if self.peek().is_none() {
             return 0;
@@ -151,7 +143,7 @@ impl Path {
         1 + (sizes - looked + self.since).max(0.0) as usize
     }
 
-    /// The next pose, if it is known, without taking it.
+    /// The next pose, if it is known, without removing it.
     pub fn peek(&mut self) -> Option<&Pose> {
         if self.next.is_none() {
             self.next = self.walk();
@@ -159,8 +151,9 @@ impl Path {
         self.next.as_ref()
     }
 
-    /// The first pose, taken, and the second, left, once both are known: where a
-    /// head is set down, and where it goes. For a path that gave none yet.
+    /// Removes and returns the first pose together with a copy of the second, once both are
+    /// known: a head is set down at the first in the direction of the second. To be called
+    /// before any pose was removed.
     pub fn set_out(&mut self) -> Option<(Pose, Pose)> {
         let first = self.next()?;
         let second = self.peek().copied();
@@ -206,7 +199,7 @@ impl Path {
         Some(Pose { pressure: share * last.pressure, ..last })
     }
 
-    /// Refuses what no hand does.
+    /// Refuses impossible samples.
     fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
         let (index, farthest) = (self.samples, FARTHEST * self.cell_mm);
         let fields = [
@@ -238,7 +231,7 @@ impl Path {
 impl Iterator for Path {
     type Item = Pose;
 
-    /// The next pose; none while it is not known, and after the last.
+    /// The next pose; `None` while it is not known, and after the last.
     fn next(&mut self) -> Option<Pose> {
         self.peek();
         self.next.take()

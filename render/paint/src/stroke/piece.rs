@@ -1,30 +1,30 @@
-//! The curve from one sample to the next.
+//! The curve between two samples.
 
 use crate::pose::Pose;
 
-/// What a sub-step may change at most besides one cell of way: pressure, and
-/// degrees of tilt and twist.
+/// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).
 const MOST_PRESSURE: f64 = 1.0 / 16.0;
+/// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
 const MOST_DEGREES: f64 = 3.0;
 
-/// How finely a path is followed: this many times per sub-step it is looked
-/// whether the sub-step is full, so that none is shorter than 15/16.
+/// Number of points per sub-step at which the walk tests whether the sub-step is full, so
+/// that none is shorter than 15/16.
 const LOOKS: f64 = 16.0;
 
-/// The path from one sample to the next.
+/// The curve from one sample to the next.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     from: Pose,
     to: Pose,
-    /// The curve's Bezier points, in cells.
+    /// Bezier points of the curve, in cells.
     points: [(f64, f64); 4],
-    /// Parts in which it is looked at.
+    /// Number of equal parts of the parameter in which the curve is walked.
     pub(super) looks: u64,
 }
 
 impl Piece {
-    /// From the sample `from` to the next, `to`; the samples around them, where
-    /// there are any, decide how it bends.
+    /// The curve between the samples `from` and `to`; the samples before and after them, if
+    /// there are any, set its tangents.
     pub(super) fn new(before: Option<Pose>, from: Pose, mut to: Pose, after: Option<Pose>) -> Self {
         let turn = (to.twist_deg - from.twist_deg) % 360.0;
         to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
@@ -38,7 +38,7 @@ impl Piece {
         piece
     }
 
-    /// An upper bound of its sub-steps.
+    /// Upper bound of its sub-steps.
     pub(super) fn size(&self) -> f64 {
         let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
         // A Bezier curve of parameter 0..1 is nowhere faster than this.
@@ -46,7 +46,7 @@ impl Piece {
         fastest.max(turned(&self.from, &self.to))
     }
 
-    /// Where it is after `look` of its parts.
+    /// Pose after `look` of its parts.
     pub(super) fn pose(&self, look: u64) -> Pose {
         let t = look as f64 / self.looks as f64;
         let s = 1.0 - t;
@@ -65,7 +65,7 @@ impl Piece {
     }
 }
 
-/// Sub-steps that the hand's turning and pressing takes.
+/// Number of sub-steps that the change of pressure and angles takes.
 pub(super) fn turned(a: &Pose, b: &Pose) -> f64 {
     let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
     let turned = tilted.max((a.twist_deg - b.twist_deg).abs());
@@ -76,15 +76,15 @@ pub(super) fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
     (a.0 - b.0).hypot(a.1 - b.1)
 }
 
-/// `a` on the other side of `b`.
+/// `a` mirrored at `b`.
 fn mirrored(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (2.0 * b.0 - a.0, 2.0 * b.1 - a.1)
 }
 
-/// The Bezier point next to `here` of the curve from `here` to `next` that came
-/// from `last`.
+/// Inner Bezier point next to `here` of the curve from `here` to `next`, with `last` as the
+/// point before.
 fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
-    // Squares of knot distances are distances: that is centripetal.
+    // Centripetal: knot distances are square roots of point distances.
     let (d, e) = (distance(last, here), distance(here, next));
     let (root_d, root_e) = (d.sqrt(), e.sqrt());
     let whole = 3.0 * root_d * (root_d + root_e);

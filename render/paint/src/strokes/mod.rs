@@ -45,8 +45,6 @@ mod palette;
 
 mod surface_id;
 
-mod sample_rounding;
-
 mod sample_rows;
 
 mod action;
@@ -72,12 +70,12 @@ mod tests;
 
 pub use crate::canvas::Canvas;
 pub use crate::painting::LayerRef;
+pub use crate::stroke::SampleDecimals;
 pub use action::{Action, Load, Recipe, Squeeze, Stroke};
 pub use error::{InvalidValue, ScriptError, ValueLocation};
 pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES};
 pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
-pub use sample_rounding::SampleDecimals;
 pub use script::{BrushSpec, StrokeScript};
 pub use start::ScriptStartError;
 pub use surface_id::{PerSurface, SurfaceId};

@@ -6,10 +6,10 @@
 use pigment::digits;
 
 use super::action::{Action, Load, Recipe, Squeeze, Stroke};
-use super::sample_rounding::SampleDecimals;
 use crate::document::Lighting;
 use crate::optics::Gloss;
 use crate::pose::Sample;
+use crate::stroke::SampleDecimals;
 
 impl Action {
     /// The action with its numbers rounded: samples to four decimals, all others to six

@@ -7,8 +7,8 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::ser::{SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
-use super::sample_rounding::SampleDecimals;
 use crate::pose::Sample;
+use crate::stroke::SampleDecimals;
 
 /// Fewest numbers of a row: seconds, x, y, pressure.
 const SHORTEST: usize = 4;

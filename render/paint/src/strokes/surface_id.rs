@@ -35,6 +35,19 @@ pub struct PerSurface<T> {
     pub palette: T,
 }
 
+impl<T> PerSurface<T> {
+    /// The value `of` each surface.
+    #[must_use]
+    pub fn from_fn(mut of: impl FnMut(SurfaceId) -> T) -> Self {
+        Self { canvas: of(SurfaceId::Canvas), palette: of(SurfaceId::Palette) }
+    }
+
+    /// References to both values.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        [&self.canvas, &self.palette].into_iter()
+    }
+}
+
 impl<T> Index<SurfaceId> for PerSurface<T> {
     type Output = T;
 

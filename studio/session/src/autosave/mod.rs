@@ -1,11 +1,10 @@
-//! What autosave keeps of a session, so that a killed program loses no more than
-//! the seconds since: a folder a session, in it one complete generation.
+//! Autosaves, so that a program that is killed loses only the seconds since the last one.
 //!
-//! A generation is written under a hidden name, brought to the disk, and renamed;
-//! only then the one before it goes. So at every moment the folder holds a
-//! complete generation once there was one, and whoever looks takes the newest.
-//! The file `lock` is locked as long as the program lives; the system unlocks it
-//! however the program ends.
+//! Each session has a folder with one complete generation. A new generation is written under
+//! a hidden name, flushed to the disk and renamed; only then is the previous one removed. So
+//! after the first autosave the folder always holds a complete generation, and the newest one
+//! counts. The file `lock` is locked while the program runs; the system unlocks it however
+//! the program ends.
 
 use std::fs::{File, TryLockError};
 use std::io::Write;
@@ -14,9 +13,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use render::paint::document::Document;
 use serde::{Deserialize, Serialize};
+use spectra::file::sync_folder;
 
 use crate::failure::FileFailure;
-use crate::whole::sync_folder;
 
 const LOCK: &str = "lock";
 const PARTIAL: &str = ".partial";
@@ -24,33 +23,33 @@ const CANVAS: &str = "canvas.exr";
 const PALETTE: &str = "palette.exr";
 const META: &str = "session.json";
 
-/// What a generation tells of itself.
+/// Description of an autosave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SessionMeta {
-    /// What the painting is called.
+    /// Title of the painting.
     pub title: String,
-    /// The file that it was opened from or saved as, if there is one.
+    /// File that the painting was opened from or saved as, if there is one.
     pub path: Option<PathBuf>,
-    /// When it was kept, in seconds since 1970.
+    /// Time of the autosave, in seconds since 1970.
     pub seconds: u64,
 }
 
-/// The session of this program.
+/// Autosave folder of the running session.
 #[derive(Debug)]
 pub struct Autosave {
     folder: PathBuf,
-    /// Locked while this lives.
+    /// Locked while this value exists.
     _lock: File,
     generation: u64,
 }
 
-/// The seconds since 1970.
+/// Seconds since 1970.
 pub fn now() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
 
 impl Autosave {
-    /// Begins a session in a new folder below `sessions`.
+    /// Creates the folder of a session below the folder `sessions`.
     ///
     /// # Errors
     /// [`FileFailure`] if the folder cannot be made or locked.
@@ -60,7 +59,7 @@ impl Autosave {
         let process = std::process::id();
         for attempt in 0..1000 {
             let name = format!("{}-{process}-{attempt}", now());
-            // Locked before it has its name, so that nobody takes it for a lost one.
+            // Locked before it is renamed, so that no program takes it for a lost session.
             let hidden = sessions.join(format!(".{name}"));
             let folder = sessions.join(name);
             if folder.exists() {
@@ -78,16 +77,16 @@ impl Autosave {
         Err(cannot(std::io::ErrorKind::AlreadyExists.into()))
     }
 
-    /// Where it is.
+    /// Folder of this session.
     #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Writes a generation, and drops the ones before it.
+    /// Writes a generation and removes the previous ones.
     ///
     /// # Errors
-    /// [`FileFailure`]; the generation before stays.
+    /// [`FileFailure`]; the previous generation stays.
     pub fn keep(
         &mut self,
         canvas: &Document,
@@ -97,14 +96,14 @@ impl Autosave {
         let bytes = |document| {
             render::paint::file::write(document).map_err(|error| FileFailure::explained(&error))
         };
-        let meta =
-            serde_json::to_vec(meta).map_err(|error| FileFailure::told(&error, None::<String>))?;
+        let meta = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
         let files = [(CANVAS, bytes(canvas)?), (PALETTE, bytes(palette)?), (META, meta)];
         self.keep_files(&files, &mut || Ok(()))
             .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
     }
 
-    /// The same of bytes; `before` is called before every change on the disk.
+    /// Writes the files of a generation. `before` is called before each change on the disk,
+    /// so that tests can interrupt it there.
     fn keep_files(
         &mut self,
         files: &[(&str, Vec<u8>)],
@@ -139,10 +138,10 @@ impl Autosave {
         Ok(())
     }
 
-    /// Drops what was kept: the painting stands in a file of its own.
+    /// Removes all generations, after the painting was saved to a file of its own.
     ///
     /// # Errors
-    /// [`FileFailure`] if something cannot be removed.
+    /// [`FileFailure`] if a file cannot be removed.
     pub fn clear(&mut self) -> Result<(), FileFailure> {
         clear(&self.folder)
             .map_err(|error| FileFailure::io(&self.folder, "cleared of autosaves", &error))
@@ -154,20 +153,20 @@ impl Autosave {
     }
 }
 
-/// What a program left that ended without a word. As long as this lives no
-/// other program finds it.
+/// Autosave of a program that crashed or was killed. No other program finds it while this
+/// value exists.
 #[derive(Debug)]
 pub struct LostSession {
     folder: PathBuf,
     _lock: File,
     generation: u64,
-    /// What it tells of itself.
+    /// Description of the autosave.
     pub meta: SessionMeta,
 }
 
 impl LostSession {
-    /// Those below `sessions` whose program is dead, the newest first. Those in
-    /// which nothing was kept are removed.
+    /// All lost sessions below the folder `sessions`, the newest first. Those without an
+    /// autosave are removed.
     ///
     /// # Errors
     /// [`FileFailure`] if the folder cannot be read.
@@ -185,13 +184,13 @@ impl LostSession {
             })
             .collect();
         folders.sort();
-        let mut found: Vec<Self> = folders.into_iter().filter_map(Self::claimed).collect();
+        let mut found: Vec<Self> = folders.into_iter().filter_map(Self::claim).collect();
         found.sort_by_key(|lost| std::cmp::Reverse(lost.meta.seconds));
         Ok(found)
     }
 
-    /// The session in `folder`, if its program is dead and it kept something.
-    fn claimed(folder: PathBuf) -> Option<Self> {
+    /// Locks the session in `folder`, if its program has ended and it has an autosave.
+    fn claim(folder: PathBuf) -> Option<Self> {
         let lock = File::options().read(true).write(true).open(folder.join(LOCK)).ok()?;
         match lock.try_lock() {
             Ok(()) => {}
@@ -203,28 +202,28 @@ impl LostSession {
             remove(&folder);
             return None;
         }
-        let told = |number: &u64| {
+        let description = |number: &u64| {
             let bytes = std::fs::read(generation_folder(&folder, *number).join(META)).ok()?;
             Some((*number, serde_json::from_slice(&bytes).ok()?))
         };
-        let (generation, meta) = numbers.iter().rev().find_map(told)?;
+        let (generation, meta) = numbers.iter().rev().find_map(description)?;
         Some(Self { folder, _lock: lock, generation, meta })
     }
 
-    /// Where it is.
+    /// Folder of the lost session.
     #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The files of canvas and palette.
+    /// Paths of the files of canvas and palette.
     #[must_use]
     pub fn files(&self) -> [PathBuf; 2] {
         let folder = generation_folder(&self.folder, self.generation);
         [CANVAS, PALETTE].map(|name| folder.join(name))
     }
 
-    /// Throws it away.
+    /// Removes the session.
     pub fn discard(self) {
         remove(&self.folder);
     }
@@ -234,7 +233,7 @@ fn generation_folder(folder: &Path, number: u64) -> PathBuf {
     folder.join(format!("generation-{number}"))
 }
 
-/// The numbers of the generations in `folder`, in order.
+/// Numbers of the generations in `folder`, in increasing order.
 fn generations(folder: &Path) -> std::io::Result<Vec<u64>> {
     let mut numbers = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -246,8 +245,8 @@ fn generations(folder: &Path) -> std::io::Result<Vec<u64>> {
     Ok(numbers)
 }
 
-/// Removes all generations, the newest first: what a crash leaves is then an
-/// older one or none, never half of one.
+/// Removes all generations, the newest first, so that a crash leaves an older one or none,
+/// but never part of one.
 fn clear(folder: &Path) -> std::io::Result<()> {
     let gone = folder.join(PARTIAL);
     for number in generations(folder)?.into_iter().rev() {
@@ -259,7 +258,7 @@ fn clear(folder: &Path) -> std::io::Result<()> {
     if gone.exists() { std::fs::remove_dir_all(&gone) } else { Ok(()) }
 }
 
-/// Removes a session. The lock goes last: a folder without one is nobody's.
+/// Removes the folder of a session. The lock file is removed last.
 fn remove(folder: &Path) {
     let _ = clear(folder);
     let _ = std::fs::remove_dir_all(folder);

@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
 use render::paint::pose::Sample;
-use render::paint::strokes::SurfaceId;
+use render::paint::strokes::{SampleDecimals, SurfaceId};
 use session::{
     BrushState, Command, Event, PaintingState, PenSample, Worker, WorkerOptions, blank_canvas,
 };
@@ -195,7 +195,7 @@ impl Painter {
     fn stroke(&mut self, surface: SurfaceId, from: (f64, f64), to: (f64, f64)) {
         let studio = self.harness.state();
         let brush = studio.tools.brush.clone();
-        studio.worker.ask(Command::PenDown { surface, brush });
+        studio.worker.ask(Command::PenDown { surface, brush, decimals: SampleDecimals::RECORDING });
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         let count = (length / 50.0 * 200.0).ceil() as u32;
         for index in 0..=count {

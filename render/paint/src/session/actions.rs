@@ -1,4 +1,4 @@
-//! Actions carried out.
+//! Applying actions.
 
 use super::failure::SessionError;
 use super::history::Entry;
@@ -7,24 +7,24 @@ use super::state::{Outcome, PaintingSession};
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
 use crate::strokes::{
-    Action, ActionPigments, CheckContext, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId,
-    check_brush,
+    Action, ActionPigments, CheckContext, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
+    SurfaceId, check_brush,
 };
 
-/// On the canvas alone.
-pub(super) const CANVAS: [bool; 2] = [true, false];
+/// The canvas alone.
+const CANVAS: PerSurface<bool> = PerSurface { canvas: true, palette: false };
 
-/// On no surface: of a brush alone.
-const NOWHERE: [bool; 2] = [false, false];
+/// No surface: the action changes a brush only.
+const NONE: PerSurface<bool> = PerSurface { canvas: false, palette: false };
 
 impl PaintingSession {
-    /// Carries out one action; what is open, a stroke or what is being adjusted,
-    /// ends first. Drying, layers and a merge are the canvas's; light, gloss,
-    /// pigments and a swap in the wet layer are those of both surfaces.
+    /// Applies one action. Any open stroke or adjustment is finished first. Drying, layers and
+    /// merging concern the canvas; light, gloss, pigments and a swap in the wet layer concern
+    /// both surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] for what cannot be done; nothing is changed then, unless the
-    /// backend fails half way: the history and the recording end there.
+    /// [`SessionError`] for an action that cannot be done; nothing is changed then. If the
+    /// backend fails half way, history and recording end there.
     pub fn apply(&mut self, action: &Action) -> Result<Outcome, SessionError> {
         self.finish_open()?;
         match action {
@@ -33,21 +33,21 @@ impl PaintingSession {
             Action::Stroke(Stroke { brush, on, samples }) => {
                 self.check(action)?;
                 self.begin_stroke(*on, brush)?;
-                let told = self.extend(samples);
+                let extended = self.extend(samples);
                 let report = self.end_stroke()?;
-                told?;
+                extended?;
                 return Ok(report.map_or(Outcome::Nothing, Outcome::Painted));
             }
             Action::Save { .. } => return Err(SessionError::Save),
             _ => {}
         }
-        let (action, pigments) = self.understood(action)?;
+        let (action, pigments) = self.rounded(action)?;
         let Some(on) = self.perform(&action, &pigments)? else { return Ok(Outcome::Nothing) };
-        self.did(&action, &pigments, on);
+        self.record_done(&action, &pigments, on);
         Ok(Outcome::Done)
     }
 
-    /// Whether numbers and names of an action will do.
+    /// Checks numbers and names of an action.
     pub(super) fn check(&self, action: &Action) -> Result<(), SessionError> {
         let at = CheckContext::default();
         if let Some(brush) = action.brush() {
@@ -57,8 +57,8 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// The action as a file has it, and the pigments that it names.
-    pub(super) fn understood(
+    /// The action with its numbers rounded as in a file, and the pigments that it names.
+    pub(super) fn rounded(
         &self,
         action: &Action,
     ) -> Result<(Action, ActionPigments), SessionError> {
@@ -69,21 +69,23 @@ impl PaintingSession {
         Ok((action, pigments))
     }
 
-    /// Does it; tells of which surfaces' histories it is part, nothing if there
-    /// was nothing to do.
+    /// Applies an action to the surfaces. Returns the surfaces whose histories have it; `None`
+    /// if there was nothing to do.
     pub(super) fn perform(
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<[bool; 2]>, SessionError> {
-        let done = self.try_to(action, pigments);
-        self.followed(done)
+    ) -> Result<Option<PerSurface<bool>>, SessionError> {
+        let done = self.try_perform(action, pigments);
+        self.follow_failure(done)
     }
 
-    /// Hands `done` on; where a backend failed half way nobody knows what the
-    /// paintings' histories hold of it, so that nothing before it can be taken
-    /// back, and nothing after it be recorded.
-    pub(super) fn followed<T>(&mut self, done: Result<T, SessionError>) -> Result<T, SessionError> {
+    /// Returns `done`. If a backend failed half way, the content of the paintings' histories is
+    /// unknown: the history of the session is cleared and its recording ends.
+    pub(super) fn follow_failure<T>(
+        &mut self,
+        done: Result<T, SessionError>,
+    ) -> Result<T, SessionError> {
         if let Err(SessionError::Painting(PaintingError::Engine(error))) = &done {
             self.history = Default::default();
             if let Some(record) = &mut self.record {
@@ -93,27 +95,28 @@ impl PaintingSession {
         done
     }
 
-    fn try_to(
+    fn try_perform(
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<[bool; 2]>, SessionError> {
-        let both = [true, self.palette.is_some()];
+    ) -> Result<Option<PerSurface<bool>>, SessionError> {
+        let both = PerSurface { canvas: true, palette: self.palette.is_some() };
+        let only = |on| PerSurface::from_fn(|surface| surface == on);
         let on = match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
                 let recipe = recipe(&self.canvas, parts)?;
                 self.with_brush(&load.brush, |painting, number| {
                     painting.load(number, &recipe, load.vehicle, load.amount_mm)
                 })?;
-                NOWHERE
+                NONE
             }
             (Action::Wipe { brush, keep }, _) => {
                 self.with_brush(brush, |painting, number| painting.wipe(number, *keep))?;
-                NOWHERE
+                NONE
             }
             (Action::Wash { brush }, _) => {
                 self.with_brush(brush, Painting::wash)?;
-                NOWHERE
+                NONE
             }
             (Action::Dry { fraction }, _) => {
                 if !self.canvas.dry(*fraction)? {
@@ -122,7 +125,7 @@ impl PaintingSession {
                 CANVAS
             }
             (Action::Palette(_), ActionPigments::Palette(slots)) => {
-                self.wash_what_was_put_away()?;
+                self.wash_replaced_brushes()?;
                 let pigments: Vec<usize> = slots.iter().flatten().copied().collect();
                 if let Some(palette) = &mut self.palette {
                     palette.slots_with(&pigments)?;
@@ -169,22 +172,21 @@ impl PaintingSession {
                 let recipe = recipe(&self.canvas, parts)?;
                 let Squeeze { on, vehicle, x_mm, y_mm, volume_mm3, .. } = *squeeze;
                 self.surface_mut(on)?.squeeze(&recipe, vehicle, x_mm, y_mm, volume_mm3)?;
-                [on.is_canvas(), !on.is_canvas()]
+                only(on)
             }
             (Action::Scrape { on }, _) => {
                 if !self.surface_mut(*on)?.scrape()? {
                     return Ok(None);
                 }
-                [on.is_canvas(), !on.is_canvas()]
+                only(*on)
             }
-            (action, _) => unreachable!("{} is done elsewhere", action.kind()),
+            (action, _) => unreachable!("`{}` is applied elsewhere", action.kind()),
         };
         Ok(Some(on))
     }
 
-    /// Does something to the paint on a brush, where that is. A brush that is used
-    /// for the first time is there from then on, even if that is refused; the
-    /// recording knows as well.
+    /// Changes the paint on a brush, on the surface that holds it. A brush that is used for
+    /// the first time is added to the painting and the recording even if the change fails.
     fn with_brush(
         &mut self,
         name: &str,
@@ -193,7 +195,7 @@ impl PaintingSession {
         check_brush(&CheckContext::default(), name, self.brushes.names().map(|(name, _)| name))?;
         let Some(tool) = self.brushes.find(name) else { return Ok(()) };
         let at = self.brushes.tools[tool].at;
-        let fresh = self.brushes.tools[tool].numbers[at as usize].is_none();
+        let fresh = self.brushes.tools[tool].numbers[at].is_none();
         let number = self.number(tool, at)?;
         let changed = change(self.surface_mut(at)?, number);
         if changed.is_err() && fresh {
@@ -202,12 +204,12 @@ impl PaintingSession {
         Ok(changed?)
     }
 
-    /// Heads that gave their name to another were washed, but an undo may have
-    /// given them paint back, which nobody could wash off.
-    fn wash_what_was_put_away(&mut self) -> Result<(), SessionError> {
-        for tool in self.brushes.put_away() {
+    /// Washes heads whose name now belongs to another. They were washed when they were
+    /// replaced, but an undo may have restored paint on them.
+    fn wash_replaced_brushes(&mut self) -> Result<(), SessionError> {
+        for tool in self.brushes.replaced() {
             let at = self.brushes.tools[tool].at;
-            let Some(number) = self.brushes.tools[tool].numbers[at as usize] else { continue };
+            let Some(number) = self.brushes.tools[tool].numbers[at] else { continue };
             let painting = self.surface_mut(at)?;
             if painting.brush_paint(number)?.totals().iter().any(|total| *total > 0) {
                 painting.wash(number)?;
@@ -218,35 +220,40 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// The number of a head in the painting of a surface; made where it is new.
+    /// Index of a head in the painting of a surface; it is added there if it is new.
     pub(super) fn number(&mut self, tool: usize, on: SurfaceId) -> Result<usize, SessionError> {
-        if let Some(number) = self.brushes.tools[tool].numbers[on as usize] {
+        if let Some(number) = self.brushes.tools[tool].numbers[on] {
             return Ok(number);
         }
         let spec = self.brushes.tools[tool].spec.clone();
         let number = self.surface_mut(on)?.add_brush(spec.shape, spec.size_mm)?;
-        self.brushes.tools[tool].numbers[on as usize] = Some(number);
+        self.brushes.tools[tool].numbers[on] = Some(number);
         Ok(number)
     }
 
-    /// Tells history and recording of an action that was done.
-    pub(super) fn did(&mut self, action: &Action, pigments: &ActionPigments, on: [bool; 2]) {
-        if on != NOWHERE {
+    /// Adds an action that was done to history and recording.
+    pub(super) fn record_done(
+        &mut self,
+        action: &Action,
+        pigments: &ActionPigments,
+        on: PerSurface<bool>,
+    ) {
+        if on != NONE {
             let label = label(action, pigments, self.canvas.library());
             self.history.add(Entry { label, on, carried: None });
-            self.follow();
+            self.limit_history();
         }
         self.scope.add_palette_of(action, pigments);
-        self.note(self.named_in_full(action, pigments));
+        self.note(self.with_library_names(action, pigments));
     }
 
-    /// Adds to the recording.
+    /// Adds an action to the recording.
     pub(super) fn note(&mut self, action: Action) {
         let tool = action.brush().and_then(|name| self.brushes.find(name));
         self.note_with(action, tool);
     }
 
-    /// The same with a head that may have given its name away.
+    /// Adds an action of the head `tool` to the recording, under the recorded name of the head.
     pub(super) fn note_with(&mut self, mut action: Action, tool: Option<usize>) {
         let Some(record) = &mut self.record else { return };
         let tool = tool.map(|tool| &self.brushes.tools[tool]);
@@ -256,9 +263,9 @@ impl PaintingSession {
         record.add(action, tool.map(|tool| (tool.recorded.as_str(), &tool.spec)));
     }
 
-    /// The action with the library's names of its pigments, which mean the same
-    /// at any time.
-    fn named_in_full(&self, action: &Action, pigments: &ActionPigments) -> Action {
+    /// The action with short names of pigments replaced by the names of the library, which do
+    /// not depend on the palette.
+    fn with_library_names(&self, action: &Action, pigments: &ActionPigments) -> Action {
         let library = self.canvas.library();
         let name = |pigment: usize| library.pigments[pigment].name.clone();
         let recipe = |parts: &[(usize, f64)]| -> Recipe {
@@ -287,7 +294,7 @@ pub(super) fn nothing_unless(done: bool) -> Outcome {
     if done { Outcome::Done } else { Outcome::Nothing }
 }
 
-/// Parts by slot of the palette of this moment.
+/// Parts by slot of the palette as it is now.
 fn recipe(painting: &Painting, parts: &[(usize, f64)]) -> Result<[f64; SLOTS], PaintingError> {
     let mut recipe = [0.0; SLOTS];
     for &(pigment, part) in parts {

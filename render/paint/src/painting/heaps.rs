@@ -1,4 +1,4 @@
-//! Paint put down from a tube, and scraped away.
+//! Heaps of paint from a tube, and scraping paint away.
 
 use super::failure::PaintingError;
 use super::state::{HIGHEST, Painting};
@@ -7,22 +7,22 @@ use crate::layer::{Cell, Layer, SLOTS};
 use crate::motion::press::CROWDED_VOLUME;
 use graphics::tile::Rect;
 
-/// The most that is squeezed out at once, in mm3: a litre.
+/// Maximum volume of a heap, in mm3: a litre.
 const MOST_MM3: f64 = 1e6;
 
-/// Height of a heap over its radius.
+/// Ratio of the height of a heap to its radius (chosen by eye).
 const STEEPNESS: f64 = 2.0 / 3.0;
 
-/// No heap is higher than this many quanta, half of what a brush can still move:
-/// where cells are small, large heaps are flatter.
+/// Maximum height of a heap, in quanta: half of what a brush can still move. Where cells
+/// are small, large heaps are flatter.
 const HIGHEST_HEAP: f64 = CROWDED_VOLUME as f64 / 2.0;
 
-/// The volume of a heap, over its height and the square of its radius.
+/// Volume of a heap divided by its height and the square of its radius.
 const FULLNESS: f64 = std::f64::consts::PI / 1.75;
 
-/// How high a heap is, its top 1, where the square of the distance from its
-/// middle is `square`, that of its edge 1: between an ellipsoid, which would have
-/// an upright edge, and a paraboloid.
+/// Relative height of a heap (1 at the top) at the squared relative distance `square` from
+/// its middle (1 at the edge). The shape lies between an ellipsoid, whose edge would be
+/// vertical, and a paraboloid.
 fn profile(square: f64) -> f64 {
     let root = (1.0 - square).max(0.0).sqrt();
     root * root.sqrt()
@@ -36,7 +36,7 @@ struct Heap {
 }
 
 impl Heap {
-    /// One of `volume` quanta, no higher than `most` quanta.
+    /// A heap of `volume` quanta, at most `most` quanta high.
     fn new(middle: (f64, f64), volume: f64, most: f64) -> Self {
         let quanta = f64::from(QUANTA_PER_CELL);
         let natural = (volume / quanta / (FULLNESS * STEEPNESS)).cbrt();
@@ -45,23 +45,23 @@ impl Heap {
         } else {
             natural
         };
-        // Below that it could lie between the middles of cells.
+        // A smaller heap could lie between the centres of cells.
         Self { middle, radius: radius.max(1.0) }
     }
 
-    /// Its height at the cell in this column and row, its top 1.
+    /// Relative height at the centre of a cell, 1 at the top.
     fn height(&self, x: i64, y: i64) -> f64 {
         let (right, down) = (x as f64 + 0.5 - self.middle.0, y as f64 + 0.5 - self.middle.1);
         profile((right * right + down * down) / (self.radius * self.radius))
     }
 
-    /// Columns and rows that it reaches, on the canvas or not.
+    /// Ranges of columns and rows that it covers, also outside the canvas.
     fn reach(&self) -> [std::ops::Range<i64>; 2] {
         let (x, y) = self.middle;
         [x, y].map(|at| (at - self.radius).floor() as i64..(at + self.radius).ceil() as i64)
     }
 
-    /// What of `bounds` it reaches.
+    /// Rectangle that it covers within `bounds`.
     fn rect(&self, bounds: Rect) -> Rect {
         let [columns, rows] = self.reach();
         let cut = |range: std::ops::Range<i64>, end: usize| {
@@ -72,14 +72,14 @@ impl Heap {
         Rect { x, y, width: right - x, height: bottom - y }
     }
 
-    /// Gives every cell of the heap, on the canvas or not, its share of `totals`
-    /// quanta of each paint. What is rounded off in one cell goes to the next, so
-    /// that the totals are right to the quantum.
-    fn spread(&self, totals: [f64; SLOTS + 1], mut give: impl FnMut(i64, i64, Cell)) {
+    /// Distributes `totals` quanta of each paint over the cells of the heap, also outside the
+    /// canvas, and passes each column, row and amount to `add`. Rounding errors are carried
+    /// to the next cell, so that the totals are exact.
+    fn spread(&self, totals: [f64; SLOTS + 1], mut add: impl FnMut(i64, i64, Cell)) {
         let [columns, rows] = self.reach();
         let cells = || rows.clone().flat_map(|y| columns.clone().map(move |x| (x, y)));
         let whole: f64 = cells().map(|(x, y)| self.height(x, y)).sum();
-        let (mut so_far, mut given) = (0.0, [0_u64; SLOTS + 1]);
+        let (mut so_far, mut spent) = (0.0, [0_u64; SLOTS + 1]);
         for (x, y) in cells() {
             let height = self.height(x, y);
             if height == 0.0 {
@@ -87,28 +87,33 @@ impl Heap {
             }
             so_far += height;
             let mut cell = [0; SLOTS + 1];
-            for ((cell, given), total) in cell.iter_mut().zip(&mut given).zip(totals) {
+            for ((cell, spent), total) in cell.iter_mut().zip(&mut spent).zip(totals) {
                 let due = (total * (so_far / whole)).round() as u64;
-                *cell = due.saturating_sub(*given) as u32;
-                *given = due.max(*given);
+                *cell = due.saturating_sub(*spent) as u32;
+                *spent = due.max(*spent);
             }
             let [pigments @ .., vehicle] = cell;
-            give(x, y, Cell { pigments, vehicle });
+            add(x, y, Cell { pigments, vehicle });
         }
     }
 }
 
 impl Painting {
-    /// Squeezes `volume_mm3` of the mixture of `recipe` (parts by slot), of which
-    /// the share `vehicle` (0..1) is clear medium, out over the place `x_mm`,
-    /// `y_mm`: a heap with a round top, a third as high as wide, or flatter where
-    /// columns of cells hold no more. All of it lies there to the quantum, but for
-    /// what falls beside the canvas.
+    /// Squeezes a heap of `volume_mm3` mm3 out of a tube at the position `x_mm`, `y_mm`. The
+    /// paint is the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0
+    /// to 1) is clear medium.
+    ///
+    /// The heap has a round top and is a third as high as wide, or flatter where the columns
+    /// of cells cannot hold more. The volume is exact to the quantum, except for paint that
+    /// falls outside the canvas.
     ///
     /// # Errors
-    /// [`PaintingError`] for a recipe as [`Painting::load`] refuses it, a volume
-    /// that is not above 0 and at most a litre, a place beside the canvas, and
-    /// where paint is piled too high already.
+    /// [`PaintingError`] for an invalid recipe (see [`Painting::load`]), a volume that is not
+    /// above 0 and at most a litre, a position outside the canvas, and where the paint is too
+    /// high already.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn squeeze(
         &mut self,
         recipe: &[f64; SLOTS],
@@ -131,8 +136,8 @@ impl Painting {
         }
         let quanta = volume_mm3 / self.cell_mm.powi(3) * f64::from(QUANTA_PER_CELL);
         let natural = Heap::new(middle, quanta, HIGHEST_HEAP);
-        let room = f64::from(CROWDED_VOLUME) - f64::from(self.fullest(natural.rect(bounds))?);
-        let heap = Heap::new(middle, quanta, room.clamp(f64::from(QUANTA_PER_CELL), HIGHEST_HEAP));
+        let free = f64::from(CROWDED_VOLUME) - f64::from(self.fullest(natural.rect(bounds))?);
+        let heap = Heap::new(middle, quanta, free.clamp(f64::from(QUANTA_PER_CELL), HIGHEST_HEAP));
         let rect = heap.rect(bounds);
         let mut paint = self.engine.wet_in(rect)?;
         let mut too_high = false;
@@ -157,35 +162,37 @@ impl Painting {
         if too_high {
             return Err(PaintingError::NoRoom { x_mm, y_mm });
         }
-        self.acting(|painting| {
+        self.apply_action(|painting| {
             painting.history.save_tiles(&mut painting.engine, rect)?;
-            painting.views.touch(rect);
+            painting.views.mark_wet(rect);
             Ok(painting.engine.set_wet_in(rect, &paint)?)
         })
     }
 
-    /// The greatest height of wet paint in `rect`, in quanta.
+    /// Maximum height of wet paint in `rect`, in quanta.
     fn fullest(&mut self, rect: Rect) -> Result<u32, PaintingError> {
         let paint = self.engine.wet_in(rect)?;
         let cells = 0..rect.width * rect.height;
         Ok(cells.map(|index| paint.cell(index).volume()).max().unwrap_or(0))
     }
 
-    /// Scrapes all wet paint off the canvas, down to what is dry. Whether there
-    /// was any.
+    /// Scrapes all wet paint off the canvas. Returns whether there was any.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
     pub fn scrape(&mut self) -> Result<bool, PaintingError> {
         let bounds = self.engine.bounds();
         let painted = self.engine.wet_tiles()?;
         if painted.is_empty() {
             return Ok(false);
         }
-        self.acting(|painting| {
+        self.apply_action(|painting| {
             for tile in painted.iter() {
                 painting.history.save_tiles(&mut painting.engine, tile.rect(bounds))?;
-                painting.views.touch_tile(tile);
+                painting.views.mark_wet_tile(tile);
             }
             let rect = painted.extent(bounds);
             painting.engine.set_wet_in(rect, &Layer::empty(rect.width, rect.height))?;

@@ -1,8 +1,8 @@
-//! The painting as it is seen.
+//! Pictures and reflectances of a painting.
 
 use super::failure::PaintingError;
 use super::state::Painting;
-use super::views::Unseen;
+use super::views::PendingTiles;
 use crate::document::{Lighting, Slots};
 use crate::engine::View;
 use crate::optics::Scene;
@@ -11,28 +11,29 @@ use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
 
 impl Painting {
-    /// Computes what of the picture changed, or of that under the `second` light;
-    /// gives the tiles that may look other than when it was last asked.
+    /// Renders the parts of the picture that are out of date, and returns the tiles rendered
+    /// since the last call. With `second`, the picture under the second light.
     ///
     /// # Errors
-    /// [`PaintingError`] if the device was lost, or has no room for a second view.
+    /// [`PaintingError`] if the device was lost, or its memory does not suffice for a second
+    /// picture.
     ///
     /// # Panics
-    /// If there is no second light, as the next.
+    /// With `second`, if there is no second light.
     pub fn refresh(&mut self, second: bool) -> Result<TileSet, PaintingError> {
         let view = view(second);
         self.compute(view, &self.scene(view))?;
-        Ok(self.unseen_of(view).untold.take())
+        Ok(self.pending_of(view).unreported.take())
     }
 
-    /// The picture in `rect` as last computed, or that under the `second` light;
-    /// costs no more than `rect` holds.
+    /// The picture in `rect` as last rendered, in linear sRGB. With `second`, the picture
+    /// under the second light. Only these cells are read from the device.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     ///
     /// # Panics
-    /// If `rect` has cells that the canvas has not.
+    /// If `rect` is not within the canvas or, with `second`, if there is no second light.
     pub fn picture_in(
         &mut self,
         second: bool,
@@ -42,8 +43,8 @@ impl Painting {
         Ok(self.engine.picture_in(view(second), rect)?)
     }
 
-    /// The picture in linear sRGB, white at 1. Only what changed since the last
-    /// call is computed.
+    /// The picture in linear sRGB, white at 1. Only the parts that are out of date are
+    /// rendered.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -52,7 +53,7 @@ impl Painting {
         Ok(self.engine.picture()?)
     }
 
-    /// The same without relief and gloss: the colours alone.
+    /// The picture in linear sRGB without shading of the relief and without gloss.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -64,21 +65,21 @@ impl Painting {
             gloss.strength = 0.0;
         }
         let all = TileSet::all(self.engine.bounds());
-        self.views.first.shown = all.clone();
+        self.views.first.wet = all.clone();
         let computed = self.compute(View::First, &scene);
-        self.views.first.shown = all;
+        self.views.first.wet = all;
         computed?;
         Ok(self.engine.picture()?)
     }
 
-    /// The reflectance on the library's grid, the mean over the cells of `rect`,
-    /// as an instrument would read it: in f64, without relief and gloss.
+    /// Mean reflectance of the cells of `rect` on the grid of the library, as an instrument
+    /// would measure it: in f64, without relief and gloss.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     ///
     /// # Panics
-    /// If `rect` is empty, or has cells that the canvas has not.
+    /// If `rect` is empty or not within the canvas.
     pub fn reflectance_in(&mut self, rect: Rect) -> Result<Vec<f64>, PaintingError> {
         assert!(!rect.is_empty(), "a reflectance of no cells");
         let dry = (0..self.state.dry.len()).map(|index| self.engine.dry_layer_in(index, rect));
@@ -124,27 +125,27 @@ impl Painting {
         self.appearance(&self.dry_states(), lighting).scene(light)
     }
 
-    fn unseen_of(&mut self, view: View) -> &mut Unseen {
+    fn pending_of(&mut self, view: View) -> &mut PendingTiles {
         match view {
             View::First => &mut self.views.first,
-            View::Second => &mut self.views.second.as_mut().expect(SECOND).unseen,
+            View::Second => &mut self.views.second.as_mut().expect(SECOND).pending,
         }
     }
 
     fn compute(&mut self, view: View, scene: &Scene) -> Result<(), PaintingError> {
-        let unseen = self.unseen_of(view);
-        let (baked, shown) = (unseen.baked.clone(), unseen.shown.clone());
-        self.engine.render(view, scene, &baked, &shown)?;
-        let unseen = self.unseen_of(view);
-        (unseen.baked, unseen.shown) = Default::default();
-        for tile in baked.iter().chain(shown.iter()) {
-            unseen.untold.insert_tile(tile);
+        let pending = self.pending_of(view);
+        let (dry, wet) = (pending.dry.clone(), pending.wet.clone());
+        self.engine.render(view, scene, &dry, &wet)?;
+        let pending = self.pending_of(view);
+        (pending.dry, pending.wet) = Default::default();
+        for tile in dry.iter().chain(wet.iter()) {
+            pending.unreported.insert_tile(tile);
         }
         Ok(())
     }
 }
 
-const SECOND: &str = "there is a second light, as the caller must know";
+const SECOND: &str = "the painting has a second light";
 
 fn view(second: bool) -> View {
     if second { View::Second } else { View::First }
@@ -175,17 +176,17 @@ mod tests {
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
     }
 
-    /// What is computed piece by piece is what a painting taken up anew shows.
-    fn assert_shown(painting: &mut Painting, after: &str) {
+    /// Asserts that the picture equals that of the same painting opened anew.
+    fn assert_picture(painting: &mut Painting, after: &str) {
         let shown = painting.picture().unwrap();
         let whole = opened(painting.document().unwrap()).picture().unwrap();
         assert!(shown == whole, "after {after}");
     }
 
     #[test]
-    fn what_changed_is_all_that_had_to_be_computed() {
+    fn an_updated_picture_equals_a_new_one() {
         let mut painting = bare();
-        assert_shown(&mut painting, "nothing");
+        assert_picture(&mut painting, "nothing");
         let brush = painting.add_brush(HeadShape::Flat, 3.0).unwrap();
         let sample = |seconds: f64, x_mm: f64| Sample {
             seconds,
@@ -199,16 +200,16 @@ mod tests {
         for end_mm in [14.0, 25.0] {
             painting.load(brush, &[1.0; SLOTS], 0.1, 0.3).unwrap();
             painting.stroke(brush, &[sample(0.0, 3.0), sample(1.0, end_mm)]).unwrap();
-            assert_shown(&mut painting, "a stroke");
+            assert_picture(&mut painting, "a stroke");
             assert!(painting.dry(0.5).unwrap(), "there is paint to dry");
-            assert_shown(&mut painting, "drying");
+            assert_picture(&mut painting, "drying");
         }
         let turned = Lighting { azimuth_deg: 90.0, ..Lighting::default() };
         painting.relight(turned).unwrap();
-        assert_shown(&mut painting, "turning the lamp");
+        assert_picture(&mut painting, "turning the lamp");
         for undone in ["the lamp", "the drying", "the stroke", "the first drying"] {
             assert!(painting.undo().unwrap(), "{undone}");
-            assert_shown(&mut painting, &format!("undoing {undone}"));
+            assert_picture(&mut painting, &format!("undoing {undone}"));
         }
     }
 }

@@ -22,6 +22,10 @@ impl SampleDecimals {
     /// tenth of a micrometre.
     pub const RECORDING: Self = Self { seconds: 4, place: 4, pressure: 4, angle: 4 };
 
+    /// Decimals that a pen can hold still: 0.1 ms, 0.001 mm, 0.0001 of full pressure and
+    /// 0.01 degrees.
+    pub const PEN: Self = Self { seconds: 4, place: 3, pressure: 4, angle: 2 };
+
     /// The sample with each number rounded, halves away from 0. No number is -0, which a
     /// file cannot tell from 0.
     #[must_use]
@@ -51,7 +55,6 @@ mod tests {
 
     #[test]
     fn rounding_to_more_decimals_changes_nothing() {
-        let coarse = SampleDecimals { seconds: 4, place: 3, pressure: 4, angle: 2 };
         let random = &mut ChaCha8Rng::seed_from_u64(1);
         for _ in 0..10_000 {
             let mut number = || random.random_range(-400.0..400.0);
@@ -64,7 +67,7 @@ mod tests {
                 tilt_y_deg: number(),
                 twist_deg: number(),
             };
-            let rounded = coarse.round(&sample);
+            let rounded = SampleDecimals::PEN.round(&sample);
             assert_eq!(SampleDecimals::RECORDING.round(&rounded), rounded, "{sample:?}");
         }
     }

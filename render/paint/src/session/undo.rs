@@ -4,11 +4,11 @@ use super::failure::SessionError;
 use super::history::Entry;
 use super::state::PaintingSession;
 use crate::painting::Painting;
-use crate::strokes::{Action, SurfaceId};
+use crate::strokes::{Action, PerSurface, SurfaceId};
 
 impl PaintingSession {
-    /// Takes the last action back, on whichever surface it was; whether there was
-    /// one. What is open ends first, and is what is taken back.
+    /// Undoes the last action on either surface; returns whether there was one. An open stroke
+    /// or adjustment is finished first, and is then the last action.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -16,17 +16,17 @@ impl PaintingSession {
         self.finish_open()?;
         let Some(entry) = self.history.done.pop() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::undo);
-        self.followed(exchanged)?;
+        self.follow_failure(exchanged)?;
         if let Some(carried) = entry.carried {
             self.brushes.tools[carried.tool].at = carried.from;
         }
         self.history.undone.push(entry);
-        self.follow();
+        self.limit_history();
         self.note(Action::Undo {});
         Ok(true)
     }
 
-    /// Does again what was taken back last; whether there was something.
+    /// Repeats the action that was undone last; returns whether there was one.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -34,18 +34,18 @@ impl PaintingSession {
         self.finish_open()?;
         let Some(entry) = self.history.undone.pop() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::redo);
-        self.followed(exchanged)?;
+        self.follow_failure(exchanged)?;
         if let Some(carried) = entry.carried {
             self.brushes.tools[carried.tool].at = carried.to;
         }
         self.history.done.push(entry);
-        self.follow();
+        self.limit_history();
         self.note(Action::Redo {});
         Ok(true)
     }
 
-    /// Goes to where `done` of the actions of [`PaintingSession::history`] are done, or as
-    /// near as can be reached.
+    /// Undoes or repeats actions until `done` of those of [`PaintingSession::history`] are done,
+    /// or as near as can be reached.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -63,52 +63,51 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// What was done, the oldest first, and how many of it are done now; the rest
-    /// was taken back. What can no longer be reached is left out.
+    /// Labels of all actions, the oldest first, and the number of those that are done; the
+    /// others were undone. Actions that can no longer be reached are left out.
     #[must_use]
     pub fn history(&self) -> (Vec<&str>, usize) {
         (self.history.labels(), self.history.done.len())
     }
 
-    /// The memory that undo takes now, and may take, in bytes of both paintings.
+    /// Memory that undo takes now, and its limit, both in bytes for both surfaces.
     #[must_use]
     pub fn undo_bytes(&self) -> (u64, u64) {
         let (used, limit) = self.canvas.undo_bytes();
-        let beside = self.palette.as_ref().map_or((0, 0), Painting::undo_bytes);
-        (used + beside.0, limit + beside.1)
+        let palette = self.palette.as_ref().map_or((0, 0), Painting::undo_bytes);
+        (used + palette.0, limit + palette.1)
     }
 
-    /// Changes the memory that undo may take, in bytes: three quarters for the
-    /// canvas and a quarter for the palette, where there is one. What does not
-    /// fit is forgotten.
+    /// Sets the limit of the memory for undo, in bytes: three quarters for the canvas and a
+    /// quarter for the palette, if there is one. Actions that do not fit are dropped.
     pub fn set_undo_bytes(&mut self, bytes: u64) {
-        let beside = if self.palette.is_some() { bytes / 4 } else { 0 };
-        self.canvas.set_undo_bytes(bytes - beside);
+        let palette_bytes = if self.palette.is_some() { bytes / 4 } else { 0 };
+        self.canvas.set_undo_bytes(bytes - palette_bytes);
         if let Some(palette) = &mut self.palette {
-            palette.set_undo_bytes(beside);
+            palette.set_undo_bytes(palette_bytes);
         }
-        self.follow();
+        self.limit_history();
     }
 
-    /// After something was done, taken back or forgotten.
-    pub(super) fn follow(&mut self) {
-        let beside = self.palette.as_ref();
-        let undo = beside.map_or(0, Painting::undo_count);
-        let redo = beside.map_or(0, Painting::redo_count);
-        let (canvas_undo, canvas_redo) = (self.canvas.undo_count(), self.canvas.redo_count());
-        self.history.follow([canvas_undo, undo], [canvas_redo, redo]);
+    /// Drops the actions of the history that a painting has dropped.
+    pub(super) fn limit_history(&mut self) {
+        let count = |of: fn(&Painting) -> usize| {
+            PerSurface::from_fn(|surface| self.painting(surface).map_or(0, of))
+        };
+        let (undo, redo) = (count(Painting::undo_count), count(Painting::redo_count));
+        self.history.limit_to(undo, redo);
     }
 
-    /// Undo or redo of an action on the surfaces that it is of.
+    /// Undoes or repeats an action on the surfaces whose histories have it.
     fn exchange(
         &mut self,
         entry: &Entry,
         exchange: impl Fn(&mut Painting) -> Result<bool, crate::painting::PaintingError>,
     ) -> Result<(), SessionError> {
-        for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
-            if entry.on[surface as usize] {
+        for surface in SurfaceId::ALL {
+            if entry.on[surface] {
                 let done = exchange(self.surface_mut(surface)?)?;
-                assert!(done, "the painting knows `{}`, as its history was followed", entry.label);
+                assert!(done, "the history of the painting has `{}`", entry.label);
             }
         }
         Ok(())

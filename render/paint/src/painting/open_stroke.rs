@@ -1,0 +1,350 @@
+//! The open stroke: one state machine from the first sample to the last sub-step.
+
+use super::failure::PaintingError;
+use super::state::Painting;
+use crate::brush::{Head, Relief};
+use crate::contact::Contact;
+use crate::history::CommitOutcome;
+use crate::layer::Layer;
+use crate::pose::Sample;
+use crate::stroke::{Path, StrokeError};
+use graphics::tile::Rect;
+
+/// Sub-steps that go to the backend together: enough to hide the cost of a call, few
+/// enough that the contacts stay in the cache (chosen by timing).
+const BATCH: usize = 32;
+
+/// Work done for a finished stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StrokeReport {
+    /// Sub-steps in which the head was over the canvas.
+    pub substeps: u64,
+    /// Cells of the rectangles of all these sub-steps.
+    pub cells: u64,
+    /// Whether the memory for undo can hold the stroke.
+    pub undoable: bool,
+}
+
+/// A stroke between the first and the last contact with a [`Painting`].
+///
+/// The caller owns it, adds samples with [`OpenStroke::extend`] as they come, paints in
+/// portions with [`OpenStroke::advance`], so that pictures can be shown in between, and
+/// closes the action with [`OpenStroke::finish`]. Paint and undo are the same to the bit
+/// as those of [`Painting::stroke`] with all samples, for any portions.
+///
+/// Until it is finished, the painting refuses all other actions (they panic).
+#[derive(Debug)]
+#[must_use = "the painting refuses other actions until the stroke is finished"]
+pub struct OpenStroke {
+    /// Index of the brush, once the stroke is open in the painting.
+    brush: Option<usize>,
+    path: Path,
+    lifted: bool,
+    /// Whether the head was set down.
+    down: bool,
+    /// Contacts that are painted now.
+    batch: Batch,
+    /// Number of contacts of `batch` that are painted.
+    painted: usize,
+    /// Contacts that the head bends through meanwhile.
+    next: Batch,
+    reached: usize,
+    waiting: usize,
+    report: StrokeReport,
+}
+
+/// Sub-steps that the head has bent through.
+#[derive(Debug, Clone)]
+struct Batch {
+    contacts: Vec<Contact>,
+    /// Number of contacts in use.
+    count: usize,
+    /// Number of samples that the head had reached after them.
+    reached: usize,
+}
+
+impl Batch {
+    fn empty() -> Self {
+        let nothing = Contact { rect: Rect::default(), touches: Vec::new() };
+        Self { contacts: vec![nothing; BATCH], count: 0, reached: 0 }
+    }
+
+    /// Bends `head` through the next poses of `path`.
+    fn bend(&mut self, path: &mut Path, head: &mut Head, relief: &Relief, bounds: Rect) {
+        self.count = 0;
+        for contact in &mut self.contacts {
+            let Some(pose) = path.next() else { break };
+            head.advance(&pose, relief, bounds, contact);
+            self.count += 1;
+        }
+        self.reached = path.reached();
+    }
+}
+
+impl OpenStroke {
+    /// A stroke without samples, on cells of `cell_mm` mm, that is not yet open in a
+    /// painting.
+    pub(crate) fn new(cell_mm: f64) -> Result<Self, StrokeError> {
+        Ok(Self {
+            brush: None,
+            path: Path::new(cell_mm)?,
+            lifted: false,
+            down: false,
+            batch: Batch::empty(),
+            painted: 0,
+            next: Batch::empty(),
+            reached: 0,
+            waiting: 0,
+            report: StrokeReport::default(),
+        })
+    }
+
+    /// Opens the stroke as an action of `painting`. With `paint`, the brush comes from
+    /// another painting with this paint on it.
+    pub(crate) fn open(
+        &mut self,
+        painting: &mut Painting,
+        brush: usize,
+        paint: Option<&Layer>,
+    ) -> Result<(), PaintingError> {
+        painting.assert_idle("a stroke");
+        let id = painting.brushes[brush].id;
+        painting.history.begin(painting.undo_state());
+        let engine = &mut painting.engine;
+        let opened = painting.history.save_brush(engine, id).and_then(|()| match paint {
+            Some(paint) => engine.set_brush_paint(id, paint),
+            None => Ok(()),
+        });
+        match opened {
+            Ok(()) => (self.brush, painting.stroke_brush) = (Some(brush), Some(brush)),
+            Err(_) => painting.history.abandon(),
+        }
+        Ok(opened?)
+    }
+
+    /// Whether the stroke is open in a painting.
+    pub(crate) fn is_open(&self) -> bool {
+        self.brush.is_some()
+    }
+
+    /// Adds samples; [`OpenStroke::advance`] paints them. If one is refused, those before
+    /// it count, and the stroke can go on with others.
+    ///
+    /// # Errors
+    /// [`StrokeError`] for an impossible sample (its index counts from the first of the
+    /// stroke), and after [`OpenStroke::lift`].
+    pub fn extend(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
+        if self.lifted {
+            return Err(StrokeError::Lifted);
+        }
+        self.path.push(samples)
+    }
+
+    /// Lifts the brush: no more samples come, so that [`OpenStroke::advance`] can paint up
+    /// to the last one.
+    pub fn lift(&mut self) {
+        self.lifted = true;
+        self.path.finish();
+    }
+
+    /// Whether the brush was lifted.
+    #[must_use]
+    pub fn is_lifted(&self) -> bool {
+        self.lifted
+    }
+
+    /// Number of samples so far.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.path.samples()
+    }
+
+    /// Number of samples that the paint has reached.
+    #[must_use]
+    pub fn reached(&self) -> usize {
+        self.reached
+    }
+
+    /// Number of sub-steps that were known and not painted after the last
+    /// [`OpenStroke::advance`].
+    #[must_use]
+    pub fn waiting(&self) -> usize {
+        self.waiting
+    }
+
+    /// Paints at most `most_substeps` sub-steps, and returns how many more are known: 0 if
+    /// nothing can be painted before samples come or the brush is lifted. With
+    /// `most_substeps` 0 it only counts.
+    ///
+    /// The paint lags one sample behind, as the path to a sample bends with the one after
+    /// it; a dab is painted when the brush is lifted.
+    ///
+    /// While the backend moves the paint of 32 sub-steps, the head bends through the next
+    /// 32 on another thread; multiples of 32 cost least.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If the stroke was begun on another painting.
+    pub fn advance(
+        &mut self,
+        painting: &mut Painting,
+        most_substeps: usize,
+    ) -> Result<usize, PaintingError> {
+        let Some(brush) = self.brush else { return Ok(0) };
+        painting.assert_stroke_of(brush);
+        let bounds = painting.engine.bounds();
+        let tool = &mut painting.brushes[brush];
+        let (head, relief) = (&mut tool.head, &painting.relief);
+        let (engine, history) = (&mut painting.engine, &mut painting.history);
+        self.set_down(head, relief);
+        let mut left = if self.down { most_substeps } else { 0 };
+        while left > 0 {
+            let rest = &self.batch.contacts[self.painted..self.batch.count];
+            let now = &rest[..left.min(rest.len())];
+            let all = now.len() == rest.len();
+            let touching = now.iter().filter(|contact| !contact.rect.is_empty());
+            let (path, next) = (&mut self.path, &mut self.next);
+            let (result, ()) = rayon::join(
+                || {
+                    for contact in touching.clone() {
+                        history.save_tiles(engine, contact.rect.grown(2, bounds))?;
+                    }
+                    engine.apply_contacts(tool.id, &painting.motion, now)
+                },
+                || {
+                    if all {
+                        next.bend(path, head, relief, bounds);
+                    }
+                },
+            );
+            for contact in touching {
+                painting.views.mark_wet(contact.rect.grown(2, bounds));
+                self.report.substeps += 1;
+                self.report.cells += (contact.rect.width * contact.rect.height) as u64;
+            }
+            let idle = rest.is_empty() && self.next.count == 0;
+            left -= now.len();
+            self.painted += now.len();
+            if all {
+                self.reached = self.batch.reached;
+                std::mem::swap(&mut self.batch, &mut self.next);
+                self.painted = 0;
+            }
+            result?;
+            if idle {
+                break;
+            }
+        }
+        if self.batch.count == self.painted {
+            self.reached = self.batch.reached;
+        }
+        let known = if self.down { self.path.waiting() } else { 0 };
+        self.waiting = self.batch.count - self.painted + known;
+        Ok(self.waiting)
+    }
+
+    /// Paints the rest of the stroke and closes it, as one action. A stroke without
+    /// samples is no action; its brush keeps its paint.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost; the part that was painted is closed as an
+    /// action.
+    ///
+    /// # Panics
+    /// If the stroke was begun on another painting.
+    pub fn finish(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
+        self.lift();
+        let painted = self.advance(painting, usize::MAX);
+        if self.is_open() {
+            painting.stroke_brush = None;
+            if self.samples() == 0 {
+                painting.history.abandon();
+                self.report.undoable = true;
+            } else {
+                self.report.undoable = painting.history.commit() == CommitOutcome::Undoable;
+            }
+        }
+        painted?;
+        Ok(self.report)
+    }
+
+    /// Sets the head down at the first pose, once its direction is known.
+    fn set_down(&mut self, head: &mut Head, relief: &Relief) {
+        if self.down {
+            return;
+        }
+        if let Some((first, next)) = self.path.set_out() {
+            head.set_down(&first, (next.x - first.x, next.y - first.y), relief);
+            self.down = true;
+        }
+    }
+}
+
+impl Painting {
+    /// Paints a whole stroke. One undo takes it back, including the paint that moved
+    /// between brush and canvas.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for impossible samples, before anything is painted, or if the
+    /// device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn stroke(
+        &mut self,
+        brush: usize,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, PaintingError> {
+        if samples.is_empty() {
+            return Err(StrokeError::Empty.into());
+        }
+        let mut stroke = OpenStroke::new(self.cell_mm)?;
+        stroke.extend(samples)?;
+        stroke.open(self, brush, None)?;
+        stroke.finish(self)
+    }
+
+    /// Begins a stroke whose samples come later.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn begin_stroke(&mut self, brush: usize) -> Result<OpenStroke, PaintingError> {
+        let mut stroke = OpenStroke::new(self.cell_mm)?;
+        stroke.open(self, brush, None)?;
+        Ok(stroke)
+    }
+
+    /// Begins a stroke with a brush that comes from another painting with `paint` on it.
+    /// An undo restores the paint that the brush held here before.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, a stroke is open, or `paint` does not have the cells of
+    /// the head.
+    pub fn begin_stroke_with(
+        &mut self,
+        brush: usize,
+        paint: &Layer,
+    ) -> Result<OpenStroke, PaintingError> {
+        let mut stroke = OpenStroke::new(self.cell_mm)?;
+        stroke.open(self, brush, Some(paint))?;
+        Ok(stroke)
+    }
+
+    /// Whether a stroke is open.
+    #[must_use]
+    pub fn stroke_open(&self) -> bool {
+        self.stroke_brush.is_some()
+    }
+
+    fn assert_stroke_of(&self, brush: usize) {
+        assert_eq!(self.stroke_brush, Some(brush), "the stroke was begun on another painting");
+    }
+}

@@ -1,0 +1,162 @@
+//! Undo and redo.
+
+use std::sync::Arc;
+
+use super::failure::PaintingError;
+use super::state::{Adjusting, Painting, UndoState};
+use crate::history::Restored;
+use crate::layer::Layer;
+use graphics::tile::TileSet;
+
+impl Painting {
+    /// Undoes the last action; returns whether there was one.
+    ///
+    /// Loading, wiping and washing are not actions of their own: the undo of a stroke
+    /// restores the paint that its brush held before. If the undo changes the palette,
+    /// brushes that were added since are washed, as their paint is of the other palette.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn undo(&mut self) -> Result<bool, PaintingError> {
+        self.assert_idle("an undo");
+        let now = self.undo_state();
+        match self.history.undo(&mut self.engine, now)? {
+            Some(restored) => self.restore(restored).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Repeats the action that was undone last; returns whether there was one.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn redo(&mut self) -> Result<bool, PaintingError> {
+        self.assert_idle("a redo");
+        let now = self.undo_state();
+        match self.history.redo(&mut self.engine, now)? {
+            Some(restored) => self.restore(restored).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Begins an adjustment, for example of a slider that is dragged. All actions until
+    /// [`Painting::end_adjusting`] count as one action, each is shown at once; without any,
+    /// there is no action.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn begin_adjusting(&mut self) {
+        self.assert_idle("an adjustment");
+        self.adjusting = Some(Adjusting::Unchanged);
+    }
+
+    /// Ends the adjustment.
+    ///
+    /// # Panics
+    /// If none is open.
+    pub fn end_adjusting(&mut self) {
+        if let Adjusting::Changed = self.adjusting.take().expect("an adjustment is open") {
+            self.history.commit();
+        }
+    }
+
+    /// Number of actions that can be undone.
+    #[must_use]
+    pub fn undo_count(&self) -> usize {
+        self.history.undo_count()
+    }
+
+    /// Number of actions that can be repeated.
+    #[must_use]
+    pub fn redo_count(&self) -> usize {
+        self.history.redo_count()
+    }
+
+    /// Memory that undo takes now, and its limit, both in bytes.
+    #[must_use]
+    pub fn undo_bytes(&self) -> (u64, u64) {
+        (self.history.bytes(), self.history.limit_bytes())
+    }
+
+    /// Sets the limit of the memory for undo, in bytes. The actions furthest from the present
+    /// are dropped until the rest fits.
+    pub fn set_undo_bytes(&mut self, limit: u64) {
+        self.history.set_limit_bytes(limit);
+    }
+
+    /// Applies `change` as one action of the history, or as part of the open adjustment. A
+    /// change that fails half way can be undone as well.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub(super) fn apply_action<T>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T, PaintingError>,
+    ) -> Result<T, PaintingError> {
+        assert!(self.stroke_brush.is_none(), "a stroke is open; it ends before another action");
+        if let Some(Adjusting::Changed) = self.adjusting {
+            return change(self);
+        }
+        self.history.begin(self.undo_state());
+        let result = change(self);
+        match &mut self.adjusting {
+            Some(adjusting) => *adjusting = Adjusting::Changed,
+            None => _ = self.history.commit(),
+        }
+        result
+    }
+
+    /// Panics if a stroke or an adjustment is open; `what` names the next action.
+    pub(super) fn assert_idle(&self, what: &str) {
+        assert!(self.stroke_brush.is_none(), "a stroke is open; it ends before {what}");
+        assert!(self.adjusting.is_none(), "an adjustment is open; it ends before {what}");
+    }
+
+    /// State for the next entry of the history.
+    pub(super) fn undo_state(&self) -> UndoState {
+        UndoState {
+            state: self.state.clone(),
+            light: Arc::clone(&self.light),
+            brushes: self.brushes.len(),
+        }
+    }
+
+    fn restore(&mut self, restored: Restored<UndoState>) -> Result<(), PaintingError> {
+        let UndoState { state, light, brushes } = restored.caller;
+        let palette_changed = state.slots != self.state.slots;
+        let paint_changed = palette_changed || state.dry != self.state.dry;
+        let light_changed = !Arc::ptr_eq(&light, &self.light);
+        let lighting_changed = state.lighting != self.state.lighting;
+        let medium_changed = state.medium != self.state.medium;
+        (self.state, self.light) = (state, light);
+        if palette_changed {
+            for brush in &self.brushes[brushes.min(self.brushes.len())..] {
+                let clean = Layer::empty(brush.cells.0, brush.cells.1);
+                self.engine.set_brush_paint(brush.id, &clean)?;
+            }
+        }
+        if restored.dry_changed {
+            self.floor_changed()?;
+        }
+        let bounds = self.engine.bounds();
+        if paint_changed {
+            self.views.mark_all();
+        }
+        if medium_changed {
+            self.views.mark_all_wet();
+        }
+        if light_changed {
+            self.views.first.mark_all(bounds);
+        } else if lighting_changed {
+            self.views.first.wet = TileSet::all(bounds);
+        }
+        restored.tiles.iter().for_each(|tile| self.views.mark_wet_tile(tile));
+        Ok(())
+    }
+}

@@ -1,0 +1,86 @@
+//! Tests of the worker as a front end uses it.
+
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use pigment::library::PigmentLibrary;
+use render::gpu::BackendChoice;
+use render::paint::brush::HeadShape;
+use render::paint::strokes::{Action, BrushSpec, MAX_NAMES, StrokeScript};
+
+use super::{Command, Event, Worker, WorkerOptions, blank_canvas};
+
+/// Collects events until one of them gives a value.
+fn wait<T>(
+    worker: &Worker,
+    woken: &Receiver<()>,
+    events: &mut Vec<Event>,
+    find: impl Fn(&Event) -> Option<T>,
+) -> T {
+    loop {
+        for event in worker.events() {
+            let found = find(&event);
+            events.push(event);
+            if let Some(found) = found {
+                return found;
+            }
+        }
+        woken.recv_timeout(Duration::from_secs(60)).expect("the worker sends an event");
+    }
+}
+
+/// Requests the recording.
+fn recording(worker: &Worker, woken: &Receiver<()>, events: &mut Vec<Event>) -> StrokeScript {
+    worker.ask(Command::Recording(1));
+    wait(worker, woken, events, |event| match event {
+        Event::Recording { script, .. } => Some((**script).clone()),
+        _ => None,
+    })
+}
+
+/// Texts of the messages about the end of the recording.
+fn endings(events: &[Event]) -> Vec<&str> {
+    let text = |event: &'_ Event| match event {
+        Event::Message { text, hint: Some(_), failed: false } => Some(text.as_str()),
+        _ => None,
+    };
+    let texts = events.iter().filter_map(text);
+    texts.filter(|text| text.starts_with("the recording ended early")).collect()
+}
+
+#[test]
+fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
+    let (wake, woken) = channel();
+    let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
+    let worker = Worker::start(options, move || {
+        let _ = wake.send(());
+    });
+    worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 4.0, 3.0, 0.5)));
+    // Each new head needs a name in the recording; used so that it is recorded.
+    let wipe = Action::Wipe { brush: "round".to_owned(), keep: 0.5 };
+    let use_head = |head: usize| {
+        let spec = BrushSpec { shape: HeadShape::Round, size_mm: 1.0 + 0.01 * head as f64 };
+        worker.ask(Command::SetBrush { name: "round".to_owned(), spec });
+        worker.ask(Command::Apply(wipe.clone()));
+    };
+    let mut events = Vec::new();
+    (0..MAX_NAMES).for_each(use_head);
+    let complete = recording(&worker, &woken, &mut events);
+    assert_eq!(complete.brushes.len(), MAX_NAMES);
+    assert!(endings(&events).is_empty(), "the recording is complete");
+
+    use_head(MAX_NAMES);
+    use_head(MAX_NAMES + 1);
+    wait(&worker, &woken, &mut events, |event| {
+        (!endings(std::slice::from_ref(event)).is_empty()).then_some(())
+    });
+    let cut = recording(&worker, &woken, &mut events);
+    assert!(cut.actions.len() <= complete.actions.len() + 1, "nothing was added since");
+    // The request reports it again, after the answer.
+    wait(&worker, &woken, &mut events, |event| {
+        (!endings(std::slice::from_ref(event)).is_empty()).then_some(())
+    });
+    let texts = endings(&events);
+    assert_eq!(texts.len(), 2, "{texts:?}");
+    assert!(texts[0].ends_with(&format!("a recording holds {MAX_NAMES} brushes")), "{texts:?}");
+}
