@@ -39,6 +39,7 @@ pub use graphics::{
     orientation, picture, segmentation, surface, tile, tones,
 };
 pub use paint::{self, amount, composite, layer, light, node_pigments, optics, separation, shade};
+pub use paint::{BrushSpec, Canvas, HeadShape, OpenStroke, PaintingSession, Sample, StrokeScript};
 
 /// Files of pictures, animations and paintings for other programs.
 pub mod export {

@@ -1,10 +1,38 @@
-//! Painting with calibrated pigments: thick wet paint moved by a brush, drying
-//! layers, and their colour under any light.
+//! Painting with calibrated pigments: thick wet paint moved by a brush, drying layers, and
+//! their colour under any light.
 //!
-//! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for
-//! Paint" (NPAR 2004). Amounts of paint are integers (see [`amount`]), so that
-//! nothing is ever lost and CPU and GPU agree bit for bit; light is computed in
-//! f32 at eight wavelengths chosen for the illuminant.
+//! ```text
+//! pen samples -> stroke (sub-steps) -> brush (contacts) -> engine (CPU or GPU): wet paint
+//!                                                             |  dry, undo, layers
+//!                painting file (EXR) <- Document <------------+
+//!                picture (linear sRGB) <- shade <- composite <+  eight wavelengths
+//! ```
+//!
+//! ```
+//! use paint::{BrushSpec, Canvas, HeadShape, PaintingSession, Sample};
+//! use pigment::library::PigmentLibrary;
+//!
+//! let oils = PigmentLibrary::van_gogh_oils();
+//! let canvas = Canvas { width_mm: 20.0, height_mm: 10.0, cell_mm: 0.5, ..Canvas::default() };
+//! let mut painting = PaintingSession::on_canvas(&oils, &canvas)?;
+//! painting.set_brush("flat", &BrushSpec { shape: HeadShape::Flat, size_mm: 4.0 })?;
+//! painting.load("flat", [("Zinc White", 3.0), ("Prussian Blue", 1.0)], 0.3)?;
+//! let samples = [Sample::upright(0.0, 3.0, 5.0, 0.6), Sample::upright(1.0, 17.0, 5.0, 0.6)];
+//! assert!(painting.stroke("flat", &samples)?.substeps > 20);
+//! let path = std::env::temp_dir().join("impasto-paint-door.exr");
+//! painting.save(&path)?;
+//! # std::fs::remove_file(path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`PaintingSession`] is the front door: pigments and brushes by name, undo, a recording.
+//! [`OpenStroke`] paints a stroke whose samples arrive one by one; [`StrokeScript`] is a
+//! file of strokes, and [`document::Document`] a painting at rest.
+//!
+//! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for Paint" (NPAR
+//! 2004). Amounts of paint are integers (see [`amount`]), so that paint is conserved exactly
+//! and CPU and GPU agree to the bit; light is computed in f32 at eight wavelengths chosen for
+//! the illuminant.
 //!
 //! Out of scope: meshes, painting techniques (crate `render`), fitting pigments
 //! (crate `calibrate`).
@@ -55,10 +83,16 @@ pub mod painting;
 
 pub mod strokes;
 
-pub mod session;
-
 pub mod file;
+
+pub mod session;
 
 pub mod export;
 
+pub use brush::HeadShape;
+pub use canvas::Canvas;
 pub use engine::{BrushId, PaintEngine, UndoSlot, View};
+pub use painting::OpenStroke;
+pub use pose::Sample;
+pub use session::PaintingSession;
+pub use strokes::{BrushSpec, StrokeScript};

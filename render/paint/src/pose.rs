@@ -21,6 +21,15 @@ pub struct Sample {
     pub twist_deg: f64,
 }
 
+impl Sample {
+    /// A sample of an upright brush.
+    #[must_use]
+    pub const fn upright(seconds: f64, x_mm: f64, y_mm: f64, pressure: f64) -> Self {
+        let (tilt_x_deg, tilt_y_deg, twist_deg) = (0.0, 0.0, 0.0);
+        Self { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg }
+    }
+}
+
 /// Position and attitude of a brush at one sub-step, with positions in cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {

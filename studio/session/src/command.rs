@@ -21,7 +21,7 @@ pub struct PenSample {
 /// Pace of a replay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
-    /// As fast as the machine allows.
+    /// Without pauses, as fast as the machine allows.
     Fast,
     /// At the pace of the painter, by the seconds of the samples.
     AsPainted,

@@ -104,7 +104,7 @@ pub enum Event {
     Replayed,
     /// A message for the painter, for example that the recording ended early.
     Message {
-        /// One sentence.
+        /// Text of the message, one sentence.
         text: String,
         /// Advice on what to do, if there is any.
         hint: Option<Hint>,

@@ -11,7 +11,7 @@ use super::command::Command;
 /// Message to the worker thread.
 #[derive(Debug)]
 pub(super) enum Input {
-    /// A command.
+    /// A command to execute.
     Command(Command),
     /// The front end received this many parts of pictures.
     Confirmed(usize),
@@ -130,7 +130,7 @@ pub(super) enum Wait {
     None,
     /// Until this time at most.
     Until(Instant),
-    /// Without limit.
+    /// Without a time limit.
     Forever,
 }
 

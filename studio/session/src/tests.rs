@@ -40,11 +40,10 @@ fn recording(worker: &Worker, woken: &Receiver<()>, events: &mut Vec<Event>) -> 
 
 /// Texts of the messages about the end of the recording.
 fn endings(events: &[Event]) -> Vec<&str> {
-    let text = |event: &'_ Event| match event {
+    let texts = events.iter().filter_map(|event| match event {
         Event::Message { text, hint: Some(_), failed: false } => Some(text.as_str()),
         _ => None,
-    };
-    let texts = events.iter().filter_map(text);
+    });
     texts.filter(|text| text.starts_with("the recording ended early")).collect()
 }
 

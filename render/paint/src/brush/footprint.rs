@@ -1,15 +1,15 @@
-//! The facets near the canvas, cell by cell.
+//! Rasterisation of the facets near the canvas.
 
 use super::net::Point;
 use super::surface::Surface;
 use crate::contact::{Contact, Touch};
 use graphics::tile::Rect;
 
-/// Fractional bits of what runs along a row.
+/// Number of fractional bits of values that are interpolated along a row.
 const ONE: f32 = 65536.0;
 
-/// What is interpolated over a facet, in the order of [`Point`]'s last six, each
-/// in units of which 65536 are told as 1 but for the height.
+/// Values interpolated over a facet, in the order of the last six of [`Point`]. All but the
+/// height are in units of 1/65536.
 const HEIGHT: usize = 0;
 const X: usize = 1;
 const Y: usize = 2;
@@ -17,23 +17,23 @@ const SPEED: usize = 3;
 const AROUND: usize = 4;
 const ALONG: usize = 5;
 
-/// Draws a surface into a contact. Its vertices are x and y in cells from an
-/// origin, then height in quanta, velocity in x and y in 1/256 cell a sub-step
-/// and speed weight, these three times 65536.
+/// Rasterises the surface of a head into a contact. Vertices are x and y in cells from an
+/// origin, then height in quanta, velocity in x and y in 1/256 cell per sub-step and speed
+/// weight, these three times 65536.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
-    /// Whether there is hair, by facet; empty if there is everywhere.
+    /// Whether each facet has hair; empty if all have.
     hair: Vec<bool>,
-    /// How far the bristles of each column of the head's cells draw back, in quanta.
+    /// Distance by which the bristles of each column of paint cells draw back, in quanta.
     bristles: Vec<i32>,
     facets: Vec<Facet>,
-    /// How many cells lie under each cell of the head.
+    /// Number of canvas cells under each paint cell.
     sharers: Vec<u16>,
-    /// The cells of the head in a row.
+    /// Number of paint cells in a row.
     width: u32,
 }
 
-/// A facet that is drawn: its corners and the first of its cells.
+/// A facet to draw: its corners and the first of its paint cells.
 #[derive(Debug, Clone, Copy)]
 struct Facet {
     corners: [u32; 4],
@@ -41,7 +41,8 @@ struct Facet {
 }
 
 impl Footprint {
-    /// For a head of `bristles.len()` x `height` cells with hair on these facets.
+    /// A footprint of a head of `bristles.len()` x `height` paint cells with hair on these
+    /// facets.
     pub(super) fn new(bristles: Vec<i32>, height: usize, hair: Vec<bool>) -> Self {
         let width = bristles.len();
         Self {
@@ -53,8 +54,8 @@ impl Footprint {
         }
     }
 
-    /// Fills `out` with what of `surface` is below `ceiling` (in quanta) and
-    /// over the cells of `bounds`, seen from the cell `origin`.
+    /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
+    /// of `bounds`, in coordinates from the cell `origin`.
     pub(super) fn draw(
         &mut self,
         surface: &Surface,
@@ -103,8 +104,8 @@ impl Footprint {
         self.count(&mut out.touches);
     }
 
-    /// Collects the facets that look down from below the ceiling; how far they
-    /// reach: lowest x and y, highest x and y.
+    /// Collects the facets that face down below the ceiling. Returns their extent: lowest x
+    /// and y, highest x and y.
     fn choose(&mut self, surface: &Surface, ceiling: f32) -> [f32; 4] {
         self.facets.clear();
         let (around, along) = surface.facets();
@@ -149,7 +150,7 @@ impl Footprint {
         reach
     }
 
-    /// Tells every touch how many share its cell of the head.
+    /// Sets in each touch the number of touches that share its paint cell.
     fn count(&mut self, touches: &mut [Touch]) {
         let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
         for touch in touches.iter().filter(touching) {
@@ -167,7 +168,7 @@ impl Footprint {
     }
 }
 
-/// The cells of `bounds` whose middle may lie within `reach`.
+/// Cells of `bounds` whose centre may lie within `reach`.
 fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
     if reach[0] > reach[2] {
         return Rect::default();
@@ -184,30 +185,30 @@ fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
     if rect.is_empty() { Rect::default() } else { rect }
 }
 
-/// A corner of a facet, in cells from the contact's first.
+/// A corner of a facet, in cells from the first cell of the contact.
 struct Corner {
     x: f32,
     y: f32,
     values: Point,
 }
 
-/// What a facet is drawn on.
+/// Target of the rasterisation of a facet.
 struct Canvas<'a> {
     touches: &'a mut [Touch],
     width: usize,
     height: usize,
-    /// The facet's first cell on the head, and the cells in a row of the head.
+    /// First paint cell of the facet, and number of paint cells in a row.
     cell: u32,
     row: u32,
-    /// The facet's last cell, around and along.
+    /// Last paint cell of the facet, around and along.
     most: (i32, i32),
-    /// From the facet's first column on.
+    /// Distances of the bristles from the first column of the facet on.
     bristles: &'a [i32],
 }
 
 impl Canvas<'_> {
-    /// Draws a triangle whose corners turn from x to y; cells whose middle lies on
-    /// an edge belong to the triangle right of it or below it.
+    /// Rasterises a triangle whose corners turn from x to y. A cell centre on an edge belongs
+    /// to the triangle right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
         let (bx, by) = (b.x - a.x, b.y - a.y);
@@ -266,7 +267,7 @@ impl Canvas<'_> {
     }
 }
 
-/// How the values change by one cell in x, and in y.
+/// Change of the values by one cell in x, and in y.
 #[inline(always)]
 fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Point, Point) {
     let (mut right, mut down) = ([0.0; 8], [0.0; 8]);
@@ -278,12 +279,12 @@ fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Po
     (right, down)
 }
 
-/// The line through two corners, the same bits whichever comes first.
+/// Line through two corners, with the same bits for either order.
 struct Edge {
     x: f32,
     y: f32,
     slope: f32,
-    /// Below 0 on the left of the triangle, above 0 on its right.
+    /// Negative left of the triangle, positive right of it.
     side: f32,
 }
 
@@ -298,7 +299,7 @@ impl Edge {
     }
 }
 
-/// The first cell, up to `end`, whose middle is at `place` or beyond.
+/// First cell, up to `end`, whose centre is at `place` or beyond.
 #[inline(always)]
 fn first_middle(place: f32, end: usize) -> usize {
     let cells = min(max(place - 0.5, 0.0), end as f32);
@@ -316,8 +317,8 @@ fn whole(values: &Point) -> [i32; 8] {
     wholes
 }
 
-/// The nearest whole number, of which 32 bits are kept. What `as` does about
-/// numbers out of range takes longer than the rest of a row.
+/// Nearest whole number, of which 32 bits are kept. The range checks of `as` take longer than
+/// the rest of a row.
 #[inline(always)]
 fn nearest(value: f32) -> i32 {
     /// In f64 one unit of the last place is 1 here.
@@ -325,7 +326,7 @@ fn nearest(value: f32) -> i32 {
     (f64::from(value) + UNIT).to_bits() as i32
 }
 
-/// `f32::max` without its care for what is not a number, which costs time.
+/// `f32::max` without NaN handling, which costs time.
 #[inline(always)]
 fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }

@@ -3,45 +3,45 @@
 use super::vector::Vector;
 use crate::pose::Pose;
 
-/// No handle leans farther from upright than this: its ferrule would be on the
+/// Largest angle of a handle from upright, in degrees. Beyond it the ferrule would be on the
 /// canvas.
 const FARTHEST_LEAN_DEG: f64 = 80.0;
 
-/// The same of a knife. Besides, it leans only so that its edge stays level: a
-/// lean along the edge would put it on a corner.
+/// Largest angle of the handle of a knife from upright, in degrees. A knife leans only so that
+/// its edge stays level, as a lean along the edge would put it on a corner.
 const FARTHEST_LEAN_OF_BLADE_DEG: f64 = 45.0;
 
-/// Angle between a knife's blade and the canvas, its handle upright, at no
-/// pressure and at full pressure.
+/// Angle in degrees between the blade of a knife and the canvas with an upright handle, at
+/// pressure 0 and at full pressure (chosen by eye).
 const BLADE_DEG: (f64, f64) = (25.0, 8.0);
 
-/// Places are kept in steps of this many to a cell, so that a stroke moved by
-/// whole cells is the same stroke.
+/// Number of steps per cell that positions are rounded to, so that a stroke shifted by whole
+/// cells has the same contacts.
 const STEPS_PER_CELL: f64 = 65536.0;
 
-/// Beyond this many cells from the origin all places are one.
+/// Largest distance from the origin in cells; positions beyond it are clipped.
 const FARTHEST: f64 = 1e9;
 
-/// A pose as directions. Lengths are in cells from `origin`.
+/// Axes of a head at a pose. Lengths are in cells from `origin`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grip {
-    /// A cell near the tip; the origin of all coordinates of a head.
+    /// A cell near the tip: the origin of all coordinates of the head.
     pub(super) origin: (i64, i64),
-    /// Where the tip would touch, within the cell `origin`.
+    /// Position where the tip would touch, within the cell `origin`.
     pub(super) tip: (f32, f32),
-    /// From the tip to the ferrule.
+    /// Unit vector from the tip to the ferrule.
     pub(super) axis: Vector,
-    /// Across the head, along its broad side.
+    /// Unit vector across the head along its broad side.
     pub(super) broad: Vector,
-    /// Across the head, through its thin side.
+    /// Unit vector across the head along its thin side.
     pub(super) thin: Vector,
-    /// 0..=1.
+    /// Pressure from 0 to 1.
     pub(super) pressure: f32,
 }
 
 impl Grip {
-    /// That of `pose`; none if it is no pose (not a number) or off the canvas
-    /// (no pressure). `blade`: of a knife.
+    /// Axes of `pose`; `None` if a number is not finite or the pressure is 0. `blade` is
+    /// whether the head is a knife.
     pub(super) fn new(pose: &Pose, blade: bool) -> Option<Self> {
         if !pose.is_finite() || pose.pressure <= 0.0 {
             return None;
@@ -73,8 +73,8 @@ impl Grip {
         })
     }
 
-    /// Where hair is bent to if nothing else decides: away from a leaning
-    /// handle, over the thin side of one that stands upright.
+    /// Default direction in which hair bends: away from a leaning handle, over the thin side
+    /// of an upright one.
     pub(super) fn falls_to(&self) -> Vector {
         let away = Vector::new(-self.axis.x, -self.axis.y, 0.0);
         let over = Vector::new(self.thin.x, self.thin.y, 0.0);
@@ -88,8 +88,8 @@ fn whole_and_part(cells: f64) -> (i64, f32) {
     (whole as i64, (steps / STEPS_PER_CELL - whole) as f32)
 }
 
-/// The direction of a handle that leans by these angles: as seen from the front
-/// by the first, from the side by the second; no farther than `farthest_deg`.
+/// Direction of a handle with these tilts, the first seen from the front, the second from the
+/// side, limited to `farthest_deg` degrees from upright.
 fn handle(tilt_x_deg: f64, tilt_y_deg: f64, farthest_deg: f64) -> Vector {
     let (sin_x, cos_x) = tilt_x_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
     let (sin_y, cos_y) = tilt_y_deg.clamp(-90.0, 90.0).to_radians().sin_cos();

@@ -1,4 +1,4 @@
-//! A brush head: what bends, what is around it, and what it touches.
+//! A brush head: its bending, its surface, and its contacts with the canvas.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -18,26 +18,26 @@ use crate::pose::Pose;
 use graphics::tile::Rect;
 use spectra::hint::{Explain, Hint};
 
-/// The sizes of heads there are, in mm.
+/// Range of the widths of heads, in mm.
 const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
 
-/// The widest head, in cells.
+/// Maximum width of a head, in cells.
 const WIDEST: f64 = 2048.0;
 
-/// Heads narrower than this many cells count as so wide: finer ones could pass
-/// between the middles of cells.
+/// Minimum effective width of a head, in cells. A finer head could pass between cell centres
+/// and touch none.
 const NARROWEST: f32 = 1.5;
 
-/// How high over the highest relief nearby the head is still drawn, in mm:
-/// thicker wet paint is touched no higher.
+/// Height above the highest relief nearby up to which the surface of the head is drawn, in mm.
+/// Thicker wet paint is not touched higher.
 const HIGHEST_PAINT_MM: f64 = 2.0;
 
-/// A handle that moves farther than this many cells in a sub-step was lifted and
-/// put down again.
+/// Distance in cells that the handle moves at most in a sub-step; after a longer one it is set
+/// down anew.
 const FARTHEST_DRAG: i64 = 64;
 
-/// The head of one brush. Its paint is a grid of cells, which lives in the
-/// engine; this knows where each cell is.
+/// The head of one brush. Its paint is a grid of cells in the engine; the head computes the
+/// position of each cell.
 #[derive(Debug, Clone)]
 pub struct Head {
     shape: HeadShape,
@@ -47,14 +47,14 @@ pub struct Head {
     net: Net,
     surface: Surface,
     footprint: Footprint,
-    /// The origin of coordinates, while the head touches.
+    /// Origin of coordinates while the head touches the canvas.
     origin: Option<(i64, i64)>,
-    /// The same while it hovers.
+    /// Origin of coordinates while the head hovers.
     hovering: Option<(i64, i64)>,
 }
 
 impl Head {
-    /// A head `size_mm` wide, over cells that are `cell_mm` wide.
+    /// A head of `size_mm` mm width, for cells of `cell_mm` mm.
     ///
     /// # Errors
     /// [`BrushError`] if the size is not 0.2 to 100 mm, or more than 2048 cells.
@@ -92,39 +92,38 @@ impl Head {
         })
     }
 
-    /// Its shape.
+    /// Shape of the head.
     #[must_use]
     pub fn shape(&self) -> HeadShape {
         self.shape
     }
 
-    /// Its width in mm.
+    /// Width of the head in mm.
     #[must_use]
     pub fn size_mm(&self) -> f64 {
         self.size_mm
     }
 
-    /// Width in mm of the cells it was made for.
+    /// Width in mm of the cells that it was made for.
     #[must_use]
     pub fn cell_mm(&self) -> f64 {
         self.cell_mm
     }
 
-    /// The cells of its paint: around it, which is along x of their grid, and
-    /// from the ferrule to the tip. About one to a cell of the canvas, but on no
-    /// head more than about a million.
+    /// Number of paint cells around the head (x of their grid) and from the ferrule to the
+    /// tip. About one for each cell of the canvas, but at most about a million.
     #[must_use]
     pub fn paint_grid(&self) -> (usize, usize) {
         cells(&self.surface)
     }
 
-    /// Takes the head off the canvas; it is straight again.
+    /// Lifts the head off the canvas, which straightens it.
     pub fn lift(&mut self) {
         (self.origin, self.hovering) = (None, None);
     }
 
-    /// Holds the head just above the canvas at `pose`, straight, whatever its
-    /// pressure: it touches nothing. Nothing of it is left in the stroke after it.
+    /// Holds the straight head just above the canvas at `pose`, for any pressure, so that it
+    /// touches nothing. Does not affect the next stroke.
     pub fn hover(&mut self, pose: &Pose, relief: &Relief) {
         self.lift();
         let held = Pose { pressure: 1.0, ..*pose };
@@ -135,17 +134,16 @@ impl Head {
         self.hovering = Some(grip.origin);
     }
 
-    /// The surface of the head as it is bent now; none while it is lifted. Made
-    /// in some 30 us.
+    /// Surface of the head as it is bent now; `None` while it is lifted. Takes about 30 us.
     #[must_use]
     pub fn mesh(&self) -> Option<HeadMesh> {
         let origin = self.origin.or(self.hovering)?;
         Some(HeadMesh::of(&self.net, origin))
     }
 
-    /// Sets the head down at `pose`, bent as its pressure bends it, without
-    /// dragging it; its tip falls behind `heading`, the way it will go, if that
-    /// is not (0, 0). At no pressure it stays lifted.
+    /// Sets the head down at `pose`, bent by its pressure, without dragging it. Its tip falls
+    /// behind `heading`, the direction of the stroke, if that is not (0, 0). At pressure 0 it
+    /// stays lifted.
     pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
         self.lift();
         let Some(grip) = Grip::new(pose, self.spines.of.rigid) else { return };
@@ -158,13 +156,13 @@ impl Head {
         self.net.rest();
     }
 
-    /// Moves the head to `pose`, and fills `out` with what it then touches of
-    /// the canvas `bounds`: an empty rectangle if nothing, as always at no
-    /// pressure and at poses that hold no numbers. Coming from no pressure it
-    /// comes down from above; coming from more than 64 cells away it is set down.
+    /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
+    /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are
+    /// not finite. From pressure 0 the head comes down from above; from more than 64 cells
+    /// away it is set down.
     ///
-    /// The speed that lets paint change sides is that of the surface in space, so
-    /// that a head pressed down leaves paint too.
+    /// The speed that governs transfer is that of the surface in space, so that a head that is
+    /// pressed down leaves paint too.
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
@@ -211,15 +209,14 @@ impl Head {
     }
 }
 
-/// The cells of the head's paint, around and along.
+/// Number of paint cells of the head, around and along.
 fn cells(surface: &Surface) -> (usize, usize) {
     let (facets, cells) = (surface.facets(), surface.cells_of_facet());
     (facets.0 * cells.0, facets.1 * cells.1)
 }
 
-/// A vertex as the footprint wants it: place, height in quanta, velocity and
-/// speed. Where the surface would be below the relief it is pressed up, so far
-/// that it stays less than `sink` cells below.
+/// A vertex of the footprint: position, height in quanta, velocity and speed. Where the
+/// surface would be below the relief it is pressed up, to less than `sink` cells below.
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
@@ -240,9 +237,9 @@ fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
     ]
 }
 
-/// How far the bristles of each column of cells draw back, in quanta: up to
-/// `most` cells, few of them far. They cling together in locks about 0.5 mm wide.
-/// Heads of one size are alike.
+/// Distance in quanta by which the bristles of each column of cells draw back: at most `most`
+/// cells, few of them far. They cling together in locks about 0.5 mm wide (chosen by eye).
+/// Heads of one size are equal.
 fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
     let mut random = ChaCha8Rng::seed_from_u64(size_mm.to_bits());
     // Around the head is a little more than twice its width.
@@ -259,9 +256,8 @@ fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
     (0..columns).map(bristle).collect()
 }
 
-/// Where a fan has hair: all of it near the ferrule, tufts around its spines
-/// near the tip; on a small fan, whose facets are no finer than its tufts, tufts
-/// around pairs of spines.
+/// Facets of a fan that have hair: all near the ferrule, tufts around its spines near the tip.
+/// A small fan, whose facets are no finer than its tufts, has tufts around pairs of spines.
 fn tufts(surface: &Surface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();

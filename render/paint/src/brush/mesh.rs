@@ -1,30 +1,28 @@
-//! The surface of a head as it is bent, to be drawn.
+//! Mesh of a bent head, for drawing.
 
 use super::net::{Net, Point};
 use super::surface::{SPANS, b_spline};
 
-/// Vertices to a span of the surface along the head.
+/// Number of vertices for each span of the surface along the head.
 const ALONG: usize = 3;
 
-/// Fewest vertices around a head.
+/// Minimum number of vertices around a head.
 const AROUND: usize = 24;
 
-/// The surface of a head over the canvas: rows of vertices around it, from the
-/// ferrule to the tip.
+/// Surface of a head over the canvas: rows of vertices around it, from the ferrule to the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadMesh {
-    /// Vertices around the head; the last is beside the first.
+    /// Number of vertices around the head; the last is next to the first.
     pub around: usize,
-    /// Rows, from the ferrule, which is open, to the tip, which is closed.
+    /// Number of rows, from the open ferrule to the closed tip.
     pub along: usize,
-    /// `around * along` places: x and y in cells of the canvas, height over its
-    /// plane in cells. Where hair is pressed into the canvas they lie a little
-    /// below it.
+    /// `around * along` vertices: x and y in cells of the canvas, height over its plane in
+    /// cells. Where hair is pressed into the canvas they lie slightly below it.
     pub vertices: Vec<[f32; 3]>,
 }
 
 impl HeadMesh {
-    /// That of `net`, whose coordinates begin at the cell `origin`: 300 to 600
+    /// Mesh of the surface of `net`, whose coordinates start at the cell `origin`: 300 to 600
     /// vertices.
     pub(super) fn of(net: &Net, origin: (i64, i64)) -> Self {
         let steps = AROUND.div_ceil(net.columns);
@@ -78,7 +76,7 @@ mod tests {
 
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 400, height: 300 };
 
-    /// The extent along x, y and height.
+    /// Extent along x, y and height in cells.
     fn extent(vertices: &[[f32; 3]]) -> [(f32, f32); 3] {
         std::array::from_fn(|i| {
             let of = vertices.iter().map(|vertex| vertex[i]);

@@ -31,4 +31,4 @@ pub use relief::{BLOCK, Relief};
 pub use shape::{HeadShape, UnknownShape};
 
 #[cfg(test)]
-mod laws;
+mod tests;

@@ -1,37 +1,36 @@
-//! The control net around the spines: closed around, open along, closed at the
-//! tip.
+//! Control net around the spines: closed around, open along the head, closed at the tip.
 
 use super::grip::Grip;
 use super::shape::NODES;
 use super::spines::{FLATTENED, Spines};
 use super::vector::Vector;
 
-/// Rows of the net: one for each level of the spines, and one beyond either end
-/// so that the surface begins and ends at theirs.
+/// Number of rows of the net: one for each level of the spines, and one beyond either end so
+/// that the surface starts and ends at theirs.
 pub(super) const ROWS: usize = NODES + 2;
 
-/// Columns around a head with a single spine.
+/// Number of columns around a head with a single spine.
 const AROUND_ONE: usize = 8;
 
-/// A point and its displacement in the last sub-step: x, y, z, 0, dx, dy, dz, 0.
+/// A control point and its displacement in the last sub-step: x, y, z, 0, dx, dy, dz, 0.
 pub(super) type Point = [f32; 8];
 
-/// How many columns a net around `spines` has.
+/// Number of columns of the net around `spines` spines.
 pub(super) fn columns(spines: usize) -> usize {
     if spines == 1 { AROUND_ONE } else { 2 * spines + 2 }
 }
 
-/// The control net.
+/// Control net of the surface of a head.
 #[derive(Debug, Clone)]
 pub(super) struct Net {
     pub(super) columns: usize,
-    /// Row by row from the ferrule.
+    /// Points row by row from the ferrule.
     pub(super) points: Vec<Point>,
-    /// Cosine and sine of the columns around a single spine, as much farther out
-    /// as a B-spline stays inside its polygon.
+    /// Cosine and sine of the columns around a single spine, enlarged because a B-spline stays
+    /// inside its control polygon.
     circle: [(f32, f32); AROUND_ONE],
     single: bool,
-    /// Where the surface ends.
+    /// End of the surface in each column, at the tip.
     ends: Vec<Vector>,
 }
 
@@ -53,7 +52,7 @@ impl Net {
         }
     }
 
-    /// The origin of coordinates moves by whole cells.
+    /// Moves the origin of coordinates by whole cells.
     pub(super) fn rebase(&mut self, moved: Vector) {
         for point in &mut self.points {
             point[0] -= moved.x;
@@ -61,8 +60,7 @@ impl Net {
         }
     }
 
-    /// Lays the net around `spines`; its displacements are those from where it
-    /// was.
+    /// Places the net around `spines`; the displacements are the changes since the last call.
     pub(super) fn follow(&mut self, spines: &Spines, grip: &Grip) {
         for level in 0..NODES {
             let ring = Ring::new(spines, grip, level);
@@ -93,13 +91,13 @@ impl Net {
         }
     }
 
-    /// The column on the other side of the head.
+    /// Column on the opposite side of the head.
     fn opposite(&self, column: usize) -> usize {
         let half = if self.single { AROUND_ONE / 2 + column } else { self.columns - column };
         half % self.columns
     }
 
-    /// Forgets all displacement.
+    /// Sets all displacements to 0.
     pub(super) fn rest(&mut self) {
         for point in &mut self.points {
             point[4..].fill(0.0);
@@ -113,12 +111,12 @@ impl Net {
     }
 }
 
-/// The section of a head at one level.
+/// Cross-section of a head at one level.
 struct Ring {
     centre: Vector,
     broad: Vector,
     thin: Vector,
-    /// Level and across, upwards and across; none where the head stands upright.
+    /// Horizontal and upward vectors across the section; `None` where the head is vertical.
     level: Option<(Vector, Vector)>,
     wider: f32,
     flatter: f32,

@@ -1,25 +1,25 @@
-//! The canvas as a head feels it: its height, coarsely.
+//! Coarse heights of the canvas, for the bending of heads.
 
 use crate::amount::QUANTA_PER_CELL;
 use graphics::field::Field;
 
-/// Cells of the canvas, along x and y, to one value of a relief.
+/// Number of cells of the canvas along x and y for each value of a relief.
 pub const BLOCK: usize = 8;
 
-/// Heights of ground and dry paint at one value for each block of 8 x 8 cells,
-/// in mm: the mean of the block and one standard deviation, which is near its
-/// crests, where hair rests. Over a plane it is the plane.
+/// Heights of ground and dry paint in mm, one value for each block of 8 x 8 cells: mean plus
+/// one standard deviation, which is near the crests, where hair rests. For a plane it is
+/// exact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relief {
     cell_mm: f64,
     heights_mm: Field<f32>,
-    /// The same, in cells.
+    /// Heights in cells.
     heights: Field<f32>,
 }
 
 impl Relief {
-    /// That of `floor`, in quanta over the plane of the canvas, whose cells are
-    /// `cell_mm` wide.
+    /// Relief of `floor`, heights in quanta over the plane of the canvas, whose cells are
+    /// `cell_mm` mm wide.
     ///
     /// # Panics
     /// If there is no cell.
@@ -37,7 +37,7 @@ impl Relief {
         Self { cell_mm, heights_mm: Field::from_values(width, height, in_mm), heights }
     }
 
-    /// A plane at height 0 under `width` x `height` cells.
+    /// Relief of a plane at height 0 under `width` x `height` cells.
     #[must_use]
     pub fn flat(width: usize, height: usize, cell_mm: f64) -> Self {
         Self::from_floor(&Field::filled(width, height, 0), cell_mm)
@@ -49,13 +49,13 @@ impl Relief {
         self.cell_mm
     }
 
-    /// The heights in mm, a value for each block.
+    /// Heights in mm, one for each block.
     #[must_use]
     pub fn heights_mm(&self) -> &Field<f32> {
         &self.heights_mm
     }
 
-    /// Heights as seen from the cell `origin`.
+    /// The relief in coordinates from the cell `origin`.
     pub(super) fn seen_from(&self, origin: (i64, i64)) -> View<'_> {
         let block = BLOCK as i64;
         View {
@@ -70,7 +70,7 @@ impl Relief {
     }
 }
 
-/// Mean and a standard deviation over one block, in cells.
+/// Mean plus one standard deviation of one block, in cells.
 fn crest(floor: &Field<i32>, column: usize, row: usize) -> f32 {
     let (x, y) = (column * BLOCK, row * BLOCK);
     let (width, height) = (BLOCK.min(floor.width() - x), BLOCK.min(floor.height() - y));
@@ -95,7 +95,7 @@ pub(super) struct View<'a> {
 }
 
 impl View<'_> {
-    /// The height at `(x, y)`, in cells; beyond the canvas that of its edge.
+    /// Height at `(x, y)` in cells; outside the canvas that of its edge.
     #[inline]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {
         let (x, y) =
@@ -115,7 +115,7 @@ impl View<'_> {
         left + (right - left) * share
     }
 
-    /// The lowest and the highest value that tell heights within `reach` cells of `(x, y)`.
+    /// Lowest and highest value that the interpolation uses within `reach` cells of `(x, y)`.
     pub(super) fn range(&self, (x, y): (f32, f32), reach: f32) -> (f32, f32) {
         let block = |at: f32, shift: f32| i64::from(floor_of(at / BLOCK as f32 + shift));
         let columns = block(x - reach, self.shift.0)..=block(x + reach, self.shift.0) + 1;
@@ -135,7 +135,7 @@ impl View<'_> {
     }
 }
 
-/// The whole number below; `f32::floor` is slow without SSE 4.1.
+/// Largest whole number not above the argument; `f32::floor` is slow without SSE 4.1.
 #[inline]
 fn floor_of(value: f32) -> i32 {
     let cut = value as i32;

@@ -1,12 +1,14 @@
-//! The shapes of heads, and their proportions.
+//! Shapes of heads and their proportions.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// How many nodes a spine has, the one in the ferrule included.
+use spectra::hint::{Explain, Hint};
+
+/// Number of nodes of a spine, including the one in the ferrule.
 pub(super) const NODES: usize = 6;
 
-/// The shape of a head, by its name in the trade.
+/// Shape of a head, by its trade name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HeadShape {
@@ -29,7 +31,7 @@ pub enum HeadShape {
 }
 
 impl HeadShape {
-    /// All shapes.
+    /// All shapes, in the order of this list.
     pub const ALL: [Self; 8] = [
         Self::Round,
         Self::Flat,
@@ -41,7 +43,7 @@ impl HeadShape {
         Self::Knife,
     ];
 
-    /// Its name, as files and options have it.
+    /// Name in files and options.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -56,8 +58,8 @@ impl HeadShape {
         }
     }
 
-    /// Its contour seen from the broad side, from the ferrule to the tip: distance
-    /// from the ferrule, and half the width there, in widths of the head.
+    /// Contour seen from the broad side, from the ferrule to the tip: distance from the
+    /// ferrule and half the width there, in widths of the head.
     #[must_use]
     pub fn contour(self) -> Vec<(f32, f32)> {
         let of = self.proportions();
@@ -98,54 +100,52 @@ impl FromStr for HeadShape {
     }
 }
 
-/// A name that no head has.
+/// The name is not that of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no brush has this shape: `{name}`")]
 pub struct UnknownShape {
-    /// As it was given.
+    /// The unknown name.
     pub name: String,
 }
 
-impl UnknownShape {
-    /// The names there are.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        format!("shapes are {}", HeadShape::ALL.map(HeadShape::name).join(", "))
+impl Explain for UnknownShape {
+    fn hint(&self) -> Option<Hint> {
+        let names = HeadShape::ALL.map(HeadShape::name).join(", ");
+        Some(Hint::new(format!("shapes are {names}")))
     }
 }
 
-/// A head in widths of itself. Profiles run from the ferrule to the tip.
+/// Proportions of a head, in widths of the head. Profiles run from the ferrule to the tip.
 ///
-/// Lengths are as catalogues of artists' brushes show them: a bright about as
-/// long as wide, a flat and a filbert 1.5 times, a round 2.5, a rigger 6. How a
-/// head gives, stiffens and splays, and how uneven its bristles are, is ours, chosen by
-/// eye.
+/// Lengths follow catalogues of artists' brushes: a bright is about as long as wide, a flat
+/// and a filbert 1.5 times, a round 2.5, a rigger 6. Stiffness, splay and the unevenness of
+/// bristles are chosen by eye.
 #[derive(Debug)]
 pub(super) struct Proportions {
-    /// From the ferrule to the tip.
+    /// Length from the ferrule to the tip.
     pub(super) length: f32,
-    /// Of the thickest place.
+    /// Thickness at the thickest position.
     pub(super) thickness: f32,
-    /// Spines side by side.
+    /// Number of spines side by side.
     pub(super) spines: usize,
-    /// Width where the spines leave the ferrule, as a share of that at the tip.
+    /// Width where the spines leave the ferrule, as a fraction of that at the tip.
     pub(super) root: f32,
-    /// How far full pressure lowers the ferrule, as a share of its height.
+    /// Distance by which full pressure lowers the ferrule, as a fraction of its height.
     pub(super) give: f32,
-    /// Which share of a bend is straightened in one iteration, at the ferrule.
+    /// Fraction of a bend that is straightened in one iteration, at the ferrule.
     pub(super) stiffness: f32,
-    /// How much wider full pressure makes it where it lies on the canvas.
+    /// Relative increase of the width under full pressure, where the head lies on the canvas.
     pub(super) splay: f32,
-    /// Width along the head.
+    /// Profile of the width along the head.
     pub(super) width: [f32; NODES],
-    /// Thickness along the head, as a share of the thickest place; 0 at the tip
-    /// closes it.
+    /// Profile of the thickness along the head, as a fraction of the thickest position; 0 at
+    /// the tip closes it.
     pub(super) depth: [f32; NODES],
-    /// Tufts with gaps between them.
+    /// Whether the head has tufts with gaps between them.
     pub(super) gaps: bool,
-    /// It does not bend.
+    /// Whether the head is rigid.
     pub(super) rigid: bool,
-    /// How far bristles draw back at most from where the surface is, in cells.
+    /// Largest distance by which bristles draw back from the surface, in cells.
     pub(super) bristles: f32,
 }
 
@@ -253,7 +253,8 @@ mod tests {
         }
         let error = "broom".parse::<HeadShape>().unwrap_err();
         assert_eq!(error.to_string(), "no brush has this shape: `broom`");
-        assert!(error.hint().contains("round, flat, filbert, bright, fan, rigger, mop, knife"));
+        let hint = error.hint().unwrap().to_string();
+        assert!(hint.contains("round, flat, filbert, bright, fan, rigger, mop, knife"));
     }
 
     #[test]

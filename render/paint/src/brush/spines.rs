@@ -1,64 +1,63 @@
-//! The spines of a head: chains of masses held by springs, bent by the canvas.
+//! Spines of a head: chains of masses and springs, bent by the canvas.
 //!
-//! Hair is light and paint is thick, so that a head is at every sub-step nearly
-//! at rest. The springs are solved by position: every constraint moves its nodes
-//! to where it would be met, in turn, a few times over (Mueller et al. 2007,
-//! "Position based dynamics"). What a sub-step does not settle the next does,
-//! which is the damping. No step can overshoot, so that any pose is stable.
+//! Hair is light and paint is thick, so that a head is nearly at rest in every sub-step. The
+//! springs are solved by position based dynamics (Mueller et al. 2007): each constraint in
+//! turn moves its nodes to where it holds, for a few iterations. The error that remains is
+//! corrected in the next sub-step, which acts as damping. No step can overshoot, so that any
+//! pose is stable.
 
 use super::grip::Grip;
 use super::relief::View;
 use super::shape::{NODES, Proportions};
 use super::vector::Vector;
 
-/// How often the constraints are met in a sub-step.
+/// Number of solver iterations in a sub-step (chosen by eye).
 const ITERATIONS: usize = 6;
 
-/// The share of what a spine is out of line with the next that is mended in one
-/// iteration.
+/// Fraction of the misalignment between neighbouring spines corrected per iteration (chosen by
+/// eye).
 const TOGETHER: f32 = 0.6;
 
-/// Friction over normal force, hair on a primed canvas.
+/// Coefficient of friction of hair on a primed canvas (chosen by eye).
 const FRICTION: f32 = 1.0;
 
-/// The part of its thickness that a head loses under full pressure.
+/// Fraction of its thickness that a head loses under full pressure (chosen by eye).
 pub(super) const FLATTENED: f32 = 0.5;
 
-/// Cells between the lowest hair and the canvas as pressure begins.
+/// Distance between the lowest hair and the canvas where pressure starts, in cells.
 const CLEARANCE: f32 = 0.5;
 
-/// No wide head is thinner than this many cells: it could pass between their
-/// middles.
+/// Minimum thickness of a wide head, in cells. A thinner head can pass between cell centres
+/// and touch none.
 const THINNEST: f32 = 2.0;
 
-/// The least that full pressure lowers a head, and that of a knife, in cells.
+/// Minimum distance by which full pressure lowers a head, and a knife, in cells.
 const LEAST_DEPTH: f32 = 6.0;
 
-/// How far hair is pressed below the crests of the relief at `pressure`, in
-/// cells: a tenth where it just touches, 2.5 at full pressure.
+/// Distance by which hair is pressed below the crests of the relief at `pressure`, in cells:
+/// 0.1 at first contact, 2.5 at full pressure.
 pub(super) fn sink(pressure: f32) -> f32 {
     0.1 + 2.4 * pressure
 }
 
-/// The spines of one head, in cells.
+/// Spines of one head; lengths in cells.
 #[derive(Debug, Clone)]
 pub(super) struct Spines {
     pub(super) of: &'static Proportions,
     pub(super) width: f32,
-    /// Where each node is at rest: how far from the ferrule, how far across.
+    /// Rest position of each node: distance from the ferrule, and across.
     rest: Vec<(f32, f32)>,
     /// Half the thickness at each level.
     pub(super) half_thickness: [f32; NODES],
-    /// Half the breadth and thickness of the surface around one spine at each
-    /// level.
+    /// Half the width and half the thickness of the surface around one spine at each level.
     section: [(f32, f32); NODES],
-    /// By spine, from the ferrule to the tip.
+    /// Nodes by spine, from the ferrule to the tip.
     pub(super) nodes: Vec<Vector>,
-    /// How much each level is pressed, 0..=1.
+    /// Pressure on each level, 0 to 1.
     pub(super) load: [f32; NODES],
     touching: Vec<bool>,
     before: Vec<Vector>,
-    /// How far the hair around a node reaches down.
+    /// Distance by which the hair around each node reaches down.
     below: Vec<f32>,
 }
 
@@ -103,26 +102,27 @@ impl Spines {
         self.of.length * self.width
     }
 
-    /// The node `level` of `spine`.
+    /// The node at `level` of `spine`.
     pub(super) fn node(&self, spine: usize, level: usize) -> Vector {
         self.nodes[spine * NODES + level]
     }
 
-    /// The origin of coordinates moves by whole cells.
+    /// Moves the origin of coordinates by whole cells.
     pub(super) fn rebase(&mut self, moved: Vector) {
         for node in &mut self.nodes {
             *node -= moved;
         }
     }
 
-    /// Lets the head hang just above the canvas at `grip`, bent a little to where it
-    /// will fall: behind `heading`, if that is a direction.
+    /// Holds the head just above the canvas at `grip`, slightly bent to the side to which it
+    /// will fall: behind `heading`, if that is not zero.
     pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &View<'_>) {
         let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
         self.stand(grip, fall, relief);
     }
 
-    /// The same straight, or with its tip at `fall` from there.
+    /// Holds the head just above the canvas at `grip`, straight or with its tip shifted to
+    /// `fall`.
     pub(super) fn stand(&mut self, grip: &Grip, fall: Vector, relief: &View<'_>) {
         let grip = &Grip { pressure: 0.0, ..*grip };
         let ferrule = self.ferrule(grip, relief);
@@ -135,7 +135,7 @@ impl Spines {
         self.load = [0.0; NODES];
     }
 
-    /// Presses the head, hanging before, down to `grip` without dragging it.
+    /// Presses the head from just above the canvas down to `grip` without dragging it.
     pub(super) fn lower(&mut self, grip: &Grip, relief: &View<'_>) {
         const STAGES: usize = 16;
         for stage in 1..=2 * STAGES {
@@ -144,12 +144,12 @@ impl Spines {
         }
     }
 
-    /// One sub-step, in which the handle came to `grip`.
+    /// Advances one sub-step, in which the handle moved to `grip`.
     pub(super) fn advance(&mut self, grip: &Grip, relief: &View<'_>) {
         self.settle(grip, relief, FRICTION);
     }
 
-    /// Where the ferrule is. Its height follows the canvas below the tip.
+    /// Position of the ferrule. Its height follows the canvas below the tip.
     fn ferrule(&self, grip: &Grip, relief: &View<'_>) -> Vector {
         let third = grip.broad * (self.width / 3.0);
         let (x, y) = grip.tip;
@@ -169,7 +169,8 @@ impl Spines {
         Vector::new(x + foot.x, y + foot.y, ride + CLEARANCE - lowest - depth)
     }
 
-    /// How far hair at `level` reaches below its node, if its section lies so.
+    /// Distance by which hair at `level` reaches below its node, for this orientation of the
+    /// section.
     fn reach_down(&self, level: usize, broad: Vector, thin: Vector) -> f32 {
         let (breadth, thickness) = self.section[level];
         let (a, b) = (breadth * broad.z, thickness * thin.z);
@@ -202,7 +203,7 @@ impl Spines {
         self.feel(grip, relief, dig);
     }
 
-    /// What hangs free moves with the ferrule; what touches stays.
+    /// Moves hair that hangs free with the ferrule; hair in contact stays.
     fn carry(&mut self, spine: usize, grip: &Grip, ferrule: Vector) {
         let first = spine * NODES;
         let root = placed(grip, ferrule, self.rest[first]);
@@ -215,7 +216,7 @@ impl Spines {
         self.nodes[first] = root;
     }
 
-    /// How far the hair around every node reaches down.
+    /// Updates the distance by which the hair around each node reaches down.
     fn measure(&mut self, grip: &Grip) {
         for i in 0..self.nodes.len() {
             let level = i % NODES;
@@ -234,7 +235,7 @@ impl Spines {
         }
     }
 
-    /// Meets the constraints of one spine once.
+    /// Applies the constraints of one spine once.
     fn relax(
         &mut self,
         spine: usize,
@@ -263,7 +264,7 @@ impl Spines {
         }
     }
 
-    /// The springs between spines side by side: hair of one head moves together.
+    /// Applies the springs between neighbouring spines: the hair of a head moves together.
     fn hold_together(&mut self, grip: &Grip) {
         for i in NODES..self.nodes.len() {
             if i % NODES > 0 {
@@ -275,7 +276,7 @@ impl Spines {
         }
     }
 
-    /// Pulls a spine along that is longer than it can be, and keeps it above the
+    /// Pulls a spine that is longer than it can be towards the ferrule, and keeps it above the
     /// canvas. It only pulls: hair that is pushed bends.
     fn fit(&mut self, spine: usize, grip: &Grip, ferrule: Vector, relief: &View<'_>, dig: f32) {
         let range = spine * NODES..(spine + 1) * NODES;
@@ -295,7 +296,7 @@ impl Spines {
         }
     }
 
-    /// Which nodes touch, and how much each level is pressed.
+    /// Updates which nodes touch the canvas, and the pressure on each level.
     fn feel(&mut self, grip: &Grip, relief: &View<'_>, dig: f32) {
         let mut pressed = [0.0; NODES];
         for (i, node) in self.nodes.iter().enumerate() {
@@ -314,7 +315,7 @@ impl Spines {
     }
 }
 
-/// Profiles as the surface rounds them off.
+/// Profile smoothed as the surface smooths it.
 fn rounded(breadth: [f32; NODES], thickness: [f32; NODES]) -> [(f32, f32); NODES] {
     let at = |of: &[f32; NODES], i: usize| match i {
         0 => of[0],
@@ -324,14 +325,13 @@ fn rounded(breadth: [f32; NODES], thickness: [f32; NODES]) -> [(f32, f32); NODES
     std::array::from_fn(|i| (at(&breadth, i), at(&thickness, i)))
 }
 
-/// A place on the unbent head.
+/// Position on the unbent head.
 fn placed(grip: &Grip, ferrule: Vector, (along, across): (f32, f32)) -> Vector {
     ferrule - grip.axis * along + grip.broad * across
 }
 
-/// The bending springs: three nodes in a row are straight, or as they are at
-/// rest; the ferrule holds the first. Hair thins out, so that tips bend more than
-/// roots.
+/// Applies the bending springs: three nodes in a row are straight, or as they are at rest; the
+/// ferrule holds the first. Hair thins out, so that tips bend more than roots.
 fn bend(
     nodes: &mut [Vector],
     rest: &[(f32, f32)],
@@ -352,7 +352,7 @@ fn bend(
     }
 }
 
-/// The stretching springs, which are stiff.
+/// Applies the stretching springs, which are stiff.
 fn stretch(nodes: &mut [Vector], segment: f32) {
     for i in 1..NODES {
         let apart = nodes[i] - nodes[i - 1];
@@ -367,7 +367,7 @@ fn stretch(nodes: &mut [Vector], segment: f32) {
     }
 }
 
-/// Takes back up to `most` of how far a node slid over the canvas.
+/// Undoes the sliding of a node over the canvas, by at most `most`: friction.
 fn drag(node: &mut Vector, before: Vector, most: f32) {
     let slid = Vector::new(node.x - before.x, node.y - before.y, 0.0);
     let length = slid.length();

@@ -1,32 +1,32 @@
-//! The limit surface of the control net, as a grid of facets.
+//! Limit surface of the control net, as a grid of facets.
 //!
-//! Catmull and Clark 1978: over a regular net the limit of the subdivision is
-//! the uniform bicubic B-spline, so that it can be evaluated where it is wanted.
+//! Over a regular net the limit of Catmull-Clark subdivision (1978) is the uniform bicubic
+//! B-spline, so that it can be evaluated directly.
 
 use super::net::{Net, Point, ROWS};
 
-/// Cells of the head to a facet, along each side, where there is room for them.
+/// Number of paint cells along each side of a facet, if the head has enough cells.
 const FACET: f32 = 4.0;
 
-/// The most cells a head has for paint. On a larger head they are wider than
-/// those of the canvas.
+/// Maximum number of paint cells of a head. On a larger head they are wider than the cells of
+/// the canvas.
 const MOST_CELLS: f32 = 1_048_576.0;
 
-/// Spans of the surface along the head.
+/// Number of spans of the surface along the head.
 pub(super) const SPANS: usize = ROWS - 3;
 
-/// The facets of one span, along or around.
+/// Division of a span, along or around, into facets.
 #[derive(Debug, Clone)]
 struct Span {
     facets: usize,
-    /// Cells of the head's paint to a facet.
+    /// Number of paint cells of each facet.
     cells: usize,
-    /// Weights of four points at the start of each facet, and at the end.
+    /// Weights of the four control points at the start of each facet, and at the end.
     weights: Vec<[f32; 4]>,
 }
 
 impl Span {
-    /// For a span of `length`, in cells of the head.
+    /// Facets of a span of `length` paint cells.
     fn new(length: f32) -> Self {
         let facets = (length / FACET).round().max(1.0);
         let cells = (length / facets).round().clamp(1.0, FACET);
@@ -35,28 +35,28 @@ impl Span {
     }
 }
 
-/// Uniform cubic B-spline.
+/// Weights of the uniform cubic B-spline.
 pub(super) fn b_spline(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
     let inner = |t: f32, s: f32| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t;
     [s * s * s, inner(t, s) + t * t * t, inner(s, t) + s * s * s, t * t * t].map(|w| w / 6.0)
 }
 
-/// The surface of a head; vertices row by row from the ferrule.
+/// Surface of a head; vertices row by row from the ferrule.
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
     around: Span,
     along: Span,
     columns: usize,
-    /// Points and displacements, where [`Surface::is_near`].
+    /// Positions and displacements of vertices; valid where [`Surface::is_near`].
     pub(super) vertices: Vec<Point>,
     near: Vec<bool>,
-    /// The net, evaluated along but not around.
+    /// The net evaluated along the head but not around it.
     line: Vec<Point>,
 }
 
 impl Surface {
-    /// For a net of `columns` around a head of this perimeter and length, in
+    /// Surface of a net of `columns` columns around a head of this perimeter and length, in
     /// cells of the canvas.
     pub(super) fn new(columns: usize, perimeter: f32, length: f32) -> Self {
         let cell = (perimeter * length / MOST_CELLS).sqrt().max(1.0);
@@ -73,12 +73,12 @@ impl Surface {
         }
     }
 
-    /// Facets around and along.
+    /// Number of facets around and along.
     pub(super) fn facets(&self) -> (usize, usize) {
         (self.columns * self.around.facets, SPANS * self.along.facets)
     }
 
-    /// Cells of the head's paint to a facet, around and along.
+    /// Number of paint cells of each facet, around and along.
     pub(super) fn cells_of_facet(&self) -> (usize, usize) {
         (self.around.cells, self.along.cells)
     }
@@ -89,13 +89,13 @@ impl Surface {
         self.near[row / self.along.facets * self.columns + column / self.around.facets]
     }
 
-    /// Facets to a span, around: those are near or not together.
+    /// Number of facets of each span around the head: they are near or not near together.
     pub(super) fn facets_of_span(&self) -> usize {
         self.around.facets
     }
 
-    /// Evaluates the surface where it may reach below `ceiling`, and hands every
-    /// vertex to `finish`.
+    /// Evaluates the surface where it may reach below `ceiling`, and passes each vertex to
+    /// `finish`.
     pub(super) fn evaluate(&mut self, net: &Net, ceiling: f32, finish: impl Fn(&mut Point)) {
         self.find_near(net, ceiling);
         let columns = self.columns;

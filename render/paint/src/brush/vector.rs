@@ -1,8 +1,8 @@
-//! Vectors in space: x right, y down the canvas, z up from it; in cells.
+//! Vectors in space, in cells: x right, y down the canvas, z up from it.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A place or a direction.
+/// A position or a direction, in cells.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Vector {
     pub(super) x: f32,
@@ -34,13 +34,13 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// This direction with length 1; `otherwise` if it has none.
+    /// This direction with length 1; `otherwise` if its length is 0.
     pub(super) fn unit_or(self, otherwise: Self) -> Self {
         let length = self.length();
         if length > 1e-4 { self * (1.0 / length) } else { otherwise }
     }
 
-    /// This direction without its part along `unit`.
+    /// This direction without its component along `unit`.
     pub(super) fn across(self, unit: Self) -> Self {
         self - unit * self.dot(unit)
     }

@@ -29,7 +29,7 @@ pub enum PaintingError {
     Share {
         /// Name of the quantity.
         what: &'static str,
-        /// The value.
+        /// Value of the quantity.
         value: f64,
     },
     /// An amount of paint on a brush is negative or not a number.
@@ -120,7 +120,7 @@ pub enum PaintingError {
     /// An opacity lies outside 0 to 1000.
     #[error("an opacity is 0 to 1000, found `{value}`")]
     Opacity {
-        /// The opacity.
+        /// Opacity that was requested.
         value: f64,
     },
     /// Ground and dry paint are as high as the arithmetic allows.

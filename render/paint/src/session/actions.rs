@@ -1,4 +1,4 @@
-//! Applying actions.
+//! Applying actions to a session.
 
 use super::failure::SessionError;
 use super::history::Entry;

@@ -2,8 +2,9 @@
 
 use spectra::hint::{Explain, Fault, Hint};
 
+use crate::file::PaintingFileError;
 use crate::painting::PaintingError;
-use crate::strokes::{InvalidValue, ScriptError};
+use crate::strokes::{InvalidValue, ScriptError, ScriptStartError};
 
 /// Why a session refuses an action. Nothing is changed then, unless the device failed.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +18,12 @@ pub enum SessionError {
     /// The header of a recording is invalid.
     #[error(transparent)]
     Script(#[from] ScriptError),
+    /// A canvas cannot be made.
+    #[error(transparent)]
+    Start(#[from] ScriptStartError),
+    /// The painting cannot be saved.
+    #[error(transparent)]
+    File(#[from] PaintingFileError),
     /// Canvas and palette do not go together.
     #[error("canvas and palette have different {what}")]
     Unlike {
@@ -43,6 +50,8 @@ impl Explain for SessionError {
             Self::Painting(error) => return error.hint(),
             Self::Invalid(invalid) => return invalid.hint(),
             Self::Script(error) => return error.hint(),
+            Self::Start(error) => return error.hint(),
+            Self::File(error) => return error.hint(),
             Self::Unlike { .. } => "set the palette up after the canvas",
             Self::Save => "write the documents of the session",
             Self::NoStroke => "set the brush down first",
@@ -54,6 +63,7 @@ impl Explain for SessionError {
     fn fault(&self) -> Fault {
         match self {
             Self::Painting(error) => error.fault(),
+            Self::File(error) => error.fault(),
             _ => Fault::Input,
         }
     }

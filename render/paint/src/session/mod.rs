@@ -39,6 +39,8 @@ mod undo;
 
 mod replay;
 
+mod front_door;
+
 #[cfg(test)]
 mod tests;
 

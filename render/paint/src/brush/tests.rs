@@ -1,4 +1,4 @@
-//! Laws of heads.
+//! Tests of heads.
 
 use rand::{RngExt, SeedableRng};
 
@@ -25,7 +25,7 @@ fn nothing() -> Contact {
     Contact { rect: Rect::default(), touches: Vec::new() }
 }
 
-/// What a head touches that is set down.
+/// Contact of a head that is set down.
 fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     let (mut head, mut contact) = (head(shape), nothing());
     head.set_down(&pose, (0.0, 0.0), &plane());
@@ -33,7 +33,7 @@ fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     contact
 }
 
-/// The cells, with their touch, where the head is below a film of `mm`.
+/// Cells with their touches where the head is below a film of `mm` mm.
 fn under(contact: &Contact, mm: f64) -> Vec<(usize, usize, Touch)> {
     let top = (mm / 0.1 * f64::from(QUANTA_PER_CELL)) as i32;
     let cells = contact.touches.iter().enumerate().filter(|(_, touch)| touch.height <= top);
