@@ -61,7 +61,7 @@ fn set(image: &mut FlatImage, part: usize, name: &str, index: usize, value: f32)
 }
 
 #[test]
-fn what_is_no_painting_is_told_so() {
+fn a_file_that_is_no_painting_is_refused() {
     for bytes in [&b""[..], b"\x76", b"hello, I am a text", &[0; 64]] {
         let error = read("a.exr", bytes).unwrap_err();
         assert!(matches!(error, PaintingFileError::Container { .. }), "{error}");
@@ -69,7 +69,7 @@ fn what_is_no_painting_is_told_so() {
     let error = refused(|image| drop(image.layer_data[0].attributes.other.drain()));
     assert_eq!(
         error.to_string(),
-        "a.exr: no impasto painting: attribute `impasto` of part `base` is missing"
+        "a.exr: not a painting of impasto: attribute `impasto` of part `base` is missing"
     );
 }
 
