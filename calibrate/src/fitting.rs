@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use spectra::hint::{Explain, Hint};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
 use crate::calibration::{Calibration, CalibrationError, calibrate};
 use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
-use crate::measurement::MeasurementError;
+use crate::fitting_error::FittingError;
 use crate::observation::{BelowSurface, Observation};
 use crate::readings::Readings;
 use crate::report::ErrorReport;
@@ -17,7 +16,7 @@ use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
-use pigment::visible_band::{BandError, check_visible_band};
+use pigment::visible_band::check_visible_band;
 
 /// k1 and k2 of most paints, within the usual ranges of Saunderson's correction; see [`Surface`].
 const USUAL_SURFACE: (f64, f64) = (0.03, 0.6);
@@ -345,82 +344,4 @@ pub(crate) fn index_of(
 fn stem(path: &str) -> String {
     let stem = Path::new(path).file_stem();
     stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
-}
-
-/// A fit or validation that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FittingError {
-    /// A sample or pigment is not among the readings.
-    #[error("no {what} is called `{name}`")]
-    UnknownName {
-        /// `sample` or `pigment`.
-        what: &'static str,
-        /// Name that was looked up.
-        name: String,
-        /// Names that exist.
-        known: Vec<String>,
-    },
-    /// No pigment can be guessed as the reference.
-    #[error("no pigment is called white, so none can be the reference whose S is 1")]
-    NoWhite {
-        /// Name of the first pigment, for advice.
-        first: String,
-    },
-    /// Every sample is excluded.
-    #[error("every sample is excluded")]
-    AllExcluded,
-    /// Absolute amounts have no reference and a method of their own.
-    #[error("absolute amounts take neither a reference white nor another method")]
-    AbsoluteOptions,
-    /// A validation of absolute amounts cannot be limited to pigments.
-    #[error("a validation with certain pigments needs relative amounts")]
-    AbsoluteWith,
-    /// A validation needs two groups or more.
-    #[error("a validation in groups needs at least 2, found `{folds}`")]
-    Folds {
-        /// Number of groups that was given.
-        folds: usize,
-    },
-    /// No mixture can be left out.
-    #[error("{}", nothing_to_leave_out(needed))]
-    NothingToLeaveOut {
-        /// Mixtures without which a pigment would not be identified.
-        needed: Vec<String>,
-    },
-    /// The readings have no visible wavelength.
-    #[error(transparent)]
-    Band(#[from] BandError),
-    /// Readings cannot be used.
-    #[error(transparent)]
-    Measurement(#[from] MeasurementError),
-    /// Readings cannot be used, or the fit failed.
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
-}
-
-fn nothing_to_leave_out(needed: &[String]) -> String {
-    if needed.is_empty() {
-        return "there is no mixture to leave out".to_owned();
-    }
-    let needed = needed.join(", ");
-    format!("no mixture can be left out: without it a pigment would not be identified ({needed})")
-}
-
-impl Explain for FittingError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::UnknownName { what, known, .. } => format!("{what}s: {}", known.join(", ")),
-            Self::NoWhite { first } => format!("name it: [reference=\"{first}\"]"),
-            Self::AllExcluded => "leave out some [exclude]".into(),
-            Self::AbsoluteOptions => "leave out [reference] and [method]".into(),
-            Self::AbsoluteWith => "leave out [with]".into(),
-            Self::Folds { .. } => "try [folds=10]".into(),
-            Self::NothingToLeaveOut { .. } => {
-                "measure more mixtures of each pigment (masstone, two tints, a shade)".into()
-            }
-            Self::Band(error) => return error.hint(),
-            Self::Measurement(error) => return error.hint(),
-            Self::Calibration(error) => return error.hint(),
-        }))
-    }
 }

@@ -1,6 +1,7 @@
 //! Validation of a fit from readings: each mixture predicted without its own measurement.
 
-use crate::fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, index_of};
+use crate::fitting::{FilmModel, Fit, FitOptions, PreparedFit, index_of};
+use crate::fitting_error::FittingError;
 use crate::observation::Observation;
 use crate::readings::Readings;
 use crate::report::ErrorReport;
@@ -22,7 +23,7 @@ pub struct ValidationOptions {
 /// Errors of mixtures that were predicted without their own measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitValidation {
-    /// The errors.
+    /// Errors of the mixtures that were left out.
     pub errors: Validation,
     /// Fit of all samples.
     pub fit: Fit,

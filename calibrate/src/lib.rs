@@ -56,6 +56,8 @@ pub mod absolute;
 
 pub mod report;
 
+mod fitting_error;
+
 pub mod fitting;
 
 pub mod validation;
@@ -70,7 +72,8 @@ pub mod plan;
 
 pub mod synthetic;
 
-pub use fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, fit};
+pub use fitting::{FilmModel, Fit, FitOptions, PreparedFit, fit};
+pub use fitting_error::FittingError;
 pub use leave_out::{FitValidation, ValidationOptions, validate};
 pub use plan::plan;
 pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};

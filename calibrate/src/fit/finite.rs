@@ -32,7 +32,7 @@ pub struct FiniteProblem {
     pub pigments: usize,
     /// Standard deviation of repeated readings, root mean square over films; 0 if none were repeated.
     pub reading_sd: f64,
-    /// The films.
+    /// Films on backings of known reflectance.
     pub films: Vec<MeasuredFilm>,
 }
 

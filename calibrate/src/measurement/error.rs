@@ -186,7 +186,7 @@ pub enum MeasurementError {
         file: String,
         /// Wavelengths of that file.
         found: String,
-        /// First file.
+        /// File that was read first.
         first: String,
         /// Wavelengths of the first file.
         wanted: String,

@@ -1,9 +1,14 @@
-//! Spectrometer readings of paint, as a CSV or an instrument's file holds them.
+//! Tables of spectrometer readings of paint, from a CSV or from an instrument's file.
 //!
-//! In the CSV one row is a reading; columns by name, in any order: `sample`, then optionally
-//! `film`, `backing`, `thickness_mm`, `replicate`, then one column per pigment
-//! (amount), then the wavelengths in nm. Readings without amounts get theirs from a CSV of
-//! recipes.
+//! In the CSV each row is a reading. Columns are named, in any order: `sample`, then optionally `film`,
+//! `backing`, `thickness_mm`, `replicate`, then one for each pigment (amount), then the wavelengths in nm.
+//! Readings without amounts take them from a CSV of recipes.
+
+mod error;
+
+mod scale;
+
+mod table;
 
 mod column;
 
@@ -11,15 +16,9 @@ mod common_grid;
 
 mod csv;
 
-mod error;
-
 mod recipes;
 
 mod records;
-
-mod scale;
-
-mod table;
 
 pub use column::names_a_pigment;
 pub use csv::is_measurement_csv;

@@ -41,7 +41,7 @@ impl PainterRules {
 /// The way in which a row of swatches is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MixingRow {
-    /// Measured swatches.
+    /// Measured swatches, at the ratios that were painted.
     Measured,
     /// Kubelka-Munk mixing at every wavelength of the library.
     Spectrum,

@@ -24,11 +24,11 @@ pub struct Quadrature {
 /// Colour error of a quadrature against full integration, in CIEDE2000.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct QuadratureError {
-    /// Mean error.
+    /// Mean of the errors.
     pub mean: f64,
     /// 95th percentile of the errors.
     pub p95: f64,
-    /// Largest error.
+    /// Largest of the errors.
     pub max: f64,
 }
 
