@@ -1,6 +1,6 @@
 //! Reasons why there is no fit or no validation.
 
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::calibration::CalibrationError;
 use crate::measurement::MeasurementError;
@@ -81,5 +81,12 @@ impl Explain for FittingError {
             Self::Measurement(error) => return error.hint(),
             Self::Calibration(error) => return error.hint(),
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::AbsoluteOptions | Self::AbsoluteWith | Self::Folds { .. } => Fault::Setting,
+            _ => Fault::Input,
+        }
     }
 }

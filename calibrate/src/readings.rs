@@ -327,7 +327,8 @@ impl Explain for ReadingsError {
             Self::File(error) => error.fault(),
             Self::Instrument(error) => error.fault(),
             Self::References(error) => error.fault(),
-            _ => Fault::Input,
+            Self::CsvOfCounts { .. } => Fault::Setting,
+            Self::Measurement(_) | Self::Recipes(_) | Self::Referencing { .. } => Fault::Input,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::remark::Remark;
@@ -120,6 +120,13 @@ impl Explain for BackingError {
             }
             Self::Band { wanted, .. } => Some(Hint::new(format!("the library stands on {wanted}"))),
             Self::Interpolate(_) => None,
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Reflectance { .. } => Fault::Setting,
+            Self::Band { .. } | Self::Interpolate(_) => Fault::Input,
         }
     }
 }

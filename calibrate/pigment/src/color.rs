@@ -1,7 +1,7 @@
 //! The colour of a mixture: from names and parts to a spectrum and its colour.
 
 use spectra::color::{Lab, Rgb, Xyz};
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::{Reflectance, Spectrum, SpectrumError};
 
 use crate::appearance::Appearance;
@@ -173,6 +173,14 @@ impl Explain for ColorError {
             Self::Backing(error) => error.hint(),
             Self::Band(error) => error.hint(),
             Self::Spectrum(_) => None,
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Thickness { .. } => Fault::Setting,
+            Self::Backing(error) => error.fault(),
+            Self::Recipe(_) | Self::Band(_) | Self::Spectrum(_) => Fault::Input,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Reasons why there is no plan.
 
 use pigment::RecipeError;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 /// A plan that cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -86,5 +86,12 @@ impl Explain for PlanError {
             Self::Unidentified { .. } => "give more [swatches]".into(),
             Self::Prior(error) => return error.hint(),
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unidentified { .. } | Self::Prior(_) => Fault::Input,
+            _ => Fault::Setting,
+        }
     }
 }

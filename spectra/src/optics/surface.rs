@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::hint::Explain;
+use crate::hint::{Explain, Fault};
 
 /// Whether readings contain the specular reflection at the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -124,4 +124,11 @@ pub enum SurfaceError {
     },
 }
 
-impl Explain for SurfaceError {}
+impl Explain for SurfaceError {
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Share { .. } => Fault::Setting,
+            Self::BelowFloor { .. } => Fault::Input,
+        }
+    }
+}

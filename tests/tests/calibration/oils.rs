@@ -114,7 +114,11 @@ fn a_k1_above_a_reading_is_refused_with_sample_and_wavelength() {
     };
     assert_eq!((sample.as_str(), *nm, *row), ("11A", 520.0, 202));
     assert!((least - 0.0206).abs() < 1e-12, "{least}");
-    assert!(error.hint().unwrap().to_string().contains("`saunderson 0.019"), "{:?}", error.hint());
+    assert!(
+        error.hint().unwrap().to_string().contains("`saunderson = 0.019,0.6`"),
+        "{:?}",
+        error.hint()
+    );
     let lower = Surface { k1: 0.019, ..SURFACE };
     assert!(observations(&set, lower, BelowSurface::Refuse).is_ok());
 }

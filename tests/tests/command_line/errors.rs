@@ -154,7 +154,7 @@ fn an_input_is_never_written_over() {
     let round_about = folder.path().join("./oils.csv");
     let run = impasto(&["fit", file.to_str().unwrap(), "--output", round_about.to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);
-    assert!(run.err.contains("never written over"), "{}", run.err);
+    assert!(run.err.contains("never overwritten"), "{}", run.err);
     assert_eq!(std::fs::read(&file).unwrap(), before);
 }
 
@@ -163,7 +163,7 @@ fn an_output_that_is_a_folder_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let run = impasto(&["fit", &oils(), "--output", folder.path().to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);
-    assert!(run.err.contains("an ordinary file is wanted"), "{}", run.err);
+    assert!(run.err.contains("is not an ordinary file"), "{}", run.err);
 }
 
 #[cfg(unix)]

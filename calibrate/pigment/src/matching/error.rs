@@ -1,7 +1,7 @@
 //! Reasons why there are no recipes.
 
 use spectra::InterpolateError;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::backing::BackingError;
 use crate::library::RecipeError;
@@ -120,5 +120,18 @@ impl Explain for MatchError {
             Self::Band(error) => return error.hint(),
             Self::NoLight | Self::Interpolate(_) => return None,
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Backing(error) => error.fault(),
+            Self::NoRecipe
+            | Self::Recipe(_)
+            | Self::PricedPigment { .. }
+            | Self::NoPrice { .. }
+            | Self::Band(_)
+            | Self::Interpolate(_) => Fault::Input,
+            _ => Fault::Setting,
+        }
     }
 }

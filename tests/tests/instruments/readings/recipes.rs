@@ -143,6 +143,6 @@ fn columns_of_instruments_are_no_pigments() {
         .collect();
     let run = fit(READINGS, &wide);
     assert_eq!(run.status, 0, "{}", run.err);
-    assert!(run.err.contains("passed over: L*"), "{}", run.err);
+    assert!(run.err.contains("are ignored: L*"), "{}", run.err);
     assert_eq!(run.json()["pigments"], 2, "{}", run.out);
 }
