@@ -141,7 +141,7 @@ impl Explain for AbstractionError {
     fn fault(&self) -> Fault {
         match self {
             Self::Device(error) => error.fault(),
-            _ => Fault::Input,
+            _ => Fault::Setting,
         }
     }
 }

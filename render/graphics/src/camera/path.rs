@@ -105,7 +105,7 @@ pub enum CameraPathError {
 
 impl Explain for CameraPathError {
     fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
+        Some(Hint::verbatim(match self {
             Self::Unreadable { .. } => "check the path",
             Self::Malformed { .. } | Self::OutOfRange { .. } => {
                 "a path has `frames` and [[keyframe]] tables with `eye`, `target` and, if wanted, \

@@ -1,4 +1,4 @@
-//! Compiled kernels.
+//! Compute pipelines: kernels compiled by the driver.
 
 use super::binding::bind_group_layout;
 use super::kernel::{Kernel, Storage};

@@ -1,13 +1,13 @@
-//! Regions that are too small or too much alike, joined to a neighbour.
+//! Merging of regions that are too small, or too similar to a neighbour.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::region_graph::RegionGraph;
 
-/// Joins regions of fewer than `least_px` pixels to that of their neighbours whose mean
-/// mode is nearest in colour, the smallest first, until none is left or all are one. Of
-/// several as small or as near, that with the least label.
+/// Merges each region of fewer than `least_px` pixels into the neighbour whose mean mode is
+/// nearest in colour, the smallest region first, until none is left or there is one region.
+/// Ties go to the smallest label.
 pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     let all = (0..graph.count() as u32).map(|region| Reverse((graph.pixels(region), region)));
     let mut small: BinaryHeap<_> = all.filter(|Reverse((pixels, _))| *pixels < least_px).collect();
@@ -27,10 +27,10 @@ pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     }
 }
 
-/// Joins neighbours whose mean modes are at most `range` apart in CIELUV, the nearest
-/// first. Of several as near, those with the least labels.
+/// Merges neighbours whose mean modes are at most `range` apart in CIELUV, the nearest
+/// first. Ties go to the smallest labels.
 pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
-    // Distances are not negative, so their bits have their order.
+    // Distances are not negative, so their bit patterns sort in the same order.
     let mut pairs = BinaryHeap::new();
     for region in 0..graph.count() as u32 {
         for other in graph.around(region).to_vec() {
@@ -65,7 +65,8 @@ mod tests {
     use super::*;
     use crate::field::Field;
 
-    /// The labels of a row of regions, told as pixels and L*, after `joining`.
+    /// The labels of a row of regions after `joining`; a region is given by its number of
+    /// pixels and its L*.
     fn joined(regions: &[(usize, f32)], joining: impl Fn(&mut RegionGraph)) -> Vec<u32> {
         let mut labels = Vec::new();
         let mut modes = Vec::new();

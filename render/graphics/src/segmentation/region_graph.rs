@@ -66,7 +66,7 @@ impl RegionGraph {
         (off(0).powi(2) + off(1).powi(2) + off(2).powi(2) + paper.powi(2)).sqrt()
     }
 
-    /// Those beside it, by rising label.
+    /// The neighbours of a region, by rising label.
     pub(super) fn around(&mut self, region: u32) -> &[u32] {
         let mut around = std::mem::take(&mut self.neighbours[region as usize]);
         around.iter_mut().for_each(|label| *label = self.sets.least(*label));
@@ -77,7 +77,7 @@ impl RegionGraph {
         &self.neighbours[region as usize]
     }
 
-    /// Makes one of two; its label.
+    /// Merges two regions. Returns the label of the merged one.
     pub(super) fn join(&mut self, one: u32, other: u32) -> u32 {
         let whole = self.sets.join(one, other);
         let part = if whole == one { other } else { one };
@@ -97,13 +97,14 @@ impl RegionGraph {
         whole
     }
 
-    /// Gives `labels` those of the regions as they now are, without gaps; how many.
+    /// Replaces `labels` by those of the merged regions, numbered without gaps. Returns the
+    /// number of regions.
     pub(super) fn relabel(mut self, labels: &mut Field<u32>) -> usize {
         numbered(&mut self.sets, labels.values_mut(), self.weights.len())
     }
 }
 
-/// The regions beside each, in order.
+/// The neighbours of each region, by rising label.
 fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     let rows: Vec<&[u32]> = labels.values().chunks_exact(labels.width()).collect();
     let along = |y: usize| {

@@ -1,20 +1,20 @@
-//! Pixels whose modes are near, joined.
+//! Regions: connected pixels whose modes are close.
 
 use super::mean_shift::{Bandwidth, Mode};
 use crate::field::Field;
 
-/// Sets that are joined two at a time, each told by its least member.
+/// Disjoint sets (union-find), each identified by its smallest member.
 pub(super) struct Sets {
     parents: Vec<u32>,
 }
 
 impl Sets {
-    /// `count` sets of one.
+    /// `count` sets of one member each.
     pub(super) fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
 
-    /// The least member of the set that `member` is in.
+    /// The smallest member of the set of `member`.
     pub(super) fn least(&mut self, mut member: u32) -> u32 {
         while self.parents[member as usize] != member {
             let parent = self.parents[member as usize];
@@ -24,7 +24,7 @@ impl Sets {
         member
     }
 
-    /// Joins the sets of two members; the least of the whole.
+    /// Unites the sets of two members. Returns the smallest member of the union.
     pub(super) fn join(&mut self, one: u32, other: u32) -> u32 {
         let (one, other) = (self.least(one), self.least(other));
         let (least, greater) = (one.min(other), one.max(other));
@@ -33,8 +33,8 @@ impl Sets {
     }
 }
 
-/// Labels without gaps, in the order in which they first appear row by row; and how
-/// many there are.
+/// Renumbers labels without gaps, in the order of their first appearance row by row. Returns
+/// them with their number.
 pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usize {
     const NONE: u32 = u32::MAX;
     let mut numbers = vec![NONE; count];
@@ -50,15 +50,15 @@ pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usi
     found as usize
 }
 
-/// How near the modes of neighbours must be in colour, in range radii. With a whole one
-/// regions run into each other over the pixels of a soft edge; what is then parted
-/// without need is joined as regions.
+/// Largest distance in colour of the modes of linked neighbours, in range radii. With 1,
+/// regions are linked across the pixels of a soft edge. Regions that this value divides
+/// needlessly are merged later.
 const LINK: f32 = 0.5;
 
-/// A label for every pixel, and how many there are. Neighbours in a row or column are
-/// of one region where their modes are within the spatial radius and half the range
-/// radius of each other, and both are `painted` or both bare; and so are all that are
-/// linked by such neighbours (Comaniciu and Meer 2002, section 4.2, step 2).
+/// Labels every pixel with its region. Returns the labels with the number of regions.
+/// Neighbours in a row or column are linked if their modes are within the spatial radius and
+/// half the range radius of each other, and both are `painted` or both bare; regions are the
+/// connected components (Comaniciu and Meer 2002, section 4.2, step 2).
 pub(super) fn linked(
     modes: &Field<Mode>,
     painted: impl Fn(usize) -> bool,

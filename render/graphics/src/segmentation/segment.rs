@@ -1,4 +1,4 @@
-//! The whole of segmentation.
+//! Segmentation: from a picture to its regions.
 
 use rayon::prelude::*;
 use spectra::hint::{Explain, Hint};
@@ -12,47 +12,48 @@ use super::regions::linked;
 use super::tones::cut;
 use crate::field::Field;
 
-/// How coarse regions are.
+/// Settings of segmentation: the coarseness of regions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentationSettings {
-    /// How far a window reaches in the picture, in pixels: 1 to
-    /// [`SegmentationSettings::MAX_SPATIAL_PX`]. What is larger is kept apart; the time
-    /// goes with its square.
+    /// Radius of the window in the picture, in pixels: 1 to
+    /// [`SegmentationSettings::MAX_SPATIAL_PX`]. Larger details stay; the time is proportional
+    /// to its square.
     pub spatial_radius_px: f32,
-    /// How far it reaches in colour, a difference in CIELUV above 0, where 100 is from
-    /// black to white. Less contrast than this is flattened.
+    /// Radius of the window in colour, a difference in CIELUV above 0 (black and white differ
+    /// by 100). Smaller contrasts are flattened.
     pub range_radius: f32,
-    /// Smaller regions join a neighbour.
+    /// Area in pixels below which a region is merged into a neighbour.
     pub least_region_px: u32,
-    /// Regions whose colour runs farther than this, in CIELUV, are cut into steps about
-    /// as large; with 0 never.
+    /// Step in CIELUV by which smooth gradients are divided into tones, 0 and up; 0 divides
+    /// nothing.
     pub tone_step: f32,
 }
 
 impl SegmentationSettings {
-    /// The farthest that a window reaches.
+    /// Largest spatial radius in pixels.
     pub const MAX_SPATIAL_PX: f32 = 128.0;
 }
 
 impl Default for SegmentationSettings {
-    /// 10 px, 8 in CIELUV, 60 px: for a photograph of about 1 megapixel. Nothing is cut.
+    /// For a photograph of about 1 megapixel: 10 px, 8 in CIELUV, regions of 60 px and more,
+    /// gradients not divided.
     fn default() -> Self {
         Self { spatial_radius_px: 10.0, range_radius: 8.0, least_region_px: 60, tone_step: 0.0 }
     }
 }
 
-/// A picture in regions.
+/// The regions of a picture and their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segmentation {
-    /// Of each pixel, from 0 on without gaps, in the order in which regions first appear
-    /// row by row. A region hangs together by rows and columns.
+    /// Region of each pixel, from 0 on without gaps, in the order in which regions first appear
+    /// row by row. A region is connected by rows and columns.
     pub labels: Field<u32>,
-    /// The mean of each region: encoded sRGB where there is paint, and coverage.
+    /// Mean of each region: encoded sRGB weighted by coverage, and coverage.
     pub colors: Vec<[f32; 4]>,
 }
 
 impl Segmentation {
-    /// The picture with each region in its own colour.
+    /// The picture with each region in its mean colour.
     #[must_use]
     pub fn flat(&self) -> Field<[f32; 4]> {
         let color = |&label: &u32| self.colors[label as usize];
@@ -63,13 +64,13 @@ impl Segmentation {
 
 /// Regions of `picture`, which is encoded sRGB with coverage.
 ///
-/// Pixels whose modes are near are linked; regions that are too small join a neighbour;
-/// then neighbours whose mean modes are within the range radius become one, the nearest
-/// first. Smooth gradients are then cut into steps, if that is asked for.
+/// Pixels whose modes are close are linked; regions that are too small are merged into a
+/// neighbour; then neighbours whose mean modes are within the range radius are merged, the
+/// nearest first. Smooth gradients are divided into tones if
+/// [`SegmentationSettings::tone_step`] is above 0.
 ///
-/// Bare paper (coverage below 1/2) is taken as white, and is never in a region with
-/// paint, unless one of them is too small. The same picture gives the same regions,
-/// whatever the number of threads.
+/// Bare paper (coverage below 1/2) counts as white and never shares a region with paint,
+/// unless one of them is too small. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`SegmentationError`] if a setting is out of its range.
@@ -101,7 +102,7 @@ pub fn segment(
     Ok(Segmentation { labels, colors })
 }
 
-/// The mean of every region, weighted by coverage; white where it is 0.
+/// The mean of every region, weighted by coverage; white if its coverage is 0.
 fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f32; 4]> {
     let mut sums = vec![([0.0f64; 4], 0u32); count];
     for (&label, &[r, g, b, coverage]) in labels.values().iter().zip(picture.values()) {

@@ -46,8 +46,8 @@ fn subjects_that_cannot_be_read() {
     for (subject, options, status, what, hint) in [
         (&none("none.png"), &[][..], 1, "none.png", "check the path"),
         (&none("none.obj"), &[], 1, "none.obj", "check the path"),
-        (&text, &[], 1, "text.png: no picture that can be read", "save it as PNG or JPEG"),
-        (&stl, &[], 1, "model.stl: no picture that can be read", "save it as PNG or JPEG"),
+        (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
+        (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is none", "meshes end in .obj"),
         (&broken, &[], 1, "broken.obj: line 4: no place `4`, there are 3", "mend that place"),
         (
@@ -281,7 +281,7 @@ fn masks_and_pigments_where_they_do_not_belong() {
         [("--output", &exr), ("--spectral", &exr), ("--pigment-maps", &folder_of_maps)]
     {
         let run = watercolor(&photo, &["--stages", &stages, option, value]);
-        refused(&run, 2, &format!("{option} tells of pigments"), "add --pigments LIBRARY");
+        refused(&run, 2, &format!("{option} needs pigments"), "add --pigments LIBRARY");
     }
     for (option, value) in [("--palette", "Vermilion"), ("--over", "0.9"), ("--illuminant", "A")] {
         misused(&watercolor(&photo, &["--picture", &out, option, value]), "--pigments <LIBRARY>");
