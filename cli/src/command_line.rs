@@ -1,12 +1,12 @@
-//! The command line as a user can type it again.
+//! Quotes the command line so that it can be typed again.
 
-/// The words of a command line, quoted for a shell.
+/// Joins the words of a command line with spaces, each quoted for a POSIX shell where needed.
 pub(crate) fn command_line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = words.into_iter().map(quoted).collect();
     quoted.join(" ")
 }
 
-/// A word as a shell reads it.
+/// Quotes `word` for a POSIX shell unless it holds only plain characters.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:+=@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

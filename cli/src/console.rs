@@ -1,4 +1,4 @@
-//! Where a verb writes: results, remarks, and swatches of colour.
+//! Output of a verb: results, remarks and patches of colour.
 
 use std::io::Write;
 
@@ -8,46 +8,46 @@ use spectra::color::Rgb;
 
 use crate::failure::{Result, with_options};
 
-/// What the terminal can do.
+/// Capabilities of the terminal that the output goes to.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Screen {
-    /// Whether results may carry colour.
+    /// Whether results may contain escape codes for colour.
     pub colors: bool,
-    /// Whether remarks go to a terminal, where a progress bar makes sense.
+    /// Whether remarks go to a terminal, so that a progress bar can be shown.
     pub progress: bool,
 }
 
-/// A verb's way out.
+/// Writers and terminal settings through which a verb prints.
 pub(crate) struct Console<'a> {
-    /// Results.
+    /// Writer of the results.
     pub(crate) out: &'a mut dyn Write,
-    /// Everything else.
+    /// Writer of remarks, warnings and errors.
     pub(crate) err: &'a mut dyn Write,
     pub(crate) screen: Screen,
-    /// The command line, to be typed again.
+    /// Command line, quoted for a shell.
     pub(crate) command: String,
 }
 
 impl Console<'_> {
-    /// A line of results.
+    /// Prints one line of results.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
         writeln!(self.out, "{}", text.as_ref())?;
         Ok(())
     }
 
-    /// A result for programs.
+    /// Prints a result as JSON.
     pub(crate) fn json(&mut self, value: &Value) -> Result<()> {
         write!(self.out, "{}", calibrate::library::to_text(value))?;
         Ok(())
     }
 
-    /// A line beside the results.
+    /// Prints one line of remarks.
     pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> Result<()> {
         writeln!(self.err, "{}", text.as_ref())?;
         Ok(())
     }
 
-    /// Remarks of a library, one a line, with settings as options.
+    /// Prints remarks of a library, one per line, with settings written as options.
     pub(crate) fn remarks<'r>(
         &mut self,
         remarks: impl IntoIterator<Item = &'r Remark>,
@@ -62,7 +62,7 @@ impl Console<'_> {
         Ok(())
     }
 
-    /// Warnings, one a line.
+    /// Prints warnings, one per line.
     pub(crate) fn warnings(&mut self, warnings: &[String]) -> Result<()> {
         for warning in warnings {
             self.remark(format!("warning: {warning}"))?;
@@ -70,8 +70,8 @@ impl Console<'_> {
         Ok(())
     }
 
-    /// A patch of colour of six columns, where the terminal shows colours;
-    /// otherwise nothing. The value in words must stand beside it.
+    /// Returns the escape codes of a colour patch six columns wide and a space, or an empty string
+    /// if the terminal shows no colours. The caller must print the colour as text too.
     pub(crate) fn patch(&self, color: Rgb) -> String {
         if !self.screen.colors {
             return String::new();

@@ -1,4 +1,4 @@
-//! Prices of pigments from options.
+//! The option `--cost`: prices of pigments.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use calibrate::matching::{PriceList, parse_price};
 
 use crate::failure::{Failure, Result};
 
-/// Prices from texts `NAME=PRICE` and paths of CSV files with the columns `pigment` and `price`.
+/// Reads prices from texts `NAME=PRICE` and from CSV files with the columns `pigment` and `price`.
 pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
     let mut prices = PriceList::default();
     for text in texts {
@@ -16,7 +16,7 @@ pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
         }
         let (name, price) = text.rsplit_once('=').ok_or_else(|| {
             Failure::usage(
-                format!("--cost takes NAME=PRICE or a CSV file that exists, found `{text}`"),
+                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
                 "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
             )
         })?;

@@ -12,18 +12,18 @@ use crate::failure::Result;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BackendName {
-    /// Hardware where there is some (see `impasto gpu`), else the processor
+    /// A hardware graphics adapter if there is one (see `impasto gpu`), else the processor
     Auto,
-    /// The processor
+    /// The processor (CPU)
     Cpu,
-    /// A graphics adapter, even one in software
+    /// A graphics adapter, in hardware or software
     Gpu,
 }
 
-/// Where to compute.
+/// Option that selects the processor or a graphics device.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct BackendOption {
-    /// Where to compute
+    /// Device to compute on
     #[arg(long, value_enum, default_value = "auto")]
     backend: BackendName,
 }
@@ -43,19 +43,19 @@ impl BackendOption {
     }
 }
 
-/// Where to compute, and how much undo may keep.
+/// Options for the paint engine: the device, and the memory for undo.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct EngineOptions {
     #[command(flatten)]
     backend: BackendOption,
-    /// Memory that undo may keep, in MiB; what does not fit is forgotten, oldest first
+    /// Memory for undo in MiB; when it is full, the oldest steps are dropped
     #[arg(long, value_name = "MIB", default_value_t = UNDO_BYTES >> 20, value_parser = clap::value_parser!(u64).range(0..=1 << 20))]
     undo_memory: u64,
 }
 
 impl EngineOptions {
-    /// A backend for a canvas over the ground `floor`. With `auto`, a device that
-    /// cannot hold the canvas gives way to the processor, and that is said.
+    /// Opens a paint engine for a canvas over the ground heights `floor`. With `auto`, a device that
+    /// cannot hold the canvas is replaced by the processor, with a warning.
     pub(crate) fn engine(
         &self,
         floor: &Field<i32>,
@@ -68,7 +68,7 @@ impl EngineOptions {
         Ok(opened.engine)
     }
 
-    /// Bytes for undo.
+    /// Memory for undo in bytes.
     pub(crate) fn undo_bytes(&self) -> u64 {
         self.undo_memory << 20
     }

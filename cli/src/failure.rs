@@ -1,4 +1,4 @@
-//! Failures of verbs: messages, hint and exit status.
+//! Errors of verbs: messages, hint and exit status.
 
 use std::error::Error;
 use std::fmt;
@@ -6,45 +6,45 @@ use std::io::{self, ErrorKind, Write};
 
 use spectra::hint::{Explain, Fault, Hint};
 
-/// Result of everything that a verb does.
+/// Result of a verb or of one of its steps.
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
 
-/// Exit status when the data are the cause.
+/// Exit status of a failure caused by the data.
 const DATA: u8 = 1;
-/// Exit status when an option, a file or the machine is the cause.
+/// Exit status of a failure caused by an option, a file or the machine.
 const USAGE: u8 = 2;
 
-/// Why a verb ended early. Every library error that explains itself becomes one with `?`.
+/// Error of a verb. Every library error that implements [`Explain`] converts into it with `?`.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// The message, then its causes, outermost first.
+    /// The message and its causes, outermost first.
     messages: Vec<String>,
     hint: Option<Hint>,
     /// Exit status: [`DATA`] or [`USAGE`].
     status: u8,
-    /// Whether the reader of the output closed its pipe, which is no error.
+    /// Whether a write failed because the reader closed the pipe. That is reported as success.
     pipe_closed: bool,
 }
 
 impl Failure {
-    /// A failure of the user's data: exit status 1.
+    /// Creates a failure caused by the user's data: exit status 1.
     pub(crate) fn data(message: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::with_hint(message, hint, DATA)
     }
 
-    /// A failure of the command itself, such as options that exclude each other: exit
-    /// status 2.
+    /// Creates a failure caused by the command itself, such as options that exclude each other:
+    /// exit status 2.
     pub(crate) fn usage(message: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::with_hint(message, hint, USAGE)
     }
 
-    /// A failure with the causes of an error of another crate: exit status 2.
+    /// Creates a failure with `error` and its sources as causes: exit status 2.
     pub(crate) fn caused_by(message: impl Into<String>, error: &(dyn Error + 'static)) -> Self {
         let causes = Self::from_causes(error);
         causes.within(message)
     }
 
-    /// This failure as the cause of `message`.
+    /// Puts `message` first; the messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());
         self
@@ -103,9 +103,9 @@ impl<E: Explain + 'static> From<E> for Failure {
     }
 }
 
-/// Adds what was attempted to an error.
+/// Adds a message to an error that says what was attempted.
 pub(crate) trait Context<T> {
-    /// Makes the error the cause of `message()`.
+    /// Converts the error to a failure with `message()` first and the error as its cause.
     fn context<M: Into<String>>(self, message: impl FnOnce() -> M) -> Result<T>;
 }
 

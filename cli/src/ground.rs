@@ -1,32 +1,34 @@
-//! The ground under a film: a grey, or a measured spectrum.
+//! The option `--over`: the ground under a film, a grey or a measured spectrum.
 
 use calibrate::Backing;
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::named_spectra::{Chosen, chosen, first_few};
+use crate::named_spectra::{SelectedSpectra, join_first, select_spectra};
 use crate::readings::ReadingOptions;
 
-/// The ground that `--over` names: a number, a word, or a spectrum of a file.
+/// Parses `--over`: a reflectance from 0 to 1, `white`, `black`, or one spectrum of a file.
 pub(crate) fn ground(text: &str, console: &mut Console<'_>) -> Result<Backing> {
-    if let Ok(even) = text.parse() {
-        return Ok(even);
+    if let Ok(backing) = text.parse() {
+        return Ok(backing);
     }
-    let Some(Chosen { file, grid, spectra }) = chosen(text, &ReadingOptions::default(), console)?
-    else {
+    let selected = select_spectra(text, &ReadingOptions::default(), console)?;
+    let Some(SelectedSpectra { file, grid, spectra }) = selected else {
         return Err(Failure::usage(
-            format!("--over takes 0 to 1, white, black or a file that exists, found `{text}`"),
+            format!("--over takes 0 to 1, white, black or an existing file, found `{text}`"),
             "try --over 0.85 or --over paper.csv#SAMPLE",
         ));
     };
-    let [one] = spectra.as_slice() else {
-        let names: Vec<&str> = spectra.iter().map(|one| one.name.as_str()).collect();
+    let [spectrum] = spectra.as_slice() else {
+        let names: Vec<&str> = spectra.iter().map(|spectrum| spectrum.name.as_str()).collect();
         return Err(Failure::data(
-            format!("{file}: one ground is wanted, found `{}` spectra", names.len()),
-            format!("name one: --over \"{file}#NAME\", with NAME {}", first_few(&names, " or ")),
+            format!("{file}: expected one spectrum of a ground, found `{}`", names.len()),
+            format!(
+                "select one by --over \"{file}#NAME\", with NAME {}",
+                join_first(&names, " or ")
+            ),
         ));
     };
-    let spectrum = Spectrum::<Reflectance>::new(grid, one.reflectance.clone())?;
-    Ok(Backing::Measured(spectrum))
+    Ok(Backing::Measured(Spectrum::<Reflectance>::new(grid, spectrum.reflectance.clone())?))
 }

@@ -1,14 +1,14 @@
 //! The command line `impasto VERB ...`, callable in process.
 //!
-//! One file a verb; parsing and doing are apart. Results go to the first
-//! writer, everything else to the second. Exit status: 0 done, 1 the data says
-//! no, 2 could not run.
+//! Each verb has a file of its own: its options, one or two calls of a library, and printing.
+//! Exit status: 0 success, 1 the data are faulty or a check failed, 2 the command could not run
+//! (a wrong option, an unreadable file, a missing device).
 
 mod command_line;
 
-mod console;
-
 mod failure;
+
+mod console;
 
 mod input;
 
@@ -54,8 +54,8 @@ struct Arguments {
     verb: verbs::Verb,
 }
 
-/// Runs the program with `arguments` (the first is its name) and gives its exit
-/// status.
+/// Runs the program with `arguments`, the first of which is the program's name, and returns its
+/// exit status. Results are written to `out`; remarks, warnings and errors to `err`.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     out: &mut dyn Write,
@@ -69,11 +69,11 @@ pub fn run(
     let parsed = match Arguments::try_parse_from(arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            // Help that was asked for is a result.
+            // Requested help is a result, help after an error is not.
             let text = error.render();
-            let asked = !error.use_stderr();
-            let _ = if asked { write!(out, "{text}") } else { write!(err, "{text}") };
-            return if asked { 0 } else { 2 };
+            let requested = !error.use_stderr();
+            let _ = if requested { write!(out, "{text}") } else { write!(err, "{text}") };
+            return if requested { 0 } else { 2 };
         }
     };
     let mut console = Console { out, err, screen, command };

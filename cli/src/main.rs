@@ -11,10 +11,10 @@ fn main() -> ExitCode {
     let mut out = std::io::BufWriter::new(stdout().lock());
     let screen = Screen { colors, progress: stderr().is_terminal() };
     let code = impasto::run(std::env::args_os(), &mut out, &mut stderr(), screen);
-    // A reader that closed the pipe has seen enough; a full disk has not.
+    // A closed pipe is no error: the reader wants no more output.
     match out.flush() {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            let _ = writeln!(stderr(), "error: the results cannot be written: {error}");
+            let _ = writeln!(stderr(), "error: cannot write the results: {error}");
             ExitCode::from(2)
         }
         _ => ExitCode::from(code),

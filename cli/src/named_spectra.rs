@@ -1,4 +1,4 @@
-//! The spectra of a file by name: a sample may have several.
+//! Averaged spectra of a measurement file, selected by name. A sample may have several.
 
 use std::path::{Path, PathBuf};
 
@@ -10,22 +10,22 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::readings::{ReadingOptions, spectra};
 
-/// How many names an error lists.
+/// Maximum number of names that an error lists; chosen by eye.
 const LISTED: usize = 8;
 
-/// One averaged spectrum.
+/// Mean of the repeated readings of one film or card.
 pub(crate) struct NamedSpectrum {
-    /// Its sample.
+    /// Name of the sample.
     pub(crate) sample: String,
-    /// Whether it is of paint, or of the bare backing.
+    /// Whether the reading is of paint or of the bare backing.
     pub(crate) film: Film,
-    /// The sample's name, and the backing where the sample has several spectra.
+    /// Name of the sample, followed by the backing if the sample has several spectra.
     pub(crate) name: String,
     /// Reflectance on the table's grid.
     pub(crate) reflectance: Vec<f64>,
 }
 
-/// The spectra of `table`, repeated readings averaged.
+/// Averages repeated readings of `table`. Returns the means in the order of their first readings.
 pub(crate) fn named_spectra(table: &MeasurementTable) -> Vec<NamedSpectrum> {
     let same = |a: &Reading, b: &Reading| {
         (&a.sample, a.film, &a.backing, a.thickness_mm)
@@ -60,60 +60,62 @@ pub(crate) fn named_spectra(table: &MeasurementTable) -> Vec<NamedSpectrum> {
         .collect()
 }
 
-/// The spectra that a user means by `FILE` or `FILE#NAME`.
-pub(crate) struct Chosen {
-    /// The file.
+/// Spectra of one file, selected by `FILE` or `FILE#NAME`.
+pub(crate) struct SelectedSpectra {
+    /// Path of the file.
     pub(crate) file: String,
-    /// The wavelengths of all.
+    /// Wavelengths of all spectra.
     pub(crate) grid: Grid,
-    /// One or more, in the file's order.
+    /// One or more spectra, in the order of the file.
     pub(crate) spectra: Vec<NamedSpectrum>,
 }
 
-/// The spectra that `text`, `FILE` or `FILE#NAME`, stands for; `None` if there is no such file.
-pub(crate) fn chosen(
+/// Reads the spectra that `text` selects: all of `FILE`, or those of `FILE#NAME`. Returns `None` if
+/// there is no such file.
+pub(crate) fn select_spectra(
     text: &str,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
-) -> Result<Option<Chosen>> {
-    let (file, wanted) = split_file_and_name(text);
+) -> Result<Option<SelectedSpectra>> {
+    let (file, name) = split_file_and_name(text);
     if !Path::new(file).is_file() {
         return Ok(None);
     }
     let table = spectra(&[PathBuf::from(file)], reading, console)?;
     let all = named_spectra(&table);
-    let indices = match wanted {
-        Some(wanted) => matching(&all, wanted)?,
+    let indices = match name {
+        Some(name) => find_by_name(&all, name)?,
         None => (0..all.len()).collect(),
     };
-    let mut places = indices.into_iter().peekable();
-    let taken = |(place, _): &(usize, NamedSpectrum)| places.next_if_eq(place).is_some();
-    let spectra = all.into_iter().enumerate().filter(taken).map(|(_, one)| one).collect();
-    Ok(Some(Chosen { file: file.to_owned(), grid: table.grid, spectra }))
+    let mut indices = indices.into_iter().peekable();
+    let is_selected = |(index, _): &(usize, NamedSpectrum)| indices.next_if_eq(index).is_some();
+    let spectra =
+        all.into_iter().enumerate().filter(is_selected).map(|(_, spectrum)| spectrum).collect();
+    Ok(Some(SelectedSpectra { file: file.to_owned(), grid: table.grid, spectra }))
 }
 
-/// The indices of the `spectra` called `wanted`, rising: the one of that name, or
-/// all of the sample of that name.
-pub(crate) fn matching(spectra: &[NamedSpectrum], wanted: &str) -> Result<Vec<usize>> {
-    if let Some(index) = spectra.iter().position(|one| one.name == wanted) {
+/// Returns the ascending indices of the `spectra` called `name`: the one with exactly this name, or
+/// all of the sample with this name.
+pub(crate) fn find_by_name(spectra: &[NamedSpectrum], name: &str) -> Result<Vec<usize>> {
+    if let Some(index) = spectra.iter().position(|spectrum| spectrum.name == name) {
         return Ok(vec![index]);
     }
     let of_sample: Vec<usize> =
-        (0..spectra.len()).filter(|&index| spectra[index].sample == wanted).collect();
+        (0..spectra.len()).filter(|&index| spectra[index].sample == name).collect();
     if !of_sample.is_empty() {
         return Ok(of_sample);
     }
-    let mut known: Vec<&str> = spectra.iter().map(|one| one.sample.as_str()).collect();
-    known.dedup();
+    let mut samples: Vec<&str> = spectra.iter().map(|spectrum| spectrum.sample.as_str()).collect();
+    samples.dedup();
     Err(Failure::data(
-        format!("no spectrum is called `{wanted}`"),
-        format!("samples: {}", first_few(&known, ", ")),
+        format!("no spectrum is called `{name}`"),
+        format!("samples: {}", join_first(&samples, ", ")),
     ))
 }
 
-/// The first few of `names`, and how many more there are.
-pub(crate) fn first_few(names: &[&str], between: &str) -> String {
-    let listed = names[..names.len().min(LISTED)].join(between);
+/// Joins the first eight of `names`, and adds how many more there are.
+pub(crate) fn join_first(names: &[&str], separator: &str) -> String {
+    let listed = names[..names.len().min(LISTED)].join(separator);
     match names.len().saturating_sub(LISTED) {
         0 => listed,
         more => format!("{listed} .. and {more} more"),

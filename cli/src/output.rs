@@ -5,9 +5,15 @@ use std::sync::Arc;
 
 use spectra::file::{FileAction, FileError, check_writable, write_whole};
 
-use crate::failure::{Failure, Result};
+use crate::failure::{Context, Failure, Result};
 
-/// An output file that can be written.
+/// Creates `folder` and its missing parents.
+pub(crate) fn create_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)
+        .context(|| format!("{}: this folder cannot be created", folder.display()))
+}
+
+/// An output file that was checked to be writable.
 pub(crate) struct Output {
     /// Path as the user gave it.
     path: PathBuf,
@@ -26,15 +32,15 @@ impl Output {
         })?;
         if target.exists() && !target.is_file() {
             return Err(Failure::usage(
-                format!("{}: is not an ordinary file", path.display()),
+                format!("{}: expected a regular file", path.display()),
                 "leave out --output and redirect the output of --json",
             ));
         }
         let is_target = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == target);
         if inputs.iter().any(is_target) {
             return Err(Failure::usage(
-                format!("{}: is an input, which is never overwritten", path.display()),
-                "give the output another name",
+                format!("{}: is an input file, which is never overwritten", path.display()),
+                "give the output another file name",
             ));
         }
         check_writable(path)?;

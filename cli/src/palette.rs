@@ -1,4 +1,4 @@
-//! The pigments of a palette by name.
+//! The option `--palette`: pigments of a library by name.
 
 use calibrate::library::PigmentLibrary;
 use render::paint::document::Slots;
@@ -6,7 +6,7 @@ use render::paint::palette::palette_slots;
 
 use crate::failure::Result;
 
-/// Slots of the pigments of `--palette`.
+/// Finds the pigments that `--palette` names and puts them into the slots of a layer.
 pub(crate) fn palette(names: &[String], library: &PigmentLibrary) -> Result<Slots> {
     Ok(palette_slots(names, library)?)
 }

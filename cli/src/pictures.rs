@@ -1,4 +1,4 @@
-//! What a painting can be exported as: the options, and the files.
+//! Export options of a painting, and the files that they write.
 
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,8 @@ use render::paint::painting::Painting;
 use spectra::hint::Explain;
 
 use crate::console::Console;
-use crate::failure::{Context, Failure, Result};
-use crate::output::Output;
+use crate::failure::{Failure, Result};
+use crate::output::{Output, create_folder};
 
 /// Bits of a channel of a PNG.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -24,13 +24,13 @@ pub(crate) enum Bits {
 /// Wavelengths of a spectral picture.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Bands {
-    /// The eight that the picture was computed with
+    /// The eight wavelengths at which the picture is computed
     Nodes,
-    /// All of the library's, computed anew in double precision
+    /// All wavelengths of the library, computed again in double precision
     Full,
 }
 
-/// The files to make of a painting.
+/// Options for the files that a painting is exported to.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Exports {
     /// Write the picture: .png (sRGB) or .exr (linear sRGB, nothing clipped)
@@ -49,12 +49,12 @@ pub(crate) struct Exports {
     /// amounts in CSV), summed over all layers
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     pigment_maps: Option<PathBuf>,
-    /// Write the painting itself, with all that can be changed later (.exr)
+    /// Write the painting itself with all its layers, so that it can be changed later (.exr)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     output: Option<PathBuf>,
 }
 
-/// Files known to be writable.
+/// Export files that were checked to be writable.
 pub(crate) struct OpenExports {
     options: Exports,
     picture: Option<Output>,
@@ -63,7 +63,7 @@ pub(crate) struct OpenExports {
 }
 
 impl Exports {
-    /// Whether any file was asked for.
+    /// Whether any export is requested.
     pub(crate) fn any(&self) -> bool {
         self.picture.is_some()
             || self.spectral.is_some()
@@ -71,44 +71,47 @@ impl Exports {
             || self.output.is_some()
     }
 
-    /// An option that only a painting can fulfil, if one was given.
-    pub(crate) fn of_paint(&self) -> Option<&'static str> {
+    /// First option present that needs layers of pigments, not only a picture.
+    pub(crate) fn layer_option(&self) -> Option<&'static str> {
         let options = [
             ("--spectral", self.spectral.is_some()),
             ("--pigment-maps", self.pigment_maps.is_some()),
             ("--output", self.output.is_some()),
         ];
-        options.into_iter().find(|(_, given)| *given).map(|(option, _)| option)
+        options.into_iter().find(|(_, present)| *present).map(|(option, _)| option)
     }
 
-    /// Checks, before the slow part, that all can be written.
+    /// Checks, before the slow part of a verb, that all files can be written.
     pub(crate) fn open(self, inputs: &[PathBuf]) -> Result<OpenExports> {
-        let wanted = |path: &Option<PathBuf>, endings: &[&str]| -> Result<_> {
+        let open = |path: &Option<PathBuf>, endings: &[&str]| -> Result<_> {
             let Some(path) = path else { return Ok(None) };
-            let found = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-            if !endings.iter().any(|ending| found.as_deref() == Some(ending)) {
+            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+            if !endings.iter().any(|ending| extension.as_deref() == Some(ending)) {
                 return Err(Failure::usage(
-                    format!("{}: this file ends in .{}", path.display(), endings.join(" or .")),
+                    format!(
+                        "{}: expected a file name that ends in .{}",
+                        path.display(),
+                        endings.join(" or .")
+                    ),
                     format!("try {}", path.with_extension(endings[0]).display()),
                 ));
             }
             Ok(Some(Output::open(path, inputs)?))
         };
-        let picture = wanted(&self.picture, &["png", "exr"])?;
-        let spectral = wanted(&self.spectral, &["exr"])?;
-        let painting = wanted(&self.output, &["exr"])?;
+        let picture = open(&self.picture, &["png", "exr"])?;
+        let spectral = open(&self.spectral, &["exr"])?;
+        let painting = open(&self.output, &["exr"])?;
         let all: Vec<&Output> = [&picture, &spectral, &painting].into_iter().flatten().collect();
         for (index, output) in all.iter().enumerate() {
             if all[..index].iter().any(|other| output.is_same_as(other)) {
                 return Err(Failure::usage(
-                    format!("{}: two exports would be this file", output.path().display()),
-                    "give each a name of its own",
+                    format!("{}: two exports have this file name", output.path().display()),
+                    "give each export its own file name",
                 ));
             }
         }
         if let Some(folder) = &self.pigment_maps {
-            let cannot = || format!("{}: this folder cannot be made", folder.display());
-            std::fs::create_dir_all(folder).context(cannot)?;
+            create_folder(folder)?;
             Output::open(&folder.join("painting.csv"), inputs)?;
         }
         Ok(OpenExports { picture, spectral, painting, options: self })
@@ -116,18 +119,18 @@ impl Exports {
 }
 
 impl OpenExports {
-    /// Whether any file was asked for.
+    /// Whether any export is requested.
     pub(crate) fn any(&self) -> bool {
         self.options.any()
     }
 
-    /// Whether `other` would be one of its files.
+    /// Whether `other` is one of the export files.
     pub(crate) fn writes(&self, other: &Output) -> bool {
         let all = [&self.picture, &self.spectral, &self.painting];
         all.into_iter().flatten().any(|output| output.is_same_as(other))
     }
 
-    /// Writes only the picture, given in linear sRGB.
+    /// Writes only the picture, from linear sRGB.
     pub(crate) fn write_picture(
         self,
         picture: &Field<[f32; 4]>,
@@ -141,7 +144,7 @@ impl OpenExports {
         output.write(file.bytes)
     }
 
-    /// Computes and writes all files.
+    /// Computes all exports of `painting` and writes their files.
     pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
         let Exports { bits, bands, pigment_maps, .. } = self.options;
         let path = |output: &Output| output.path().to_owned();
@@ -164,7 +167,7 @@ impl OpenExports {
 }
 
 impl Bits {
-    /// Format of the picture at `path`.
+    /// File format of a picture at `path`, from its extension and the bits of a PNG.
     fn format(self, path: &Path) -> PictureFormat {
         match (PictureFormat::from_path(path), self) {
             (Some(PictureFormat::LinearExr), _) => PictureFormat::LinearExr,
@@ -174,6 +177,7 @@ impl Bits {
     }
 }
 
+/// Prints a remark if colours were clipped.
 fn remark_clipping(
     path: &Path,
     clipped: Option<ClippedColors>,
@@ -185,7 +189,7 @@ fn remark_clipping(
     }
 }
 
-/// Remark on colours that the picture at `path` could not hold.
+/// Remark on the colours that were clipped in the picture at `path`.
 pub(crate) fn clipping_remark(path: &Path, clipped: ClippedColors) -> String {
     let hint = clipped.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
     format!("{}: {clipped}{hint}", path.display())

@@ -1,4 +1,4 @@
-//! A progress bar, where a terminal waits for more than a second.
+//! Progress bar and spinner, shown on a terminal after one second.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Counts steps; shows itself only on a terminal, and only after a second.
+/// Progress bar that counts steps. Shown only on a terminal, after one second.
 pub(crate) struct Progress {
     bar: ProgressBar,
     start: Instant,
@@ -17,7 +17,7 @@ pub(crate) struct Progress {
 impl Progress {
     pub(crate) fn new(steps: usize, label: &'static str, terminal: bool) -> Self {
         let style = ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {eta}")
-            .expect("the template is ours")
+            .expect("the template is constant and valid")
             .progress_chars("=> ");
         let hidden = ProgressDrawTarget::hidden();
         let bar = ProgressBar::with_draw_target(Some(steps as u64), hidden)
@@ -26,7 +26,7 @@ impl Progress {
         Self { bar, start: Instant::now(), terminal, shown: AtomicBool::new(false) }
     }
 
-    /// One step done; callable from any thread.
+    /// Counts one finished step. May be called from any thread.
     pub(crate) fn step(&self) {
         let late = self.start.elapsed() > Duration::from_secs(1);
         if self.terminal && late && !self.shown.swap(true, Ordering::Relaxed) {
@@ -35,7 +35,7 @@ impl Progress {
         self.bar.inc(1);
     }
 
-    /// So many steps more are to come.
+    /// Adds `steps` to the expected total.
     pub(crate) fn expect(&self, steps: usize) {
         self.bar.inc_length(steps as u64);
     }
@@ -46,8 +46,8 @@ impl Progress {
     }
 }
 
-/// A spinner for work that cannot be counted; shows itself as [`Progress`] does,
-/// and clears itself when dropped.
+/// Spinner for work without countable steps. Shown only on a terminal, after one second; cleared
+/// when dropped.
 pub(crate) struct Waiting {
     bar: ProgressBar,
     done: Arc<AtomicBool>,

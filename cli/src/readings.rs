@@ -1,4 +1,4 @@
-//! Options of measurement files: their format and units, and the references of counts.
+//! Options for measurement files (format, units, references of counts), and reading them.
 
 use std::path::{Path, PathBuf};
 
@@ -11,10 +11,10 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::referencing::ReferencingOptions;
 
-/// How measurement files are read.
+/// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct ReadingOptions {
-    /// Readings are in percent (found by the file as a whole if not told)
+    /// Readings are in percent [default: guessed from all readings of a file]
     #[arg(long, conflicts_with = "fraction")]
     percent: bool,
     /// Readings are fractions, white near 1
@@ -29,10 +29,10 @@ pub(crate) struct ReadingOptions {
     /// then one or more spectra. cxf: CxF3. tm27: IES TM-27 .spdx. sekonic: SpectroMaster CSV.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
-    /// Take what an instrument's file calls transmittance as reflectance
+    /// Read values that an instrument's file calls transmittance as reflectance
     ///
     /// For spectrometers whose program measured in transmission mode over a white tile. Counts and
-    /// the power of lamps are never taken as reflectance.
+    /// the power of lamps are never read as reflectance.
     #[arg(long)]
     as_reflectance: bool,
     #[command(flatten)]
@@ -44,7 +44,7 @@ fn format_names() -> PossibleValuesParser {
 }
 
 impl ReadingOptions {
-    /// Files that are read beside the measurements.
+    /// Paths of the reference files, which are read in addition to the measurements.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         self.referencing.files()
     }
@@ -63,7 +63,7 @@ impl ReadingOptions {
     }
 }
 
-/// Readings of measurement files, with the recipes of a file of their own. Prints what was read.
+/// Reads measurement files and, if given, a separate file of recipes. Prints remarks on them.
 pub(crate) fn measurements(
     paths: &[PathBuf],
     recipes: Option<&Path>,
@@ -78,7 +78,7 @@ pub(crate) fn measurements(
     Ok(readings)
 }
 
-/// Spectra of files whose other columns do not matter. Prints what was read.
+/// Reads only the spectra of measurement files, not their recipes. Prints remarks on them.
 pub(crate) fn spectra(
     paths: &[PathBuf],
     options: &ReadingOptions,

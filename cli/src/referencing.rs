@@ -1,24 +1,24 @@
-//! Counts of a spectrometer, set against a white, the dark, and the white's own reflectance.
+//! Options that convert the counts of a spectrometer to reflectance: white, dark and tile.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
-/// What counts are set against.
+/// References that convert counts to reflectance.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct ReferencingOptions {
-    /// White reading, FILE or FILE#NAME: the measurement files hold counts to set against it
+    /// White reading, FILE or FILE#NAME, for measurement files that hold counts
     ///
-    /// Reflectance = tile x (sample - dark) / (white - dark), each light by its integration time
-    /// where the files tell it. Light that is too much or too little from 380 to 730 nm is
-    /// refused; beyond, such wavelengths are left out.
+    /// Reflectance = tile x (sample - dark) / (white - dark), sample and white each divided by their
+    /// integration time where the files state it. Saturated counts or too little light from 380 to
+    /// 730 nm are an error; outside this range such wavelengths are left out.
     #[arg(long, value_name = "FILE")]
     white: Option<String>,
     /// Dark reading of sample and white, FILE or FILE#NAME; 0 if subtracted already
     ///
-    /// A dark does not scale with time: where sample and white were integrated for different
-    /// times, give one of each.
+    /// Dark counts are not scaled by time: if sample and white have different integration times,
+    /// give a dark reading for each.
     #[arg(long, value_name = "FILE", requires = "white")]
     dark: Vec<String>,
     /// The white's own reflectance, FILE, FILE#NAME or a fraction [default: 1]
@@ -26,21 +26,22 @@ pub(crate) struct ReferencingOptions {
     tile: Option<String>,
     /// Largest count of the detector, such as 65535 [default: guessed]
     ///
-    /// Guessed from a maximum of 4095, 16383 or 65535, or of several neighbours at the maximum.
+    /// Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
+    /// maximum.
     #[arg(long, value_name = "COUNT", requires = "white")]
     full_scale: Option<f64>,
-    /// Least light of the white, as a share of its peak [default: 0.01]
+    /// Minimum light of the white, as a fraction of its peak [default: 0.01]
     #[arg(long, value_name = "SHARE", requires = "white")]
     least_light: Option<f64>,
 }
 
 impl ReferencingOptions {
-    /// The files that are read.
+    /// Paths of all reference files.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         self.reference_files().map_or_else(Vec::new, |files| files.paths())
     }
 
-    /// The files as the library opens them; `None` without a white.
+    /// Reference files to be opened by the library; `None` without a white.
     pub(crate) fn reference_files(&self) -> Option<ReferenceFiles> {
         let mut files = ReferenceFiles::new(self.white.as_ref()?);
         files.dark = match self.dark.as_slice() {

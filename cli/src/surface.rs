@@ -1,4 +1,4 @@
-//! The options that tell a film's surface.
+//! Options for the surface reflection of a paint film.
 
 use clap::{Args, ValueEnum};
 use spectra::optics::{Specular, Surface};
@@ -11,22 +11,22 @@ enum SpecularName {
     Excluded,
 }
 
-/// A surface.
+/// Surface reflection of a film: Saunderson's k1 and k2, and whether readings include the specular part.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SurfaceOptions {
     /// Surface reflection as K1,K2, or none [default: 0.03,0.6; where absolute amounts are fitted,
     /// k1 = 0 and the k2 that predicts best]
     #[arg(long, value_name = "K1,K2")]
     saunderson: Option<String>,
-    /// Whether the readings hold the mirror reflection
+    /// Whether the readings include the specular reflection
     #[arg(long, value_enum, default_value = "included")]
     specular: SpecularName,
 }
 
 impl SurfaceOptions {
-    /// `None` if not told.
+    /// Surface given by `--saunderson`; `None` if the option is absent.
     pub(crate) fn surface(&self) -> Result<Option<Surface>> {
-        let wrong = |text: &str| {
+        let invalid = |text: &str| {
             Failure::usage(
                 format!("--saunderson takes K1,K2 or none, found `{text}`"),
                 "try --saunderson 0.03,0.6",
@@ -36,24 +36,25 @@ impl SurfaceOptions {
             None => None,
             Some("none") => Some(Surface::NONE),
             Some(text) => {
-                let (k1, k2) = text.split_once(',').ok_or_else(|| wrong(text))?;
-                let number = |part: &str| part.trim().parse().map_err(|_| wrong(text));
+                let (k1, k2) = text.split_once(',').ok_or_else(|| invalid(text))?;
+                let number = |part: &str| part.trim().parse().map_err(|_| invalid(text));
                 Some(Surface::new(number(k1)?, number(k2)?, self.specular())?)
             }
         })
     }
 
-    /// The surface told, else that of most paints.
+    /// Surface given by `--saunderson`; if it is absent, k1 = 0.03 and k2 = 0.6, usual for paint.
     pub(crate) fn surface_or_usual(&self) -> Result<Surface> {
         let usual = Surface { k1: 0.03, k2: 0.6, specular: self.specular() };
         Ok(self.surface()?.unwrap_or(usual))
     }
 
-    /// Whether shares of light were told.
-    pub(crate) fn given(&self) -> bool {
+    /// Whether `--saunderson` is present.
+    pub(crate) fn is_present(&self) -> bool {
         self.saunderson.is_some()
     }
 
+    /// Whether readings include the specular reflection.
     pub(crate) fn specular(&self) -> Specular {
         match self.specular {
             SpecularName::Included => Specular::Included,

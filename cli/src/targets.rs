@@ -7,43 +7,45 @@ use spectra::{Reflectance, Spectrum};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::remark_coverage;
-use crate::named_spectra::{Chosen, NamedSpectrum, chosen};
+use crate::named_spectra::{NamedSpectrum, SelectedSpectra, select_spectra};
 use crate::readings::ReadingOptions;
 
-/// Targets that `text` names: one colour, or the spectra of `FILE` or `FILE#SAMPLE`.
+/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the spectra of `FILE` or `FILE#SAMPLE`.
 pub(crate) fn targets(
     text: &str,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<Vec<ColorTarget>> {
-    if let Some(chosen) = chosen(text, reading, console)? {
-        return measured(chosen, console);
+    if let Some(selected) = select_spectra(text, reading, console)? {
+        return measured(selected, console);
     }
     let target = text.parse().map_err(|_| {
         Failure::usage(
-            format!("a target is #rrggbb, L,a,b or a file of spectra that exists, found `{text}`"),
+            format!("a target takes #rrggbb, L,a,b or an existing file of spectra, found `{text}`"),
             "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
         )
     })?;
     Ok(vec![target])
 }
 
-/// Spectra of paint among `chosen`. Bare cards are left out, unless one is named or there is nothing
-/// else.
-fn measured(chosen: Chosen, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
-    let Chosen { file, grid, mut spectra } = chosen;
+/// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
+/// nothing else was selected.
+fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
+    let SelectedSpectra { file, grid, mut spectra } = selected;
     remark_coverage(grid, console)?;
     let count = spectra.len();
-    if spectra.iter().any(|one| one.film == Film::Paint) {
-        spectra.retain(|one| one.film == Film::Paint);
+    if spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
+        spectra.retain(|spectrum| spectrum.film == Film::Paint);
     }
     if spectra.len() < count {
         let bare = count - spectra.len();
-        console.remark(format!("{file}: {bare} bare cards are no targets unless named"))?;
+        console.remark(format!(
+            "{file}: skipped {bare} bare cards, which are targets only if selected by name"
+        ))?;
     }
-    let target = |one: NamedSpectrum| {
-        let reflectance = Spectrum::<Reflectance>::new(grid, one.reflectance)?;
-        Ok(ColorTarget::measured(one.name, reflectance))
+    let target = |spectrum: NamedSpectrum| {
+        let reflectance = Spectrum::<Reflectance>::new(grid, spectrum.reflectance)?;
+        Ok(ColorTarget::measured(spectrum.name, reflectance))
     };
     spectra.into_iter().map(target).collect()
 }

@@ -1,4 +1,4 @@
-//! The options of `fit` and `validate`: what is measured, and how it is fitted.
+//! Options that `fit` and `validate` share: measurement files and settings of the fit.
 
 use std::path::PathBuf;
 
@@ -19,46 +19,46 @@ use crate::surface::SurfaceOptions;
 enum MethodName {
     /// The published quadratic program, unweighted (Baxter, Wendt and Lin 2004)
     Qp,
-    /// The program, its rows weighted into errors of reflectance
+    /// The quadratic program, its rows weighted to approximate errors of reflectance
     Weighted,
-    /// Nonlinear refinement in measured reflectance, robust, from `weighted`
+    /// Robust nonlinear refinement of `weighted`, in measured reflectance
     Refined,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Amounts {
-    /// Shares of a mixture; films that hide, or read over two backings
+    /// Shares of a mixture, for films that hide or are read over two backings
     Relative,
-    /// Amounts (mL, g) laid on a fixed area of a known backing
+    /// Amounts (mL, g) spread on a fixed area of a known backing
     Absolute,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Below {
-    /// An error that names sample and wavelength
+    /// Fail with an error that names sample and wavelength
     Refuse,
-    /// Read as black
+    /// Treat the reading as black
     Floor,
 }
 
-/// What is measured, and how it is fitted.
+/// Measurement files and settings of the fit.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationOptions {
     /// Measurement files: CSV (columns sample, film, backing, one per pigment, then wavelengths), or
     /// an instrument's files with --recipes
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Recipes of samples whose files tell none (CSV): columns sample, one per pigment
+    /// Recipes of samples whose files hold none (CSV): columns sample, one per pigment
     ///
     /// Joined to the readings by name. Further columns: film, backing, thickness_mm as in the
     /// measurement CSV, and `reading`, the name in the measurement file, where one sample was read
     /// several times (over white, over black, bare).
     #[arg(long, value_name = "FILE")]
     recipes: Option<PathBuf>,
-    /// What is minimised
+    /// Method of the fit
     #[arg(long, value_enum, default_value = "refined")]
     method: MethodName,
-    /// What the amounts mean
+    /// Meaning of the amounts
     #[arg(long, value_enum, default_value = "relative")]
     amounts: Amounts,
     /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
@@ -66,13 +66,14 @@ pub(super) struct CalibrationOptions {
     reference: Option<String>,
     #[command(flatten)]
     surface: SurfaceOptions,
-    /// What to do with a reading below k1 [default: refuse where --saunderson is given, else floor]
+    /// Treatment of a reading below k1 [default: refuse where --saunderson is given, else floor]
     #[arg(long, value_enum)]
     below_surface: Option<Below>,
     /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10
     #[arg(long, value_name = "WEIGHT", default_value = "auto", allow_hyphen_values = true)]
     smoothness: String,
-    /// Unevenness of films of absolute amounts: auto, or the deviation of log thickness (0.25)
+    /// Unevenness of films of absolute amounts: auto, or the standard deviation of log thickness
+    /// such as 0.25
     #[arg(long, value_name = "DEVIATION", default_value = "auto", allow_hyphen_values = true)]
     unevenness: String,
     /// A sample to leave out (may be repeated)
@@ -83,17 +84,17 @@ pub(super) struct CalibrationOptions {
 }
 
 impl CalibrationOptions {
-    /// The files that are read.
+    /// Paths of all files that are read.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         self.files.iter().chain(&self.recipes).cloned().chain(self.reading.files()).collect()
     }
 
-    /// Reads the files and prints what was read.
+    /// Reads the measurement files and prints remarks on them.
     pub(super) fn readings(&self, console: &mut Console<'_>) -> Result<Readings> {
         measurements(&self.files, self.recipes.as_deref(), &self.reading, console)
     }
 
-    /// Options of the fit, with colour errors under `viewing`.
+    /// Options of the fit; colour errors are computed under `viewing`.
     pub(super) fn fit_options(&self, viewing: Viewing) -> Result<FitOptions> {
         Ok(FitOptions {
             amounts: match self.amounts {
@@ -136,8 +137,8 @@ impl CalibrationOptions {
     }
 }
 
-/// Settles the options of a fit. Prints what was chosen.
-pub(super) fn prepared(
+/// Chooses the options of a fit that were left open, and prints the choices.
+pub(super) fn prepare_fit(
     readings: &Readings,
     options: &FitOptions,
     console: &mut Console<'_>,
@@ -154,10 +155,11 @@ pub(super) fn prepared(
     Ok(prepared)
 }
 
+/// Parses a finite number of 0 and up.
 fn at_least_zero(option: &str, text: &str) -> Result<f64> {
     text.parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0).ok_or_else(|| {
         Failure::usage(
-            format!("{option} takes a word or a number of 0 and up, found `{text}`"),
+            format!("{option} takes a word or a number not below 0, found `{text}`"),
             format!("try {option} auto"),
         )
     })

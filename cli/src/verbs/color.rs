@@ -1,4 +1,4 @@
-//! `impasto color`: spectra to XYZ, Lab and sRGB, and their differences.
+//! `impasto color`: XYZ, Lab and sRGB of measured spectra, and colour differences.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use super::mix::gamut_note;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{remark_coverage, viewing};
-use crate::named_spectra::{NamedSpectrum, matching, named_spectra};
+use crate::named_spectra::{NamedSpectrum, find_by_name, named_spectra};
 use crate::readings::{ReadingOptions, spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -32,9 +32,9 @@ enum AdaptationName {
 /// Colour of measured spectra under any light, and differences between them
 ///
 /// Reads what `fit` reads: the CSV, whose pigment columns do not matter here, or an instrument's
-/// file (see --format). Repeated readings of one sample on
-/// one backing are averaged. Several lights may be given; with --compare the metamerism index
-/// (change of illuminant from the first) is told for each later one.
+/// file (see --format). Repeated readings of one sample on one backing are averaged. Several lights
+/// may be given; with --compare the metamerism index (change of illuminant from the first light) is
+/// printed for each later one.
 #[derive(Debug, Args)]
 pub(crate) struct Color {
     /// Spectra: a CSV (column `sample`, then wavelengths), or an instrument's file
@@ -50,7 +50,7 @@ pub(crate) struct Color {
     /// Only these samples (may be repeated)
     #[arg(long, value_name = "SAMPLE")]
     sample: Vec<String>,
-    /// Tell the difference of every spectrum from this one
+    /// Print the difference of every spectrum from this one
     #[arg(long, value_name = "SAMPLE")]
     compare: Option<String>,
     /// RGB space of `srgb` and `hex`
@@ -66,12 +66,13 @@ pub(crate) struct Color {
     json: bool,
 }
 
-/// One spectrum with its colours, one for each light.
+/// Name and colours of one spectrum, one colour per light.
 struct Row {
     name: String,
     colors: Vec<SpectrumColor>,
 }
 
+/// Colour of one spectrum under one light.
 struct SpectrumColor {
     xyz: Xyz,
     lab: Lab,
@@ -100,12 +101,12 @@ impl Color {
             AdaptationName::Cat16 => Adaptation::Cat16,
         };
         let spectra = named_spectra(&table);
-        let row = |one: &NamedSpectrum| Row {
-            name: one.name.clone(),
+        let row = |spectrum: &NamedSpectrum| Row {
+            name: spectrum.name.clone(),
             colors: weights
                 .iter()
                 .map(|weights| {
-                    let xyz = weights.xyz(&one.reflectance);
+                    let xyz = weights.xyz(&spectrum.reflectance);
                     let white = weights.white();
                     SpectrumColor {
                         xyz,
@@ -118,28 +119,28 @@ impl Color {
         let rows: Vec<Row> = spectra.iter().map(row).collect();
         let standard = match &self.compare {
             None => None,
-            Some(name) => match matching(&spectra, name)?.as_slice() {
-                &[one] => Some(&rows[one]),
+            Some(name) => match find_by_name(&spectra, name)?.as_slice() {
+                &[index] => Some(&rows[index]),
                 several => {
                     let names: Vec<&str> = several.iter().map(|&i| rows[i].name.as_str()).collect();
                     return Err(Failure::data(
                         format!("`{name}` has several spectra"),
-                        format!("name one: {}", names.join(", ")),
+                        format!("select one of them: {}", names.join(", ")),
                     ));
                 }
             },
         };
-        let mut chosen: Vec<&Row> = Vec::new();
+        let mut selected: Vec<&Row> = Vec::new();
         for name in &self.sample {
-            chosen.extend(matching(&spectra, name)?.into_iter().map(|index| &rows[index]));
+            selected.extend(find_by_name(&spectra, name)?.into_iter().map(|index| &rows[index]));
         }
         if self.sample.is_empty() {
-            chosen.extend(&rows);
+            selected.extend(&rows);
         }
         let whites: Vec<Xyz> = weights.iter().map(spectra::TristimulusWeights::white).collect();
         if self.json {
             let mut list = Vec::new();
-            for row in chosen {
+            for row in selected {
                 for light in 0..lights.len() {
                     list.push(entry(row, light, standard, &lights, &whites));
                 }
@@ -152,7 +153,7 @@ impl Color {
                 viewing.illuminant.name(),
                 viewing.observer
             ))?;
-            print(&chosen, light, standard, &whites, console)?;
+            print(&selected, light, standard, &whites, console)?;
         }
         Ok(())
     }
@@ -177,13 +178,13 @@ fn entry(
         entry["illuminant"] = json!(lights[light].illuminant.name());
     }
     if let Some(standard) = standard {
-        let of = standard.colors[light].lab;
+        let reference = standard.colors[light].lab;
         entry["difference"] = json!({
             "from": standard.name,
-            "ciede2000": delta_e_ciede2000(of, *lab),
-            "cie1976": delta_e_cie76(of, *lab),
-            "cie94": delta_e_cie94(of, *lab, Cie94::GraphicArts),
-            "cmc_2_1": delta_e_cmc(of, *lab, Cmc::ACCEPTABILITY),
+            "ciede2000": delta_e_ciede2000(reference, *lab),
+            "cie1976": delta_e_cie76(reference, *lab),
+            "cie94": delta_e_cie94(reference, *lab, Cie94::GraphicArts),
+            "cmc_2_1": delta_e_cmc(reference, *lab, Cmc::ACCEPTABILITY),
         });
         if light > 0 {
             entry["metamerism"] = json!(metamerism(standard, row, light, whites));
@@ -192,6 +193,7 @@ fn entry(
     entry
 }
 
+/// Metamerism index of `row` against `standard` for the change from the first light to `light`.
 fn metamerism(standard: &Row, row: &Row, light: usize, whites: &[Xyz]) -> Option<f64> {
     let pair = |row: &Row| [row.colors[0].xyz, row.colors[light].xyz];
     metamerism_index(pair(standard), pair(row), whites[light]).ok()
@@ -221,13 +223,13 @@ fn print(
             line += &format!(" {value:7.2}");
         }
         if let Some(standard) = standard {
-            let of = standard.colors[light].lab;
+            let reference = standard.colors[light].lab;
             line += &format!(
                 "  {:9.2} {:6.2} {:6.2}  {:6.2}",
-                delta_e_ciede2000(of, *lab),
-                delta_e_cie76(of, *lab),
-                delta_e_cie94(of, *lab, Cie94::GraphicArts),
-                delta_e_cmc(of, *lab, Cmc::ACCEPTABILITY),
+                delta_e_ciede2000(reference, *lab),
+                delta_e_cie76(reference, *lab),
+                delta_e_cie94(reference, *lab, Cie94::GraphicArts),
+                delta_e_cmc(reference, *lab, Cmc::ACCEPTABILITY),
             );
             if light > 0 {
                 let index = metamerism(standard, row, light, whites);

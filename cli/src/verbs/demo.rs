@@ -1,4 +1,4 @@
-//! `impasto demo`: the shipped oils, fitted and mixed.
+//! `impasto demo`: fits the shipped oils and mixes a few colours.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -10,8 +10,8 @@ use clap::Args;
 
 use super::{fit_report, library};
 use crate::console::Console;
-use crate::failure::{Context, Result};
-use crate::output::Output;
+use crate::failure::Result;
+use crate::output::{Output, create_folder};
 
 const NAME: &str = "measurements/van-gogh-oils.csv";
 const OILS: &[u8] = include_bytes!("../../../measurements/van-gogh-oils.csv");
@@ -27,7 +27,7 @@ const MIXTURES: [(&str, &[(&str, f64)]); 6] = [
 /// Fit the Van Gogh oils that ship with impasto, and mix a few colours
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
-    /// Folder for the library
+    /// Folder that the library is written to
     #[arg(long, value_name = "FOLDER", default_value = "out")]
     out: PathBuf,
     /// Print JSON, as `fit` does
@@ -38,12 +38,11 @@ pub(crate) struct Demo {
 impl Demo {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
-        std::fs::create_dir_all(&self.out)
-            .context(|| format!("{}: cannot be made", self.out.display()))?;
+        create_folder(&self.out)?;
         let path = self.out.join("van-gogh-oils.pigments.json");
         let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
-        let fit = fitted()?;
+        let fit = fit_oils()?;
         let library = &fit.library;
         output.write(library.to_json())?;
         let seconds = start.elapsed().as_secs_f64();
@@ -62,10 +61,10 @@ impl Demo {
             console.line(format!("  {warning}"))?;
         }
         console.line("")?;
-        console.line("Mixtures nobody measured:")?;
+        console.line("Predicted mixtures, not measured:")?;
         print_mixtures(library, &viewing, console)?;
         console.line("")?;
-        console.remark(format!("written: {} ({seconds:.2} s)", path.display()))?;
+        console.remark(format!("Wrote {} ({seconds:.2} s)", path.display()))?;
         console.line("Next:")?;
         console
             .line(format!("  impasto mix {} \"Zinc White=9\" \"Cobalt Blue=1\"", path.display()))?;
@@ -75,8 +74,8 @@ impl Demo {
     }
 }
 
-/// Fit of the shipped oils.
-fn fitted() -> Result<Fit> {
+/// Fits the shipped measurements of Van Gogh's oils.
+fn fit_oils() -> Result<Fit> {
     let readings = Readings::from_csv(NAME, OILS)?;
     let options = FitOptions {
         reference: Some("Zinc White".to_owned()),
@@ -98,13 +97,13 @@ fn print_mixtures(
         let color = library.color(recipe.iter().copied(), viewing)?;
         let [l, a, b] = color.lab.to_array();
         let rgb = color.srgb;
-        let words: Vec<String> =
+        let parts: Vec<String> =
             recipe.iter().map(|(name, part)| format!("{part} {name}")).collect();
         console.line(format!(
             "  {}{} {title:width$}  Lab {l:5.1} {a:6.1} {b:6.1}  {}",
             console.patch(rgb),
             rgb.to_hex(),
-            words.join(" + ")
+            parts.join(" + ")
         ))?;
     }
     Ok(())

@@ -1,11 +1,11 @@
-//! `impasto fit`: measurements to a pigment library.
+//! `impasto fit`: fits a pigment library to measurements.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
 
-use super::calibration_options::{CalibrationOptions, prepared};
+use super::calibration_options::{CalibrationOptions, prepare_fit};
 use super::fit_report;
 use crate::console::Console;
 use crate::failure::Result;
@@ -17,21 +17,21 @@ use crate::progress::Waiting;
 ///
 /// Prints the colour error of every sample: CIEDE2000 between its measured K/S in a film that hides
 /// and the fitted mixture (for absolute amounts, between measured and fitted film). K and S do not
-/// depend on --illuminant and --observer, which only set under what errors are told.
+/// depend on --illuminant and --observer, which only set the light and observer of the errors.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
     #[command(flatten)]
     options: CalibrationOptions,
-    /// The library file to write (JSON); without it errors are printed only
+    /// The library file to write (JSON); without it only errors are printed
     #[arg(short, long, value_name = "LIBRARY")]
     output: Option<PathBuf>,
     /// Title of the library [default: the first file's name]
     #[arg(long)]
     title: Option<String>,
-    /// Licence of the figures
+    /// Licence of the library
     #[arg(long, default_value = "not stated")]
     licence: String,
-    /// Where the measurements come from
+    /// Source of the measurements
     #[arg(long, default_value = "not stated")]
     source: String,
     #[command(flatten)]
@@ -51,7 +51,7 @@ impl Fit {
         let open = |path| Output::open(path, &self.options.files());
         let output = self.output.as_deref().map(open).transpose()?;
         let readings = self.options.readings(console)?;
-        let prepared = prepared(&readings, &options, console)?;
+        let prepared = prepare_fit(&readings, &options, console)?;
         let waiting = Waiting::new("fitting", console.screen.progress);
         let fit = prepared.fit()?;
         drop(waiting);
@@ -65,10 +65,8 @@ impl Fit {
         console.warnings(fit.warnings())?;
         console.line(fit.report().to_string())?;
         match &self.output {
-            Some(path) => console.remark(format!("written: {}", path.display())),
-            None => {
-                console.remark("nothing written; give --output LIBRARY.json to keep the library")
-            }
+            Some(path) => console.remark(format!("Wrote {}", path.display())),
+            None => console.remark("Wrote nothing; give --output LIBRARY.json to keep the library"),
         }
     }
 }

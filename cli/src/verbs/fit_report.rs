@@ -5,7 +5,7 @@ use calibrate::evaluate::Summary;
 use calibrate::library::{Evidence, SampleEvidence};
 use serde_json::{Value, json};
 
-/// The keys that `fit` and `validate` share.
+/// Returns the JSON object of `fit` and `validate`, with `seconds` rounded to 1 ms.
 pub(super) fn to_json(
     pigments: usize,
     rms: f64,
@@ -25,7 +25,7 @@ pub(super) fn to_json(
     })
 }
 
-/// Errors of a fit that took `seconds`.
+/// Returns the JSON of the errors of a fit that took `seconds`.
 pub(super) fn fit_json(fit: &Fit, seconds: f64) -> Value {
     let Evidence { rms, delta_e, per_sample, warnings, .. } = fit.evidence();
     to_json(fit.library.pigments.len(), *rms, delta_e, per_sample, warnings, seconds)

@@ -1,4 +1,4 @@
-//! `impasto gpu`: which graphics adapter would be used, and why.
+//! `impasto gpu`: shows which graphics adapter would be used, and why.
 
 use clap::Args;
 use render::gpu::{Adapter, BackendChoice, adapters, best};
@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 use crate::console::Console;
 use crate::failure::Result;
 
-/// Tell which graphics adapter painting would use, and why
+/// Show which graphics adapter painting would use, and why
 ///
-/// Hardware is used where it computes: discrete before integrated. A software adapter (lavapipe,
-/// SwiftShader) is slower than the processor painting by itself, so it is used only by --backend
-/// gpu where there is no hardware. With no adapter at all the processor paints; this is no error.
-/// "cells" is the largest canvas that one buffer of the adapter can hold, at 32 bytes a cell; its
-/// memory may end before that.
+/// Hardware adapters that can compute are used, discrete before integrated. A software adapter
+/// (lavapipe, SwiftShader) is slower than painting on the processor, so it is used only by
+/// --backend gpu where there is no hardware. With no adapter at all the processor paints; this is
+/// no error. "cells" is the largest canvas that one buffer of the adapter can hold, at 32 bytes per
+/// cell; its memory may be too small for that.
 #[derive(Debug, Args)]
 pub(crate) struct Gpu {
     /// Print JSON: used, with_backend_gpu (null where there is none), why, adapters
@@ -62,14 +62,17 @@ impl Gpu {
     }
 }
 
-/// The side of the largest square canvas.
+/// Side of the largest square canvas, in cells.
 fn side(adapter: &Adapter) -> u64 {
     max_canvas_cells(adapter).isqrt()
 }
 
+/// Reason for the choice of adapter.
 fn why(found: &[Adapter], used: Option<&Adapter>) -> String {
     match (found.first(), used) {
-        (_, Some(adapter)) => format!("it is hardware that computes ({})", adapter.kind.name()),
+        (_, Some(adapter)) => {
+            format!("it is a hardware adapter that can compute ({})", adapter.kind.name())
+        }
         (None, None) => "no graphics driver offers an adapter".to_owned(),
         (Some(Adapter { unfit: Some(_), .. }), None) => "no adapter can be used".to_owned(),
         (Some(_), None) => "there is no hardware adapter, and software ones are slower".to_owned(),

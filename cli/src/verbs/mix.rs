@@ -1,4 +1,4 @@
-//! `impasto mix`: a recipe to a reflectance and a colour.
+//! `impasto mix`: predicts the reflectance and the colour of a recipe.
 
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ use crate::input::{ViewingOptions, library};
 pub(crate) struct Mix {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// Pigments and parts, NAME=PARTS; a name may be cut short
+    /// Pigments and parts, NAME=PARTS; a name may be abbreviated
     #[arg(required = true, value_name = "NAME=PARTS")]
     recipe: Vec<String>,
     /// Thickness of the film; 1 is where the reference white has S d = 1 (for absolute amounts,
@@ -29,7 +29,7 @@ pub(crate) struct Mix {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     thickness: Option<f64>,
     /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a file of
-    /// spectra as `color` reads it, FILE or FILE#SAMPLE, named as there [default: white]
+    /// spectra, FILE or FILE#SAMPLE with a name as `color` prints it [default: white]
     #[arg(long, value_name = "GROUND", allow_hyphen_values = true)]
     over: Option<String>,
     #[command(flatten)]
@@ -99,24 +99,24 @@ impl Mix {
     }
 }
 
-/// A word for colours that sRGB cannot show.
+/// Note for a colour outside sRGB, which is shown by the nearest one; empty for a colour inside.
 pub(super) fn gamut_note(inside: bool) -> String {
     if inside { String::new() } else { format!(" (nearest; outside {:?})", RgbSpace::Srgb) }
 }
 
-/// Names and parts of `NAME=PARTS`.
+/// Parses a recipe of texts `NAME=PARTS`.
 fn parsed_recipe(texts: &[String]) -> Result<Vec<(&str, f64)>> {
     texts
         .iter()
         .map(|text| {
-            let wrong = || {
+            let invalid = || {
                 Failure::usage(
-                    format!("a part of a recipe is NAME=PARTS, found `{text}`"),
+                    format!("a recipe takes NAME=PARTS, found `{text}`"),
                     "try \"Zinc White=9\" \"Cobalt Blue=1\"",
                 )
             };
-            let (name, parts) = text.rsplit_once('=').ok_or_else(wrong)?;
-            Ok((name, parts.trim().parse().map_err(|_| wrong())?))
+            let (name, parts) = text.rsplit_once('=').ok_or_else(invalid)?;
+            Ok((name, parts.trim().parse().map_err(|_| invalid())?))
         })
         .collect()
 }

@@ -1,4 +1,4 @@
-//! The verbs, one file each.
+//! Verbs of the command line, one file each.
 
 mod calibration_options;
 
@@ -43,7 +43,7 @@ use clap::Subcommand;
 use crate::console::Console;
 use crate::failure::Result;
 
-/// What to do.
+/// Verbs of the command line.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Fit(fit::Fit),

@@ -1,4 +1,4 @@
-//! `impasto paint`: a recorded script, or a photograph, to a painting.
+//! `impasto paint`: paints a recorded script or a photograph.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -19,27 +19,27 @@ use super::paint_photograph::PhotographOptions;
 use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::{Context, Failure, Result};
-use crate::input::{built_in_library, library, unreadable};
-use crate::output::Output;
+use crate::input::{built_in_library, library};
+use crate::output::{Output, create_folder};
 use crate::pictures::{Exports, clipping_remark};
 use crate::progress::Progress;
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///
-/// A script (strokes/1, JSON) names canvas, pigments and brushes, and then what is done: load,
-/// stroke, wipe, dry, light .. The paint is thick and wet, and moves as Baxter, Wendt and Lin (2004)
-/// describe it; colour is Kubelka-Munk at eight wavelengths chosen for the light. The same script
-/// gives the same bytes, on every machine and backend as far as paint goes.
+/// A script (strokes/1, JSON) describes canvas, pigments and brushes, then lists the actions: load,
+/// stroke, wipe, dry, light .. The paint is thick and wet, and moves as in Baxter, Wendt and Lin
+/// (2004); colour is Kubelka-Munk at eight wavelengths chosen for the light. The same script gives
+/// the same paint, to the bit, on every machine and backend.
 ///
 /// With --from, a photograph is separated into pigments and painted stroke by stroke, coarse to
-/// fine; --separate writes how much of each pigment every pixel takes, and paints nothing.
+/// fine; --separate writes the amount of each pigment at every pixel, and paints nothing.
 #[derive(Debug, Args)]
 pub(crate) struct Paint {
     /// The script (.json)
     #[arg(required_unless_present = "from", conflicts_with = "from")]
     script: Option<PathBuf>,
-    /// The pigment library (JSON) [default: the one the script names, where it is found beside the
-    /// script; else the Van Gogh oils]
+    /// The pigment library (JSON) [default: the one that the script names, if it is found beside
+    /// the script; else the Van Gogh oils]
     #[arg(long, value_name = "LIBRARY")]
     library: Option<PathBuf>,
     #[command(flatten)]
@@ -49,7 +49,7 @@ pub(crate) struct Paint {
     /// Print JSON: actions, strokes, substeps, cells, backend, canvas
     #[arg(long)]
     json: bool,
-    // Last: its heading holds for all that follow.
+    // Must be last: its help heading applies to all options that follow.
     #[command(flatten)]
     photograph: PhotographOptions,
 }
@@ -74,7 +74,7 @@ impl Paint {
 
     fn script(self, path: &Path, console: &mut Console<'_>) -> Result<()> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).context(|| unreadable(path))?;
+        let bytes = spectra::file::read(path)?;
         let mut script = StrokeScript::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
@@ -104,12 +104,14 @@ impl Paint {
         let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
         let exports = self.exports.open(&inputs)?;
         check_saves(&script, &folder, &inputs).context(|| name.clone())?;
-        let mut session = set_up(&self.engine, canvas, palette, console)?;
+        let mut session = open_session(&self.engine, canvas, palette, console)?;
         let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
         let mut remarks = Vec::new();
         let report = script.replay(
             &mut session,
-            |path, painting| save(&folder, path, &inputs, painting, &mut remarks).map_err(Saving),
+            |path, painting| {
+                save(&folder, path, &inputs, painting, &mut remarks).map_err(SaveFailure)
+            },
             || {
                 bar.step();
                 ControlFlow::Continue(())
@@ -121,15 +123,15 @@ impl Paint {
         }
         let report = report.map_err(|error| replay_failure(error).within(name))?;
         exports.write(session.canvas_mut(), console)?;
-        tell(&report, session.canvas(), self.json, console)
+        print(&report, session.canvas(), self.json, console)
     }
 
-    /// The painting that the script goes on with, if with one.
+    /// Opens the painting that the script continues, if it continues one.
     fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<(PathBuf, Document)>> {
         let Some(start) = &script.start else { return Ok(None) };
         if self.library.is_some() {
             return Err(Failure::usage(
-                format!("the script goes on with {start}, which has a library of its own"),
+                format!("the script continues {start}, which has its own library"),
                 "leave --library out",
             ));
         }
@@ -138,6 +140,7 @@ impl Paint {
         Ok(Some((path, document)))
     }
 
+    /// The library of `--library`, else the one that the script names, else the shipped oils.
     fn script_library(
         &self,
         script: &StrokeScript,
@@ -157,14 +160,14 @@ impl Paint {
             return library(&path);
         }
         console.warnings(&[format!(
-            "the script was made for the library `{named}`, which is not there; the built-in oils are used (--library takes another)"
+            "the script names the library `{named}`, which was not found; using the built-in oils (choose another with --library)"
         )])?;
         Ok(built_in)
     }
 }
 
-/// The surfaces at work.
-fn set_up(
+/// Opens a painting session with the canvas and, if given, the palette.
+fn open_session(
     engine: &EngineOptions,
     canvas: Document,
     palette: Option<Document>,
@@ -181,25 +184,25 @@ fn set_up(
     Ok(session)
 }
 
-/// A failed save, as the replay of a script carries it.
+/// Failure of a save action, in the form that the replay of a script returns.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-struct Saving(Failure);
+struct SaveFailure(Failure);
 
-/// The failure of a replay, with the action that failed.
-fn replay_failure(error: ReplayError<Saving>) -> Failure {
+/// Converts the error of a replay, naming the action that failed.
+fn replay_failure(error: ReplayError<SaveFailure>) -> Failure {
     match error {
         ReplayError::Script(error) => error.into(),
         ReplayError::Action { index, kind, error } => {
             Failure::from(error).within(format!("action {index} ({kind})"))
         }
-        ReplayError::Save { index, error: Saving(failure) } => {
+        ReplayError::Save { index, error: SaveFailure(failure) } => {
             failure.within(format!("action {index} (save)"))
         }
     }
 }
 
-/// Checks, before the slow part, that all that the script saves can be written.
+/// Checks, before painting, that every file that the script saves can be written.
 fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Result<()> {
     let mut checked = BTreeSet::new();
     for (index, action) in script.actions.iter().enumerate() {
@@ -212,17 +215,16 @@ fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Resu
     Ok(())
 }
 
-/// The file of an action that saves, below the script's folder.
+/// Opens the file of a save action, with a path relative to the script's folder.
 fn open_save(folder: &Path, path: &str, inputs: &[PathBuf]) -> Result<Output> {
     let path = folder.join(path);
     if let Some(parent) = path.parent() {
-        let cannot = || format!("{}: this folder cannot be made", parent.display());
-        std::fs::create_dir_all(parent).context(cannot)?;
+        create_folder(parent)?;
     }
     Output::open(&path, inputs)
 }
 
-/// Saves for an action of the script, below its folder.
+/// Carries out a save action of the script: a PNG picture, or the painting itself.
 fn save(
     folder: &Path,
     path: &str,
@@ -243,7 +245,8 @@ fn save(
     output.write(bytes)
 }
 
-fn tell(
+/// Prints the summary of a replay.
+fn print(
     report: &ReplayReport,
     painting: &Painting,
     as_json: bool,
@@ -252,11 +255,11 @@ fn tell(
     let bounds = painting.bounds();
     let ReplayReport { actions, strokes, substeps, cells, idle, not_undoable } = *report;
     if idle > 0 {
-        console.warnings(&[format!("{idle} undo or redo found nothing to do")])?;
+        console.warnings(&[format!("{idle} undo or redo actions had nothing to undo or redo")])?;
     }
     if not_undoable > 0 {
         console.warnings(&[format!(
-            "{not_undoable} strokes were too large for undo (--undo-memory takes more)"
+            "{not_undoable} strokes were too large to undo (raise --undo-memory)"
         )])?;
     }
     if as_json {

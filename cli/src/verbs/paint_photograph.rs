@@ -1,4 +1,4 @@
-//! `impasto paint --from`: a photograph to pigments, and to strokes.
+//! `impasto paint --from`: separates a photograph into pigments, or paints it in strokes.
 
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ use crate::progress::{Progress, Waiting};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Photographs")]
 pub(crate) struct PhotographOptions {
-    /// Paint after this photograph (PNG or JPEG, taken as sRGB)
+    /// Paint this photograph (PNG or JPEG, read as sRGB)
     #[arg(long, value_name = "PHOTO")]
     from: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
@@ -35,7 +35,7 @@ pub(crate) struct PhotographOptions {
     /// Width of the painting; its height follows the photograph's shape
     #[arg(long, value_name = "MM", default_value_t = 200.0, conflicts_with = "script")]
     width_mm: f64,
-    /// Width of a cell: smaller ones show finer relief, and take time by their square
+    /// Width of a cell; smaller cells show finer relief, half the width takes four times as long
     #[arg(long, value_name = "MM", default_value_t = 0.25, conflicts_with = "script")]
     cell_mm: f64,
     /// Ground to paint on
@@ -45,10 +45,10 @@ pub(crate) struct PhotographOptions {
     /// [default: 16,8,4,2 on 200 mm, and in proportion]
     #[arg(long, value_name = "MM", value_delimiter = ',', conflicts_with = "script")]
     brushes: Vec<f64>,
-    /// The difference in CIELAB that is painted over: less takes more strokes
+    /// Difference in CIELAB above which an area is painted over; less takes more strokes
     #[arg(long, value_name = "DELTA_E", default_value_t = 6.0, conflicts_with = "script")]
     tolerance: f64,
-    /// Seed of all that is drawn by lot
+    /// Seed of all random choices
     #[arg(long, value_name = "N", default_value_t = 1, conflicts_with = "script")]
     seed: u64,
     /// Write the strokes as a script (.json) that paints the same, bit for bit
@@ -58,7 +58,7 @@ pub(crate) struct PhotographOptions {
     /// paints nothing unless another file is asked for
     #[arg(long, value_name = "FOLDER", conflicts_with = "script")]
     separate: Option<PathBuf>,
-    /// Let the ground shine through in --separate, which reaches lighter and purer colours
+    /// Let the ground show through in --separate, which reaches lighter and purer colours
     #[arg(long, requires = "separate")]
     thin: bool,
 }
@@ -82,21 +82,22 @@ impl PhotographOptions {
             ));
         }
         let settings = self.settings();
-        settings.check().map_err(settings_refusal)?;
+        settings.check().map_err(settings_failure)?;
         if paints && self.thin {
             return Err(Failure::usage(
-                "--thin is for --separate alone: strokes lie over each other and hide",
+                "--thin works only with --separate: strokes overlap and must hide",
                 "leave --thin out, or separate first and paint in a second run",
             ));
         }
         let photograph = Photograph::open(&from)?;
-        settings.canvas(photograph.size()).map_err(settings_refusal)?;
+        settings.canvas(photograph.size()).map_err(settings_failure)?;
         let inputs: Vec<PathBuf> = std::iter::once(from).chain(library_path.clone()).collect();
         let exports = exports.open(&inputs)?;
         let strokes_out = self.strokes_out.as_ref().map(|path| Output::open(path, &inputs));
         let strokes_out = strokes_out.transpose()?;
         let waiting = Waiting::new("mixing colours", console.screen.progress);
-        let painter = StrokePainter::new(&photograph, &library, &settings).map_err(refusal)?;
+        let painter =
+            StrokePainter::new(&photograph, &library, &settings).map_err(painter_failure)?;
         drop(waiting);
         if let Some(folder) = &self.separate {
             let separated = painter.separate()?;
@@ -123,6 +124,7 @@ impl PhotographOptions {
         report(&painted, painter.pigments(), as_json, console)
     }
 
+    /// Settings of the painter.
     fn settings(&self) -> StrokeSettings {
         let from = self.from.as_deref().and_then(|from| from.file_stem());
         StrokeSettings {
@@ -145,15 +147,16 @@ fn grounds() -> impl TypedValueParser<Value = GroundKind> {
     names.try_map(|name| name.parse::<GroundKind>())
 }
 
-/// Names the option where a setting is out of range.
-fn refusal(error: StrokePainterError) -> Failure {
+/// Converts an error of the painter, naming the option if a setting is out of range.
+fn painter_failure(error: StrokePainterError) -> Failure {
     match error {
-        StrokePainterError::Settings(error) => settings_refusal(error),
+        StrokePainterError::Settings(error) => settings_failure(error),
         error => error.into(),
     }
 }
 
-fn settings_refusal(error: StrokeSettingsError) -> Failure {
+/// Converts an error of the settings, naming the option if one is out of range.
+fn settings_failure(error: StrokeSettingsError) -> Failure {
     let hint = error.hint().map(|hint| with_options(&hint)).unwrap_or_default();
     let StrokeSettingsError::OutOfRange { setting, value, least, most } = error else {
         return Failure::usage(error.to_string(), hint);
@@ -175,7 +178,7 @@ fn report_separation(
         return console.json(&json!({"palette": pigments, "error": separated.error}));
     }
     console.line(format!("separated into {}", pigments.join(", ")))?;
-    console.line(format!("colour error (CIEDE2000): {}", in_words(&separated.error)))
+    console.line(format!("colour error (CIEDE2000): {}", error_summary(&separated.error)))
 }
 
 fn report(
@@ -203,18 +206,18 @@ fn report(
     ))?;
     for LevelReport { shape, size_mm, strokes, mean_error, .. } in levels {
         console.line(format!(
-            "{shape} of {size_mm} mm: {strokes} strokes, then {mean_error:.2} from the photograph at its scale"
+            "{shape} of {size_mm} mm: {strokes} strokes, then a mean colour error of {mean_error:.2} at its scale"
         ))?;
     }
     let finest_mm = levels.last().map_or(0.0, |level| level.size_mm);
     console.line(format!(
         "colour error at the scale of the {finest_mm} mm brush (CIEDE2000): {}",
-        in_words(error)
+        error_summary(error)
     ))
 }
 
-/// Errors in one line.
-fn in_words(errors: &ColorErrors) -> String {
+/// Formats colour errors in one line.
+fn error_summary(errors: &ColorErrors) -> String {
     let ColorErrors { mean, median, p95, max, out_of_gamut, .. } = errors;
     format!(
         "mean {mean:.2}, median {median:.2}, 95th percentile {p95:.2}, largest {max:.2}; {:.1} % out of gamut",

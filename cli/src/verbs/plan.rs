@@ -1,4 +1,4 @@
-//! `impasto plan`: which swatches to prepare.
+//! `impasto plan`: plans the swatches to prepare.
 
 use std::path::PathBuf;
 
@@ -13,19 +13,19 @@ use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
-/// Plan the swatches to prepare, so that K and S of every pigment can be told
+/// Plan the swatches to prepare, so that K and S of every pigment can be determined
 ///
-/// Prints each swatch with its recipe in parts and grams, and how much of each paint all of them
-/// take. With --prior, a library of paint like it, the swatches are chosen to tell most of K and S
-/// (D-optimal), and the deviations to expect are predicted. --output writes the measurement file to
-/// fill in: bare cards and every swatch over a white and a black card, amounts in grams. Put in its
-/// amounts what the balance really showed.
+/// Prints the recipe of each swatch in parts and grams, and the total of each paint. With --prior, a
+/// library of similar paint, the swatches are chosen to determine K and S best (D-optimal), and the
+/// expected deviations are predicted. --output writes the measurement file to fill in: bare cards
+/// and every swatch over a white and a black card, amounts in grams. Replace its amounts by what
+/// the balance showed.
 #[derive(Debug, Args)]
 pub(crate) struct Plan {
-    /// The pigments; with --prior a name may be cut short
+    /// The pigments; with --prior a name may be abbreviated
     #[arg(required = true, value_name = "PIGMENT")]
     pigments: Vec<String>,
-    /// The white that lets them down, whose S is the unit
+    /// The white for tints, whose S is the unit
     #[arg(long, value_name = "NAME")]
     white: String,
     /// A black, for shades
@@ -34,20 +34,20 @@ pub(crate) struct Plan {
     /// A pigment library of the same or similar paint, to choose the swatches by
     #[arg(long, value_name = "LIBRARY")]
     prior: Option<PathBuf>,
-    /// How many swatches [default: masstones, two tints each, a shade each with a black, and one
+    /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
     /// cross each]
     #[arg(long, value_name = "N")]
     swatches: Option<usize>,
-    /// Grams of paint a swatch
+    /// Grams of paint per swatch
     #[arg(long, value_name = "G", default_value_t = 10.0, allow_hyphen_values = true)]
     grams: f64,
-    /// The step that the balance shows, in grams; no part is smaller than fifty steps, so that it
-    /// is weighed to 1 %
+    /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
+    /// weighed to 1 %
     #[arg(long, value_name = "G", default_value_t = 0.01, allow_hyphen_values = true)]
     balance: f64,
-    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: the
-    /// instrument's, and that of weighing, mixing and film, even to the eye [default: 0.002 and
-    /// the residual that the prior's own fit left, else 0.01]
+    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
+    /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
+    /// 0.002 and the residual of the prior's own fit, else 0.01]
     #[arg(long, value_name = "CONSTANT,EVEN", requires = "prior", allow_hyphen_values = true)]
     noise: Option<String>,
     /// Readings of each film and card in the file
@@ -71,10 +71,10 @@ impl Plan {
         let inputs: Vec<PathBuf> = self.prior.iter().cloned().collect();
         let open = |path: &PathBuf| {
             let output = Output::open(path, &inputs)?;
-            // It may hold a day's readings by now.
+            // The file may hold readings by now.
             if path.exists() {
                 return Err(Failure::usage(
-                    format!("{}: is there already, and is not written over", path.display()),
+                    format!("{}: exists already and is not overwritten", path.display()),
                     "give another name, or remove the file first",
                 ));
             }
@@ -102,7 +102,7 @@ impl Plan {
         plan_report::print_totals(&plan, console)?;
         console.line("")?;
         console.line(format!(
-            "{} swatches for {} unknowns a wavelength; every pigment is identified",
+            "{} swatches for {} unknowns per wavelength; every pigment is identified",
             plan.swatches.len(),
             plan.paints.unknowns()
         ))?;
@@ -111,7 +111,7 @@ impl Plan {
         }
         match &self.output {
             Some(path) => console.remark(format!(
-                "written: {}; fill it in, then impasto fit {} --reference \"{}\"",
+                "Wrote {}; fill it in, then run impasto fit {} --reference \"{}\"",
                 path.display(),
                 path.display(),
                 plan.paints.name(PaintSet::WHITE)
@@ -126,12 +126,12 @@ impl Plan {
         }
         Err(Failure::usage(
             format!("--replicates takes 1 to 100, found `{}`", self.replicates),
-            "two readings, the sample turned between them, show how far they repeat",
+            "try --replicates 2, and turn the sample between both readings",
         ))
     }
 
     fn grid(&self) -> Result<Grid> {
-        let wrong = || {
+        let invalid = || {
             Failure::usage(
                 format!(
                     "--grid takes FIRST,LAST,STEP in nm, within 200 to 2500 and LAST a whole number of steps from FIRST, found `{}`",
@@ -140,11 +140,11 @@ impl Plan {
                 "try --grid 400,700,10",
             )
         };
-        let [first, last, step] = numbers(&self.grid).ok_or_else(wrong)?;
+        let [first, last, step] = numbers(&self.grid).ok_or_else(invalid)?;
         let steps = (last - first) / step;
-        let whole = (steps - steps.round()).abs() < 1e-6 && (0.0..=5000.0).contains(&steps);
-        if !(first >= 200.0 && last <= 2500.0 && step > 0.0 && whole) {
-            return Err(wrong());
+        let is_whole = (steps - steps.round()).abs() < 1e-6 && (0.0..=5000.0).contains(&steps);
+        if !(first >= 200.0 && last <= 2500.0 && step > 0.0 && is_whole) {
+            return Err(invalid());
         }
         Ok(Grid::from_nm(first, step, steps.round() as usize + 1)?)
     }
@@ -167,7 +167,7 @@ impl Plan {
     }
 }
 
-/// Exactly N numbers with commas between them.
+/// Parses exactly N numbers separated by commas.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     numbers?.try_into().ok()

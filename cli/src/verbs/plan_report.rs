@@ -8,15 +8,15 @@ use crate::console::Console;
 use crate::failure::Result;
 
 pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> Result<()> {
-    let word =
+    let part =
         |&(paint, grams): &(PigmentId, f64)| format!("{grams} g {}", plan.paints.name(paint));
-    let words = |grams: &Recipe| grams.iter().map(word).collect::<Vec<_>>().join(" + ");
-    let words: Vec<String> = plan.swatches.iter().map(|swatch| words(&swatch.grams)).collect();
+    let recipe = |grams: &Recipe| grams.iter().map(part).collect::<Vec<_>>().join(" + ");
+    let recipes: Vec<String> = plan.swatches.iter().map(|swatch| recipe(&swatch.grams)).collect();
     let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
-    let wide = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
-    for (swatch, word) in plan.swatches.iter().zip(&words) {
+    let recipe_width = recipes.iter().map(|text| text.chars().count()).max().unwrap_or(0);
+    for (swatch, recipe) in plan.swatches.iter().zip(&recipes) {
         let (name, purpose) = (&swatch.name, swatch.recipe.purpose);
-        console.line(format!("{name:width$}  {word:wide$}  {}", purpose.why()))?;
+        console.line(format!("{name:width$}  {recipe:recipe_width$}  {}", purpose.why()))?;
     }
     Ok(())
 }
@@ -36,7 +36,7 @@ pub(super) fn print_forecast(
     console: &mut Console<'_>,
 ) -> Result<()> {
     console.line(format!(
-        "the usual plan of as many swatches has {:.0} % of this one's information (D-efficiency)",
+        "the usual plan with as many swatches has {:.0} % of the information of this one (D-efficiency)",
         100.0 * forecast.usual_efficiency
     ))?;
     console.line("")?;
@@ -50,15 +50,15 @@ pub(super) fn print_forecast(
         large if large > 999.0 => ">999".to_owned(),
         value => format!("{value:.1}"),
     };
-    let of_white = || "unit".to_owned();
+    let unit = || "unit".to_owned();
     let pairs = forecast.deviations.iter().zip(&forecast.usual_deviations);
     for (name, (own, usual)) in paints.names.iter().zip(pairs) {
         console.line(format!(
             "{name:width$} {:>7} {:>7}  {:>8} {:>8}",
             percent(own.absorption),
-            own.scattering.map_or_else(of_white, percent),
+            own.scattering.map_or_else(unit, percent),
             percent(usual.absorption),
-            usual.scattering.map_or_else(of_white, percent),
+            usual.scattering.map_or_else(unit, percent),
         ))?;
     }
     Ok(())
@@ -82,7 +82,7 @@ pub(super) fn as_json(plan: &Plan) -> Value {
         })
     });
     let swatches: Vec<Value> = swatches.collect();
-    // Sums of steps of a balance, without the noise of adding.
+    // Removes the floating-point error of a sum of balance steps.
     let rounded = |total: f64| (1e6 * total).round() / 1e6;
     let totals: Map<String, Value> = plan
         .paints

@@ -1,4 +1,4 @@
-//! `impasto quadrature`: a few wavelengths that stand for the spectrum.
+//! `impasto quadrature`: chooses a few wavelengths and weights that give XYZ.
 
 use std::path::PathBuf;
 
@@ -12,32 +12,33 @@ use crate::input::{ViewingOptions, color_weights, library};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
-    /// The paper's: Gaussian nodes of (x + y + z) E, each weight shared among X, Y and Z
+    /// Gaussian nodes of (x + y + z) E, each weight divided among X, Y and Z (Baxter, Wendt and Lin
+    /// 2004)
     Gauss,
-    /// The same nodes, weights exact for polynomials in each channel
+    /// Nodes of `gauss`, with weights exact for polynomials in each channel
     Moments,
-    /// Nodes and weights fitted to everything the library can mix
+    /// Nodes and weights fitted to mixtures of the library
     Library,
 }
 
 /// Choose wavelengths and weights that give XYZ under a light
 ///
-/// With a library, tells the colour error against full integration over random mixtures (of one to
-/// four pigments, films that hide) that no method was fitted to.
+/// With a library, prints the colour error against full integration over random mixtures (films
+/// that hide, of one to four pigments) that no method was fitted to.
 #[derive(Debug, Args)]
 pub(crate) struct Quadrature {
     /// The pigment library (JSON)
     library: Option<PathBuf>,
-    /// How they are chosen [default: library where one is given, else moments]
+    /// Method of choosing them [default: library where one is given, else moments]
     #[arg(long, value_enum)]
     method: Option<MethodName>,
-    /// How many wavelengths, 1 to 32
+    /// Number of wavelengths, 1 to 32
     #[arg(short = 'n', long, value_name = "N", default_value_t = 8)]
     nodes: usize,
     /// Seed of the random mixtures
     #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
-    /// How many random mixtures
+    /// Number of random mixtures
     #[arg(long, value_name = "N", default_value_t = 1000)]
     mixtures: usize,
     #[command(flatten)]

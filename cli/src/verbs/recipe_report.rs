@@ -1,4 +1,4 @@
-//! Report of recipes by `match`: text and JSON.
+//! Report of the recipes that `match` found: text and JSON.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{FilmKind, MatchRequest, RecipeMatch, RecipeMatches};
@@ -9,10 +9,11 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::input::srgb;
 
-/// CIEDE2000 above which a difference is plain to see side by side; chosen by eye.
+/// Largest CIEDE2000 at which a target counts as reached; larger differences are plain to see side
+/// by side. Chosen by eye.
 const REACHED: f64 = 1.0;
 
-/// Settings that all recipes of a run share.
+/// Library and settings that all recipes of a run share.
 pub(super) struct RecipeReport<'a> {
     pub(super) library: &'a PigmentLibrary,
     pub(super) request: &'a MatchRequest,
@@ -21,35 +22,37 @@ pub(super) struct RecipeReport<'a> {
 }
 
 impl RecipeReport<'_> {
+    /// Names of the lights, in the order of the options.
     fn lights(&self) -> impl Iterator<Item = &str> {
         self.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
     }
 
-    /// The display colour of `lab` under the first light.
-    fn shown(&self, lab: Lab) -> Rgb {
-        // Lab is relative to its white, whichever that is.
+    /// Encoded sRGB of `lab`, seen adapted to its light.
+    fn display_color(&self, lab: Lab) -> Rgb {
+        // Lab is relative to its white, so any white serves for the round trip.
         let white = spectra::color::RgbSpace::Srgb.white();
         srgb(lab.to_xyz(white), white)
     }
 
-    fn absolute(&self) -> bool {
+    /// Whether the library holds absolute amounts.
+    fn is_absolute(&self) -> bool {
         self.library.amounts == AmountKind::Absolute
     }
 
-    /// The amount of one share: grams, or absolute amounts.
+    /// Amount of a pigment with the given share: grams, or absolute amounts in the library's unit.
     fn amount(&self, recipe: &RecipeMatch, share: f64) -> Option<f64> {
         match (self.grams, recipe.thickness) {
-            (_, Some(thickness)) if self.absolute() => Some(share * thickness),
+            (_, Some(thickness)) if self.is_absolute() => Some(share * thickness),
             (grams, _) => grams.map(|grams| share * grams),
         }
     }
 
     pub(super) fn print(&self, matched: &RecipeMatches, console: &mut Console<'_>) -> Result<()> {
         let target = &matched.target;
-        let wanted = target.lab[0];
-        let rgb = self.shown(wanted);
+        let lab = target.lab[0];
+        let rgb = self.display_color(lab);
         let patch = console.patch(rgb);
-        let [l, a, b] = wanted.to_array();
+        let [l, a, b] = lab.to_array();
         let light = self.lights().next().unwrap_or_default();
         console.line(format!("{patch}{}  Lab {l:.2} {a:.2} {b:.2} ({light})", target.name))?;
         let nearest = matched.nearest();
@@ -64,7 +67,7 @@ impl RecipeReport<'_> {
             self.print_recipe(&(rank + 1).to_string(), recipe, console)?;
         }
         if !matched.by_cie1976.is_empty() {
-            console.line("     so far off CIEDE2000 misleads; by CIE 1976 the nearest is")?;
+            console.line("     CIEDE2000 misleads at this distance; the nearest by CIE 1976 is")?;
         }
         for recipe in &matched.by_cie1976 {
             self.print_recipe("", recipe, console)?;
@@ -78,18 +81,18 @@ impl RecipeReport<'_> {
         recipe: &RecipeMatch,
         console: &mut Console<'_>,
     ) -> Result<()> {
-        // Under the light's name, which may be the path of a lamp's file.
+        // As wide as the light's name, which may be the path of a lamp's file.
         let under = |(difference, light): (&f64, &str)| {
             format!("{difference:width$.2}", width = light.chars().count().max(8))
         };
         let differences: Vec<String> =
             recipe.delta_e.iter().zip(self.lights()).map(under).collect();
-        let rgb = self.shown(recipe.lab[0]);
+        let rgb = self.display_color(recipe.lab[0]);
         let mut line =
             format!("{rank:>3}  {}  {}{}", differences.join(" "), console.patch(rgb), rgb.to_hex());
         if let Some(thickness) = recipe.thickness {
-            let word = if self.absolute() { "in all" } else { "thickness" };
-            line += &format!("  {word} {thickness:.4}");
+            let label = if self.is_absolute() { "total" } else { "thickness" };
+            line += &format!("  {label} {thickness:.4}");
         }
         if let Some(cost) = recipe.cost {
             line += &format!("  costs {:.2}", cost * self.grams.unwrap_or(1.0));
@@ -101,7 +104,7 @@ impl RecipeReport<'_> {
         Ok(())
     }
 
-    /// A line for each pigment of a recipe.
+    /// Returns one line per pigment of a recipe.
     fn parts(&self, recipe: &RecipeMatch) -> Vec<String> {
         let names = recipe.shares.iter().map(|(id, _)| &self.library[*id]);
         let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
@@ -112,7 +115,7 @@ impl RecipeReport<'_> {
                 None => format!("{:6.2} %  {:width$}", 100.0 * share, pigment.name),
             };
             match self.amount(recipe, *share) {
-                Some(amount) if self.absolute() => line += &format!("  {amount:.5}"),
+                Some(amount) if self.is_absolute() => line += &format!("  {amount:.5}"),
                 Some(grams) => line += &format!("  {grams:8.2} g"),
                 None => {}
             }
@@ -132,7 +135,7 @@ impl RecipeReport<'_> {
         json!({
             "target": matched.target.name,
             "lab": lab(&matched.target.lab),
-            "hex": self.shown(matched.target.lab[0]).to_hex(),
+            "hex": self.display_color(matched.target.lab[0]).to_hex(),
             "reached": matched.nearest() <= REACHED,
             "nearest": matched.nearest(),
             "recipes": list(&matched.recipes),
@@ -147,7 +150,7 @@ impl RecipeReport<'_> {
                 entry["parts"] = json!(parts[place]);
             }
             if let Some(amount) = self.amount(recipe, *share) {
-                entry[if self.absolute() { "amount" } else { "grams" }] = json!(amount);
+                entry[if self.is_absolute() { "amount" } else { "grams" }] = json!(amount);
             }
             if self.library[*id].guessed {
                 entry["guessed"] = json!(true);
@@ -160,7 +163,7 @@ impl RecipeReport<'_> {
             "distance": recipe.distance,
             "delta_e": self.by_light(recipe.delta_e.iter().map(|d| json!(d))),
             "lab": self.by_light(recipe.lab.iter().map(|lab| json!(lab.to_array()))),
-            "hex": self.shown(recipe.lab[0]).to_hex(),
+            "hex": self.display_color(recipe.lab[0]).to_hex(),
             "wavelengths_nm": wavelengths,
             "reflectance": recipe.reflectance,
         });
@@ -173,6 +176,7 @@ impl RecipeReport<'_> {
         entry
     }
 
+    /// JSON object with one value per light, keyed by its name.
     fn by_light(&self, values: impl Iterator<Item = Value>) -> Value {
         Value::Object(self.lights().map(str::to_owned).zip(values).collect::<Map<_, _>>())
     }

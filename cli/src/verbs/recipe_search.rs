@@ -1,4 +1,4 @@
-//! `impasto match`: a target colour or spectrum to recipes.
+//! `impasto match`: finds recipes for a target colour or spectrum.
 
 use std::path::PathBuf;
 
@@ -19,47 +19,48 @@ use crate::targets::targets;
 
 /// Find recipes for a colour or a measured spectrum
 ///
-/// Every set of up to --at-most pigments is tried, and the shares of each found by least squares in
+/// Every set of up to --at-most pigments is tried, and its shares are found by least squares in
 /// CIEDE2000. A target is `#rrggbb`, a CIELAB colour `L,a,b` (under the first light), or a file of
-/// spectra: FILE for all of them but bare cards, FILE#SAMPLE for one. Recipes as near as the nearest (--tolerance)
-/// come cheapest first if costs are given, else with the fewest pigments; the rest by distance.
+/// spectra: FILE for all of them but bare cards, FILE#SAMPLE for one. Recipes that are as near as the
+/// nearest, within --tolerance, are sorted by cost if costs are given, else by the number of
+/// pigments; the others follow by distance.
 #[derive(Debug, Args)]
 pub(crate) struct Match {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// Colours to be met
+    /// Target colours, one or more
     #[arg(required = true, value_name = "TARGET")]
     targets: Vec<String>,
-    /// Use these pigments only (may be repeated) [default: all whose S is known]
+    /// Use only these pigments (may be repeated) [default: all whose S is known]
     #[arg(long, value_name = "PIGMENT")]
     only: Vec<String>,
-    /// A pigment that must take part, with its share of the whole where it is fixed (may be
-    /// repeated)
+    /// A pigment that every recipe must contain, with a share if that is fixed (may be repeated)
     #[arg(long, value_name = "PIGMENT[=SHARE]")]
     with: Vec<String>,
-    /// A pigment that must not take part (may be repeated)
+    /// A pigment that no recipe may contain (may be repeated)
     #[arg(long, value_name = "PIGMENT")]
     without: Vec<String>,
-    /// The most pigments of one recipe, 1 to 8
+    /// Maximum number of pigments of a recipe, 1 to 8
     #[arg(long, value_name = "K", default_value_t = 4)]
     at_most: usize,
-    /// The least share of a pigment that takes part: 0.02 or 1/50, what a palette knife can cut off
+    /// Minimum share of each pigment of a recipe, such as 0.02 or 1/50, about the least that a
+    /// palette knife can cut off
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, default_value = "1/50")]
     least: String,
-    /// Recipes in whole parts, together at most N
+    /// Give recipes in whole parts whose sum is at most N
     #[arg(long, value_name = "N")]
     parts: Option<u32>,
-    /// Grams of paint wanted in all, amounts being by mass
+    /// Total mass of the mixture in grams; amounts are then by mass
     #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
     grams: Option<f64>,
-    /// Price of one gram (of one unit of absolute amounts), NAME=PRICE, in any currency (may be repeated), or a CSV with the columns
-    /// pigment and price
+    /// Price of one gram (or one unit of absolute amounts), NAME=PRICE, in any currency (may be
+    /// repeated), or a CSV with the columns pigment and price
     #[arg(long, value_name = "PRICE")]
     cost: Vec<String>,
-    /// CIEDE2000 within which recipes count as equally near
+    /// Difference in CIEDE2000 within which recipes count as equally near
     #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true, default_value_t = 0.05)]
     tolerance: f64,
-    /// How many recipes to show for each target
+    /// Number of recipes to show for each target
     #[arg(long, value_name = "N", default_value_t = 5)]
     count: usize,
     /// Thickness of the film, or LEAST:MOST to let the search choose; 1 is where the reference white
@@ -89,15 +90,15 @@ impl Match {
         let options = self.options(&library, console)?;
         let search = library.recipe_search(&options)?;
         console.remarks(&search.remarks)?;
-        let mut wanted = Vec::new();
+        let mut all_targets = Vec::new();
         for text in &self.targets {
-            wanted.extend(targets(text, &self.reading, console)?);
+            all_targets.extend(targets(text, &self.reading, console)?);
         }
         let report =
             RecipeReport { library: &library, request: &search.request, grams: self.grams };
-        let progress = Progress::new(wanted.len(), "matching", console.screen.progress);
+        let progress = Progress::new(all_targets.len(), "matching", console.screen.progress);
         let mut found = Vec::new();
-        for target in &wanted {
+        for target in &all_targets {
             found.push(search.recipes_for(target)?);
             progress.step();
         }
@@ -115,6 +116,7 @@ impl Match {
         Ok(())
     }
 
+    /// Options of the search; reads the files that they name.
     fn options(&self, library: &PigmentLibrary, console: &mut Console<'_>) -> Result<MatchOptions> {
         if let Some(grams) = self.grams.filter(|grams| !(*grams > 0.0 && *grams < 1e9)) {
             return Err(Failure::usage(
@@ -125,7 +127,7 @@ impl Match {
         if self.grams.is_some() && library.amounts == AmountKind::Absolute {
             return Err(Failure::usage(
                 "--grams shares out a mixture, but this library's amounts are absolute",
-                "leave it out: the recipe tells each amount on the library's area",
+                "leave it out: the recipe gives each amount on the library's area",
             ));
         }
         let conditions = self.illuminant.iter().map(|text| self.condition(text));
@@ -146,7 +148,7 @@ impl Match {
         })
     }
 
-    /// Viewing condition of `LIGHT` or `LIGHT=WEIGHT`.
+    /// Parses a viewing condition `LIGHT` or `LIGHT=WEIGHT`.
     fn condition(&self, text: &str) -> Result<ViewingCondition> {
         let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
             let weight: f64 = weight.parse().ok()?;
@@ -157,7 +159,7 @@ impl Match {
     }
 }
 
-/// Thickness of `T` or `LEAST:MOST`.
+/// Parses a thickness `T` or `LEAST:MOST`.
 fn thickness(text: &str) -> Result<Thickness> {
     let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= 1e9);
     let thickness = match text.split_once(':') {
@@ -169,15 +171,15 @@ fn thickness(text: &str) -> Result<Thickness> {
     };
     thickness.ok_or_else(|| {
         Failure::usage(
-            format!("--thickness is T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
+            format!("--thickness takes T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
             "try --thickness 1 or --thickness 0.2:3",
         )
     })
 }
 
-/// Pigment and fixed share of `PIGMENT` or `PIGMENT=SHARE`.
+/// Parses `PIGMENT` or `PIGMENT=SHARE`.
 fn required(text: &str, library: &PigmentLibrary) -> Result<RequiredName> {
-    // A pigment's own name may hold an equals sign.
+    // The name of a pigment may contain an equals sign.
     let (name, fixed) = match text.rsplit_once('=') {
         Some((name, fixed)) if library.find(text).is_err() => (name, Some(fixed)),
         _ => (text, None),
@@ -186,11 +188,13 @@ fn required(text: &str, library: &PigmentLibrary) -> Result<RequiredName> {
     Ok(RequiredName { name: name.to_owned(), share })
 }
 
-/// A share from 0 to 1: a number, or a fraction such as 1/50.
+/// Parses a share from 0 to 1, written as a number or as a fraction such as 1/50.
 fn share(option: &str, text: &str) -> Result<f64> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let value = match text.split_once('/') {
-        Some((above, below)) => number(above).zip(number(below)).map(|(a, b)| a / b),
+        Some((numerator, denominator)) => {
+            number(numerator).zip(number(denominator)).map(|(n, d)| n / d)
+        }
         None => number(text),
     };
     value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! `impasto relight`: a painting under another light, or with other pigments.
+//! `impasto relight`: shows a painting under another light or with other pigments.
 
 use std::path::PathBuf;
 
@@ -22,22 +22,22 @@ use crate::pictures::Exports;
 pub(crate) struct Relight {
     /// The painting (.exr, as `impasto paint --output` writes it)
     painting: PathBuf,
-    /// Light, as other verbs take it: D65, A, FL11, 5600K, a lamp's file [default: the painting's]
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: the painting's]
     #[arg(long, value_name = "LIGHT")]
     illuminant: Option<String>,
     /// Observer: 1931-2, 1964-10, 2015-2, 2015-10 [default: the painting's]
     #[arg(long, value_name = "NAME")]
     observer: Option<String>,
-    /// Where the light stands, in degrees clockwise from the top of the canvas
+    /// Direction of the light, in degrees clockwise from the top of the canvas
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     azimuth: Option<f64>,
-    /// How high it stands, in degrees above the canvas, 1 to 90
+    /// Elevation of the light above the canvas in degrees, 1 to 90
     #[arg(long, value_name = "DEG")]
     elevation: Option<f64>,
-    /// Share of the light that comes from all sides, 0 to 1
+    /// Fraction of the light that is ambient, from all sides, 0 to 1
     #[arg(long, value_name = "SHARE")]
     ambient: Option<f64>,
-    /// How much the relief counts: 0 flat, 1 as it is
+    /// Factor on the slopes of the relief, 0 to 10: 0 shades it flat, 1 leaves it unchanged
     #[arg(long, value_name = "X")]
     relief: Option<f64>,
     /// Exchange a pigment: LAYER:FROM=TO, LAYER being `wet`, a number from 0 (the lowest dry
@@ -73,18 +73,19 @@ impl Relight {
             opacity(&mut painting, text)?;
         }
         exports.write(&mut painting, console)?;
-        tell(&mut painting, self.json, console)
+        print(&painting, self.json, console)
     }
 
+    /// Lighting of the painting with the given options in place of the `saved` values.
     fn lighting(&self, saved: &Lighting) -> Result<Lighting> {
-        let number = |name: &str, given: Option<f64>, saved: f64, least: f64, most: f64| match given
-        {
-            Some(value) if !(least..=most).contains(&value) => Err(Failure::usage(
-                format!("--{name} takes {least} to {most}, found `{value}`"),
-                "see impasto relight --help",
-            )),
-            given => Ok(given.unwrap_or(saved)),
-        };
+        let number =
+            |name: &str, option: Option<f64>, saved: f64, least: f64, most: f64| match option {
+                Some(value) if !(least..=most).contains(&value) => Err(Failure::usage(
+                    format!("--{name} takes {least} to {most}, found `{value}`"),
+                    "see impasto relight --help",
+                )),
+                option => Ok(option.unwrap_or(saved)),
+            };
         Ok(Lighting {
             illuminant: self.illuminant.clone().unwrap_or_else(|| saved.illuminant.clone()),
             observer: self.observer.clone().unwrap_or_else(|| saved.observer.clone()),
@@ -96,7 +97,7 @@ impl Relight {
     }
 }
 
-/// `LAYER:FROM=TO`.
+/// Replaces a pigment by another as `LAYER:FROM=TO` says.
 fn swap(painting: &mut Painting, text: &str) -> Result<()> {
     let wrong = || {
         Failure::usage(
@@ -108,32 +109,32 @@ fn swap(painting: &mut Painting, text: &str) -> Result<()> {
     let (from, to) = names.split_once('=').ok_or_else(wrong)?;
     let from = painting.library().find(from)?.index();
     let to = painting.library().find(to)?.index();
-    let coatings = match layer.trim() {
+    let layers = match layer.trim() {
         "wet" => vec![LayerRef::Wet],
         "all" => {
             let dry = (0..painting.state().dry.len()).map(LayerRef::Dry);
             let all: Vec<LayerRef> = dry.chain([LayerRef::Wet]).collect();
-            let has = |coating: &LayerRef| {
-                painting.slots(*coating).is_ok_and(|slots| slots.contains(&Some(from)))
+            let has = |layer: &LayerRef| {
+                painting.slots(*layer).is_ok_and(|slots| slots.contains(&Some(from)))
             };
             let found: Vec<LayerRef> = all.into_iter().filter(has).collect();
             if found.is_empty() {
                 return Err(Failure::data(
                     format!("no layer has {}", painting.library().pigments[from].name),
-                    "impasto relight PAINTING tells what each layer has",
+                    "impasto relight PAINTING lists the pigments of each layer",
                 ));
             }
             found
         }
         number => vec![LayerRef::Dry(number.parse().map_err(|_| wrong())?)],
     };
-    for coating in coatings {
-        painting.swap_pigment(coating, from, to)?;
+    for layer in layers {
+        painting.swap_pigment(layer, from, to)?;
     }
     Ok(())
 }
 
-/// `LAYER=X`.
+/// Sets the opacity of a dry layer as `LAYER=X` says.
 fn opacity(painting: &mut Painting, text: &str) -> Result<()> {
     let wrong = || {
         Failure::usage(format!("--opacity takes LAYER=X, found `{text}`"), "try --opacity 0=0.5")
@@ -144,10 +145,11 @@ fn opacity(painting: &mut Painting, text: &str) -> Result<()> {
     Ok(painting.set_opacity(LayerRef::Dry(layer), value)?)
 }
 
-fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+/// Prints size, layers and lighting of a painting.
+fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Result<()> {
     let bounds = painting.bounds();
-    let names = |coating| -> Result<Vec<String>> {
-        let slots = painting.slots(coating)?;
+    let names = |layer| -> Result<Vec<String>> {
+        let slots = painting.slots(layer)?;
         let name = |&index: &usize| painting.library().pigments[index].name.clone();
         Ok(slots.iter().flatten().map(name).collect())
     };
@@ -169,7 +171,7 @@ fn tell(painting: &mut Painting, as_json: bool, console: &mut Console<'_>) -> Re
             "canvas": [bounds.width, bounds.height],
             "cell_mm": painting.cell_mm(),
             "layers": layers,
-            "lighting": serde_json::to_value(lighting).expect("a lighting is JSON"),
+            "lighting": serde_json::to_value(lighting).expect("a lighting serializes to JSON"),
             "wavelengths_nm": nodes,
         }));
     }

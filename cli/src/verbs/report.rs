@@ -1,4 +1,4 @@
-//! `impasto report`: a library and its measurements as one page of figures.
+//! `impasto report`: draws a library and its measurements as one page of figures.
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -13,18 +13,17 @@ use reports::{STEPS, Subject};
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::failure::{Context, Failure, Result};
+use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, color_weights, library};
-use crate::output::Output;
+use crate::output::{Output, create_folder};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
 
 /// Draw a library and its measurements: one page, and each figure as SVG, PNG and CSV
 ///
-/// Without readings only the library itself is drawn. With readings every sample is held against
-/// what the library predicts of it, and each mixture is left out in turn, fitted anew and
-/// predicted, as `validate` does. The page is FOLDER/report.html; the figures stand in
-/// FOLDER/figures.
+/// Without readings only the library is drawn. With readings, every sample is compared with the
+/// library's prediction, and each mixture is left out in turn and predicted by a fit to the others,
+/// as `validate` does. The page is FOLDER/report.html; the figures are in FOLDER/figures.
 #[derive(Debug, Args)]
 pub(crate) struct Report {
     /// The pigment library (JSON)
@@ -32,16 +31,16 @@ pub(crate) struct Report {
     /// Measurement files, as for `fit`; without them only the library is drawn
     #[arg(value_name = "READINGS")]
     files: Vec<PathBuf>,
-    /// Folder for the page and its figures; made if it is not there
+    /// Folder for the page and its figures; created if missing
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
-    /// Two pigments to look at together [default: chosen from the library]
+    /// Two pigments whose graded mixture is drawn [default: chosen from the library]
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     pair: Vec<String>,
-    /// Leave no mixture out; saves most of the time
+    /// Skip leaving mixtures out, which takes most of the time
     #[arg(long)]
     no_validation: bool,
-    /// The recipes of the samples, in a CSV of their own, as for `fit`
+    /// Recipes of the samples in a separate CSV, as for `fit`
     #[arg(long, value_name = "FILE", requires = "files")]
     recipes: Option<PathBuf>,
     #[command(flatten)]
@@ -66,8 +65,11 @@ impl Report {
             && first == second
         {
             return Err(Failure::usage(
-                format!("--pair takes two pigments, found {} twice", library[first].name),
-                "name another pigment beside it",
+                format!(
+                    "--pair takes two different pigments, found `{}` twice",
+                    library[first].name
+                ),
+                "replace one of them by another pigment",
             ));
         }
         let measured = self.comparable(&library, console)?;
@@ -83,11 +85,11 @@ impl Report {
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
         let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
         let step = || progress.step();
-        // Side by side, so that neither leaves a core idle at its end.
+        // In parallel, so that cores that finish one task help with the other.
         let (validation, quadratures) = std::thread::scope(|scope| {
             let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
             let left_out = measured.map(|set| set.left_out(&library, &viewing, &step));
-            (left_out.transpose(), trials.join().expect("trying wavelengths does not panic"))
+            (left_out.transpose(), trials.join().expect("quadrature trials do not panic"))
         });
         let (validation, quadratures) = (validation?, quadratures?);
         let subject = Subject {
@@ -105,9 +107,10 @@ impl Report {
             .map_err(|error| Failure::caused_by("a figure cannot be drawn", &error))?;
         progress.done();
         self.write(&report, page)?;
-        self.tell(&report, &subject, console)
+        self.print(&report, &subject, console)
     }
 
+    /// Reads the measurements for comparison with `library`; `None` if no files are given.
     fn comparable(
         &self,
         library: &PigmentLibrary,
@@ -121,20 +124,20 @@ impl Report {
         Ok(Some(Comparable::of(&readings.swatches()?, library)?))
     }
 
+    /// Paths of all files that are read.
     fn inputs(&self) -> Vec<PathBuf> {
         let files = self.files.iter().chain(&self.recipes).chain([&self.library]).cloned();
         files.chain(self.reading.files()).collect()
     }
 
-    /// The page, known to be writable before the slow part.
+    /// Creates the folders and checks that the page can be written, before the slow part.
     fn page(&self) -> Result<Output> {
         let figures = self.out.join("figures");
-        std::fs::create_dir_all(&figures)
-            .context(|| format!("{}: cannot be made", figures.display()))?;
+        create_folder(&figures)?;
         Output::open(&self.out.join(PAGE), &self.inputs())
     }
 
-    /// Writes the figures, and last the page that shows them.
+    /// Writes the figures, then the page that shows them.
     fn write(&self, report: &reports::Report, page: Output) -> Result<()> {
         let inputs = self.inputs();
         let mut outputs = Vec::new();
@@ -146,11 +149,12 @@ impl Report {
             };
             outputs.push((output, content));
         }
-        // Nothing is written before everything is known to be writable.
+        // All files are opened first, so that nothing is written if one cannot be.
         outputs.into_iter().try_for_each(|(output, content)| output.write(content))
     }
 
-    fn tell(
+    /// Prints the errors and the paths of the report.
+    fn print(
         &self,
         report: &reports::Report,
         subject: &Subject<'_>,
@@ -182,21 +186,22 @@ impl Report {
                 "absent": comparison.as_ref().map_or_else(Vec::new, absent),
             }));
         }
-        let told = |what: &str, count: usize, errors: &calibrate::evaluate::Summary| {
-            format!("{count} {what}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
+        let summary = |subject: &str, count: usize, errors: &calibrate::evaluate::Summary| {
+            format!("{count} {subject}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
         };
         if let Some(comparison) = comparison {
             let samples = comparison.sure().count();
-            console.line(told("samples, CIEDE2000 of the fit", samples, &comparison.delta_e))?;
+            console.line(summary("samples, CIEDE2000 of the fit", samples, &comparison.delta_e))?;
         }
         if let Some(Validation { per_sample, delta_e, .. }) = validation {
-            console.line(told("mixtures left out, CIEDE2000", per_sample.len(), delta_e))?;
+            console.line(summary("mixtures left out, CIEDE2000", per_sample.len(), delta_e))?;
         }
         console.line(format!("{} figures: {}", report.figures().count(), path("figures")))?;
         console.line(format!("page: {}", path(PAGE)))
     }
 }
 
-/// How many wavelengths are tried, by every method.
+/// Numbers of wavelengths that are tried with every quadrature method; chosen by eye.
 const COUNTS: RangeInclusive<usize> = 3..=16;
+/// File name of the page.
 const PAGE: &str = "report.html";

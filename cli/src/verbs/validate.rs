@@ -1,4 +1,4 @@
-//! `impasto validate`: how well unseen mixtures are predicted.
+//! `impasto validate`: measures how well mixtures outside the fit are predicted.
 
 use std::time::Instant;
 
@@ -6,7 +6,7 @@ use calibrate::ValidationOptions;
 use calibrate::validation::Validation;
 use clap::Args;
 
-use super::calibration_options::{CalibrationOptions, prepared};
+use super::calibration_options::{CalibrationOptions, prepare_fit};
 use super::fit_report;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -15,13 +15,13 @@ use crate::progress::Progress;
 
 /// Leave each mixture out in turn, refit, and predict it
 ///
-/// The honest error of a calibration: that of mixtures it has not seen. Masstones are never left
-/// out. A mixture without which a pigment could not be identified is named and not counted.
+/// Measures the error of a calibration on mixtures that it was not fitted to. Masstones are never
+/// left out. A mixture without which a pigment could not be identified is named and not counted.
 #[derive(Debug, Args)]
 pub(crate) struct Validate {
     #[command(flatten)]
     options: CalibrationOptions,
-    /// Leave out this many seeded groups instead of one mixture at a time [absolute amounts: 10]
+    /// Leave out mixtures in this many seeded groups instead of one at a time [absolute amounts: 10]
     #[arg(long, value_name = "N")]
     folds: Option<usize>,
     /// Leave out only mixtures with this pigment (may be repeated)
@@ -46,7 +46,7 @@ impl Validate {
             with: self.with,
         };
         let readings = self.options.readings(console)?;
-        let prepared = prepared(&readings, &options.fit, console)?;
+        let prepared = prepare_fit(&readings, &options.fit, console)?;
         let progress =
             Progress::new(prepared.mixtures(&options)?, "leaving out", console.screen.progress);
         let validation = prepared.validate(&options, &|| progress.step())?;

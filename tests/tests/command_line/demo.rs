@@ -22,7 +22,7 @@ fn the_demo_shows_pigments_errors_findings_and_mixtures() {
         assert!(run.out.contains(word), "`{word}` is missing: {}", run.out);
     }
     assert!(!run.out.contains('\x1b'), "no colour codes where there is no terminal");
-    assert!(run.err.contains("written: "), "{}", run.err);
+    assert!(run.err.contains("Wrote "), "{}", run.err);
 }
 
 #[test]

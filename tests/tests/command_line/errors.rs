@@ -163,7 +163,7 @@ fn an_output_that_is_a_folder_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let run = impasto(&["fit", &oils(), "--output", folder.path().to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);
-    assert!(run.err.contains("is not an ordinary file"), "{}", run.err);
+    assert!(run.err.contains("expected a regular file"), "{}", run.err);
 }
 
 #[cfg(unix)]
@@ -213,7 +213,7 @@ fn a_ground_must_be_one_spectrum() {
     };
     let run = over(&oils());
     assert_eq!(run.status, 1, "{}", run.err);
-    assert!(run.err.contains("one ground is wanted"), "{}", run.err);
+    assert!(run.err.contains("expected one spectrum of a ground"), "{}", run.err);
     let run = over(&format!("{}#01A", oils()));
     assert!(run.status == 1 && run.err.contains("01A bare white"), "{}", run.err);
     assert_eq!(over(&format!("{}#01A bare white", oils())).status, 0);

@@ -178,6 +178,6 @@ fn a_ground_made_from_a_picture_is_not_written_over() {
         format!(r#"{CANVAS}, "ground": {{"kind": "image", "path": "out.png", "depth_mm": 0.2}}"#);
     let run = paint(folder, CANVAS, &to);
     assert_eq!(run.status, 2, "{}", run.err);
-    assert!(run.err.contains("is an input, which is never written over"), "{}", run.err);
+    assert!(run.err.contains("is an input file, which is never overwritten"), "{}", run.err);
     assert!(std::fs::read(&picture).unwrap() == before, "written over");
 }

@@ -141,10 +141,10 @@ fn exports_are_checked_before_anything_is_painted() {
     std::fs::write(&file, "not a folder").unwrap();
     let below = place(folder, "file/maps");
     for (arguments, wanted) in [
-        (vec!["--picture", &exr, "--output", &exr], "two exports would be this file"),
-        (vec!["--picture", "a.jpg"], "ends in .png or .exr"),
-        (vec!["--output", "a.png"], "ends in .exr"),
-        (vec!["--pigment-maps", &below], "cannot be made"),
+        (vec!["--picture", &exr, "--output", &exr], "two exports have this file name"),
+        (vec!["--picture", "a.jpg"], "that ends in .png or .exr"),
+        (vec!["--output", "a.png"], "that ends in .exr"),
+        (vec!["--pigment-maps", &below], "cannot be created"),
         (vec!["--output", "/no/such/folder/a.exr"], "cannot be written"),
         (vec![], "nothing would be written"),
     ] {

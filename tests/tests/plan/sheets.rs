@@ -95,7 +95,7 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
     );
     let again = impasto(&[&["plan"], &PAINTS[..], &["--output", &path]].concat());
     assert_eq!(again.status, 2, "{}", again.err);
-    assert!(again.err.contains("not written over"), "{}", again.err);
+    assert!(again.err.contains("is not overwritten"), "{}", again.err);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), empty);
     let path = folder.path().join("fine.csv").display().to_string();
     let fine = plan(&["--output", &path, "--grid", "380,730,5"]);

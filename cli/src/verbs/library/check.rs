@@ -1,4 +1,4 @@
-//! `impasto library check`: is a library sound, and where is it doubtful?
+//! `impasto library check`: checks a library for faults and doubtful pigments.
 
 use std::path::PathBuf;
 
@@ -11,15 +11,15 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, library};
 
-/// How many of the worst samples are shown.
+/// Number of worst samples that are printed; chosen by eye.
 const WORST: usize = 3;
 
-/// Is a library sound, and where is it doubtful?
+/// Check a library for faults and doubtful pigments
 ///
-/// Prints each pigment's K and S with their median uncertainty and what is doubtful: the grid,
-/// pigments guessed or not identified, large deviations, figures that jump over wavelength,
-/// masstones as dark as the surface, pigments that look alike, missing licence or source. A file
-/// that is no library, and a library that does not do what it says, ends with exit status 1.
+/// Prints each pigment's K and S with their median uncertainty, and warns of an unsuitable grid,
+/// guessed or unidentified pigments, large deviations, curves that jump over wavelength, masstones
+/// as dark as the surface, pigments that look alike, and a missing licence or source. A file that is
+/// not a library, and a library with faults, end with exit status 1.
 #[derive(Debug, Args)]
 pub(super) struct Check {
     /// The pigment library (JSON)
@@ -44,13 +44,14 @@ impl Check {
         if health.faulty() {
             return Err(Failure::data(
                 format!("{}: the library is faulty", self.library.display()),
-                "see its faults above; fit again, or mend the file",
+                "see its faults above; fit again, or correct the file",
             ));
         }
         Ok(())
     }
 }
 
+/// The samples with the largest colour errors, largest first.
 fn worst(library: &PigmentLibrary) -> Vec<&SampleEvidence> {
     let mut samples: Vec<_> = library.evidence.iter().flat_map(|e| &e.per_sample).collect();
     samples.sort_by(|a, b| b.delta_e.total_cmp(&a.delta_e));
@@ -60,8 +61,10 @@ fn worst(library: &PigmentLibrary) -> Vec<&SampleEvidence> {
 
 fn as_json(library: &PigmentLibrary, health: &Health) -> Value {
     let findings = |severity: Severity| -> Vec<Value> {
-        let of = health.findings.iter().filter(|finding| finding.severity == severity);
-        of.map(|finding| json!({ "pigment": finding.pigment, "what": finding.what })).collect()
+        let findings = health.findings.iter().filter(|finding| finding.severity == severity);
+        findings
+            .map(|finding| json!({ "pigment": finding.pigment, "what": finding.what }))
+            .collect()
     };
     let pigments = health.pigments.iter().zip(&library.pigments).map(|(health, pigment)| {
         json!({
@@ -119,15 +122,15 @@ fn print(library: &PigmentLibrary, health: &Health, console: &mut Console<'_>) -
         ))?;
     }
     for finding in &health.findings {
-        let word = match finding.severity {
+        let label = match finding.severity {
             Severity::Fault => "fault",
             Severity::Warning => "warning",
         };
-        let of = finding.pigment.as_ref().map_or_else(String::new, |name| format!("{name}: "));
-        console.line(format!("{word}: {of}{}", finding.what))?;
+        let pigment = finding.pigment.as_ref().map_or_else(String::new, |name| format!("{name}: "));
+        console.line(format!("{label}: {pigment}{}", finding.what))?;
     }
     if health.findings.is_empty() {
-        console.line("nothing doubtful")?;
+        console.line("no faults or warnings")?;
     }
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! `impasto library convert`: another grid, another white, shares for amounts, or
-//! a table of K and S.
+//! `impasto library convert`: converts a library to another grid, white or kind of amounts, or
+//! makes one from a table of K and S.
 
 use std::path::{Path, PathBuf};
 
@@ -8,9 +8,9 @@ use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
 use spectra::Interpolation;
 
-use super::grid_option::{ResamplingOptions, grid};
+use super::grid_option::{ResamplingOptions, parse_grid};
 use crate::console::Console;
-use crate::failure::{Context, Failure, Result};
+use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
@@ -23,18 +23,19 @@ enum Amounts {
     Absolute,
 }
 
-/// A library on another grid or relative to another white, or one from a table of K and S
+/// Convert a library to another grid or reference white, or make one from a table of K and S
 ///
 /// The title, the licence, the source and the surface of a table (CSV: pigment, quantity,
-/// wavelengths) come from the options; a pigment with K/S alone is one whose S is not known.
+/// wavelengths) come from the options; a pigment for which it has only K/S gets an unknown S.
 ///
-/// A library of absolute amounts becomes one of shares with --reference; how its films look before
-/// they hide is then lost. Shares cannot become amounts: nothing tells how much was laid.
+/// With --reference, a library of absolute amounts becomes one of shares; the colours of its films
+/// that do not hide are then lost. Shares cannot become amounts, since the amount spread is not
+/// known.
 #[derive(Debug, Args)]
 pub(super) struct Convert {
     /// The pigment library (JSON), or a table of K and S (CSV) as `export --to csv` writes it
     library: PathBuf,
-    /// Where to write the library
+    /// The library file to write (JSON)
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// The new wavelengths in nm, such as 400,700,5
@@ -45,18 +46,18 @@ pub(super) struct Convert {
     reference: Option<String>,
     #[command(flatten)]
     resampling: ResamplingOptions,
-    /// What the K and S of a table are relative to [default: relative]
+    /// Unit of the K and S of a table [default: relative]
     #[arg(long, value_enum)]
     amounts: Option<Amounts>,
     #[command(flatten)]
     surface: SurfaceOptions,
-    /// The title of a library from a table
+    /// Title of a library from a table
     #[arg(long)]
     title: Option<String>,
-    /// The licence of a library from a table
+    /// Licence of a library from a table
     #[arg(long)]
     licence: Option<String>,
-    /// Where the figures of a table come from
+    /// Source of the K and S of a table
     #[arg(long)]
     source: Option<String>,
 }
@@ -64,16 +65,16 @@ pub(super) struct Convert {
 impl Convert {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
-        let wanted = self.grid.as_deref().map(grid).transpose()?;
+        let grid = self.grid.as_deref().map(parse_grid).transpose()?;
         let file = self.library.display().to_string();
         let before = if is_table(&self.library) {
             self.table(&file)?
         } else {
             self.refuse_table_options()?;
-            if wanted.is_none() && self.reference.is_none() {
+            if grid.is_none() && self.reference.is_none() {
                 return Err(Failure::usage(
                     "nothing to convert to",
-                    "say --grid START,END,STEP or --reference PIGMENT",
+                    "give --grid START,END,STEP or --reference PIGMENT",
                 ));
             }
             library(&self.library)?
@@ -83,11 +84,15 @@ impl Convert {
             after = with_reference(&file, &after, reference)?;
             remark_reference(&before, &after, console)?;
         }
-        if let Some(grid) = wanted {
+        if let Some(grid) = grid {
             let best = Interpolation::best_for(before.grid);
             let method = self.resampling.method().unwrap_or(best);
             after = on_grid(&file, &after, grid, method, self.resampling.ends())?;
-            console.remark(format!("{} brought to {grid} ({})", before.grid, method.name()))?;
+            console.remark(format!(
+                "resampled from {} to {grid} ({})",
+                before.grid,
+                method.name()
+            ))?;
         }
         output.write(after.to_json())?;
         console.line(format!(
@@ -99,8 +104,9 @@ impl Convert {
         ))
     }
 
+    /// Reads a library from a table of K and S.
     fn table(&self, file: &str) -> Result<PigmentLibrary> {
-        let bytes = std::fs::read(&self.library).context(|| format!("{file}: cannot be read"))?;
+        let bytes = spectra::file::read(&self.library)?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             Failure::data(
@@ -124,28 +130,31 @@ impl Convert {
         Ok(library)
     }
 
+    /// Fails if an option is present that applies to tables only.
     fn refuse_table_options(&self) -> Result<()> {
-        let given = [
+        let options = [
             ("--amounts", self.amounts.is_some()),
-            ("--saunderson", self.surface.given()),
+            ("--saunderson", self.surface.is_present()),
             ("--title", self.title.is_some()),
             ("--licence", self.licence.is_some()),
             ("--source", self.source.is_some()),
         ];
-        match given.into_iter().find(|(_, given)| *given) {
+        match options.into_iter().find(|(_, present)| *present) {
             None => Ok(()),
             Some((option, _)) => Err(Failure::usage(
-                format!("{option} is for tables (CSV); a library says so itself"),
-                "shares cannot become amounts, nor K and S hold under another surface: fit again",
+                format!("{option} applies to tables (CSV) only; a library states its own"),
+                "leave it out; to change amounts or surface, fit again",
             )),
         }
     }
 }
 
+/// Whether `path` is a table by its extension.
 fn is_table(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
 }
 
+/// Warns of the consequences of another reference white.
 fn remark_reference(
     before: &PigmentLibrary,
     after: &PigmentLibrary,
@@ -155,8 +164,9 @@ fn remark_reference(
         return Ok(());
     }
     let white = after.reference.as_deref().unwrap_or_default();
-    let thickness = "films that hide keep their colour; the thickness of others now counts from";
-    console.warnings(&[format!("{thickness} {white}")])?;
+    console.warnings(&[format!(
+        "films that hide keep their colour; the thickness of others is now relative to {white}"
+    )])?;
     if before.amounts == AmountKind::Absolute {
         let lost = "amounts became shares: the unevenness of films and the evidence of the fit are left out";
         console.warnings(&[lost.to_owned()])?;

@@ -1,4 +1,4 @@
-//! `impasto library diff`: how far two libraries are apart in colour.
+//! `impasto library diff`: compares two libraries in colour.
 
 use std::path::PathBuf;
 
@@ -11,34 +11,34 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{library, remark_coverage, viewing};
 
-/// How far two libraries of the same pigments are apart, in CIEDE2000
+/// Compare two libraries of the same pigments, in CIEDE2000
 ///
 /// Compares the masstone and the tint (1:9 in the first's reference white) of each pigment that
-/// stands in both, and mixtures of two of them with that white, 1:1:1. Each library is seen on its
-/// own wavelengths and under its own surface. Exit status 1 if anything differs by more than the
+/// both have, and mixtures of two of them with that white, 1:1:1. Each library is evaluated on its
+/// own wavelengths and with its own surface. Exit status 1 if anything differs by more than the
 /// tolerance under any light.
 #[derive(Debug, Args)]
 pub(super) struct Diff {
     /// A pigment library (JSON)
     first: PathBuf,
-    /// Another
+    /// The library to compare it with (JSON)
     second: PathBuf,
-    /// The largest difference that passes
+    /// Largest difference that passes
     #[arg(long, value_name = "CIEDE2000", default_value_t = 1.0)]
     tolerance: f64,
-    /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or a file of a lamp
+    /// Light (may be repeated): a CIE illuminant, 5600K, D5600K, or the file of a lamp
     #[arg(long, value_name = "LIGHT", default_value = "D65")]
     illuminant: Vec<String>,
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
     #[arg(long, value_name = "NAME", default_value = "1931-2")]
     observer: String,
-    /// How many mixtures of two pigments to compare at most
+    /// Maximum number of mixtures of two pigments to compare
     #[arg(long, value_name = "COUNT", default_value_t = 100)]
     pairs: usize,
-    /// Seed of the choice of mixtures
+    /// Seed of the random choice of mixtures
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print JSON: lights, each with pigments, pairs, largest; and what only one has
+    /// Print JSON: lights, each with pigments, pairs, largest; and pigments that only one has
     #[arg(long)]
     json: bool,
 }
@@ -47,7 +47,7 @@ impl Diff {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if !(self.tolerance.is_finite() && self.tolerance >= 0.0) {
             return Err(Failure::usage(
-                format!("--tolerance is 0 and up, found `{}`", self.tolerance),
+                format!("--tolerance takes a number not below 0, found `{}`", self.tolerance),
                 "try --tolerance 1",
             ));
         }
@@ -67,7 +67,7 @@ impl Diff {
         if found[0].pigments.is_empty() {
             return Err(Failure::data(
                 "the two libraries have no pigment in common",
-                "give the same names first: impasto library rename",
+                "rename them first: impasto library rename",
             ));
         }
         let largest = found.iter().map(Difference::largest).fold(0.0, f64::max);
@@ -94,7 +94,7 @@ impl Diff {
                     "the libraries differ by up to {largest:.2} CIEDE2000; the tolerance is `{}`",
                     self.tolerance
                 ),
-                "the list above tells where",
+                "see the list above",
             ));
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! `impasto library export`: a library for other programs.
+//! `impasto library export`: writes a library in formats of other programs.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ enum Format {
     Ase,
     /// Photoshop swatches: sRGB or Lab, and names
     Aco,
-    /// K and S with their deviations, a row a curve
+    /// K and S with their standard deviations, one row per curve
     Csv,
     /// CxF3: predicted reflectance spectra of the swatches
     Cxf,
@@ -34,31 +34,31 @@ enum Format {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Space {
-    /// sRGB, cut off at its gamut
+    /// sRGB, clipped to its gamut
     Rgb,
-    /// CIELAB as graphic arts have it, under D50
+    /// CIELAB under D50, as in graphic arts
     Lab,
 }
 
-/// A library for other programs: palettes, spectra, or a table of K and S
+/// Export a library to other programs: palettes, spectra, or a table of K and S
 ///
-/// A swatch is the masstone of a pigment under the light told. Palettes of Adobe programs may hold
-/// Lab; theirs is that under D50, to which a colour under another light is adapted (Bradford).
+/// A swatch is the masstone of a pigment under the chosen light. Palettes of Adobe programs may hold
+/// Lab under D50, to which colours under another light are adapted (Bradford).
 #[derive(Debug, Args)]
 pub(super) struct Export {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// The format
+    /// Format of the output file
     #[arg(long, value_enum)]
     to: Format,
-    /// Where to write
+    /// The file to write
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// Add tints in the reference white, as parts of white to one of the pigment, such as 1,4,9
     #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 0..=1,
           default_missing_value = "1,4,9", require_equals = true)]
     tints: Vec<String>,
-    /// How .ase and .aco hold colours
+    /// Colour space of .ase and .aco files
     #[arg(long, value_enum, default_value = "rgb")]
     space: Space,
     #[command(flatten)]
@@ -78,7 +78,7 @@ impl Export {
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let library = library(&self.library)?;
         if self.to == Format::Csv {
-            remark_what_csv_lacks(&library, console)?;
+            remark_csv_omissions(&library, console)?;
             output.write(to_csv(&library))?;
             let count = library.pigments.len();
             return console.line(format!("{}: {count} pigments", self.output.display()));
@@ -96,7 +96,7 @@ impl Export {
             .collect();
         if !clipped.is_empty() {
             let names = clipped.join(", ");
-            console.warnings(&[format!("outside sRGB, cut off at its gamut: {names}")])?;
+            console.warnings(&[format!("outside sRGB, clipped to its gamut: {names}")])?;
         }
         let count = colors.len();
         let swatch = |color: NamedColor| SwatchEntry {
@@ -118,7 +118,7 @@ impl Export {
     }
 }
 
-/// A colour to be a swatch.
+/// Colour of one swatch.
 struct NamedColor {
     pigment: String,
     name: String,
@@ -127,7 +127,7 @@ struct NamedColor {
     rgb: Rgb,
 }
 
-/// The masstone of each pigment, then its tints.
+/// Computes the masstone of each pigment, followed by its tints.
 fn colors(
     library: &PigmentLibrary,
     weights: &TristimulusWeights,
@@ -160,7 +160,7 @@ fn colors(
     Ok(colors)
 }
 
-/// The spectra of `colors`, as CxF3.
+/// Encodes the spectra of `colors` as CxF3.
 fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> Result<String> {
     let spectra = colors
         .iter()
@@ -177,11 +177,13 @@ fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> Result<String> {
     Ok(write_cxf(&head, &named))
 }
 
+/// Converts XYZ under `white` to CIELAB under D50.
 fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {
     let d50 = d50_white();
     Lab::from_xyz(adapt(xyz, white, d50, Adaptation::Bradford), d50)
 }
 
+/// Parses the parts of white of `--tints`.
 fn tints(texts: &[String]) -> Result<Vec<f64>> {
     let parts = texts.iter().map(|text| {
         text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && *v <= 1e6).ok_or_else(|| {
@@ -194,10 +196,11 @@ fn tints(texts: &[String]) -> Result<Vec<f64>> {
     parts.collect()
 }
 
-fn remark_what_csv_lacks(library: &PigmentLibrary, console: &mut Console<'_>) -> Result<()> {
+/// Prints the parts of a library that a table cannot hold.
+fn remark_csv_omissions(library: &PigmentLibrary, console: &mut Console<'_>) -> Result<()> {
     let guessed = library.pigments.iter().filter(|pigment| pigment.guessed);
     let guessed: Vec<String> = guessed
-        .map(|pigment| format!("{} is guessed, which the table does not say", pigment.name))
+        .map(|pigment| format!("{} is guessed, which the table cannot state", pigment.name))
         .collect();
     console.warnings(&guessed)?;
     let surface = library.saunderson;

@@ -1,4 +1,4 @@
-//! `impasto library from-rgb`: a plausible pigment of a colour.
+//! `impasto library from-rgb`: guesses a pigment from a colour.
 
 use std::path::PathBuf;
 
@@ -16,37 +16,37 @@ use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
 
-/// A plausible pigment of a colour, marked as guessed
+/// Add a plausible pigment of a colour, marked as guessed
 ///
 /// K and S come from the smoothest reflectance that has exactly this colour under D65 for the 1931
 /// observer (Burns 2020). A hiding paint has S = 1, as the reference white; a glaze has S = 0.02
-/// and the colour at unit thickness over white. How such a paint mixes is a guess: many
-/// reflectances have one colour.
-/// Without a library a new one is made: 400 to 700 nm in steps of 10, the first paint that hides
-/// its reference, so begin with the white.
+/// and the colour at unit thickness over white. How such a paint mixes is a guess, since many
+/// reflectances have the same colour.
+/// Without LIBRARY a new one is made, from 400 to 700 nm in steps of 10. Its first hiding paint
+/// becomes its reference, so begin with the white.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "impasto library from-rgb [OPTIONS] --name <NAME> --output <FILE> [LIBRARY] <COLOUR>"
 )]
 pub(super) struct FromRgb {
-    /// The pigment library (JSON) that it joins [default: a new one], and the colour: #rrggbb, or
+    /// The pigment library (JSON) to add it to [default: a new one], and the colour: #rrggbb, or
     /// L,a,b under D65
     // Not two arguments: the first, optional, would take the colour's place before an option.
     #[arg(required = true, value_name = "[LIBRARY] COLOUR")]
     library_and_color: Vec<String>,
-    /// The pigment's name
+    /// Name of the pigment
     #[arg(long)]
     name: String,
-    /// A paint that hides has this colour (the default)
+    /// The colour is that of a paint that hides (the default)
     #[arg(long, conflicts_with = "glaze")]
     hiding: bool,
-    /// A glaze over white has this colour
+    /// The colour is that of a glaze over white
     #[arg(long)]
     glaze: bool,
-    /// Take the nearest colour that a paint can have
+    /// Use the nearest colour that a paint can have
     #[arg(long)]
     nearest: bool,
-    /// Where to write the library
+    /// The library file to write (JSON)
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -59,9 +59,9 @@ impl FromRgb {
         let inputs: Vec<PathBuf> = path.iter().cloned().collect();
         let output = Output::open(&self.output, &inputs)?;
         let mut library = match &path {
-            Some(_) if self.surface.given() => {
+            Some(_) if self.surface.is_present() => {
                 return Err(Failure::usage(
-                    "--saunderson is for a new library; this one has its surface",
+                    "--saunderson applies to new libraries only; this one states its surface",
                     "leave out --saunderson",
                 ));
             }
@@ -70,7 +70,7 @@ impl FromRgb {
         };
         let name = self.name.trim();
         if name.is_empty() || name.contains(char::is_control) {
-            return Err(Failure::usage("a pigment needs a name", "say --name \"Sky Blue\""));
+            return Err(Failure::usage("a pigment needs a name", "give --name \"Sky Blue\""));
         }
         if library.pigments.iter().any(|pigment| pigment.name == name) {
             return Err(Failure::data(
@@ -79,9 +79,9 @@ impl FromRgb {
             ));
         }
         let weights = Viewing::default().weights(library.grid)?;
-        let wanted = wanted(color, &weights)?;
+        let target = target_xyz(color, &weights)?;
         let body = if self.glaze { Body::Glaze } else { Body::Hiding };
-        let guess = guessed_pigment(&library, (name, color), wanted, body, self.nearest)?;
+        let guess = guessed_pigment(&library, (name, color), target, body, self.nearest)?;
         if path.is_none() && body == Body::Hiding {
             library.reference = Some(name.to_owned());
         }
@@ -104,17 +104,19 @@ impl FromRgb {
         ))
     }
 
+    /// Splits the positional arguments into library and colour.
     fn library_and_color(&self) -> Result<(Option<PathBuf>, &str)> {
         match self.library_and_color.as_slice() {
             [color] => Ok((None, color.trim())),
             [library, color] => Ok((Some(PathBuf::from(library)), color.trim())),
             more => Err(Failure::usage(
-                format!("a library and one colour are wanted, found `{}` words", more.len()),
+                format!("expected a library and one colour, found `{}` arguments", more.len()),
                 "quote a colour that holds spaces: \"40, 5, -45\"",
             )),
         }
     }
 
+    /// Makes an empty library.
     fn new_library(&self) -> Result<PigmentLibrary> {
         Ok(PigmentLibrary {
             title: String::new(),
@@ -133,8 +135,8 @@ impl FromRgb {
     }
 }
 
-/// XYZ under D65 of a colour in words.
-fn wanted(text: &str, weights: &TristimulusWeights) -> Result<Xyz> {
+/// Parses a colour code and converts it to XYZ under D65.
+fn target_xyz(text: &str, weights: &TristimulusWeights) -> Result<Xyz> {
     let code: ColorCode = text.parse().map_err(|error: ColorCodeError| {
         let hint = error.hint().map(|hint| hint.to_string());
         Failure::usage(error.to_string(), hint.unwrap_or_default())

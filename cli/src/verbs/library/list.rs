@@ -1,4 +1,4 @@
-//! `impasto library list`: the pigments with their colours.
+//! `impasto library list`: lists the pigments with their colours.
 
 use std::path::PathBuf;
 
@@ -12,14 +12,14 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::input::{ViewingOptions, library, srgb};
 
-/// The pigments, each with its masstone and a tint in the reference white
+/// List the pigments, each with its masstone and a tint in the reference white
 #[derive(Debug, Args)]
 pub(super) struct List {
     /// The pigment library (JSON)
     library: PathBuf,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON
+    /// Print JSON: a list of name, colour_index, identified, guessed, lab, hex, notes
     #[arg(long)]
     json: bool,
 }
@@ -30,9 +30,9 @@ impl List {
         let library = library(&self.library)?;
         if !self.json {
             let evidence = library.evidence.as_ref();
-            let told = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
+            let stated = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
             let (title, source, licence) =
-                (told(&library.title), told(&library.source), told(&library.licence));
+                (stated(&library.title), stated(&library.source), stated(&library.licence));
             console.line(format!("{title}, {}", library.grid))?;
             console.line(format!("source: {source}; licence: {licence}"))?;
             let unit = match &library.reference {
@@ -70,7 +70,7 @@ impl List {
     }
 }
 
-/// A line for each pigment: masstone, and one part in ten of the reference.
+/// Prints one line per pigment: its masstone, and a tint with nine parts of the reference white.
 pub(crate) fn print_pigments(
     library: &PigmentLibrary,
     viewing: &calibrate::evaluate::Viewing,
@@ -80,7 +80,7 @@ pub(crate) fn print_pigments(
     let white = library.reference.as_deref().and_then(|name| library.find(name).ok());
     let width = library.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
     let tints = white.is_some() && library.amounts == AmountKind::Relative;
-    // A patch of colour takes seven columns more.
+    // A colour patch takes seven more columns.
     let column = if console.screen.colors { 21 } else { 14 };
     let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
     console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;

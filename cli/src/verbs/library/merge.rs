@@ -1,4 +1,4 @@
-//! `impasto library merge`: one library of several.
+//! `impasto library merge`: merges libraries into one.
 
 use std::path::PathBuf;
 
@@ -18,39 +18,39 @@ enum PreferName {
     Last,
 }
 
-/// One library of several
+/// Merge libraries into one
 ///
-/// K and S of relative libraries are brought to one reference white: those of each later library
-/// are divided by the S of the white that the first has as its reference, found there by its name
-/// or by --as. That keeps every mixture's K/S. Pigments that stand in two libraries are compared.
-/// Libraries of different surfaces, of shares and of amounts do not mix.
+/// K and S of relative libraries are converted to one reference white, that of the first library:
+/// those of each later library are divided by its own S of this white, found there by name or by
+/// --as. This keeps the K/S of every mixture. Pigments that two libraries share are compared.
+/// Libraries with different surfaces, or one of shares and one of amounts, cannot be merged.
 #[derive(Debug, Args)]
 pub(super) struct Merge {
-    /// The pigment libraries (JSON); the first gives grid and surface
+    /// The pigment libraries (JSON); grid and surface are those of the first
     #[arg(required = true, num_args = 2.., value_name = "LIBRARY")]
     libraries: Vec<PathBuf>,
-    /// Where to write the library
+    /// The library file to write (JSON)
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// The white that all libraries share, as the first calls it [default: its reference]
+    /// The white that all libraries share, by its name in the first [default: its reference]
     #[arg(long, value_name = "PIGMENT")]
     reference: Option<String>,
-    /// What another library calls that white (may be repeated)
+    /// Name of that white in another library (may be repeated)
     #[arg(long = "as", value_name = "PIGMENT")]
     aliases: Vec<String>,
-    /// Which of two different pigments of one name stays [default: an error; of the white, the
-    /// first]
+    /// Which of two different pigments with the same name to keep [default: an error; for the
+    /// white, the first]
     #[arg(long, value_enum)]
     prefer: Option<PreferName>,
-    /// The new library's title [default: all titles]
+    /// Title of the new library [default: all titles]
     #[arg(long)]
     title: Option<String>,
     #[command(flatten)]
     resampling: ResamplingOptions,
-    /// Take pigments found under another surface as if it were the first's
+    /// Accept pigments fitted under another surface as if it were the first's
     #[arg(long)]
     any_surface: bool,
-    /// Absolute amounts of all libraries are in one unit, on one area
+    /// Confirm that the absolute amounts of all libraries have the same unit and area
     #[arg(long)]
     same_unit: bool,
     #[command(flatten)]
@@ -87,7 +87,8 @@ impl Merge {
         }
         if sources.iter().any(|source| source.library.evidence.is_some()) {
             found.warnings.push(
-                "the evidence of each fit is left out; the pigments' notes tell its errors".into(),
+                "the evidence of each fit is left out; its errors are in the notes of the pigments"
+                    .into(),
             );
         }
         console.warnings(&found.warnings)?;
@@ -104,7 +105,7 @@ impl Merge {
             }));
         }
         for (name, file, delta_e) in &found.common {
-            console.line(format!("{name}: that of {file} is {delta_e:.2} CIEDE2000 off"))?;
+            console.line(format!("{name}: that of {file} differs by {delta_e:.2} CIEDE2000"))?;
         }
         console.line(format!(
             "{}: {} pigments of {} libraries",

@@ -1,4 +1,4 @@
-//! `impasto library`: look into pigment libraries, join and change them.
+//! `impasto library`: inspects, merges and changes pigment libraries.
 
 mod list;
 
@@ -29,15 +29,15 @@ use crate::failure::Result;
 
 pub(super) use list::print_pigments;
 
-/// Look into pigment libraries, join and change them
+/// Inspect, merge and change pigment libraries
 #[derive(Debug, Args)]
 pub(crate) struct Library {
     #[command(subcommand)]
-    what: What,
+    verb: LibraryVerb,
 }
 
 #[derive(Debug, Subcommand)]
-enum What {
+enum LibraryVerb {
     List(list::List),
     Show(show::Show),
     Check(check::Check),
@@ -52,17 +52,17 @@ enum What {
 
 impl Library {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        match self.what {
-            What::List(verb) => verb.run(console),
-            What::Show(verb) => verb.run(console),
-            What::Check(verb) => verb.run(console),
-            What::Diff(verb) => verb.run(console),
-            What::Merge(verb) => verb.run(console),
-            What::Convert(verb) => verb.run(console),
-            What::Rename(verb) => verb.run(console),
-            What::Subset(verb) => verb.run(console),
-            What::Export(verb) => verb.run(console),
-            What::FromRgb(verb) => verb.run(console),
+        match self.verb {
+            LibraryVerb::List(verb) => verb.run(console),
+            LibraryVerb::Show(verb) => verb.run(console),
+            LibraryVerb::Check(verb) => verb.run(console),
+            LibraryVerb::Diff(verb) => verb.run(console),
+            LibraryVerb::Merge(verb) => verb.run(console),
+            LibraryVerb::Convert(verb) => verb.run(console),
+            LibraryVerb::Rename(verb) => verb.run(console),
+            LibraryVerb::Subset(verb) => verb.run(console),
+            LibraryVerb::Export(verb) => verb.run(console),
+            LibraryVerb::FromRgb(verb) => verb.run(console),
         }
     }
 }

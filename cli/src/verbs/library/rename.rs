@@ -1,4 +1,4 @@
-//! `impasto library rename`: other names.
+//! `impasto library rename`: renames pigments.
 
 use std::path::PathBuf;
 
@@ -10,18 +10,18 @@ use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
-/// Other names for pigments; all else stays, byte for byte
+/// Rename pigments; everything else stays the same, byte for byte
 #[derive(Debug, Args)]
 pub(super) struct Rename {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// Names to change, all at once; the old one may be cut short
+    /// Names to change, all at once; the old name may be abbreviated
     #[arg(value_name = "OLD=NEW")]
     names: Vec<String>,
-    /// A Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
+    /// Set a Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
     #[arg(long = "colour-index", value_name = "NAME=INDEX")]
     color_index: Vec<String>,
-    /// Where to write the library
+    /// The library file to write (JSON)
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
 }
@@ -29,7 +29,7 @@ pub(super) struct Rename {
 impl Rename {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if self.names.is_empty() && self.color_index.is_empty() {
-            return Err(Failure::usage("nothing to rename", "say OLD=NEW, or --colour-index"));
+            return Err(Failure::usage("nothing to rename", "give OLD=NEW, or --colour-index"));
         }
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let before = library(&self.library)?;
@@ -50,12 +50,13 @@ impl Rename {
     }
 }
 
+/// Parses texts `NAME=CHANGE`.
 fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
     let pair = |text: &String| {
         let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
         let (name, value) = parts.ok_or_else(|| {
             Failure::usage(
-                format!("a name and its change are NAME=CHANGE, found `{text}`"),
+                format!("a change takes NAME=CHANGE, found `{text}`"),
                 "try \"Viridian=Viridian (batch 2)\"",
             )
         })?;

@@ -1,4 +1,4 @@
-//! `impasto library show`: one pigment's curves.
+//! `impasto library show`: prints the curves of one pigment.
 
 use std::path::PathBuf;
 
@@ -9,14 +9,14 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::input::library;
 
-/// K and S of one pigment, with their standard deviations
+/// Show K and S of one pigment, with their standard deviations
 #[derive(Debug, Args)]
 pub(super) struct Show {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// The pigment; the name may be cut short
+    /// The pigment; the name may be abbreviated
     pigment: String,
-    /// Print JSON
+    /// Print JSON: the pigment as in the library, and wavelengths_nm
     #[arg(long)]
     json: bool,
 }
@@ -26,7 +26,7 @@ impl Show {
         let library = library(&self.library)?;
         let pigment = &library[library.find(&self.pigment)?];
         if self.json {
-            let mut value = serde_json::to_value(pigment).expect("a pigment is JSON");
+            let mut value = serde_json::to_value(pigment).expect("a pigment serializes to JSON");
             let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
             value["wavelengths_nm"] = json!(wavelengths);
             return console.json(&value);
@@ -37,16 +37,16 @@ impl Show {
             console.line(format!("note: {note}"))?;
         }
         console.line("    nm            K       +-            S       +-")?;
-        let deviation = |curve: &[f64], at: usize| {
-            curve.get(at).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
+        let deviation = |curve: &[f64], index: usize| {
+            curve.get(index).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
         };
-        for (at, nm) in library.grid.wavelengths_nm().enumerate() {
+        for (index, nm) in library.grid.wavelengths_nm().enumerate() {
             console.line(format!(
                 "{nm:6} {:12.6} {:>8} {:12.6} {:>8}",
-                pigment.absorption[at],
-                deviation(&pigment.absorption_sd, at),
-                pigment.scattering[at],
-                deviation(&pigment.scattering_sd, at),
+                pigment.absorption[index],
+                deviation(&pigment.absorption_sd, index),
+                pigment.scattering[index],
+                deviation(&pigment.scattering_sd, index),
             ))?;
         }
         Ok(())

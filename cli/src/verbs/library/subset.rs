@@ -1,4 +1,4 @@
-//! `impasto library subset`: some of the pigments.
+//! `impasto library subset`: keeps some pigments of a library.
 
 use std::path::PathBuf;
 
@@ -10,24 +10,24 @@ use crate::failure::{Failure, Result};
 use crate::input::library;
 use crate::output::Output;
 
-/// Some pigments of a library; their figures stay as they are
+/// Keep some pigments of a library; their K and S do not change
 ///
-/// The reference white must be among them, or another be chosen with --reference: all K and S are
-/// then divided by its S. Of the evidence the summary stays, marked as that of the whole fit.
+/// The reference white must be among them. --reference chooses another, and all K and S are then
+/// divided by its S. Only the summary of the evidence is kept, marked as that of the whole fit.
 #[derive(Debug, Args)]
 pub(super) struct Subset {
     /// The pigment library (JSON)
     library: PathBuf,
-    /// The pigments to keep; a name may be cut short [default: all]
+    /// The pigments to keep; a name may be abbreviated [default: all]
     #[arg(value_name = "PIGMENT")]
     keep: Vec<String>,
     /// A pigment to leave out (may be repeated)
     #[arg(long, value_name = "PIGMENT")]
     without: Vec<String>,
-    /// The pigment whose S becomes 1 [default: as it is]
+    /// The pigment whose S becomes 1 [default: the library's reference]
     #[arg(long, value_name = "PIGMENT")]
     reference: Option<String>,
-    /// Where to write the library
+    /// The library file to write (JSON)
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
 }
@@ -35,7 +35,10 @@ pub(super) struct Subset {
 impl Subset {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if self.keep.is_empty() && self.without.is_empty() {
-            return Err(Failure::usage("nothing to leave out", "name pigments, or say --without"));
+            return Err(Failure::usage(
+                "nothing to leave out",
+                "name pigments to keep, or give --without",
+            ));
         }
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
         let mut before = library(&self.library)?;
@@ -45,7 +48,9 @@ impl Subset {
         }
         let after = subset(&file, &before, &self.keep, &self.without)?;
         if after.pigments.len() < before.pigments.len() && before.evidence.is_some() {
-            console.remark("evidence: the summary of the whole fit stays, errors of samples go")?;
+            console.remark(
+                "evidence: kept the summary of the whole fit, left out the errors of samples",
+            )?;
         }
         output.write(after.to_json())?;
         let names: Vec<&str> = after.pigments.iter().map(|p| p.name.as_str()).collect();

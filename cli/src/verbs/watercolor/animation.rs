@@ -1,4 +1,4 @@
-//! Frames of a moving camera: a folder of them that can be resumed, and one animation file.
+//! Options and files of an animation: a folder of frames that can be resumed, and one file.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,14 +15,14 @@ use crate::progress::Progress;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Animation")]
 pub(super) struct AnimationOptions {
-    /// Write the pictures of a moving camera into one file: .gif, or .png (APNG, all colours)
+    /// Write the frames of a moving camera into one file: .gif, or .png (APNG, all colours)
     #[arg(long, value_name = "FILE")]
     animation: Option<PathBuf>,
-    /// Keep each picture in this folder as PNG; a run that was broken off goes on from there
+    /// Keep each frame in this folder as PNG, from which an interrupted run continues
     /// [default: FILE.frames beside the animation]
     #[arg(long, value_name = "FOLDER")]
     frames: Option<PathBuf>,
-    /// Pictures a second
+    /// Frames per second
     #[arg(long, value_name = "RATE", default_value_t = 25.0)]
     rate: f64,
 }
@@ -33,14 +33,14 @@ enum Format {
     Apng,
 }
 
-/// Where frames go: a folder, and an animation file that was found to be writable.
+/// Outputs of frames: a folder, and an animation file that was checked to be writable.
 pub(super) struct Animation {
     file: Option<(Output, Format)>,
     frames: PathBuf,
     rate: FrameRate,
 }
 
-/// A folder of frames that is being filled.
+/// A folder of frames that is being completed.
 pub(super) struct Recording {
     animation: Animation,
     sequence: Sequence,
@@ -51,12 +51,12 @@ pub(super) struct Recording {
 }
 
 impl AnimationOptions {
-    /// Whether frames are asked for.
+    /// Whether frames are requested.
     pub(super) fn any(&self) -> bool {
         self.animation.is_some() || self.frames.is_some()
     }
 
-    /// Checks that the animation can be written.
+    /// Checks that the animation can be written. Returns `None` if no frames are requested.
     pub(super) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
         let rate = FrameRate::new(self.rate)?;
         let file = match &self.animation {
@@ -69,26 +69,30 @@ impl AnimationOptions {
     }
 }
 
+/// Format of an animation, from the extension of `path`.
 fn format(path: &Path) -> Result<Format> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
         Some("gif") => Ok(Format::Gif),
         Some("png" | "apng") => Ok(Format::Apng),
         _ => Err(Failure::usage(
-            format!("{}: an animation ends in .gif, .png or .apng", path.display()),
+            format!(
+                "{}: expected an animation whose name ends in .gif, .png or .apng",
+                path.display()
+            ),
             format!("try {}", path.with_extension("gif").display()),
         )),
     }
 }
 
-/// A digest of all inputs of the frames: frames of another digest are painted anew.
+/// SHA-256 digest of all inputs of the frames. Frames of another digest are painted again.
 #[derive(Default)]
 pub(super) struct FramesDigest(Sha256);
 
 impl FramesDigest {
-    /// Adds an input of the frames.
+    /// Adds an input of the frames to the digest.
     pub(super) fn add(mut self, input: &impl std::fmt::Debug) -> Self {
-        // Hashing cannot fail.
+        // Writing to a digest cannot fail.
         let _ = write!(self, "{input:?}");
         self.0.update([0]);
         self
@@ -103,12 +107,12 @@ impl std::fmt::Write for FramesDigest {
 }
 
 impl Animation {
-    /// The file of the animation, if one is asked for.
+    /// The animation file, if one is requested.
     pub(super) fn file(&self) -> Option<&Output> {
         self.file.as_ref().map(|(output, _)| output)
     }
 
-    /// Finds the frames that exist already; frames of another digest are removed.
+    /// Opens the folder of frames. Frames of this digest are kept, all others are removed.
     pub(super) fn begin(
         self,
         digest: FramesDigest,

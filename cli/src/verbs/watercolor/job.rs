@@ -1,11 +1,11 @@
-//! The work that the options ask for, and its summary.
+//! Settings of one watercolor, and the summary of the result.
 
 use render::watercolor::{GlazePainter, Settings};
 
 use super::animation::Animation;
 use super::outputs::OpenOutputs;
 
-/// The pictures to make of a subject, and how.
+/// Settings and outputs of one run.
 pub(super) struct Job {
     pub(super) title: String,
     pub(super) settings: Settings,
@@ -14,13 +14,16 @@ pub(super) struct Job {
     pub(super) animation: Option<Animation>,
 }
 
-/// The result, for the summary.
-pub(super) struct Made {
+/// Summary of a finished run.
+pub(super) struct Summary {
+    /// Width and height in pixels.
     pub(super) size: (usize, usize),
+    /// Name of the device.
     pub(super) backend: String,
     /// Number of regions of a photograph.
     pub(super) regions: Option<usize>,
-    /// Number of frames of an animation, and how many of them existed already.
+    /// Number of frames of an animation, and the number of these that existed already.
     pub(super) frames: Option<(usize, usize)>,
+    /// Names of the pigments; empty without a library.
     pub(super) pigments: Vec<String>,
 }

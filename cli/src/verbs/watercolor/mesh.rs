@@ -1,4 +1,4 @@
-//! `impasto watercolor` of a mesh, from one camera or many.
+//! `impasto watercolor` of a mesh: a picture, or the frames of a moving camera.
 
 use render::camera::Camera;
 use render::compute::Compute;
@@ -8,12 +8,13 @@ use render::mesh::Mesh;
 use render::watercolor::{ModelPainter, Stage};
 
 use super::animation::FramesDigest;
-use super::job::{Job, Made};
+use super::job::{Job, Summary};
 use super::photograph::pigment_names;
-use super::pigments::opened;
+use super::pigments::open_painting;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 
+/// Paints a mesh: its first camera into the picture and the stages, all cameras into the animation.
 pub(super) fn paint(
     compute: Compute,
     job: Job,
@@ -21,7 +22,7 @@ pub(super) fn paint(
     cameras: &[Camera],
     size: (usize, usize),
     console: &mut Console<'_>,
-) -> Result<Made> {
+) -> Result<Summary> {
     let Job { title, settings, mut glazes, outputs, animation } = job;
     let (width, height) = size;
     let controls = outputs.masks()?.controls(width, height);
@@ -29,7 +30,7 @@ pub(super) fn paint(
         FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings).add(&cameras);
     if animation.is_some() {
         digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
-        // Settings name pictures, whose content matters too.
+        // The settings hold only the paths of these pictures, so add their content.
         digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
         digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
         digest = digest.add(&controls);
@@ -37,7 +38,7 @@ pub(super) fn paint(
     let mut painter = ModelPainter::new(compute, mesh, &settings, size)?;
     painter.set_controls(controls);
     let Some(first) = cameras.first() else {
-        return Err(Failure::data("a camera's path without a frame", "give frames = 60"));
+        return Err(Failure::data("the camera path has no frames", "give frames = 60"));
     };
     let recording = match animation {
         Some(animation) => Some(animation.begin(digest, cameras.len(), size)?),
@@ -58,14 +59,14 @@ pub(super) fn paint(
             Some(glazes) => {
                 let (wash, textures) = painter.wash(first)?;
                 let document = glazes.paint(&title, &wash, &textures, painter.settings())?;
-                outputs.exports.write(&mut opened(document, glazes)?, console)?;
+                outputs.exports.write(&mut open_painting(document, glazes)?, console)?;
             }
         }
     }
     let mut frames = None;
     if let Some(recording) = recording {
         if let Some(glazes) = &mut glazes {
-            // The first camera decides, whichever frames are still to be made.
+            // Pigments are chosen from the first camera, so that a resumed run chooses the same.
             glazes.choose(&painter.wash(first)?.0)?;
         }
         let found = recording.paint(console, |index| {
@@ -75,14 +76,14 @@ pub(super) fn paint(
                 Some(glazes) => {
                     let (wash, textures) = painter.wash(camera)?;
                     let document = glazes.paint("frame", &wash, &textures, painter.settings())?;
-                    encoded_from_linear(&opened(document, glazes)?.picture()?)
+                    encoded_from_linear(&open_painting(document, glazes)?.picture()?)
                 }
             };
             Ok(frame_of(&picture))
         })?;
         frames = Some((cameras.len(), found));
     }
-    Ok(Made {
+    Ok(Summary {
         size,
         backend: painter.compute_name().to_owned(),
         regions: None,

@@ -1,4 +1,4 @@
-//! `impasto watercolor`: photographs and meshes as watercolors.
+//! `impasto watercolor`: paints photographs and meshes as watercolors.
 
 mod style;
 
@@ -26,7 +26,7 @@ use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use animation::{Animation, AnimationOptions};
-use job::{Job, Made};
+use job::{Job, Summary};
 use outputs::OutputOptions;
 use pigments::PigmentOptions;
 use style::{StyleOptions, preset_names};
@@ -34,18 +34,18 @@ use subject::{Subject, SubjectOptions};
 
 /// Paint a photograph or a 3D model as a watercolor
 ///
-/// A photograph becomes flat regions (mean shift, then smoothed outlines), a mesh is lit in a few
-/// steps; then both go the same way: edges wobble with the paper's grain, pigment gathers at the
-/// rims of washes, clouds and grains of pigment change its density, and a dry brush leaves the
+/// A photograph becomes flat regions (mean shift, then smoothed outlines), a mesh is shaded in a few
+/// tones. Both are then painted alike: edges wobble with the paper's grain, pigment gathers at the
+/// edges of washes, clouds and grains of pigment change its density, and a dry brush leaves the
 /// hollows of the paper bare (Bousseau, Kaplan, Thollot and Sillion 2006). While a camera moves,
 /// clouds and grains stay on the object.
 #[derive(Debug, Args)]
 pub(crate) struct Watercolor {
-    /// A photograph (.png, .jpg), a mesh (.obj, .gltf, .glb, .ply), or a shape that is made here
+    /// A photograph (.png, .jpg), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,
-    /// Print a preset's settings, each with its meaning, and do nothing else
+    /// Print the settings of a preset, each with its meaning, and do nothing else
     #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
     show_preset: Option<Preset>,
     #[command(flatten)]
@@ -95,13 +95,13 @@ impl Watercolor {
         self.outputs.check(self.pigments.input().is_some())?;
         let glazes = self.pigments.glaze_painter(&settings, console)?;
         let animation = self.animation.open(&inputs)?;
-        // Last, since it makes folders.
+        // Last, because it creates folders.
         let outputs = self.outputs.open(inputs, animation.as_ref().and_then(Animation::file))?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let title = title.unwrap_or_default();
         let job = Job { title, settings, glazes, outputs, animation };
         let compute = self.backend.compute()?;
-        let made = match subject {
+        let summary = match subject {
             Subject::Photograph(photograph, width) => {
                 photograph::paint(compute, job, &photograph, width, console)?
             }
@@ -109,12 +109,13 @@ impl Watercolor {
                 mesh::paint(compute, job, *mesh, &cameras, size, console)?
             }
         };
-        report(&made, self.json, console)
+        print(&summary, self.json, console)
     }
 }
 
-fn report(made: &Made, as_json: bool, console: &mut Console<'_>) -> Result<()> {
-    let Made { size: (width, height), backend, regions, frames, pigments } = made;
+/// Prints the summary of a run.
+fn print(summary: &Summary, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+    let Summary { size: (width, height), backend, regions, frames, pigments } = summary;
     if as_json {
         return console.json(&json!({
             "size": [width, height],
@@ -132,7 +133,7 @@ fn report(made: &Made, as_json: bool, console: &mut Console<'_>) -> Result<()> {
     if let Some((frames, found)) = frames {
         line += &format!(", {frames} frames");
         if *found > 0 {
-            line += &format!(" ({found} of them found)");
+            line += &format!(" ({found} of them existed already)");
         }
     }
     if !pigments.is_empty() {

@@ -1,4 +1,4 @@
-//! Single pictures: the finished one, and the stages before it.
+//! Options and files of single pictures: the finished one, and the stages before it.
 
 use std::path::{Path, PathBuf};
 
@@ -9,29 +9,29 @@ use render::field::Field;
 use render::picture::Photograph;
 use render::watercolor::Masks;
 
-use crate::failure::{Context, Failure, Result};
-use crate::output::Output;
+use crate::failure::{Failure, Result};
+use crate::output::{Output, create_folder};
 use crate::pictures::{Exports, OpenExports};
 
 #[derive(Debug, Args)]
 pub(super) struct OutputOptions {
     #[command(flatten)]
     exports: Exports,
-    /// Write every stage on the way into this folder, as PNG
+    /// Write every intermediate stage into this folder, as PNG
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     stages: Option<PathBuf>,
-    /// Where the brush is dry: a mask laid over the picture, white where it is
-    #[arg(long, value_name = "PICTURE", help_heading = "Look")]
+    /// Mask of the dry brush, stretched over the picture: white where the brush is dry
+    #[arg(long, value_name = "PICTURE", help_heading = "Style")]
     dry_brush_mask: Option<PathBuf>,
-    /// Where density changes: a mask laid over the picture, white where it does
-    #[arg(long, value_name = "PICTURE", help_heading = "Look")]
+    /// Mask of the density changes, stretched over the picture: white where density changes
+    #[arg(long, value_name = "PICTURE", help_heading = "Style")]
     density_mask: Option<PathBuf>,
 }
 
 /// The name of a stage and its picture, encoded sRGB with coverage.
 pub(super) type NamedStage = (String, Field<[f32; 4]>);
 
-/// Output files that were found to be writable.
+/// Output files that were checked to be writable, and the masks.
 pub(super) struct OpenOutputs {
     pub(super) exports: OpenExports,
     stages: Option<PathBuf>,
@@ -41,22 +41,22 @@ pub(super) struct OpenOutputs {
 }
 
 impl OutputOptions {
-    /// Whether any file was asked for.
+    /// Whether any output is requested.
     pub(super) fn any(&self) -> bool {
         self.exports.any() || self.stages.is_some()
     }
 
-    /// The files of the masks.
+    /// Paths of the masks.
     pub(super) fn inputs(&self) -> impl Iterator<Item = PathBuf> {
         self.dry_brush_mask.iter().chain(&self.density_mask).cloned()
     }
 
     /// Refuses options that need pigments if the picture is painted without them.
     pub(super) fn check(&self, pigments: bool) -> Result<()> {
-        match self.exports.of_paint().filter(|_| !pigments) {
+        match self.exports.layer_option().filter(|_| !pigments) {
             None => Ok(()),
             Some(option) => Err(Failure::usage(
-                format!("{option} needs pigments, and this picture has none"),
+                format!("{option} needs pigments, but no library is given"),
                 "add --pigments LIBRARY",
             )),
         }
@@ -73,21 +73,21 @@ impl OutputOptions {
         if let Some(animation) = animation.filter(|animation| exports.writes(animation)) {
             return Err(Failure::usage(
                 format!(
-                    "{}: the picture and the animation would be this file",
+                    "{}: the picture and the animation have this file name",
                     animation.path().display()
                 ),
-                "give each a name of its own",
+                "give each its own file name",
             ));
         }
         if let Some(folder) = &stages {
-            let cannot = || format!("{}: this folder cannot be made", folder.display());
-            std::fs::create_dir_all(folder).context(cannot)?;
+            create_folder(folder)?;
             Output::open(&stage_path(folder, 1, "stage"), &inputs)?;
         }
         Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask, inputs })
     }
 }
 
+/// Path of a stage in its folder.
 fn stage_path(folder: &Path, number: usize, name: &str) -> PathBuf {
     folder.join(format!("{number:02}-{name}.png"))
 }
@@ -104,7 +104,7 @@ impl OpenOutputs {
         Ok(Masks { dry_brush: open(&self.dry_brush_mask)?, density: open(&self.density_mask)? })
     }
 
-    /// Writes the stages, numbered in their order.
+    /// Writes the stages, numbered from 1 in their order.
     pub(super) fn write_stages(&self, stages: &[NamedStage]) -> Result<()> {
         let Some(folder) = &self.stages else { return Ok(()) };
         let path = |(number, (name, _)): (usize, &NamedStage)| stage_path(folder, number, name);

@@ -5,20 +5,21 @@ use render::encoding::linear_from_encoded;
 use render::picture::Photograph;
 use render::watercolor::{GlazePainter, PhotographPainter};
 
-use super::job::{Job, Made};
+use super::job::{Job, Summary};
 use super::outputs::NamedStage;
-use super::pigments::opened;
+use super::pigments::open_painting;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::progress::Waiting;
 
+/// Paints a photograph, and writes the picture and the stages.
 pub(super) fn paint(
     compute: Compute,
     job: Job,
     photograph: &Photograph,
     width: usize,
     console: &mut Console<'_>,
-) -> Result<Made> {
+) -> Result<Summary> {
     let Job { title, settings, mut glazes, outputs, .. } = job;
     let mut painter = PhotographPainter::new(settings)
         .with_compute(compute)
@@ -52,13 +53,13 @@ pub(super) fn paint(
                 let waiting = Waiting::new("mixing glazes", console.screen.progress);
                 let (wash, textures) = (&prepared.wash, &prepared.textures);
                 let document = glazes.paint(&title, wash, textures, &prepared.settings)?;
-                let mut painting = opened(document, glazes)?;
+                let mut painting = open_painting(document, glazes)?;
                 drop(waiting);
                 outputs.exports.write(&mut painting, console)?;
             }
         }
     }
-    Ok(Made {
+    Ok(Summary {
         size: painter.picture_size(photograph),
         backend: painter.compute_name().to_owned(),
         regions: Some(prepared.regions),
@@ -67,7 +68,7 @@ pub(super) fn paint(
     })
 }
 
-/// Names of the pigments in use.
+/// Names of the pigments that the glazes use; empty without glazes.
 pub(super) fn pigment_names(glazes: Option<&GlazePainter>) -> Vec<String> {
     glazes.iter().flat_map(|glazes| glazes.pigments()).map(str::to_owned).collect()
 }

@@ -1,4 +1,5 @@
-//! Calibrated pigments instead of the colour model of the paper.
+//! Options for painting with calibrated pigments instead of the colour model of Bousseau et al.
+//! (2006).
 
 use std::path::PathBuf;
 
@@ -18,8 +19,8 @@ use crate::palette::palette;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pigments")]
 pub(super) struct PigmentOptions {
-    /// Paint with this library: every colour is its best recipe as a glaze over the paper, and
-    /// density is how thick it lies
+    /// Paint with this library: every colour is matched by a glaze over the paper, and density
+    /// becomes its thickness
     #[arg(long, value_name = "LIBRARY")]
     pigments: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
@@ -27,21 +28,21 @@ pub(super) struct PigmentOptions {
     #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "pigments")]
     palette: Vec<String>,
     /// Reflectance of the paper as measured: 0 to 1, or a file of spectra (FILE#SAMPLE)
-    /// [default: one of the setting paper.colour]
+    /// [default: computed from the setting paper.colour]
     #[arg(long, value_name = "PAPER", requires = "pigments")]
     over: Option<String>,
-    /// Light, as other verbs take it: D65, A, FL11, 5600K, a lamp's file
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp
     #[arg(long, value_name = "LIGHT", default_value = "D65", requires = "pigments")]
     illuminant: String,
 }
 
 impl PigmentOptions {
-    /// The library's file, if there is one.
+    /// Path of the library, if given.
     pub(super) fn input(&self) -> Option<&PathBuf> {
         self.pigments.as_ref()
     }
 
-    /// The painter of glazes, if a library was given.
+    /// Creates the painter of glazes, if a library is given.
     pub(super) fn glaze_painter(
         &self,
         settings: &Settings,
@@ -55,8 +56,8 @@ impl PigmentOptions {
         };
         let paper = match &self.over {
             Some(text) => {
-                let (paper, warning) = ground(text, console)?.on_grid(library.grid)?;
-                console.remarks(&warning)?;
+                let (paper, remark) = ground(text, console)?.on_grid(library.grid)?;
+                console.remarks(&remark)?;
                 paper
             }
             None => GlazePainter::paper_of_settings(settings, &library)?,
@@ -72,7 +73,7 @@ impl PigmentOptions {
 }
 
 /// Opens a painting of glazes under the light that they were matched under.
-pub(super) fn opened(document: Document, glazes: &GlazePainter) -> Result<Painting> {
+pub(super) fn open_painting(document: Document, glazes: &GlazePainter) -> Result<Painting> {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     Ok(Painting::open_under(document, glazes.light().clone(), engine, 0)?)
 }

@@ -1,4 +1,4 @@
-//! The style of a watercolor: a preset, a file of settings, single settings.
+//! Options for the style of a watercolor: a preset, a file of settings, single settings.
 
 use std::path::{Path, PathBuf};
 
@@ -9,21 +9,21 @@ use render::watercolor::{Preset, Settings, SettingsError};
 use crate::failure::{Failure, Result};
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Look")]
+#[command(next_help_heading = "Style")]
 pub(super) struct StyleOptions {
-    /// Settings that come with impasto [default: those between]
+    /// Preset of settings that ships with impasto [default: settings between the presets]
     #[arg(long, value_name = "NAME", value_parser = preset_names())]
     preset: Option<Preset>,
-    /// Settings from a file (TOML); what it leaves out stays as the preset has it
+    /// Settings from a file (TOML); others keep the values of the preset
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
-    /// Change one setting, as `edges.strength=2` or `paper.kind=rough`; may be repeated
+    /// Change one setting, such as `edges.strength=2` or `paper.kind=rough`; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
 
 impl StyleOptions {
-    /// The settings, and the files they were read from.
+    /// Reads the settings. Returns them with the paths of the files that they use.
     pub(super) fn settings(&self) -> Result<(Settings, Vec<PathBuf>)> {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
         let mut inputs = Vec::new();
@@ -35,7 +35,7 @@ impl StyleOptions {
             let before = settings.clone();
             (settings.paper.scan, settings.toon.greys) = (None, None);
             settings = settings.changed(&name, &text)?;
-            // Paths of pictures are relative to the file that names them.
+            // Paths of pictures are relative to the settings file.
             let folder = path.parent().unwrap_or(Path::new(""));
             let beside = |named: Option<String>, before: Option<String>| {
                 named.map(|file| folder.join(file).display().to_string()).or(before)
@@ -48,7 +48,7 @@ impl StyleOptions {
             let Some((key, value)) = change.split_once('=') else {
                 return Err(Failure::usage(
                     format!("--set takes KEY=VALUE, found `{change}`"),
-                    "--set edges.strength=2 is such a change",
+                    "try --set edges.strength=2",
                 ));
             };
             let text = format!("{} = {}", key.trim(), as_toml(value.trim()));
@@ -66,7 +66,7 @@ pub(super) fn preset_names() -> impl TypedValueParser<Value = Preset> {
     names.try_map(|name| name.parse::<Preset>())
 }
 
-/// A value in TOML notation: words need no quotes here, and `.5` is a number.
+/// Converts an option's value to TOML: words need no quotes here, and `.5` is a number.
 fn as_toml(value: &str) -> String {
     if let Ok(whole) = value.parse::<i64>() {
         return whole.to_string();

@@ -1,4 +1,4 @@
-//! The subject: a photograph, or a mesh and its cameras.
+//! Options for the subject: a photograph, or a mesh and its cameras.
 
 use std::path::{Path, PathBuf};
 
@@ -10,13 +10,13 @@ use render::watercolor::PhotographPainter;
 
 use crate::failure::{Failure, Result};
 
-/// Number of triangles of a built-in model.
+/// Number of triangles of a built-in model; chosen by eye.
 const TRIANGLES: usize = 60_000;
-/// Smallest width or height that can be asked for, in pixels.
+/// Smallest width or height of a picture, in pixels.
 const LEAST: u64 = 16;
-/// Largest width or height, in pixels.
+/// Largest width or height of a picture, in pixels.
 const MOST: u64 = 16_384;
-/// Width of a picture of a mesh unless told otherwise, in pixels.
+/// Default width of a picture of a mesh, in pixels.
 const WIDTH: usize = 1000;
 
 #[derive(Debug, Args)]
@@ -29,32 +29,32 @@ pub(super) struct SubjectOptions {
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
-    /// From where a mesh is seen, all of it in the picture: degrees around it and above the
-    /// horizon, and the angle of view, as `30,20,30`; or a file of keyframes (.toml)
+    /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
+    /// view, such as `30,20,30`; or a file of keyframes (.toml)
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn around a mesh in so many pictures
+    /// Turn the camera around a mesh in this number of frames
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     turntable: Option<u64>,
 }
 
-/// The subject to paint.
+/// Subject of a watercolor.
 pub(super) enum Subject {
-    /// A photograph, and the width of its picture in pixels.
+    /// A photograph, and the width of the picture in pixels.
     Photograph(Photograph, usize),
-    /// A mesh, its cameras, and width and height of the pictures in pixels.
+    /// A mesh, its cameras, and the width and height of the pictures in pixels.
     Mesh(Box<Mesh>, Vec<Camera>, (usize, usize)),
 }
 
 impl SubjectOptions {
-    /// Reads the subject, and returns it with the files it was read from.
+    /// Reads the subject. Returns it with the paths of the files that it was read from.
     pub(super) fn subject(&self, path: &Path) -> Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
                 let names = SampleModel::ALL.map(SampleModel::name).join(", ");
                 return Err(Failure::usage(
-                    format!("there is no shape `{name}`"),
+                    format!("unknown shape `{name}`"),
                     format!("shapes are {names}"),
                 ));
             };
@@ -64,15 +64,15 @@ impl SubjectOptions {
         if let Some("obj" | "gltf" | "glb" | "ply") = ending.as_deref() {
             return self.mesh(Mesh::open(path)?, vec![path.to_owned()]);
         }
-        for (option, given) in [
+        for (option, present) in [
             ("--camera", self.camera.is_some()),
             ("--turntable", self.turntable.is_some()),
             ("--height", self.height.is_some()),
         ] {
-            if given {
+            if present {
                 return Err(Failure::usage(
-                    format!("{option} is for meshes, and {text} is none"),
-                    "meshes end in .obj, .gltf, .glb or .ply; shape:village is one too",
+                    format!("{option} applies to meshes only, and {text} is not a mesh"),
+                    "names of meshes end in .obj, .gltf, .glb or .ply; shape:village is a mesh too",
                 ));
             }
         }
@@ -89,9 +89,7 @@ impl SubjectOptions {
         }
         if rows > MOST as f64 {
             return Err(Failure::usage(
-                format!(
-                    "{text}: a picture has {MOST} pixels a side at most, and this has {rows} rows"
-                ),
+                format!("{text}: the picture would have {rows} rows of pixels, more than `{MOST}`"),
                 "give a smaller --width",
             ));
         }
@@ -111,8 +109,8 @@ impl SubjectOptions {
             }
             (Some(path), Some(_)) => {
                 return Err(Failure::usage(
-                    format!("--turntable moves the camera, and {path} does so too"),
-                    "leave one of both out",
+                    format!("--turntable and {path} both move the camera"),
+                    "leave one of them out",
                 ));
             }
             (None, turntable) => {
@@ -129,26 +127,26 @@ impl SubjectOptions {
     fn framing(&self, aspect: f32) -> Result<Framing> {
         let usual = Framing { aspect, ..Framing::default() };
         let Some(text) = &self.camera else { return Ok(usual) };
-        let refused = || {
+        let invalid = || {
             Failure::usage(
                 format!(
-                    "--camera takes degrees around the mesh, above the horizon (-90 to 90) and of view (1 to 170), or a .toml file, found `{text}`"
+                    "--camera takes degrees around the mesh, above the horizon (-90 to 90) and of the view (1 to 170), or a .toml file, found `{text}`"
                 ),
-                "--camera 30,20 is usual",
+                "try --camera 30,20",
             )
         };
         let numbers: Result<Vec<f32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         let (azimuth_deg, elevation_deg, field_of_view_deg) =
-            match numbers.map_err(|_| refused())?[..] {
+            match numbers.map_err(|_| invalid())?[..] {
                 [azimuth, elevation] => (azimuth, elevation, usual.field_of_view_deg),
                 [azimuth, elevation, field] => (azimuth, elevation, field),
-                _ => return Err(refused()),
+                _ => return Err(invalid()),
             };
-        let fits = azimuth_deg.is_finite()
+        let in_range = azimuth_deg.is_finite()
             && (-90.0..=90.0).contains(&elevation_deg)
             && (1.0..=170.0).contains(&field_of_view_deg);
-        if !fits {
-            return Err(refused());
+        if !in_range {
+            return Err(invalid());
         }
         Ok(Framing { azimuth_deg, elevation_deg, field_of_view_deg, aspect })
     }

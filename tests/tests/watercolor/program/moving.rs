@@ -86,7 +86,7 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     assert_eq!(found(wish), Some(4));
     assert_eq!(opened(frame(&folder, "frames", 1)), painted_over);
     let words = painted(&folder.pyramid(), &[&TURN[..], wish].concat());
-    assert_eq!(words.out, "48 x 36 pixels on cpu, 4 frames (4 of them found)\n");
+    assert_eq!(words.out, "48 x 36 pixels on cpu, 4 frames (4 of them existed already)\n");
 
     // Another wish makes all anew, whatever differs.
     for more in [

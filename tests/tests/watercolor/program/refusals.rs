@@ -48,18 +48,30 @@ fn subjects_that_cannot_be_read() {
         (&none("none.obj"), &[], 1, "none.obj", "check the path"),
         (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
-        (&stl, &["--turntable", "4"], 2, "model.stl is none", "meshes end in .obj"),
+        (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "meshes end in .obj"),
         (&broken, &[], 1, "broken.obj: line 4: no place `4`, there are 3", "mend that place"),
         (
             &"shape:cube".to_owned(),
             &[],
             2,
-            "there is no shape `cube`",
+            "unknown shape `cube`",
             "shapes are still-life, village",
         ),
-        (&photo, &["--turntable", "4"], 2, "--turntable is for meshes, and ", "meshes end in .obj"),
-        (&photo, &["--camera", "30,20"], 2, "--camera is for meshes", "meshes end in .obj"),
-        (&photo, &["--height", "64"], 2, "--height is for meshes", "meshes end in .obj"),
+        (
+            &photo,
+            &["--turntable", "4"],
+            2,
+            "--turntable applies to meshes only, and ",
+            "meshes end in .obj",
+        ),
+        (
+            &photo,
+            &["--camera", "30,20"],
+            2,
+            "--camera applies to meshes only",
+            "meshes end in .obj",
+        ),
+        (&photo, &["--height", "64"], 2, "--height applies to meshes only", "meshes end in .obj"),
     ] {
         refused(
             &watercolor(subject, &[&["--picture", &out], options].concat()),
@@ -175,7 +187,7 @@ fn cameras_that_see_nothing() {
         ["30", "30,91", "30,-91", "30,20,0", "30,20,171", "1,2,3,4", "a,b", "", "NaN,20", "inf,1"]
     {
         let what = format!("or a .toml file, found `{camera}`");
-        refused(&with(&[camera]), 2, &what, "--camera 30,20 is usual");
+        refused(&with(&[camera]), 2, &what, "try --camera 30,20");
     }
     let keyframe = "[[keyframe]]\neye = [0.0, 0.0, 9.0]\ntarget = [0.0, 0.0, 0.0]\n";
     let file = |name: &str, text: &str| folder.write(name, text);
@@ -191,7 +203,7 @@ fn cameras_that_see_nothing() {
     refused(&with(&[&none]), 1, "none.toml: `frames`: 0, not 1 to", shape);
     refused(&with(&[&shut]), 1, "`keyframe 1: field_of_view_deg`: `0` is not", shape);
     let both = with(&[&sound, "--turntable", "4"]);
-    refused(&both, 2, "--turntable moves the camera, and ", "leave one of both out");
+    refused(&both, 2, "--turntable and ", "leave one of them out");
     assert!(!Path::new(&out).exists());
 }
 
@@ -210,7 +222,12 @@ fn files_that_cannot_be_written() {
         moves,
     );
     refused(&watercolor(&mesh, &["--animation", &gif]), 2, "and a camera that moves", moves);
-    refused(&turned(&["--animation", &mp4]), 2, "an animation ends in .gif, .png or .apng", "try ");
+    refused(
+        &turned(&["--animation", &mp4]),
+        2,
+        "expected an animation whose name ends in .gif, .png or .apng",
+        "try ",
+    );
     refused(
         &turned(&["--animation", &gif, "--rate", "0"]),
         2,
@@ -220,10 +237,15 @@ fn files_that_cannot_be_written() {
     refused(
         &turned(&["--animation", &out, "--picture", &out]),
         2,
-        "the picture and the animation would be this file",
-        "give each a name",
+        "the picture and the animation have this file name",
+        "give each its own file name",
     );
-    refused(&watercolor(&photo, &["--picture", &jpg]), 2, "this file ends in .png or .exr", "try ");
+    refused(
+        &watercolor(&photo, &["--picture", &jpg]),
+        2,
+        "expected a file name that ends in .png or .exr",
+        "try ",
+    );
     refused(
         &watercolor(&photo, &["--picture", &photo]),
         2,
@@ -237,7 +259,7 @@ fn files_that_cannot_be_written() {
     misused(&turned(&["--animation", &folder.file("no/such.gif")]), "such.gif: cannot be written");
     let taken = folder.write("taken", "a file");
     misused(&turned(&["--frames", &taken]), "taken");
-    misused(&watercolor(&photo, &["--stages", &taken]), "taken: this folder cannot be made");
+    misused(&watercolor(&photo, &["--stages", &taken]), "taken: this folder cannot be created");
     assert_eq!(folder.names("."), ["photo.png", "pyramid.obj", "taken"]);
 
     // Masks, settings and stages are inputs too.
