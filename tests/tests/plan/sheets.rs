@@ -202,7 +202,7 @@ fn what_cannot_be_planned_is_refused_with_a_way_out() {
         (&["A", "--white", "W", "--balance", "0.1"], "found `10`", "--grams 25"),
         (&["A", "--white", "W", "--grams", "-1"], "found `-1`", "--balance 0.01"),
         (&["A", "--white", "W", "--grid", "400,705,10"], "`400,705,10`", "400,700,10"),
-        (&["A", "--white", "W", "--replicates", "0"], "found `0`", "repeat"),
+        (&["A", "--white", "W", "--replicates", "0"], "found `0`", "--replicates 2"),
         (&["A", "--white", "W", "--prior", &prior], "called `A`", "Cobalt Blue"),
         (
             &["Viridian", "--white", "Zinc White", "--prior", &prior, "--noise", "0,0"],

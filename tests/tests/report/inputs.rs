@@ -102,7 +102,7 @@ fn a_pair_is_found_in_the_library_or_refused() {
     assert!(run.err.contains("`Viridian`") && run.err.contains("hint: pigments"), "{}", run.err);
     assert!(!work.path("out").exists(), "nothing was written");
     let run = work.report("out", &["--pair", "Bone Black", "bone"]);
-    assert!(run.status == 2 && run.err.contains("Bone Black twice"), "{}", run.err);
+    assert!(run.status == 2 && run.err.contains("`Bone Black` twice"), "{}", run.err);
 }
 
 #[test]
