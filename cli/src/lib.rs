@@ -82,3 +82,8 @@ pub fn run(
         Err(failure) => failure.report(console.err),
     }
 }
+
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct ReadmeExample;
