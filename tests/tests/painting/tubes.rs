@@ -104,7 +104,7 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
         assert!((20..=27).contains(&(highest / QUANTA_PER_CELL)), "{highest}");
         let mut heaps = 0;
         let error = loop {
-            match painting.squeeze(&pure(WHITE), 0.0, 4.0, 4.0, 1.0) {
+            match painting.squeeze(&pure(WHITE), 0.0, 4.0, 4.0, 4.0) {
                 Ok(()) => heaps += 1,
                 Err(error) => break error,
             }

@@ -6,6 +6,7 @@ use super::label::label;
 use super::state::{Outcome, PaintingSession};
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
+use crate::stroke::{Path, SampleDecimals};
 use crate::strokes::{
     Action, ActionPigments, CheckContext, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
     SurfaceId, check_brush,
@@ -32,8 +33,13 @@ impl PaintingSession {
             Action::Redo {} => return Ok(nothing_unless(self.redo()?)),
             Action::Stroke(Stroke { brush, on, samples }) => {
                 self.check(action)?;
+                // A stroke that is too long is refused before any of it is painted.
+                let samples: Vec<_> =
+                    samples.iter().map(|sample| SampleDecimals::RECORDING.round(sample)).collect();
+                let mut path = Path::new(self.canvas.cell_mm()).map_err(PaintingError::from)?;
+                path.push(&samples).map_err(PaintingError::from)?;
                 self.begin_stroke(*on, brush)?;
-                let extended = self.extend(samples);
+                let extended = self.extend(&samples);
                 let report = self.end_stroke()?;
                 extended?;
                 return Ok(report.map_or(Outcome::Nothing, Outcome::Painted));
