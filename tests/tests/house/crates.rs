@@ -1,0 +1,94 @@
+//! What each crate may know, and where heavy dependencies are named.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::files::{text, texts};
+
+/// The dependencies of a manifest, of every kind, each with its line.
+fn dependencies(manifest: &str) -> BTreeMap<String, String> {
+    let mut section = "";
+    let mut found = BTreeMap::new();
+    let text = text(manifest);
+    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        if let Some(header) = line.strip_prefix('[') {
+            section = header.trim_end_matches(']');
+            if let Some((_, name)) = section.split_once("dependencies.") {
+                found.insert(name.to_owned(), String::new());
+            }
+        } else if section.ends_with("dependencies") && !line.starts_with('#') {
+            let name = line.split(['.', '=', ' ']).next().unwrap();
+            found.insert(name.to_owned(), line.to_owned());
+        }
+    }
+    found
+}
+
+/// The crates of this workspace: dependencies that have a path.
+fn own_crates() -> BTreeSet<String> {
+    let all = dependencies("Cargo.toml");
+    let own = all.into_iter().filter(|(_, line)| line.contains("path =")).map(|(name, _)| name);
+    own.collect()
+}
+
+#[test]
+fn crates_depend_downwards_only() {
+    let own = own_crates();
+    assert!(own.contains("spectra") && own.contains("calibrate"), "the crates: {own:?}");
+    for (folder, below) in [
+        ("spectra", &[][..]),
+        ("calibrate/pigment", &["spectra"]),
+        ("calibrate", &["spectra", "pigment"]),
+        ("reports", &["spectra", "calibrate"]),
+        ("render/graphics", &["spectra"]),
+        ("render/paint", &["spectra", "pigment", "graphics"]),
+        ("render", &["spectra", "pigment", "graphics", "paint"]),
+        ("cli", &["spectra", "calibrate", "reports", "render"]),
+        ("studio/session", &["spectra", "pigment", "render"]),
+        ("studio", &["spectra", "pigment", "render", "session"]),
+    ] {
+        let manifest = format!("{folder}/Cargo.toml");
+        for (dependency, line) in dependencies(&manifest) {
+            let ours = own.contains(&dependency) || line.contains("path =");
+            assert!(!ours || below.contains(&dependency.as_str()), "{manifest}: {line}");
+        }
+    }
+}
+
+#[test]
+fn the_solver_the_plotter_and_the_painter_are_each_named_in_one_file() {
+    for name in ["clarabel", "plotters", "resvg"] {
+        let needle = [name, "::"].concat();
+        let mut texts = texts(&[".rs"]);
+        texts.retain(|path, text| !path.starts_with("tests/") && text.contains(&needle));
+        let paths: Vec<_> = texts.keys().collect();
+        assert_eq!(paths.len(), 1, "{needle} in {paths:?}");
+    }
+}
+
+#[test]
+fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
+    let needle = ["wgpu", "::"].concat();
+    let mut found = 0;
+    for (path, text) in texts(&[".rs"]) {
+        let named = text.contains(&needle);
+        let draws =
+            ["studio/src/window.rs", "studio/src/view/quad.rs", "studio/src/view/pipeline.rs"];
+        let may = path.starts_with("render/graphics/src/gpu/") || draws.contains(&path.as_str());
+        assert!(!named || may, "{path}: {needle}");
+        found += usize::from(named);
+    }
+    assert!(found > 0, "{needle} in no file");
+}
+
+#[test]
+fn only_programs_parse_arguments() {
+    let needle = ["clap", "::"].concat();
+    for (path, text) in texts(&[".rs"]) {
+        let may = path.starts_with("cli/") || path == "studio/src/arguments.rs";
+        assert!(may || !text.contains(&needle), "{path}: {needle}");
+    }
+    for (path, _) in texts(&["/Cargo.toml"]) {
+        let may = path.starts_with("cli/") || path.starts_with("studio/");
+        assert!(may || !dependencies(&path).contains_key("clap"), "{path} depends on clap");
+    }
+}
