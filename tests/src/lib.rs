@@ -3,6 +3,7 @@
 pub mod adapter;
 pub mod golden;
 pub mod near;
-pub mod oils;
 pub mod program;
+
+pub mod oils;
 pub mod watercolors;
