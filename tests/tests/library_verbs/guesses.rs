@@ -119,5 +119,5 @@ fn options_may_stand_between_library_and_color() {
     let list = impasto(&["library", "list", &new]);
     assert!(list.out.contains("S = 1 for White"), "{}", list.out);
     let three = ["from-rgb", &oils(), "40,", "5", "--name", "X", "--output", &bare];
-    refused(&three, 2, &["`3` words"]);
+    refused(&three, 2, &["found `3` arguments"]);
 }

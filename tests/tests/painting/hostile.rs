@@ -99,7 +99,7 @@ fn odd_scripts_are_painted() {
         (
             r#"{"redo": {}}"#,
             r#"{"redo": {}}, {"redo": {}}, {"redo": {}}"#,
-            "2 undo or redo found nothing",
+            "2 undo or redo actions had nothing",
         ),
         (CANVAS, r#""width_mm": 0.2, "height_mm": 0.2, "cell_mm": 0.2"#, ""),
         (CANVAS, r#""width_mm": 0.2, "height_mm": 16, "cell_mm": 0.2"#, ""),

@@ -156,7 +156,7 @@ fn a_heap_that_ends_with_its_tile_is_seen_beyond_it() {
 }
 
 #[test]
-#[should_panic(expected = "there is a second light")]
+#[should_panic(expected = "the painting has a second light")]
 fn no_second_view_without_a_second_light() {
     let mut painting = on_both(&bare(40, 40)).remove(0);
     let _: Result<TileSet, _> = painting.refresh(true);

@@ -73,7 +73,7 @@ fn what_cannot_be_painted_is_refused_with_a_way_out() {
     assert!(thin.status == 2 && thin.err.contains("hint: leave --thin"), "{}", thin.err);
     assert!(!Path::new(&maps).exists(), "a folder was made");
     let own = paint(&photo, &["--picture", &photo]);
-    assert!(own.status == 2 && own.err.contains("never written over"), "{}", own.err);
+    assert!(own.status == 2 && own.err.contains("never overwritten"), "{}", own.err);
 }
 
 #[test]
