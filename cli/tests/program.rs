@@ -41,5 +41,5 @@ fn results_that_cannot_be_written_end_with_status_2() {
     let done = impasto().arg("--help").stdout(full).output().unwrap();
     let errors = String::from_utf8(done.stderr).unwrap();
     assert_eq!(done.status.code(), Some(2), "{errors}");
-    assert!(errors.contains("the results cannot be written"), "{errors}");
+    assert!(errors.contains("cannot write the results"), "{errors}");
 }

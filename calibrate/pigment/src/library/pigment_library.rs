@@ -132,7 +132,7 @@ pub struct Evidence {
 ///
 /// let oils = PigmentLibrary::van_gogh_oils();
 /// let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
-/// assert_eq!(color.hex(), "#6e9cc4");
+/// assert_eq!(color.hex(), "#5698e4");
 /// # Ok::<(), pigment::ColorError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

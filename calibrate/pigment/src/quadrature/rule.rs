@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::{Grid, TristimulusWeights};
 
 use super::gauss::GaussRule;
@@ -192,5 +192,9 @@ pub enum QuadratureFailure {
 impl Explain for QuadratureFailure {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new("eight wavelengths are enough for most paints: [nodes=8]"))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
     }
 }

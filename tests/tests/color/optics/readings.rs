@@ -181,5 +181,5 @@ fn shares_outside_0_to_1_make_no_surface() {
     }
     let file = r#"{"k1": 0.04, "k2": 1.6, "specular": "included"}"#;
     let refused = serde_json::from_str::<Surface>(file).unwrap_err().to_string();
-    assert!(refused.contains("k2 is a share"), "{refused}");
+    assert!(refused.contains("k2 is a fraction"), "{refused}");
 }

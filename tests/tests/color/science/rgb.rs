@@ -11,6 +11,7 @@ use super::adaptation::transform;
 
 #[derive(Deserialize)]
 struct Cases {
+    #[serde(rename = "colours")]
     colors: Vec<Color>,
     transfer: Vec<Transfer>,
 }
