@@ -72,13 +72,12 @@ impl PigmentLibrary {
     /// use pigment::{MatchOptions, PigmentLibrary};
     ///
     /// let oils = PigmentLibrary::van_gogh_oils();
-    /// let options = MatchOptions { at_most: 2, ..MatchOptions::default() };
-    /// let found = oils.recipes_for(&"#4a7d8c".parse()?, &options)?;
+    /// let found = oils.recipes_for(&"#4a7d8c".parse()?, &MatchOptions::default())?;
     /// let best = &found.recipes[0];
     /// for &(pigment, share) in &best.shares {
     ///     println!("{:5.1} % {}", 100.0 * share, oils[pigment].name);
     /// }
-    /// assert!(best.delta_e[0] < 4.0);
+    /// assert!(best.delta_e[0] < 0.1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

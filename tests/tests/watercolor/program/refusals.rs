@@ -48,7 +48,7 @@ fn subjects_that_cannot_be_read() {
         (&none("none.obj"), &[], 1, "none.obj", "check the path"),
         (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
-        (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "meshes end in .obj"),
+        (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
         (&broken, &[], 1, "broken.obj: line 4: no place `4`, there are 3", "mend that place"),
         (
             &"shape:cube".to_owned(),
@@ -62,16 +62,22 @@ fn subjects_that_cannot_be_read() {
             &["--turntable", "4"],
             2,
             "--turntable applies to meshes only, and ",
-            "meshes end in .obj",
+            "names of meshes end in .obj",
         ),
         (
             &photo,
             &["--camera", "30,20"],
             2,
             "--camera applies to meshes only",
-            "meshes end in .obj",
+            "names of meshes end in .obj",
         ),
-        (&photo, &["--height", "64"], 2, "--height applies to meshes only", "meshes end in .obj"),
+        (
+            &photo,
+            &["--height", "64"],
+            2,
+            "--height applies to meshes only",
+            "names of meshes end in .obj",
+        ),
     ] {
         refused(
             &watercolor(subject, &[&["--picture", &out], options].concat()),
@@ -128,7 +134,7 @@ fn looks_that_are_none() {
             "edges.strength",
             2,
             "--set takes KEY=VALUE, found `edges.strength`",
-            "--set edges.strength=2",
+            "try --set edges.strength=2",
         ),
         (
             "--set",
