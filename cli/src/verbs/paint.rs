@@ -194,7 +194,7 @@ fn replay_failure(error: ReplayError<SaveFailure>) -> Failure {
     match error {
         ReplayError::Script(error) => error.into(),
         ReplayError::Action { index, kind, error } => {
-            Failure::from(error).within(format!("action {index} ({kind})"))
+            Failure::from(*error).within(format!("action {index} ({kind})"))
         }
         ReplayError::Save { index, error: SaveFailure(failure) } => {
             failure.within(format!("action {index} (save)"))

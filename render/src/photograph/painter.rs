@@ -248,7 +248,7 @@ impl PainterError {
         match self {
             Self::Painting(error) => error,
             Self::Stroke(ReplayError::Script(error)) => error,
-            Self::Stroke(ReplayError::Action { error, .. }) => error,
+            Self::Stroke(ReplayError::Action { error, .. }) => error.as_ref(),
             Self::Stroke(ReplayError::Save { error, .. }) => match *error {},
         }
     }

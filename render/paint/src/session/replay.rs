@@ -42,7 +42,7 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         kind: &'static str,
         /// Error of the session.
         #[source]
-        error: SessionError,
+        error: Box<SessionError>,
     },
     /// A file cannot be saved.
     #[error("action {index} (save)")]
@@ -95,7 +95,10 @@ impl StrokeScript {
         let mut report = ReplayReport::default();
         let mut used = BTreeSet::new();
         for (index, action) in self.actions.iter().enumerate() {
-            let failed = |error| ReplayError::Action { index, kind: action.kind(), error };
+            let failed = |error| {
+                let error = Box::new(error);
+                ReplayError::Action { index, kind: action.kind(), error }
+            };
             if let Action::Save { path } = action {
                 session.finish_open().map_err(failed)?;
                 let canvas = session.canvas_mut();
