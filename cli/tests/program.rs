@@ -1,7 +1,5 @@
 //! The built program `impasto`: how it ends, and where its output goes.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 use std::fs::OpenOptions;
 use std::io::Read;
 use std::process::{Command, Stdio};

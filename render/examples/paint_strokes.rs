@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p impasto-render --example paint_strokes -- strokes.exr strokes.png`
 
+#![expect(clippy::print_stdout, reason = "an example prints what it did")]
+
 use std::error::Error;
 
 use pigment::library::PigmentLibrary;

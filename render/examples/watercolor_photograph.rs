@@ -3,6 +3,8 @@
 //! `cargo run --release -p impasto-render --example watercolor_photograph -- PHOTOGRAPH OUT.png`;
 //! without arguments it paints the still life of the README into `watercolor.png`.
 
+#![expect(clippy::print_stdout, reason = "an example prints what it did")]
+
 use std::error::Error;
 use std::path::PathBuf;
 

@@ -60,10 +60,11 @@ fn standard_deviations_are_of_the_size_of_the_errors() {
     let fit = refined(&made, Smoothness::None);
     let deviations = fit.deviations.as_ref().expect("a whole fit has deviations");
     let mut pulls = Vec::new();
-    for pigment in 1..made.curves.len() {
+    let pigments = fit.curves.iter().zip(&made.curves).zip(deviations).skip(1);
+    for ((fitted, given), deviation) in pigments {
         for at in 0..made.grid.count() {
-            let error = fit.curves[pigment].scattering[at] - made.curves[pigment].scattering[at];
-            pulls.push((error / deviations[pigment].scattering[at]).powi(2));
+            let error = fitted.scattering[at] - given.scattering[at];
+            pulls.push((error / deviation.scattering[at]).powi(2));
         }
     }
     pulls.sort_by(f64::total_cmp);

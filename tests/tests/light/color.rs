@@ -138,7 +138,7 @@ fn a_mixer_mixes_as_the_library_does() {
                 assert_eq!(found, mixer.mix(share));
                 let t = f64::from(share);
                 let parts = [(first, 1.0 - t), (second, 0.5 * t), (PigmentId(9), 0.5 * t)];
-                let mut mixture = library.mix(&parts).unwrap();
+                let mut mixture = library.mix(parts).unwrap();
                 for values in [&mut mixture.absorption, &mut mixture.scattering] {
                     *values = light.quadrature.at_nodes(library.grid, values);
                 }
@@ -174,7 +174,7 @@ fn a_bare_ground_shows_its_measured_color() {
     let library = crate::made_up::oils();
     for pigment in ["Zinc White", "Vermilion", "Bone Black"] {
         let mut document = document(1, 1, &[]);
-        let film = library.mix(&[(library.find(pigment).unwrap(), 1.0)]).unwrap();
+        let film = library.mix([(library.find(pigment).unwrap(), 1.0)]).unwrap();
         document.ground.reflectance = film.hiding(library.saunderson);
         let weights = viewing("D65").weights(library.grid).unwrap();
         let xyz = weights.xyz(&document.ground.reflectance);

@@ -138,7 +138,7 @@ fn a_priming_is_the_librarys_white_a_number_a_color_or_a_spectrum() {
         made(&json, 2, 2).reflectance
     };
     let white = made(r#"{"kind":"panel"}"#, 2, 2).reflectance;
-    let zinc = library.mix(&[(library.find("Zinc White").unwrap(), 1.0)]).unwrap();
+    let zinc = library.mix([(library.find("Zinc White").unwrap(), 1.0)]).unwrap();
     assert_eq!(white, zinc.hiding(library.saunderson));
     assert_eq!(primed("0.5"), vec![0.5; 31]);
 

@@ -13,7 +13,7 @@ fn a_glaze_over_a_ground_is_found_with_its_thickness() {
     let (white, blue) = (library.find("Zinc White").unwrap(), library.find("Cobalt Blue").unwrap());
     let ground: Vec<f64> = library.grid.wavelengths_nm().map(|nm| 0.3 + nm / 1400.0).collect();
     let recipe = [(white, 0.7), (blue, 0.3)];
-    let film = library.mix(&recipe).unwrap().film(0.6, &ground, library.film());
+    let film = library.mix(recipe).unwrap().film(0.6, &ground, library.film());
     let target = target_of(&library, &film, &conditions);
     let kind = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Between(0.05, 5.0) };
     let mut request = MatchRequest::new(&library, conditions.clone(), kind);
@@ -63,7 +63,7 @@ fn absolute_amounts_are_found_over_paper() {
     let conditions = conditions(&["D65", "FL11"]);
     let paper = vec![0.85; library.grid.count()];
     let (red, blue) = (library.find("Vermilion").unwrap(), library.find("Ultramarine").unwrap());
-    let wash = library.mix(&[(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
+    let wash = library.mix([(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
     let target = target_of(&library, &wash, &conditions);
     let film = MatchRequest::usual_film(&library, paper);
     let mut request = MatchRequest::new(&library, conditions, film);

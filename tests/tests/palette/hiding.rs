@@ -78,7 +78,7 @@ fn every_oil_hides_where_its_contrast_says_and_not_below() {
         let name = palette.label(power.paint);
         let thickness = power.hides.thickness().unwrap_or_else(|| panic!("{name} never hides"));
         let contrast = |thickness: f64| {
-            let mixture = oils.library.mix(&[(power.paint, 1.0)]).unwrap();
+            let mixture = oils.library.mix([(power.paint, 1.0)]).unwrap();
             let y = |card: &[f64]| {
                 let film = mixture.film(thickness, card, oils.library.film());
                 palette.weights().xyz(&film).y
