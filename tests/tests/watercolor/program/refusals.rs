@@ -49,7 +49,7 @@ fn subjects_that_cannot_be_read() {
         (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
-        (&broken, &[], 1, "broken.obj: line 4: no place `4`, there are 3", "mend that place"),
+        (&broken, &[], 1, "broken.obj: line 4: no position `4`, there are 3", "correct that place"),
         (
             &"shape:cube".to_owned(),
             &[],
