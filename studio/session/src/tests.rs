@@ -1,5 +1,6 @@
 //! Tests of the worker as a front end uses it.
 
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
@@ -10,17 +11,27 @@ use render::paint::strokes::{Action, BrushSpec, MAX_NAMES, StrokeScript};
 
 use super::{Command, Event, Worker, WorkerOptions, blank_canvas};
 
+/// Events of a worker. One batch may hold more than what a test waits for.
+#[derive(Default)]
+struct Events {
+    /// Events that a wait has looked at, in order.
+    seen: Vec<Event>,
+    /// Events that arrived after the last one that was waited for.
+    pending: VecDeque<Event>,
+}
+
 /// Collects events until one of them gives a value.
 fn wait<T>(
     worker: &Worker,
     woken: &Receiver<()>,
-    events: &mut Vec<Event>,
+    events: &mut Events,
     find: impl Fn(&Event) -> Option<T>,
 ) -> T {
     loop {
-        for event in worker.events() {
+        events.pending.extend(worker.events());
+        while let Some(event) = events.pending.pop_front() {
             let found = find(&event);
-            events.push(event);
+            events.seen.push(event);
             if let Some(found) = found {
                 return found;
             }
@@ -30,7 +41,7 @@ fn wait<T>(
 }
 
 /// Requests the recording.
-fn recording(worker: &Worker, woken: &Receiver<()>, events: &mut Vec<Event>) -> StrokeScript {
+fn recording(worker: &Worker, woken: &Receiver<()>, events: &mut Events) -> StrokeScript {
     worker.ask(Command::Recording(1));
     wait(worker, woken, events, |event| match event {
         Event::Recording { script, .. } => Some((**script).clone()),
@@ -62,11 +73,11 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
         worker.ask(Command::SetBrush { name: "round".to_owned(), spec });
         worker.ask(Command::Apply(wipe.clone()));
     };
-    let mut events = Vec::new();
+    let mut events = Events::default();
     (0..MAX_NAMES).for_each(use_head);
     let complete = recording(&worker, &woken, &mut events);
     assert_eq!(complete.brushes.len(), MAX_NAMES);
-    assert!(endings(&events).is_empty(), "the recording is complete");
+    assert!(endings(&events.seen).is_empty(), "the recording is complete");
 
     use_head(MAX_NAMES);
     use_head(MAX_NAMES + 1);
@@ -79,7 +90,7 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
     wait(&worker, &woken, &mut events, |event| {
         (!endings(std::slice::from_ref(event)).is_empty()).then_some(())
     });
-    let texts = endings(&events);
+    let texts = endings(&events.seen);
     assert_eq!(texts.len(), 2, "{texts:?}");
     assert!(texts[0].ends_with(&format!("a recording holds {MAX_NAMES} brushes")), "{texts:?}");
 }
