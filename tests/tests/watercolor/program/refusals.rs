@@ -94,7 +94,7 @@ fn subjects_that_cannot_be_read() {
     let narrow = folder.file("narrow.png");
     image::RgbImage::new(2, 200).save(&narrow).unwrap();
     let run = watercolor(&narrow, &["--width", "16384", "--picture", &out]);
-    refused(&run, 2, "at most, and this has 1638400 rows", "give a smaller --width");
+    refused(&run, 2, "the picture would have 1638400 rows", "give a smaller --width");
     misused(&watercolor(&photo, &["--width", "15", "--picture", &out]), "16..=16384");
 }
 
