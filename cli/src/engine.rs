@@ -62,7 +62,7 @@ impl EngineOptions {
         console: &mut Console<'_>,
     ) -> Result<PaintEngine> {
         let opened = PaintEngine::open(self.backend.choice(), floor)?;
-        if let Some(error) = opened.gave_way {
+        if let Some(error) = opened.device_error {
             console.warnings(&[format!("{error}; painting on the processor")])?;
         }
         Ok(opened.engine)

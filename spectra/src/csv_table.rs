@@ -38,7 +38,7 @@ pub enum CsvTableError {
         column: &'static str,
     },
     /// The number of cells in a row differs from that of the header.
-    #[error("{file}, row {row}: {wanted} cells are wanted, found `{found}`")]
+    #[error("{file}, row {row}: expected {wanted} cells, found `{found}`")]
     RowLength {
         /// Path of the file.
         file: String,
@@ -50,7 +50,7 @@ pub enum CsvTableError {
         found: usize,
     },
     /// A cell does not contain the required number.
-    #[error("{place}: {wanted} is wanted, found `{text}`")]
+    #[error("{place}: expected {wanted}, found `{text}`")]
     Cell {
         /// File, row and column of the cell.
         place: CellPlace,

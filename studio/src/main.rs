@@ -10,12 +10,12 @@ fn main() -> ExitCode {
     let started = Start::from_arguments(std::env::args_os());
     match started.and_then(|start| window::run(start).map_err(Stop::from)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(stop) => tell(&stop),
+        Err(stop) => report(&stop),
     }
 }
 
 /// Prints help to standard output and errors to standard error.
-fn tell(stop: &Stop) -> ExitCode {
+fn report(stop: &Stop) -> ExitCode {
     let _ = match stop.status {
         0 => stdout().write_all(stop.text.as_bytes()),
         _ => stderr().write_all(stop.text.as_bytes()),

@@ -26,7 +26,7 @@ pub enum MeasurementError {
         number: usize,
     },
     /// Two columns have the same header.
-    #[error("{place} stands twice, as column number {first} and {second}")]
+    #[error("{place} occurs twice, as column number {first} and {second}")]
     RepeatedColumn {
         /// File, row and column.
         place: CellPlace,
@@ -36,7 +36,7 @@ pub enum MeasurementError {
         second: usize,
     },
     /// A wavelength occurs twice.
-    #[error("{place}: the wavelength {nm} nm stands twice")]
+    #[error("{place}: the wavelength {nm} nm occurs twice")]
     RepeatedWavelength {
         /// File, row and column.
         place: CellPlace,
@@ -60,7 +60,7 @@ pub enum MeasurementError {
         place: CellPlace,
     },
     /// A reading is negative or far above white.
-    #[error("{place}: a reflectance {range} is wanted, found `{value}`")]
+    #[error("{place}: expected a reflectance {range}, found `{value}`")]
     Reflectance {
         /// File and row; the column is the wavelength.
         place: CellPlace,
@@ -192,7 +192,7 @@ pub enum MeasurementError {
         wanted: String,
     },
     /// The file is of another kind.
-    #[error("{file}: a table of readings (CSV) is wanted, found `{found}`")]
+    #[error("{file}: expected a table of readings (CSV), found `{found}`")]
     NoTable {
         /// File name as the caller gave it.
         file: String,
@@ -213,7 +213,7 @@ pub enum MeasurementError {
     },
     /// A spectrum has no wavelength at which paint is measured.
     #[error(
-        "{file}, line {line}: {sample} is measured from {first_nm} to {last_nm} nm; wavelengths from 200 to 2500 nm are wanted"
+        "{file}, line {line}: {sample} is measured from {first_nm} to {last_nm} nm; expected wavelengths from 200 to 2500 nm"
     )]
     Band {
         /// File name as the caller gave it.

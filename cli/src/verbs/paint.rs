@@ -8,11 +8,9 @@ use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::export::{PictureFormat, picture_file};
 use render::paint::document::Document;
-use render::paint::ground::GroundRelief;
 use render::paint::painting::Painting;
-use render::paint::session::ReplayError;
-use render::paint::session::{PaintingSession, ReplayReport};
-use render::paint::strokes::{Action, StrokeScript};
+use render::paint::session::{PaintingSession, ReplayError, ReplayReport};
+use render::paint::strokes::{Action, ScriptLibrary, StrokeScript};
 use serde_json::json;
 
 use super::paint_photograph::PhotographOptions;
@@ -93,13 +91,7 @@ impl Paint {
         }
         let mut inputs = vec![path.to_owned()];
         inputs.extend(self.library.clone());
-        for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
-            if let GroundRelief::Image(picture) = &mut surface.ground.relief {
-                let path = folder.join(&picture.path);
-                picture.path = path.display().to_string();
-                inputs.push(path);
-            }
-        }
+        inputs.extend(script.complete_picture_paths(&folder));
         inputs.extend(start.iter().map(|(path, _)| path.clone()));
         let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
         let exports = self.exports.open(&inputs)?;
@@ -150,19 +142,13 @@ impl Paint {
         if let Some(path) = &self.library {
             return library(path);
         }
-        let Some(named) = &script.library else { return Ok(built_in_library()) };
-        let built_in = built_in_library();
-        if *named == built_in.title {
-            return Ok(built_in);
+        let ScriptLibrary { library, missing } = script.open_library(folder)?;
+        if let Some(missing) = missing {
+            console.warnings(&[format!(
+                "the script names the library `{missing}`, which was not found; using the built-in oils (choose another with --library)"
+            )])?;
         }
-        let path = folder.join(named);
-        if path.is_file() {
-            return library(&path);
-        }
-        console.warnings(&[format!(
-            "the script names the library `{named}`, which was not found; using the built-in oils (choose another with --library)"
-        )])?;
-        Ok(built_in)
+        Ok(library)
     }
 }
 

@@ -9,7 +9,7 @@ use render::paint::document::{Lighting, Medium};
 use render::paint::ground::GroundKind;
 use render::paint::strokes::{Canvas, StrokeScript};
 
-use super::easel::{Easel, Place};
+use super::script_builder::{Place, ScriptBuilder};
 
 const WIDTH: f64 = 100.0;
 const HEIGHT: f64 = 70.0;
@@ -19,80 +19,80 @@ pub(crate) fn script() -> StrokeScript {
     let ground = GroundKind::Panel.spec(1);
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.125, ground };
     let body = [("W", "Lead White"), ("Y", "Chrome Yellow"), ("R", "Vermilion")];
-    let mut easel = Easel::new("Glazes over impasto", canvas, &body, 1);
-    easel.script.lighting = Some(Lighting {
+    let mut script = ScriptBuilder::new("Glazes over impasto", canvas, &body, 1);
+    script.built.lighting = Some(Lighting {
         azimuth_deg: 285.0,
         elevation_deg: 28.0,
         ambient: 0.35,
         relief: 3.0,
         ..Lighting::default()
     });
-    easel.script.medium = Some(Medium { scattering_per_mm: 120.0, ..Medium::default() });
+    script.built.medium = Some(Medium { scattering_per_mm: 120.0, ..Medium::default() });
     for (name, shape, size_mm) in [
         ("round", HeadShape::Round, 4.0),
         ("knife", HeadShape::Knife, 9.0),
         ("mop", HeadShape::Mop, 10.0),
         ("rag", HeadShape::Flat, 9.0),
     ] {
-        easel.brush(name, shape, size_mm);
+        script.brush(name, shape, size_mm);
     }
-    relief(&mut easel);
-    easel.dry();
+    relief(&mut script);
+    script.dry();
     for brush in ["round", "knife"] {
-        easel.wash(brush);
+        script.wash(brush);
     }
-    easel.palette(&[("L", "Eosin Lake"), ("U", "Ultramarine"), ("V", "Viridian")]);
-    glazes(&mut easel);
-    easel.script
+    script.palette(&[("L", "Eosin Lake"), ("U", "Ultramarine"), ("V", "Viridian")]);
+    glazes(&mut script);
+    script.built
 }
 
 /// Three whirls of white petals and a border of waves, each stroke painted over
 /// and over so that it piles up; and two pulls of the knife.
-fn relief(easel: &mut Easel) {
+fn relief(script: &mut ScriptBuilder) {
     for number in 0..3 {
         let (x, y) = (18.0 + 32.0 * f64::from(number), 27.0);
         for petal in 0..11 {
-            let turn = f64::from(petal) * 2.0 * PI / 11.0 + easel.about(0.06);
+            let turn = f64::from(petal) * 2.0 * PI / 11.0 + script.about(0.06);
             let at = |out: f64, bend: f64| -> Place {
                 (x + out * (turn + bend).cos(), y + 1.35 * out * (turn + bend).sin())
             };
             for pass in 0..4 {
-                easel.fresh("round", "W1", 0.0, 1.6);
+                script.fresh("round", "W1", 0.0, 1.6);
                 let out = 15.0 - f64::from(pass);
-                easel.stroke("round", &[at(3.5, 0.0), at(0.6 * out, 0.35), at(out, 0.9)], 0.75);
+                script.stroke("round", &[at(3.5, 0.0), at(0.6 * out, 0.35), at(out, 0.9)], 0.75);
             }
         }
     }
     for pass in 0..5 {
-        easel.wash("round");
-        easel.load("round", "W1", 0.0, 1.6);
+        script.wash("round");
+        script.load("round", "W1", 0.0, 1.6);
         let wave = |i: i32| (4.0 + 5.1 * f64::from(i), 58.0 + 2.5 * f64::from(i % 2));
         let places: Vec<Place> = (0..19).map(wave).collect();
-        easel.even("round", &places, 0.7);
+        script.even("round", &places, 0.7);
         if pass > 2 {
-            easel.wash("knife");
-            easel.load("knife", "W8Y1R0.2", 0.0, 3.0);
-            easel.even("knife", &[(6.0, 66.0), (94.0, 65.0)], 0.5);
+            script.wash("knife");
+            script.load("knife", "W8Y1R0.2", 0.0, 3.0);
+            script.even("knife", &[(6.0, 66.0), (94.0, 65.0)], 0.5);
         }
     }
 }
 
 /// Three bands of glaze from left to right; a clean stiff brush then takes them off
 /// the crests of their lower half and leaves them in the hollows.
-fn glazes(easel: &mut Easel) {
+fn glazes(script: &mut ScriptBuilder) {
     for (recipe, left, vehicle) in [("L1", 6.0, 0.9), ("U1", 38.0, 0.95), ("V1", 70.0, 0.93)] {
         for row in 0..7 {
-            easel.wash("mop");
-            easel.load("mop", recipe, vehicle, 0.7);
+            script.wash("mop");
+            script.load("mop", recipe, vehicle, 0.7);
             let x = left + 4.0 * f64::from(row);
-            easel.even("mop", &[(x, 6.0), (x + 0.4, 35.0), (x, 64.0)], 0.3);
+            script.even("mop", &[(x, 6.0), (x + 0.4, 35.0), (x, 64.0)], 0.3);
         }
     }
     for row in 0..4 {
         let y = 32.0 + 5.0 * f64::from(row);
         for (from, to) in [(4.0, 35.0), (36.0, 67.0), (68.0, 98.0)] {
-            easel.wash("rag");
-            easel.stroke("rag", &[(from, y), (to, y + 0.8)], 0.4);
+            script.wash("rag");
+            script.stroke("rag", &[(from, y), (to, y + 0.8)], 0.4);
         }
     }
 }

@@ -11,9 +11,9 @@ use render::paint::document::{Lighting, Medium};
 use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{Canvas, StrokeScript};
 
-use super::easel::{Easel, Place};
 use super::field_path::{HEIGHT, HORIZON, WIDTH, path};
 use super::growth::{bowed, bushes, cypress, poppies, shadows, wheat};
+use super::script_builder::{Place, ScriptBuilder};
 
 const SUN: Place = (47.0, 25.0);
 
@@ -43,11 +43,11 @@ pub(crate) fn script() -> StrokeScript {
     let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.2, ground };
-    let mut easel = Easel::new("Wheat field with cypresses", canvas, &SKY, 1889);
-    easel.script.lighting =
+    let mut script = ScriptBuilder::new("Wheat field with cypresses", canvas, &SKY, 1889);
+    script.built.lighting =
         Some(Lighting { relief: 2.0, elevation_deg: 45.0, ..Lighting::default() });
     // Stiff paint that hides in a thin film.
-    easel.script.medium = Some(Medium { scattering_per_mm: 170.0, ..Medium::default() });
+    script.built.medium = Some(Medium { scattering_per_mm: 170.0, ..Medium::default() });
     for (name, shape, size_mm) in [
         ("wash", HeadShape::Flat, 20.0),
         ("flat", HeadShape::Flat, 6.0),
@@ -56,44 +56,44 @@ pub(crate) fn script() -> StrokeScript {
         ("round", HeadShape::Round, 2.2),
         ("rigger", HeadShape::Rigger, 1.1),
     ] {
-        easel.brush(name, shape, size_mm);
+        script.brush(name, shape, size_mm);
     }
-    underpainting(&mut easel);
-    sky(&mut easel);
-    easel.dry();
-    sun(&mut easel);
-    easel.palette(&EARTH);
-    hills(&mut easel);
-    field(&mut easel);
-    easel.dry();
-    house(&mut easel);
-    shadows(&mut easel);
-    cypress(&mut easel, (163.0, 104.0), 88.0, 11.5);
-    cypress(&mut easel, (181.0, 100.0), 58.0, 8.0);
-    bushes(&mut easel);
-    wheat(&mut easel);
-    poppies(&mut easel);
-    easel.script
+    underpainting(&mut script);
+    sky(&mut script);
+    script.dry();
+    sun(&mut script);
+    script.palette(&EARTH);
+    hills(&mut script);
+    field(&mut script);
+    script.dry();
+    house(&mut script);
+    shadows(&mut script);
+    cypress(&mut script, (163.0, 104.0), 88.0, 11.5);
+    cypress(&mut script, (181.0, 100.0), 58.0, 8.0);
+    bushes(&mut script);
+    wheat(&mut script);
+    poppies(&mut script);
+    script.built
 }
 
 /// Thin paint all over, so that no gap is bare.
-fn underpainting(easel: &mut Easel) {
+fn underpainting(script: &mut ScriptBuilder) {
     for (recipe, from, to) in
         [("W8C1", -4.0, 44.0), ("W9R0.5Y1", 44.0, 66.0), ("Y6R1W2", 66.0, 142.0)]
     {
         let mut y: f64 = from + 5.0;
         let mut way = 1.0;
         while y < to {
-            easel.wash("wash");
-            easel.load("wash", recipe, 0.3, 1.0);
-            let bend = easel.about(4.0);
+            script.wash("wash");
+            script.load("wash", recipe, 0.3, 1.0);
+            let bend = script.about(4.0);
             let x = |side: f64| WIDTH / 2.0 + way * side * (WIDTH / 2.0 - 1.0);
-            easel.even("wash", &[(x(-1.0), y), (x(0.0), y + bend), (x(1.0), y)], 0.45);
+            script.even("wash", &[(x(-1.0), y), (x(0.0), y + bend), (x(1.0), y)], 0.45);
             way = -way;
             y += 9.0;
         }
     }
-    easel.dry();
+    script.dry();
 }
 
 /// Which way the air goes at a place: eastwards in waves, around two whirls and
@@ -127,15 +127,15 @@ fn drift(at: Place, length: f64) -> Vec<Place> {
     places
 }
 
-fn sky(easel: &mut Easel) {
+fn sky(script: &mut ScriptBuilder) {
     let blues = ["W4C1", "W7C1U0.2", "W11C1", "W18C1", "W26C1E0.3", "W30C0.5Y0.3", "W40Y0.6R0.2"];
     let mut tufts: Vec<Vec<Place>> = vec![Vec::new(); blues.len()];
     let mut y = 1.0;
     while y < HORIZON - 2.0 {
         let mut x = -6.0;
         while x < WIDTH {
-            let at = (x + easel.about(3.5), y + easel.about(1.4));
-            let depth = at.1 / HORIZON * 4.2 + brightness(at) + easel.about(0.9);
+            let at = (x + script.about(3.5), y + script.about(1.4));
+            let depth = at.1 / HORIZON * 4.2 + brightness(at) + script.about(0.9);
             tufts[(depth.max(0.0) as usize).min(blues.len() - 1)].push(at);
             x += 9.0;
         }
@@ -144,11 +144,11 @@ fn sky(easel: &mut Easel) {
     for (recipe, tuft) in blues.iter().zip(&tufts) {
         for (number, &at) in tuft.iter().enumerate() {
             if number % 6 == 0 {
-                easel.fresh("flat", recipe, 0.05, 0.6);
+                script.fresh("flat", recipe, 0.05, 0.6);
             }
-            let length = 14.0 + easel.about(4.0);
-            let pressure = 0.58 + easel.about(0.12);
-            easel.stroke("flat", &drift(at, length), pressure);
+            let length = 14.0 + script.about(4.0);
+            let pressure = 0.58 + script.about(0.12);
+            script.stroke("flat", &drift(at, length), pressure);
         }
     }
 }
@@ -171,7 +171,7 @@ fn brightness((x, y): Place) -> f64 {
 }
 
 /// Rings of thick yellow around a disc.
-fn sun(easel: &mut Easel) {
+fn sun(script: &mut ScriptBuilder) {
     for (radius, recipe, count) in [
         (15.0, "W24Y1", 16),
         (11.5, "W12Y1", 13),
@@ -179,15 +179,15 @@ fn sun(easel: &mut Easel) {
         (4.6, "W3Y1", 8),
         (1.8, "W12Y1", 6),
     ] {
-        easel.fresh("filbert", recipe, 0.0, 0.9);
+        script.fresh("filbert", recipe, 0.0, 0.9);
         for number in 0..count {
-            let start = (f64::from(number) + easel.about(0.3)) / f64::from(count) * 2.0 * PI;
+            let start = (f64::from(number) + script.about(0.3)) / f64::from(count) * 2.0 * PI;
             let arc = 7.0 / radius;
             let places: Vec<Place> = (0..3)
                 .map(|i| start + f64::from(i) / 2.0 * arc)
                 .map(|turn| (SUN.0 + radius * turn.cos(), SUN.1 + radius * turn.sin()))
                 .collect();
-            easel.stroke("filbert", &places, 0.45);
+            script.stroke("filbert", &places, 0.45);
         }
     }
 }
@@ -195,7 +195,7 @@ fn sun(easel: &mut Easel) {
 /// The height of a crest by place, and the mixtures below it.
 type Ridge = (fn(f64) -> f64, [&'static str; 3]);
 
-fn hills(easel: &mut Easel) {
+fn hills(script: &mut ScriptBuilder) {
     // Each behind the next: its crest, the mixtures, how steep its strokes are.
     let ridges: [Ridge; 3] = [
         (
@@ -212,17 +212,17 @@ fn hills(easel: &mut Easel) {
         for pass in 0..3 {
             let mut x = -4.0 + 3.0 * f64::from(pass);
             while x < WIDTH {
-                let recipe = recipes[easel.one_of(3)];
-                easel.fresh("filbert", recipe, 0.05, 0.5);
+                let recipe = recipes[script.one_of(3)];
+                script.fresh("filbert", recipe, 0.05, 0.5);
                 for _ in 0..2 {
-                    let y = crest(x) + 2.6 * f64::from(pass) + 1.2 + easel.about(0.5);
+                    let y = crest(x) + 2.6 * f64::from(pass) + 1.2 + script.about(0.5);
                     let fall = crest(x + 6.0) - crest(x);
-                    easel.stroke(
+                    script.stroke(
                         "filbert",
                         &[(x, y), (x + 4.0, y + fall * 0.6), (x + 12.0, y + fall * 1.6 + 0.6)],
                         0.55,
                     );
-                    x += 8.0 + easel.about(1.5);
+                    x += 8.0 + script.about(1.5);
                 }
             }
         }
@@ -230,7 +230,7 @@ fn hills(easel: &mut Easel) {
 }
 
 /// A house with a red roof among bushes, and its chimney.
-fn house(easel: &mut Easel) {
+fn house(script: &mut ScriptBuilder) {
     // Walls in the light and in the shade, the roof, its ridge in the light.
     for (recipe, rows, from, to) in [
         ("W24Y0.5R0.2", [57.0, 58.5, 60.0, 61.5], 77.0, 91.0),
@@ -238,20 +238,20 @@ fn house(easel: &mut Easel) {
         ("R3Y1W1", [54.5, 54.2, 53.8, 53.4], 67.5, 92.0),
         ("R2Y2W4", [52.4, 52.2, 52.0, 51.8], 70.0, 89.5),
     ] {
-        easel.wash("flat");
-        easel.load("flat", recipe, 0.0, 0.9);
+        script.wash("flat");
+        script.load("flat", recipe, 0.0, 0.9);
         for (number, y) in rows.into_iter().enumerate() {
             let (from, to) = if number % 2 == 0 { (from, to) } else { (to, from) };
-            easel.even("flat", &[(from, y), (to, y)], 0.42);
+            script.even("flat", &[(from, y), (to, y)], 0.42);
         }
     }
-    easel.fresh("round", "K1P1", 0.0, 0.5);
+    script.fresh("round", "K1P1", 0.0, 0.5);
     for x in [80.0, 86.0] {
-        easel.dab("round", (x, 59.5), 0.5, 0.0);
+        script.dab("round", (x, 59.5), 0.5, 0.0);
     }
 }
 
-fn field(easel: &mut Easel) {
+fn field(script: &mut ScriptBuilder) {
     let golds = ["Y8R2K1W3", "Y6R1.4K0.4W2", "Y6R1W4", "Y6R0.4W3", "W5Y1", "W9Y1"];
     let greens = ["Y3V1W1", "E1Y3W1", "Y6V1W3"];
     let earths = ["W9C1R1", "W10R0.6Y0.4", "W14R0.4Y0.6", "W12C0.6R0.6"];
@@ -260,36 +260,36 @@ fn field(easel: &mut Easel) {
         let near = (y - HORIZON) / (HEIGHT - HORIZON);
         let brush = if near > 0.22 { "flat" } else { "filbert" };
         let mut row = Vec::new();
-        let mut x = -4.0 + easel.about(2.0);
+        let mut x = -4.0 + script.about(2.0);
         while x < WIDTH + 4.0 {
             let (middle, half) = path(y);
             let on_path = (x - middle).abs() < half;
             let band = (near * 9.0 + (x / 40.0).sin() * 0.8).sin();
             let recipe = if on_path {
-                earths[easel.one_of(earths.len())]
+                earths[script.one_of(earths.len())]
             } else if near < 0.5 && band > 0.72 || ((x - middle).abs() < half + 4.0 * near + 1.0) {
-                greens[easel.one_of(greens.len())]
+                greens[script.one_of(greens.len())]
             } else {
-                let light = 2.4 + 1.5 * band + easel.about(1.7) - 1.2 * (near - 0.5);
+                let light = 2.4 + 1.5 * band + script.about(1.7) - 1.2 * (near - 0.5);
                 golds[(light.max(0.0) as usize).min(golds.len() - 1)]
             };
-            let at = (x + easel.about(1.5), y + easel.about(1.2));
-            let length = 5.5 + 9.5 * near + easel.about(2.0);
+            let at = (x + script.about(1.5), y + script.about(1.2));
+            let length = 5.5 + 9.5 * near + script.about(2.0);
             // Level far away, standing and bowed by the wind near by.
             let (way, bow) = if on_path {
                 (-0.3 - near * 0.4, 0.0)
             } else {
                 (-0.15 - 1.05 * near.powf(0.6), 0.45)
             };
-            let way = way + easel.about(0.22);
+            let way = way + script.about(0.22);
             row.push((recipe, bowed(at, way, way + bow, length)));
             x += 5.0 + 1.5 * near;
         }
         // A row is painted colour by colour, so that a brush need not be washed for each.
         row.sort_by(|a, b| a.0.cmp(b.0));
         for (recipe, places) in row {
-            easel.fresh(brush, recipe, 0.05, 0.55);
-            easel.stroke(brush, &places, 0.5);
+            script.fresh(brush, recipe, 0.05, 0.55);
+            script.stroke(brush, &places, 0.5);
         }
         y += 2.4 + 4.6 * near;
     }

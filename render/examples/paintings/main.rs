@@ -1,7 +1,7 @@
 //! Writes the scripts of `paintings/`, the same bytes each time:
 //! `cargo run -p impasto-render --example paintings -- paintings`.
 
-mod easel;
+mod script_builder;
 
 mod color_study;
 

@@ -32,11 +32,11 @@ impl Backend {
     pub(super) fn engine(&mut self, floor: &Field<i32>) -> (PaintEngine, Option<String>) {
         let opened = PaintEngine::open(self.choice, floor).unwrap_or_else(|error| OpenedEngine {
             engine: PaintEngine::on_cpu(floor.clone()),
-            gave_way: Some(error),
+            device_error: Some(error),
         });
         if opened.engine.device().is_none() {
             self.fall_back();
         }
-        (opened.engine, opened.gave_way.map(|error| error.to_string()))
+        (opened.engine, opened.device_error.map(|error| error.to_string()))
     }
 }

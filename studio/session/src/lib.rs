@@ -1,8 +1,8 @@
 //! A session of painting: the thread that owns the paint, and what keeps it safe.
 //!
 //! A front end (a window, a browser, a test) sends [`Command`]s to the [`Worker`] and
-//! reads its [`Event`]s. [`Session`] keeps autosaves on the disk and finds those of
-//! programs that were killed.
+//! reads its [`Event`]s. [`Autosave`] keeps the paintings on the disk, and [`LostSession`]
+//! finds the autosaves of programs that were killed.
 //!
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
 

@@ -2,12 +2,11 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
 use render::paint::document::Document;
-use render::paint::ground::GroundRelief;
 use render::paint::strokes::StrokeScript;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
@@ -170,42 +169,20 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
         StrokeScript::from_json(name, bytes).map_err(|error| Problem::from_error(&error))?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let mut remarks = Vec::new();
-    let library = named_library(&script, &folder, &mut remarks)?;
+    let named = script.open_library(&folder).map_err(|error| Problem::from_error(&error))?;
+    if let Some(missing) = named.missing {
+        let text = format!("the recording needs the library `{missing}`, which does not exist");
+        remarks.push(Problem::new(text, "the built-in oils are used instead"));
+    }
+    let library = named.library;
     if let Some(start) = &mut script.start {
         // Its pigments are those of the painting that it starts from.
         *start = folder.join(&start).display().to_string();
     } else {
         script.resolve(&library).map_err(|error| Problem::from_error(&error))?;
     }
-    for surface in std::iter::once(&mut script.canvas).chain(&mut script.mixing) {
-        if let GroundRelief::Image(picture) = &mut surface.ground.relief {
-            picture.path = folder.join(&picture.path).display().to_string();
-        }
-    }
+    script.complete_picture_paths(&folder);
     Ok(Opened::Recording { script: Box::new(script), library: Box::new(library), remarks })
-}
-
-/// The library that a script names: the built-in one by its title, else a file beside the
-/// script. If the file does not exist the built-in one is used, with a remark.
-fn named_library(
-    script: &StrokeScript,
-    folder: &Path,
-    remarks: &mut Vec<Problem>,
-) -> Result<PigmentLibrary, Problem> {
-    let built_in = PigmentLibrary::van_gogh_oils();
-    let Some(named) = script.library.as_ref().filter(|named| **named != built_in.title) else {
-        return Ok(built_in);
-    };
-    let path: PathBuf = folder.join(named);
-    if !path.is_file() {
-        let text = format!("the recording needs the library `{named}`, which does not exist");
-        remarks.push(Problem::new(text, "the built-in oils are used instead"));
-        return Ok(built_in);
-    }
-    let bytes = spectra::file::read(&path)?;
-    let text = String::from_utf8_lossy(&bytes);
-    PigmentLibrary::from_json(&path.display().to_string(), &text)
-        .map_err(|error| Problem::from_error(&error))
 }
 
 #[cfg(test)]

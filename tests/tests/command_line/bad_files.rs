@@ -100,12 +100,12 @@ fn no_wavelengths_at_all() {
 
 #[test]
 fn repeated_wavelength() {
-    refused(&changed("400,410,420", "400,410,410nm"), &["row 1", "410 nm stands twice"]);
+    refused(&changed("400,410,420", "400,410,410nm"), &["row 1", "410 nm occurs twice"]);
 }
 
 #[test]
 fn repeated_pigment() {
-    refused(&changed("White,Red", "Red,Red"), &["`Red` stands twice", "4", "5"]);
+    refused(&changed("White,Red", "Red,Red"), &["`Red` occurs twice", "4", "5"]);
 }
 
 #[test]

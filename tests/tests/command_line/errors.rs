@@ -111,7 +111,7 @@ fn a_library_with_a_fault_is_refused_with_the_reason() {
         ("\"title\"", "\"tittle\"", "unknown field `tittle`"),
         ("\"count\": 31", "\"count\": 30", "`31` values for 30 wavelengths"),
         ("\"absorption\": [", "\"absorption\": [-", "must be 0 and up"),
-        ("\"name\": \"Bone Black\"", "\"name\": \"Viridian\"", "stands twice"),
+        ("\"name\": \"Bone Black\"", "\"name\": \"Viridian\"", "occurs twice"),
         ("\"k2\": 0.6", "\"k2\": 1.6", "1.6"),
         ("\"reference\": \"Zinc White\"", "\"reference\": \"Chalk\"", "not in the library"),
         ("{", "[", "`format`"),

@@ -1,4 +1,4 @@
-//! What each crate may know, and where heavy dependencies are named.
+//! Allowed dependencies of each crate, and the manifests that name heavy dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -9,7 +9,8 @@ use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
 use render::paint::engine::PaintEngine;
 use render::paint::history::TILE_BYTES;
-use render::paint::painting::{LayerRef, Painting};
+use render::paint::light::Light;
+use render::paint::painting::{LayerRef, Painting, UNDO_BYTES};
 
 use super::studio::{
     BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,
@@ -180,8 +181,6 @@ fn a_brush_never_changes_its_pigment_by_an_undo() {
 
 #[test]
 fn a_measured_light_comes_back_with_an_undo() {
-    let mut painting = on_cpu(bare(60, 60));
-    crossing(&mut painting);
     let lamp: Vec<String> = (380..=780).step_by(10).map(|nm| format!("{nm},{nm}")).collect();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("lamp.csv");
@@ -190,8 +189,12 @@ fn a_measured_light_comes_back_with_an_undo() {
         illuminant: spectra::light_from_text(file.to_str().unwrap()).unwrap(),
         ..calibrate::evaluate::Viewing::default()
     };
-    let lighting = Lighting { illuminant: "my lamp".to_owned(), ..Lighting::default() };
-    painting.relight_with(&viewing, lighting).unwrap();
+    let mut document = bare(60, 60);
+    document.lighting.illuminant = "my lamp".to_owned();
+    let light = Light::new(&document.library, &viewing).unwrap();
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    let mut painting = Painting::open_under(document, light, engine, UNDO_BYTES).unwrap();
+    crossing(&mut painting);
     let seen = painting.picture().unwrap();
     painting.relight(Lighting::default()).unwrap();
     assert!(painting.picture().unwrap() != seen, "the light changed");

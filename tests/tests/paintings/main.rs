@@ -5,8 +5,8 @@
 #[path = "../../../render/examples/paintings/color_study.rs"]
 mod color_study;
 
-#[path = "../../../render/examples/paintings/easel.rs"]
-mod easel;
+#[path = "../../../render/examples/paintings/script_builder.rs"]
+mod script_builder;
 
 #[path = "../../../render/examples/paintings/glaze.rs"]
 mod glaze;
@@ -38,10 +38,10 @@ fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     let (document, _) = script.surfaces(&suite::oils::library(), None).unwrap();
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let canvas = Painting::open(document, engine, UNDO_BYTES).unwrap();
-    let mut easel = PaintingSession::new(canvas, None).unwrap();
+    let mut session = PaintingSession::new(canvas, None).unwrap();
     let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    let report = script.replay(&mut easel, save, || ControlFlow::Continue(())).unwrap();
-    (report, easel)
+    let report = script.replay(&mut session, save, || ControlFlow::Continue(())).unwrap();
+    (report, session)
 }
 
 /// Its first actions only.
@@ -70,10 +70,10 @@ fn every_script_is_what_its_program_makes() {
 fn the_long_ones_begin_well() {
     for name in ["glaze", "landscape"] {
         let script = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
-        let (report, mut easel) = painted(&begun(&script, 60));
+        let (report, mut session) = painted(&begun(&script, 60));
         assert_eq!((report.actions, report.idle), (60, 0), "{name}");
-        let wet = easel.canvas_mut().wet().unwrap();
-        let dry = easel.canvas().state().dry.len();
+        let wet = session.canvas_mut().wet().unwrap();
+        let dry = session.canvas().state().dry.len();
         assert!(
             dry > 0 || (0..wet.vehicle.values().len()).any(|i| wet.cell(i).volume() > 0),
             "{name}"

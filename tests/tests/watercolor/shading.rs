@@ -1,4 +1,4 @@
-//! What is seen of meshes, and toon shading, on the processor and on a device.
+//! Visibility of meshes and toon shading, on the processor and on a device.
 
 use glam::{Vec2, Vec3};
 use naga::valid::{Capabilities, ValidationFlags, Validator};

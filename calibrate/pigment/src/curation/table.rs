@@ -280,7 +280,7 @@ pub enum TableError {
         file: String,
     },
     /// None or several pigments have S = 1 at every wavelength.
-    #[error("{file}: one pigment with S = 1 at every wavelength is wanted, found `{}`", whites.len())]
+    #[error("{file}: expected one pigment with S = 1 at every wavelength, found `{}`", whites.len())]
     NoReference {
         /// File name as the caller gave it.
         file: String,

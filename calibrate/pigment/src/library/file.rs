@@ -112,7 +112,7 @@ impl PigmentLibrary {
         for (index, pigment) in self.pigments.iter().enumerate() {
             let name = pigment.name.as_str();
             if self.pigments[..index].iter().any(|other| other.name == name) {
-                return Err(fault(name, "the name stands twice".into()));
+                return Err(fault(name, "the name occurs twice".into()));
             }
             let curves = [
                 ("absorption", &pigment.absorption, false),

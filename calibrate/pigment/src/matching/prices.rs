@@ -141,7 +141,7 @@ pub enum PriceError {
         column: &'static str,
     },
     /// A price is no number of 0 and up.
-    #[error("{place}: a price of 0 or more is wanted, found `{text}`")]
+    #[error("{place}: expected a price of 0 or more, found `{text}`")]
     Price {
         /// File and row, or the text that states the price.
         place: String,

@@ -139,7 +139,7 @@ pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
     let mut reader = Decoder::new(file).read_info().map_err(|error| broken(error.to_string()))?;
     let kind = reader.output_color_type();
     if kind != (ColorType::Rgb, BitDepth::Eight) {
-        return Err(broken(format!("8 bits of red, green and blue are wanted, found `{kind:?}`")));
+        return Err(broken(format!("expected 8 bits of red, green and blue, found `{kind:?}`")));
     }
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let bytes = reader.output_buffer_size().ok_or_else(|| broken("it is too large".to_owned()))?;

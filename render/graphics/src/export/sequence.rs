@@ -212,13 +212,11 @@ fn read_manifest(path: &Path) -> Result<Option<SequenceSettings>, SequenceError>
         serde_json::from_slice(&text).map_err(|error| invalid(error.to_string()))?;
     if manifest.format != FORMAT || manifest.version != VERSION {
         let Manifest { format, version, .. } = manifest;
-        return Err(invalid(format!("{FORMAT} {VERSION} is wanted, found `{format} {version}`")));
+        return Err(invalid(format!("expected {FORMAT} {VERSION}, found `{format} {version}`")));
     }
     match manifest.settings.frames {
         0..=MOST_FRAMES => Ok(Some(manifest.settings)),
-        frames => {
-            Err(invalid(format!("at most {MOST_FRAMES} frames are wanted, found `{frames}`")))
-        }
+        frames => Err(invalid(format!("expected at most {MOST_FRAMES} frames, found `{frames}`"))),
     }
 }
 

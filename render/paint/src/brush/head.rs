@@ -128,7 +128,7 @@ impl Head {
         self.lift();
         let held = Pose { pressure: 1.0, ..*pose };
         let Some(grip) = Grip::new(&held, self.spines.of.rigid) else { return };
-        self.spines.stand(&grip, Vector::ZERO, &relief.seen_from(grip.origin));
+        self.spines.hold_above(&grip, Vector::ZERO, &relief.seen_from(grip.origin));
         self.net.follow(&self.spines, &grip);
         self.net.rest();
         self.hovering = Some(grip.origin);

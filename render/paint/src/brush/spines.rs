@@ -118,12 +118,12 @@ impl Spines {
     /// will fall: behind `heading`, if that is not zero.
     pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &View<'_>) {
         let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
-        self.stand(grip, fall, relief);
+        self.hold_above(grip, fall, relief);
     }
 
     /// Holds the head just above the canvas at `grip`, straight or with its tip shifted to
     /// `fall`.
-    pub(super) fn stand(&mut self, grip: &Grip, fall: Vector, relief: &View<'_>) {
+    pub(super) fn hold_above(&mut self, grip: &Grip, fall: Vector, relief: &View<'_>) {
         let grip = &Grip { pressure: 0.0, ..*grip };
         let ferrule = self.ferrule(grip, relief);
         for (i, rest) in self.rest.iter().enumerate() {

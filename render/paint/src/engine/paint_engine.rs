@@ -36,7 +36,7 @@ pub struct OpenedEngine {
     pub engine: PaintEngine,
     /// Why the processor is used although a device was found; `None` if the device is
     /// used or there was none.
-    pub gave_way: Option<DeviceError>,
+    pub device_error: Option<DeviceError>,
 }
 
 impl PaintEngine {
@@ -65,13 +65,13 @@ impl PaintEngine {
     /// hold the canvas.
     pub fn open(choice: BackendChoice, floor: &Field<i32>) -> Result<OpenedEngine, DeviceError> {
         let Some(device) = choose(choice)? else {
-            return Ok(OpenedEngine { engine: Self::on_cpu(floor.clone()), gave_way: None });
+            return Ok(OpenedEngine { engine: Self::on_cpu(floor.clone()), device_error: None });
         };
         match Self::on_device(device, floor) {
-            Ok(engine) => Ok(OpenedEngine { engine, gave_way: None }),
+            Ok(engine) => Ok(OpenedEngine { engine, device_error: None }),
             Err(error) if choice == BackendChoice::Auto => {
                 let engine = Self::on_cpu(floor.clone());
-                Ok(OpenedEngine { engine, gave_way: Some(error) })
+                Ok(OpenedEngine { engine, device_error: Some(error) })
             }
             Err(error) => Err(error),
         }

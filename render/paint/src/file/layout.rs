@@ -77,7 +77,7 @@ pub(super) fn layout(
         match found.iter().filter(|found| found.name == part).count() {
             1 => {}
             0 => return Err(fault.part("is missing".to_owned())),
-            _ => return Err(fault.part("stands twice".to_owned())),
+            _ => return Err(fault.part("occurs twice".to_owned())),
         }
     }
     let stored = found.iter().map(|part| {
@@ -107,7 +107,7 @@ fn check_part(
         return Err(fault.part("is none that attribute `impasto` names".to_owned()));
     }
     if part.blocks != BlockDescription::ScanLines || part.deep {
-        return Err(fault.part("has tiles or is deep; scan lines are wanted".to_owned()));
+        return Err(fault.part("has tiles or is deep; expected scan lines".to_owned()));
     }
     use Compression::{PIZ, Uncompressed, ZIP1, ZIP16};
     if ![Uncompressed, ZIP1, ZIP16, PIZ].contains(&part.compression) {
@@ -174,7 +174,7 @@ fn planes(
             return wrong("names no pigment of this layer");
         }
         if names[..index].contains(name) {
-            return wrong("stands twice");
+            return wrong("occurs twice");
         }
         if channel.sample_type != SampleType::F32 {
             return wrong("must hold 32-bit floats; fewer bits lose paint");

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use pigment::evaluate::Viewing;
-
 use super::failure::PaintingError;
 use super::state::Painting;
 use super::views::{PendingTiles, SecondLight};
@@ -27,27 +25,6 @@ impl Painting {
         } else {
             Some(Light::named(&self.library, &lighting.illuminant, &lighting.observer)?)
         };
-        self.set_light(lighting, light)
-    }
-
-    /// Shows the painting under a measured light. The illuminant of `lighting` is only its
-    /// name.
-    ///
-    /// # Errors
-    /// [`PaintingError::Light`] if the light has no wavelengths in common with the library.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn relight_with(
-        &mut self,
-        viewing: &Viewing,
-        lighting: Lighting,
-    ) -> Result<(), PaintingError> {
-        let light = Light::new(&self.library, viewing)?;
-        self.set_light(lighting, Some(light))
-    }
-
-    fn set_light(&mut self, lighting: Lighting, light: Option<Light>) -> Result<(), PaintingError> {
         self.apply_action(|painting| {
             painting.state.lighting = lighting;
             match light {

@@ -65,6 +65,8 @@ mod resolve;
 
 mod start;
 
+mod named_files;
+
 #[cfg(test)]
 mod tests;
 
@@ -74,6 +76,7 @@ pub use crate::stroke::SampleDecimals;
 pub use action::{Action, Load, Recipe, Squeeze, Stroke};
 pub use error::{InvalidValue, ScriptError, ValueLocation};
 pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES};
+pub use named_files::ScriptLibrary;
 pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, StrokeScript};

@@ -1,5 +1,5 @@
-//! What the painters of all scripts have in common: an easel with brushes, and
-//! a hand that is never quite steady.
+//! Builds stroke scripts: keeps the brushes, loads them when they run low, and varies
+//! positions at random as a hand does.
 
 use std::collections::BTreeMap;
 
@@ -11,86 +11,86 @@ use render::paint::strokes::{
     Action, BrushSpec, Canvas, Load, PaletteSpec, Recipe, Stroke, StrokeScript, SurfaceId,
 };
 
-/// A place on the canvas in mm.
+/// Position on the canvas in mm.
 pub(crate) type Place = (f64, f64);
 
-/// How often a brush is asked for the same mixture before it is loaded anew.
+/// Strokes with one mixture before the brush is loaded again.
 const FRESH: usize = 5;
 
-/// A script at work.
-pub(crate) struct Easel {
-    /// What was done so far.
-    pub(crate) script: StrokeScript,
+/// A stroke script under construction.
+pub(crate) struct ScriptBuilder {
+    /// The script so far.
+    pub(crate) built: StrokeScript,
     random: ChaCha8Rng,
-    /// What each brush was loaded with last, and the strokes since.
-    laden: BTreeMap<String, (String, usize)>,
+    /// For each brush its last mixture and the strokes painted with it.
+    loaded: BTreeMap<String, (String, usize)>,
 }
 
-impl Easel {
-    /// A canvas without paint; `seed` is that of the hand.
+impl ScriptBuilder {
+    /// Starts with an empty canvas. `seed` is that of the random variations.
     pub(crate) fn new(title: &str, canvas: Canvas, pigments: &[(&str, &str)], seed: u64) -> Self {
         let mut script = StrokeScript::new(title, "CC0-1.0", canvas, palette(pigments));
         script.library = Some("Van Gogh's oils".to_owned());
-        Self { script, random: ChaCha8Rng::seed_from_u64(seed), laden: BTreeMap::new() }
+        Self { built: script, random: ChaCha8Rng::seed_from_u64(seed), loaded: BTreeMap::new() }
     }
 
-    /// Puts a brush in the jar.
+    /// Adds a brush.
     pub(crate) fn brush(&mut self, name: &str, shape: HeadShape, size_mm: f64) {
-        self.script.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
+        self.built.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
     }
 
-    /// A number from -`most` to `most`.
+    /// A random number from -`most` to `most`.
     pub(crate) fn about(&mut self, most: f64) -> f64 {
         self.random.random_range(-1.0..1.0) * most
     }
 
-    /// One of `count`, evenly.
+    /// A random index below `count`.
     pub(crate) fn one_of(&mut self, count: usize) -> usize {
         self.random.random_range(0..count)
     }
 
-    /// Loads a brush with `recipe`: short names, each followed by its parts, as
-    /// in `W10C1.5`.
+    /// Loads a brush with `recipe`: short names, each followed by its parts, such as
+    /// `W10C1.5`.
     pub(crate) fn load(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
         let load = Load { brush: brush.to_owned(), recipe: parts(recipe), vehicle, amount_mm };
-        self.script.actions.push(Action::Load(load));
+        self.built.actions.push(Action::Load(load));
     }
 
-    /// Washes a brush and loads it, unless it still has enough of this mixture.
+    /// Washes a brush and loads it, unless it still holds enough of this mixture.
     pub(crate) fn fresh(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
-        match self.laden.get_mut(brush) {
+        match self.loaded.get_mut(brush) {
             Some((before, strokes)) if before == recipe && *strokes < FRESH => *strokes += 1,
             _ => {
                 self.wash(brush);
                 self.load(brush, recipe, vehicle, amount_mm);
-                self.laden.insert(brush.to_owned(), (recipe.to_owned(), 1));
+                self.loaded.insert(brush.to_owned(), (recipe.to_owned(), 1));
             }
         }
     }
 
     /// Washes a brush.
     pub(crate) fn wash(&mut self, brush: &str) {
-        self.script.actions.push(Action::Wash { brush: brush.to_owned() });
+        self.built.actions.push(Action::Wash { brush: brush.to_owned() });
     }
 
     /// Dries the wet paint.
     pub(crate) fn dry(&mut self) {
-        self.script.actions.push(Action::Dry { fraction: 1.0 });
+        self.built.actions.push(Action::Dry { fraction: 1.0 });
     }
 
-    /// Takes other pigments.
+    /// Sets the pigments of the palette.
     pub(crate) fn palette(&mut self, pigments: &[(&str, &str)]) {
-        self.script.actions.push(Action::Palette(palette(pigments)));
+        self.built.actions.push(Action::Palette(palette(pigments)));
     }
 
-    /// A stroke through `places`, the brush across its way and leaning forward,
-    /// its pressure swelling to `pressure` and falling again.
+    /// Paints a stroke through `places`. The brush lies across the path and leans forward;
+    /// its pressure rises from 60 % of `pressure` and falls back to it.
     pub(crate) fn stroke(&mut self, brush: &str, places: &[Place], pressure: f64) {
         let last = places.len() - 1;
         self.pull(brush, places, |i| if i == 0 || i == last { 0.6 * pressure } else { pressure });
     }
 
-    /// A stroke of even pressure.
+    /// Paints a stroke of constant pressure.
     pub(crate) fn even(&mut self, brush: &str, places: &[Place], pressure: f64) {
         self.pull(brush, places, |_| pressure);
     }
@@ -117,14 +117,14 @@ impl Easel {
                 twist_deg: twist.round(),
             });
         }
-        self.script.actions.push(Action::Stroke(Stroke {
+        self.built.actions.push(Action::Stroke(Stroke {
             brush: brush.to_owned(),
             on: SurfaceId::Canvas,
             samples,
         }));
     }
 
-    /// A dab of a brush that leans to the lower right.
+    /// Paints a dab. The brush leans to the lower right.
     pub(crate) fn dab(&mut self, brush: &str, (x, y): Place, pressure: f64, twist_deg: f64) {
         let sample = Sample {
             seconds: 0.0,
@@ -136,7 +136,7 @@ impl Easel {
             twist_deg: twist_deg.round(),
         };
         let brush = brush.to_owned();
-        self.script.actions.push(Action::Stroke(Stroke {
+        self.built.actions.push(Action::Stroke(Stroke {
             brush,
             on: SurfaceId::Canvas,
             samples: vec![sample],
@@ -149,7 +149,7 @@ fn palette(pigments: &[(&str, &str)]) -> PaletteSpec {
     PaletteSpec { pigments: pigments.iter().map(named).collect() }
 }
 
-/// `W10C1.5` as parts.
+/// Parses a recipe such as `W10C1.5`.
 fn parts(recipe: &str) -> Recipe {
     let mut found = Recipe::new();
     let mut rest = recipe;
@@ -162,8 +162,8 @@ fn parts(recipe: &str) -> Recipe {
     found
 }
 
-/// The angle nearest to `before` that stands for the same way of the brush: half
-/// a turn makes no difference.
+/// The twist nearest to `before` that is equal to `angle` up to half a turn: a head is
+/// symmetric.
 fn nearest_turn(angle: f64, before: f64) -> f64 {
     angle - 180.0 * ((angle - before) / 180.0).round()
 }
