@@ -107,8 +107,8 @@ fn swap(painting: &mut Painting, text: &str) -> Result<()> {
     };
     let (layer, names) = text.split_once(':').ok_or_else(wrong)?;
     let (from, to) = names.split_once('=').ok_or_else(wrong)?;
-    let from = painting.library().find(from)?.index();
-    let to = painting.library().find(to)?.index();
+    let from = painting.library().find(from)?;
+    let to = painting.library().find(to)?;
     let layers = match layer.trim() {
         "wet" => vec![LayerRef::Wet],
         "all" => {
@@ -120,7 +120,7 @@ fn swap(painting: &mut Painting, text: &str) -> Result<()> {
             let found: Vec<LayerRef> = all.into_iter().filter(has).collect();
             if found.is_empty() {
                 return Err(Failure::data(
-                    format!("no layer has {}", painting.library().pigments[from].name),
+                    format!("no layer has {}", painting.library()[from].name),
                     "impasto relight PAINTING lists the pigments of each layer",
                 ));
             }
@@ -150,7 +150,7 @@ fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Resul
     let bounds = painting.bounds();
     let names = |layer| -> Result<Vec<String>> {
         let slots = painting.slots(layer)?;
-        let name = |&index: &usize| painting.library().pigments[index].name.clone();
+        let name = |&pigment| painting.library()[pigment].name.clone();
         Ok(slots.iter().flatten().map(name).collect())
     };
     let mut layers = Vec::new();

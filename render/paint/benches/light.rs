@@ -42,7 +42,7 @@ fn layer(width: usize, height: usize, seed: u64) -> Layer {
 fn painting(width: usize, height: usize) -> (Document, Scene) {
     let library = library();
     let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
-    let slots = std::array::from_fn(Some);
+    let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
     let dry = |seed| DryLayer { slots, opacity: 1.0, paint: layer(width, height, seed) };
     let document = Document {
         title: String::new(),

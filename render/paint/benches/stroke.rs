@@ -30,6 +30,7 @@ use paint::painting::Painting;
 use paint::pose::Sample;
 use paint::session::PaintingSession;
 use paint::strokes::StrokeScript;
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 
 fn main() {
@@ -59,7 +60,7 @@ fn oils() -> PigmentLibrary {
 fn painting(width: usize, height: usize, dry: usize) -> Painting {
     let library = oils();
     let ground = GroundSpec::default().build(width, height, CELL_MM, &library).expect("linen");
-    let slots: Slots = std::array::from_fn(Some);
+    let slots: Slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
     let (medium, lighting) = (Medium::default(), Lighting::default());
     let mut document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);
     document.wet = paint(width, height, 0);

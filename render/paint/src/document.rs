@@ -1,13 +1,14 @@
 //! A painting at rest: everything that its file stores.
 
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 
 use crate::ground::Ground;
 use crate::layer::{Layer, SLOTS};
 use crate::optics::Gloss;
 
-/// The pigments of a layer: for each slot in use, an index into the library's pigments.
-pub type Slots = [Option<usize>; SLOTS];
+/// The pigments of a layer by slot.
+pub type Slots = [Option<PigmentId>; SLOTS];
 
 /// A dry layer of paint.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,7 +7,7 @@ use spectra::Grid;
 use spectra::optics::Surface;
 
 use crate::amount::QUANTA_PER_CELL;
-use crate::layer::SLOTS;
+use crate::document::Slots;
 use crate::optics::{LayerOptics, NODES, SceneSurface};
 
 /// Thickness of one quantum in the library's unit. `cell_mm` is the width of a cell in
@@ -29,25 +29,25 @@ pub fn at_nodes(quadrature: &Quadrature, grid: Grid, values: &[f64], scale: f64)
     std::array::from_fn(|i| (at_nodes[i] * scale) as f32)
 }
 
-/// Computes K and S of a layer per quantum. `slots` holds indices into the library's
-/// pigments, `thickness_per_quantum` is that of [`thickness_per_quantum`], and `opacity`
+/// Computes K and S of a layer per quantum. `slots` holds pigments of the
+/// library, `thickness_per_quantum` is that of [`thickness_per_quantum`], and `opacity`
 /// multiplies all K and S (1 leaves them as measured).
 ///
 /// # Panics
-/// If a slot holds no index into the library, or if the quadrature does not have
+/// If a slot holds a pigment that the library lacks, or if the quadrature does not have
 /// [`NODES`] nodes.
 #[must_use]
 pub fn layer_optics(
     library: &PigmentLibrary,
-    slots: &[Option<usize>; SLOTS],
+    slots: &Slots,
     quadrature: &Quadrature,
     thickness_per_quantum: f64,
     opacity: f64,
 ) -> LayerOptics {
     let table = |spectrum: fn(&pigment::library::Pigment) -> &[f64]| {
         slots.map(|slot| match slot {
-            Some(index) => {
-                let values = spectrum(&library.pigments[index]);
+            Some(pigment) => {
+                let values = spectrum(&library[pigment]);
                 at_nodes(quadrature, library.grid, values, thickness_per_quantum * opacity)
             }
             None => [0.0; NODES],

@@ -17,11 +17,11 @@ pub fn palette_slots(names: &[String], library: &PigmentLibrary) -> Result<Slots
     }
     let mut slots = Slots::default();
     for (slot, name) in names.iter().enumerate() {
-        let index = library.find(name)?.index();
-        if slots.contains(&Some(index)) {
+        let pigment = library.find(name)?;
+        if slots.contains(&Some(pigment)) {
             return Err(PaletteError::Repeated { name: name.clone() });
         }
-        slots[slot] = Some(index);
+        slots[slot] = Some(pigment);
     }
     Ok(slots)
 }

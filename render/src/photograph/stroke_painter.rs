@@ -96,7 +96,7 @@ impl StrokePainter {
         let seen = photograph.on_canvas(width, height);
         let (separation, slots) = separation(&seen, library, settings)?;
         let target = black_compensated(&seen, separation.black());
-        let names = slots.iter().flatten().map(|&i| library.pigments[i].name.clone());
+        let names = slots.iter().flatten().map(|&pigment| library[pigment].name.clone());
         let pigments: Vec<String> = names.collect();
         let palette = PaletteSpec::from_names(pigments.iter().map(String::as_str));
         let mut script = StrokeScript::new(&settings.title, "", canvas, palette);

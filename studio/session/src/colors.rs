@@ -66,21 +66,20 @@ impl Colors {
     /// sRGB of a mixture with these parts by slot.
     pub(super) fn of_slots(&self, slots: &Slots, parts: &[f64; SLOTS]) -> Option<[u8; 3]> {
         let filled = slots.iter().zip(parts).filter(|(_, part)| **part > 0.0);
-        let recipe: Vec<_> =
-            filled.filter_map(|(slot, &part)| Some((PigmentId((*slot)?), part))).collect();
+        let recipe: Vec<_> = filled.filter_map(|(slot, &part)| Some(((*slot)?, part))).collect();
         self.of(&recipe)
     }
 
     /// sRGB of the pigment of each slot alone.
     pub(super) fn masstones(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
-        slots.map(|slot| self.of(&[(PigmentId(slot?), 1.0)]))
+        slots.map(|slot| self.of(&[(slot?, 1.0)]))
     }
 
     /// sRGB of one part of the pigment of each slot in nine parts of white; `None` for a
     /// pigment whose scattering is unknown.
     pub(super) fn tints(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| {
-            let (pigment, white) = (PigmentId(slot?), self.white?);
+            let (pigment, white) = (slot?, self.white?);
             let identified = self.library[pigment].identified;
             identified.then(|| self.of(&[(pigment, 1.0), (white, TINT)]))?
         })
@@ -100,9 +99,9 @@ mod tests {
         let light = Arc::new(Light::named(&library, "A", "1931-2").unwrap());
         let colors = Colors::new(Arc::clone(&library), Arc::clone(&light));
         let blue = library.find("Prussian Blue").unwrap();
-        let unknown = library.pigments.iter().position(|pigment| !pigment.identified).unwrap();
+        let unknown = library.ids().find(|&pigment| !library[pigment].identified).unwrap();
         let mut slots = [None; SLOTS];
-        (slots[2], slots[5]) = (Some(blue.index()), Some(unknown));
+        (slots[2], slots[5]) = (Some(blue), Some(unknown));
         let cards = Cards::standard(library.grid);
         let palette = Palette::new(&library, &light.viewing, cards).unwrap();
         let masstones = colors.masstones(&slots);
@@ -120,7 +119,7 @@ mod tests {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let colors = Colors::new(library, light);
-        let slots = std::array::from_fn(Some);
+        let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
         let mut parts = [0.0; SLOTS];
         assert_eq!(colors.of_slots(&slots, &parts), None, "no paint has no colour");
         (parts[1], parts[4]) = (3.0, 1.0);

@@ -106,7 +106,7 @@ mod tests {
         assert_eq!(script.canvas.cells(), (1920, 1080));
         let resolved = script.resolve(&library).unwrap();
         for pigment in resolved.slots {
-            let pigment = &library.pigments[pigment.expect("eight tubes")];
+            let pigment = &library[pigment.expect("eight tubes")];
             assert!(pigment.identified, "{} can be mixed", pigment.name);
         }
     }

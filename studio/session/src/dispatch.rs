@@ -223,9 +223,8 @@ impl WorkerLoop<'_> {
         }
         let slots = wet.map_or([None; SLOTS], |wet| wet.slots);
         let named = slots.iter().zip(amounts).filter(|(_, amount)| *amount > 0.0);
-        let recipe = named.filter_map(|(slot, amount)| {
-            Some((library.pigments[(*slot)?].name.clone(), amount / total))
-        });
+        let recipe = named
+            .filter_map(|(slot, amount)| Some((library[(*slot)?].name.clone(), amount / total)));
         let load = Load {
             brush: brush.clone(),
             recipe: recipe.collect(),

@@ -84,7 +84,7 @@ pub(super) fn is_lifted(session: &PaintingSession) -> bool {
 /// Head of the brush of the open stroke, as it is bent now.
 pub(super) fn head_on_canvas(session: &PaintingSession) -> Option<HeadOnCanvas> {
     let (surface, brush) = session.open_stroke()?;
-    let number = session.brush_number(brush, surface)?;
-    let mesh = session.painting(surface)?.head(number).mesh()?;
+    let id = session.brush_id_on(brush, surface)?;
+    let mesh = session.painting(surface)?.head(id).mesh()?;
     Some(HeadOnCanvas { surface, around: mesh.around, along: mesh.along, vertices: mesh.vertices })
 }

@@ -199,8 +199,8 @@ impl Files {
 
     pub(super) fn ask_for_new(&mut self, state: &PaintingState) {
         let pigments = state.slots.iter().flatten();
-        let pigments = pigments.filter_map(|&index| state.library.pigments.get(index));
-        let palette = PaletteSpec::from_names(pigments.map(|pigment| pigment.name.as_str()));
+        let pigments = pigments.map(|&pigment| state.library[pigment].name.as_str());
+        let palette = PaletteSpec::from_names(pigments);
         let library = Box::new((*state.library).clone());
         self.dialogs.push(OpenDialog::New(NewPainting::default(), Box::new(palette), library));
     }

@@ -30,8 +30,8 @@ fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
 /// A pick of wet paint (three parts white, one part ultramarine) over dry yellow.
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
-    let find = |name: &str| library.find(name).unwrap().index();
-    let layer = |paint: &[(usize, f64)], vehicle: f64| {
+    let find = |name: &str| library.find(name).unwrap();
+    let layer = |paint: &[(PigmentId, f64)], vehicle: f64| {
         let mut layer =
             PickedLayer { slots: [None; SLOTS], amounts_mm: [0.0; SLOTS + 1], opacity: 1.0 };
         for (slot, (pigment, amount)) in paint.iter().enumerate() {
@@ -41,7 +41,7 @@ fn picked(painting: &PaintingState) -> Picked {
         layer
     };
     let (white, blue) = (find("Zinc White"), find("Ultramarine"));
-    let mixture = library.mix([(PigmentId(white), 3.0), (PigmentId(blue), 1.0)]).unwrap();
+    let mixture = library.mix([(white, 3.0), (blue, 1.0)]).unwrap();
     Picked {
         surface: SurfaceId::Canvas,
         x_mm: 103.24,
@@ -129,7 +129,7 @@ fn library_recipes(
     conditions: Vec<ViewingCondition>,
 ) -> Vec<RecipeMatch> {
     let mut request = MatchRequest::new(&painting.library, conditions, FilmKind::Hiding);
-    request.allowed = painting.slots.iter().copied().flatten().map(PigmentId).collect();
+    request.allowed = painting.slots.iter().copied().flatten().collect();
     request.allowed.sort_unstable();
     request.whole_parts = Some(40);
     request.count = 3;
@@ -226,7 +226,7 @@ fn pigments_missing_on_the_palette_can_be_added() {
     let mut painting = made_painting();
     // Greens need a pigment that is not on the palette.
     painting.slots = [None; SLOTS];
-    painting.slots[0] = Some(painting.library.find("Zinc White").unwrap().index());
+    painting.slots[0] = Some(painting.library.find("Zinc White").unwrap());
     let mut stage = stage(painting);
     stage.click("Library");
     assert!(stage.commands().is_empty(), "there is no target yet");
@@ -243,8 +243,7 @@ fn pigments_missing_on_the_palette_can_be_added() {
     let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     assert_eq!(names, ["Zinc White", &name]);
-    let slots =
-        [0, 1].map(|at| stage.state().painting.library.find(names[at]).ok().map(PigmentId::index));
+    let slots = [0, 1].map(|at| stage.state().painting.library.find(names[at]).ok());
     stage.state().painting.slots[..2].copy_from_slice(&slots);
     stage.run();
     let gone = stage.harness.query_by_label(&format!("Add {name}")).is_none();
@@ -255,9 +254,8 @@ fn pigments_missing_on_the_palette_can_be_added() {
 fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let mut painting = made_painting();
     let library = Arc::clone(&painting.library);
-    let green = library.find("Viridian").unwrap().index();
-    let others: Vec<usize> =
-        (0..library.pigments.len()).filter(|&pigment| pigment != green).collect();
+    let green = library.find("Viridian").unwrap();
+    let others: Vec<PigmentId> = library.ids().filter(|&pigment| pigment != green).collect();
     for (slot, pigment) in painting.slots.iter_mut().zip(&others) {
         *slot = Some(*pigment);
     }
@@ -265,7 +263,7 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let mut stage = stage(painting);
     stage.click("Library");
     // The target is pure Viridian.
-    let mixture = library.mix([(PigmentId(green), 1.0)]).unwrap().hiding(library.saunderson);
+    let mixture = library.mix([(green, 1.0)]).unwrap().hiding(library.saunderson);
     let light = Arc::clone(&stage.state().painting.light);
     let weights = light.viewing.weights(library.grid).unwrap();
     let [l, a, b] = Lab::from_xyz(weights.xyz(&mixture), weights.white()).to_array();
@@ -273,7 +271,7 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     wait_for_recipes(&mut stage);
     stage.harness.get_all_by_label("Viridian in place of").next().unwrap().click();
     stage.run();
-    let first = library.pigments[full[7].unwrap()].name.clone();
+    let first = library[full[7].unwrap()].name.clone();
     let entry = stage.harness.get_all_by_role_and_label(Role::Button, &first).last().unwrap();
     entry.click();
     stage.run();
@@ -281,7 +279,7 @@ fn on_a_full_palette_a_pigment_replaces_an_unused_one() {
     let [Command::Apply(Action::Palette(palette))] = &commands[..] else { panic!("{commands:?}") };
     let names: Vec<&str> = palette.pigments.iter().map(|(_, name)| name.as_str()).collect();
     let mut wanted: Vec<&str> =
-        full.iter().map(|slot| library.pigments[slot.unwrap()].name.as_str()).collect();
+        full.iter().map(|slot| library[slot.unwrap()].name.as_str()).collect();
     wanted[7] = "Viridian";
     assert_eq!(names, wanted);
 }

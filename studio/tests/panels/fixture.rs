@@ -6,7 +6,6 @@ use std::sync::{Arc, OnceLock};
 use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::palette::{Cards, Palette, Recipe, TINT_PARTS};
@@ -42,7 +41,7 @@ pub(crate) fn painting() -> PaintingState {
     });
     let mut slots: Slots = [None; SLOTS];
     for (slot, name) in slots.iter_mut().zip(PIGMENTS) {
-        *slot = Some(library.find(name).unwrap().index());
+        *slot = Some(library.find(name).unwrap());
     }
     let cards = Cards::standard(library.grid);
     let palette = Palette::new(library, &light.viewing, cards).unwrap();
@@ -57,8 +56,8 @@ pub(crate) fn painting() -> PaintingState {
         cell_mm: 0.1,
         library: Arc::clone(library),
         slots,
-        masstones: slots.map(|slot| Some(srgb(&Recipe::single(PigmentId(slot?))))),
-        tints: slots.map(|slot| Some(srgb(&palette.tint(PigmentId(slot?), TINT_PARTS)))),
+        masstones: slots.map(|slot| Some(srgb(&Recipe::single(slot?)))),
+        tints: slots.map(|slot| Some(srgb(&palette.tint(slot?, TINT_PARTS)))),
         layers: vec![layer(slots, 1.0), layer(slots, 0.5)],
         lighting: Lighting::default(),
         light: Arc::clone(light),
@@ -71,12 +70,7 @@ pub(crate) fn painting() -> PaintingState {
         history_done: 3,
         undo_bytes: (96 << 20, 512 << 20),
         brushes: vec![
-            brush(
-                "round",
-                HeadShape::Round,
-                6.0,
-                Some(srgb(&Recipe::single(PigmentId(slots[2].unwrap())))),
-            ),
+            brush("round", HeadShape::Round, 6.0, Some(srgb(&Recipe::single(slots[2].unwrap())))),
             brush("flat", HeadShape::Flat, 10.0, None),
             brush("knife", HeadShape::Knife, 14.0, None),
         ],

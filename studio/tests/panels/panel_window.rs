@@ -132,7 +132,7 @@ pub(crate) fn made_painting() -> PaintingState {
     let made = painting();
     let mut slots = [None; SLOTS];
     for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
-        *slot = Some(made.library.find(pigment).expect("one of Van Gogh's").index());
+        *slot = Some(made.library.find(pigment).expect("one of Van Gogh's"));
     }
     let round = BrushState {
         amount_mm: 0.0,

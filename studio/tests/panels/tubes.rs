@@ -132,7 +132,7 @@ fn searching_lists_only_matching_pigments() {
 #[test]
 fn a_pigment_is_exchanged_in_every_layer_where_possible() {
     let mut harness = tubes();
-    let blue = harness.state().painting.library.find("Cobalt Blue").unwrap().index();
+    let blue = harness.state().painting.library.find("Cobalt Blue").unwrap();
     // The upper dry layer already has the new pigment and stays unchanged.
     harness.state_mut().painting.layers[1].slots[7] = Some(blue);
     harness.get_by_label("tube of Ultramarine").click_secondary();
@@ -187,7 +187,7 @@ fn the_card_of_a_tube_shows_its_figures() {
     let palette = Mixable::new(&painting.library, &painting.light.viewing, cards).unwrap();
     let white = painting.slots[0].unwrap();
     let powers = pigment::palette::hiding_powers(&palette);
-    let power = powers.iter().find(|power| power.paint.index() == white).unwrap();
+    let power = powers.iter().find(|power| power.paint == white).unwrap();
     let mm = power.hides.thickness().unwrap() / painting.medium.scattering_per_mm;
     assert!((0.1..0.9).contains(&mm), "{mm} mm, shown with two decimals");
     let text = format!("hides from {mm:.2} mm");

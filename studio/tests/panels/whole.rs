@@ -82,7 +82,7 @@ fn picked_palette_paint_is_matched_loaded_and_squeezed() {
     let painting = window.studio().painting().unwrap().clone();
     let brush = painting.brushes.iter().find(|brush| brush.name == "round").unwrap();
     let slot = |name: &str| {
-        let pigment = painting.library.find(name).unwrap().index();
+        let pigment = painting.library.find(name).unwrap();
         painting.slots.iter().position(|slot| *slot == Some(pigment)).unwrap()
     };
     for (name, share) in [("Zinc White", 0.75), ("Ultramarine", 0.25)] {

@@ -17,8 +17,7 @@ pub(crate) use suite::oils::library as oils;
 pub(crate) const CELL_MM: f64 = 0.1;
 
 pub(crate) fn slots(library: &PigmentLibrary, names: &[&str]) -> Slots {
-    let index = |i: usize| names.get(i).map(|name| library.find(name).unwrap().index());
-    std::array::from_fn(index)
+    std::array::from_fn(|slot| names.get(slot).map(|name| library.find(name).unwrap()))
 }
 
 pub(crate) fn viewing(light: &str) -> Viewing {

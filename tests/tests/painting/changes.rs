@@ -1,5 +1,6 @@
 //! A painting changed afterwards is the painting made so from the start.
 
+use calibrate::PigmentId;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting, Slots};
 use render::paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
@@ -72,7 +73,7 @@ fn a_swapped_pigment_looks_as_if_it_had_been_painted_with() {
     }
 }
 
-fn exchanged(slots: Slots, from: usize, to: usize) -> Slots {
+fn exchanged(slots: Slots, from: PigmentId, to: PigmentId) -> Slots {
     slots.map(|slot| if slot == Some(from) { Some(to) } else { slot })
 }
 
@@ -102,7 +103,7 @@ fn a_layer_of_no_opacity_is_as_good_as_not_there() {
 fn a_palette_changes_only_where_nothing_wet_would_be_left_behind() {
     let mut painting = on_cpu(bare(60, 60));
     let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.2);
-    let without: Vec<usize> = [pigment("Lead White"), pigment("Ultramarine")].to_vec();
+    let without: Vec<PigmentId> = [pigment("Lead White"), pigment("Ultramarine")].to_vec();
     let error = painting.set_palette(&without).unwrap_err();
     assert!(
         matches!(&error, PaintingError::StillWet { pigment } if pigment == "Chrome Yellow"),
@@ -115,7 +116,7 @@ fn a_palette_changes_only_where_nothing_wet_would_be_left_behind() {
     assert_eq!(slots[0], Some(pigment("Lead White")), "who stays keeps the slot");
     let error = painting.load(brush, &pure(RED), 0.0, 0.1).unwrap_err();
     assert!(matches!(error, PaintingError::EmptySlot { slot: RED }), "{error}");
-    let nine: Vec<usize> = (0..9).collect();
+    let nine: Vec<PigmentId> = (0..9).map(PigmentId).collect();
     let error = painting.set_palette(&nine).unwrap_err();
     assert!(matches!(error, PaintingError::TooManyPigments { found: 9 }), "{error}");
 }

@@ -5,12 +5,13 @@ use rand_chacha::ChaCha8Rng;
 use render::amount::{MAX_COLUMN, mm_from_quanta};
 use render::layer::{Layer, SLOTS};
 use render::paint::brush::HeadShape;
+use render::paint::engine::BrushId;
 use render::paint::painting::Painting;
 
 use super::studio::{CELL_MM, along, bare, on_both, tell};
 
 /// Sums over all wet and dry paint, in quanta, by pigment of the palette.
-fn totals(painting: &mut Painting, brushes: &[usize]) -> [u64; SLOTS + 1] {
+fn totals(painting: &mut Painting, brushes: &[BrushId]) -> [u64; SLOTS + 1] {
     let document = painting.document().unwrap();
     let mut layers: Vec<Layer> = document.dry.into_iter().map(|layer| layer.paint).collect();
     layers.push(document.wet);

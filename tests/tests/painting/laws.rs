@@ -3,6 +3,7 @@
 use render::amount::{MAX_COLUMN, QUANTA_PER_CELL};
 use render::layer::Layer;
 use render::paint::brush::HeadShape;
+use render::paint::engine::BrushId;
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::pose::Sample;
 use spectra::color::Lab;
@@ -84,7 +85,7 @@ fn a_brush_that_does_not_move_takes_no_substeps_after_its_dab() {
     assert!(dab.substeps > 0 && bare_cells(&painting.wet().unwrap()) < 6400, "a dab is a dab");
 }
 
-fn whole(painting: &mut Painting, brush: usize) -> (Layer, Layer) {
+fn whole(painting: &mut Painting, brush: BrushId) -> (Layer, Layer) {
     (painting.wet().unwrap(), painting.brush_paint(brush).unwrap())
 }
 

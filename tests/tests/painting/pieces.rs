@@ -4,6 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::layer::{Cell, Layer};
 use render::paint::brush::{HeadMesh, HeadShape};
+use render::paint::engine::BrushId;
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::pose::Sample;
 use render::paint::stroke::StrokeError;
@@ -14,7 +15,7 @@ use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both};
 /// Wet and dry paint, and that on every brush.
 fn paint(painting: &mut Painting, brushes: usize) -> Vec<Layer> {
     let mut layers = vec![painting.wet().unwrap()];
-    layers.extend((0..brushes).map(|brush| painting.brush_paint(brush).unwrap()));
+    layers.extend((0..brushes).map(BrushId).map(|brush| painting.brush_paint(brush).unwrap()));
     layers
 }
 
@@ -30,7 +31,7 @@ fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
 /// Tells `samples` and paints them in pieces of any size.
 fn in_pieces(
     painting: &mut Painting,
-    brush: usize,
+    brush: BrushId,
     samples: &[Sample],
     random: &mut ChaCha8Rng,
 ) -> (u64, u64, bool) {
@@ -71,7 +72,7 @@ fn however_a_stroke_is_cut_its_paint_brush_and_undo_are_those_of_the_whole() {
         for seed in 0..16 {
             let random = &mut ChaCha8Rng::seed_from_u64(seed);
             let samples = wandering(random);
-            let brush = random.random_range(2..4);
+            let brush = BrushId(random.random_range(2..4));
             let report = whole.stroke(brush, &samples).unwrap();
             let found = in_pieces(&mut cut, brush, &samples, random);
             assert_eq!(found, (report.substeps, report.cells, report.undoable), "seed {seed}");

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use calibrate::PigmentId;
 use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
 use suite::program::{Run, impasto};
@@ -186,8 +187,8 @@ fn pigment_maps_sum_all_layers() {
         let (name, volume) = (fields.next().unwrap(), fields.next().unwrap());
         let volume: f64 = volume.parse().unwrap();
         let held = layers.iter().map(|(slots, paint)| {
-            let named = |slot: &Option<usize>| {
-                slot.is_some_and(|index| document.library.pigments[index].name == name)
+            let named = |slot: &Option<PigmentId>| {
+                slot.is_some_and(|pigment| document.library[pigment].name == name)
             };
             let place = if name == "vehicle" { Some(SLOTS) } else { slots.iter().position(named) };
             place.map_or(0, |place| paint.totals()[place])

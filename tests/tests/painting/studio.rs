@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::sync::OnceLock;
 
+use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
 use render::field::Field;
@@ -11,6 +12,7 @@ use render::layer::SLOTS;
 use render::light::Light;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting, Medium, Slots};
+use render::paint::engine::BrushId;
 use render::paint::engine::PaintEngine;
 use render::paint::ground::{Ground, GroundSpec};
 use render::paint::painting::{Painting, UNDO_BYTES};
@@ -48,8 +50,8 @@ pub(crate) fn daylight() -> Light {
 }
 
 /// The index of a pigment.
-pub(crate) fn pigment(name: &str) -> usize {
-    oils().find(name).unwrap().index()
+pub(crate) fn pigment(name: &str) -> PigmentId {
+    oils().find(name).unwrap()
 }
 
 fn ground(json: &str, width: usize, height: usize) -> Ground {
@@ -134,7 +136,7 @@ pub(crate) fn loaded(
     size_mm: f64,
     slot: usize,
     amount_mm: f64,
-) -> usize {
+) -> BrushId {
     let brush = painting.add_brush(shape, size_mm).unwrap();
     painting.load(brush, &pure(slot), 0.1, amount_mm).unwrap();
     brush

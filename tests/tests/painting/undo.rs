@@ -1,5 +1,6 @@
 //! Undo and redo of whatever a painting can do, to the bit.
 
+use calibrate::PigmentId;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
@@ -7,6 +8,7 @@ use render::layer::Layer;
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
 use render::paint::document::{Document, Lighting};
+use render::paint::engine::BrushId;
 use render::paint::engine::PaintEngine;
 use render::paint::history::TILE_BYTES;
 use render::paint::light::Light;
@@ -21,7 +23,8 @@ use super::studio::{
 type Whole = (Document, Vec<Layer>, Field<[f32; 4]>);
 
 fn whole(painting: &mut Painting, brushes: usize) -> Whole {
-    let paint = (0..brushes).map(|brush| painting.brush_paint(brush).unwrap()).collect();
+    let paint =
+        (0..brushes).map(BrushId).map(|brush| painting.brush_paint(brush).unwrap()).collect();
     (painting.document().unwrap(), paint, painting.picture().unwrap())
 }
 
@@ -45,7 +48,7 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         3 => {
             let more = ["Ultramarine", "Cobalt Blue"][random.random_range(0..2)];
             let names = PALETTE[..5].iter().chain([&more]);
-            let pigments: Vec<usize> = names.map(|name| pigment(name)).collect();
+            let pigments: Vec<PigmentId> = names.map(|name| pigment(name)).collect();
             painting.set_palette(&pigments).is_ok()
         }
         4 => {
@@ -73,7 +76,7 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             let brush = random.random_range(0..2);
             let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
             let places: Vec<_> = (0..3).map(|_| place()).collect();
-            let report = painting.stroke(brush, &along(&places, 0.6)).unwrap();
+            let report = painting.stroke(BrushId(brush), &along(&places, 0.6)).unwrap();
             assert!(report.undoable, "it takes too much memory");
             true
         }
@@ -157,9 +160,9 @@ fn a_drying_keeps_only_the_tiles_that_were_wet() {
 #[test]
 fn a_brush_never_changes_its_pigment_by_an_undo() {
     for mut painting in on_both(&bare(60, 60)) {
-        let keep: Vec<usize> = PALETTE[1..].iter().map(|name| pigment(name)).collect();
+        let keep: Vec<PigmentId> = PALETTE[1..].iter().map(|name| pigment(name)).collect();
         let with = |first: &str| {
-            let all: Vec<usize> = [pigment(first)].into_iter().chain(keep.clone()).collect();
+            let all: Vec<PigmentId> = [pigment(first)].into_iter().chain(keep.clone()).collect();
             all
         };
         let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
@@ -172,7 +175,7 @@ fn a_brush_never_changes_its_pigment_by_an_undo() {
         let clean = [0; 9];
         for brush in [brush, late] {
             let paint = painting.brush_paint(brush).unwrap().totals();
-            assert_eq!(paint, clean, "ultramarine became lead white on brush {brush}");
+            assert_eq!(paint, clean, "ultramarine became lead white on {brush:?}");
         }
         assert!(painting.redo().unwrap(), "the palette again");
         assert!(painting.brush_paint(brush).unwrap().totals()[WHITE] > 0, "as it was");

@@ -1,5 +1,6 @@
 //! Palettes chosen for a photograph.
 
+use calibrate::PigmentId;
 use render::field::Field;
 use render::layer::SLOTS;
 use render::paint::document::Slots;
@@ -19,7 +20,7 @@ fn chosen(picture: &Picture) -> ChosenPalette {
 
 /// Tints and shades of one pigment, from the oils.
 fn tints(name: &str) -> Picture {
-    let find = |name: &str| Some(STUDIO.library.find(name).unwrap().index());
+    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
     let mut slots: Slots = [None; SLOTS];
     slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
@@ -44,12 +45,12 @@ fn a_photograph_of_one_hue_gets_a_palette_that_paints_it() {
 fn a_palette_holds_no_pigment_twice_and_none_unidentified() {
     let colors = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
     let found = chosen(&Field::from_values(216, 1, colors.collect()));
-    let mut indices: Vec<usize> = found.slots.iter().flatten().copied().collect();
-    assert_eq!(indices.len(), SLOTS, "all of sRGB wants a full palette: {found:?}");
-    assert!(indices.iter().all(|&index| STUDIO.library.pigments[index].identified));
-    indices.sort_unstable();
-    indices.dedup();
-    assert_eq!(indices.len(), SLOTS, "{found:?}");
+    let mut pigments: Vec<PigmentId> = found.slots.iter().flatten().copied().collect();
+    assert_eq!(pigments.len(), SLOTS, "all of sRGB wants a full palette: {found:?}");
+    assert!(pigments.iter().all(|&pigment| STUDIO.library[pigment].identified));
+    pigments.sort_unstable();
+    pigments.dedup();
+    assert_eq!(pigments.len(), SLOTS, "{found:?}");
 }
 
 #[test]

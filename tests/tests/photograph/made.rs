@@ -38,7 +38,7 @@ pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
         "Prussian Blue",
         "Viridian",
     ]
-    .map(|name| Some(library.find(name).unwrap().index()));
+    .map(|name| Some(library.find(name).unwrap()));
     Studio { library, quadrature, ground, slots }
 });
 

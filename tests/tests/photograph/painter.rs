@@ -41,7 +41,7 @@ fn bare_script() -> StrokeScript {
     let canvas =
         r#"{"width_mm": 24, "height_mm": 18, "cell_mm": 0.5, "ground": {"kind": "panel"}}"#;
     let canvas: Canvas = serde_json::from_str(canvas).unwrap();
-    let names = STUDIO.slots.iter().flatten().map(|&i| STUDIO.library.pigments[i].name.as_str());
+    let names = STUDIO.slots.iter().flatten().map(|&pigment| STUDIO.library[pigment].name.as_str());
     StrokeScript::new("disc", "CC0-1.0", canvas, PaletteSpec::from_names(names))
 }
 

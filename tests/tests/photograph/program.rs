@@ -100,7 +100,7 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     let light = Light::named(library, "D65", "1931-2").unwrap();
     let mut slots = [None; 8];
     for (slot, name) in slots.iter_mut().zip(PALETTE.split(',')) {
-        *slot = Some(library.find(name).unwrap().index());
+        *slot = Some(library.find(name).unwrap());
     }
     let ground = GroundSpec::default().build(1, 1, 0.5, library).unwrap().reflectance;
     let scattering_per_mm = Medium::default().scattering_per_mm;

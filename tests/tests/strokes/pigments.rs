@@ -15,14 +15,14 @@ fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (S
 }
 
 #[test]
-fn names_and_short_names_become_indices() {
+fn names_and_short_names_become_pigments() {
     let library = library();
-    let index = |name: &str| library.find(name).unwrap().index();
-    let (white, blue, green) = (index("Zinc White"), index("Prussian Blue"), index("Viridian"));
+    let id = |name: &str| library.find(name).unwrap();
+    let (white, blue, green) = (id("Zinc White"), id("Prussian Blue"), id("Viridian"));
     let found = resolved("\"W\": 3", "\"zinc white\": 3").unwrap();
     assert_eq!(found.slots[..3], [Some(white), Some(blue), None]);
     let mut wanted = vec![(white, 3.0), (blue, 1.0)];
-    wanted.sort_by_key(|(index, _)| *index);
+    wanted.sort_by_key(|(pigment, _)| *pigment);
     assert_eq!(found.actions.len(), 14);
     assert_eq!(found.actions[0], ActionPigments::Recipe(wanted));
     assert_eq!(found.actions[1], ActionPigments::None);

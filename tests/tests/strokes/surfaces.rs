@@ -183,7 +183,7 @@ fn another_painting_is_refused() {
     let error = refused(&coarser, Some(painting()));
     assert!(error.starts_with("canvas.cell_mm: that of the painting, 0.0333333"), "{error}");
     let mut other = painting();
-    other.slots[3] = Some(library.find("Viridian").unwrap().index());
+    other.slots[3] = Some(library.find("Viridian").unwrap());
     let error = refused(&continue_from(), Some(other));
     assert!(error.starts_with("palette: that of the painting, "), "{error}");
     let error = refused(&continue_from(), None);

@@ -74,7 +74,7 @@ fn add(sums: &mut [Option<Vec<u64>>], vehicle: usize, slots: &Slots, paint: &Lay
     let cells = paint.vehicle.values().len();
     for slot in 0..=SLOTS {
         let target = match slots.get(slot) {
-            Some(Some(pigment)) => *pigment,
+            Some(Some(pigment)) => pigment.index(),
             Some(None) => continue,
             None => vehicle,
         };

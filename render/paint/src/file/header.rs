@@ -1,5 +1,6 @@
 //! The description of a painting in its file: JSON in attribute `impasto`.
 
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -7,7 +8,6 @@ use serde_json::Value;
 use super::error::PaintingFileError;
 use super::names::{ChannelNames, WET, dry_part};
 use crate::document::{Document, Lighting, Medium, Slots};
-use crate::layer::SLOTS;
 use crate::optics::Gloss;
 
 /// Name of the attribute.
@@ -180,7 +180,7 @@ impl FileHeader {
 impl LayerHeader {
     /// Pigments of the layer by slot.
     pub(super) fn slots(&self, library: &PigmentLibrary) -> Result<Slots, String> {
-        let mut slots = [None; SLOTS];
+        let mut slots = Slots::default();
         for PigmentHeader { slot, name, channel } in &self.pigments {
             let part = &self.part;
             let index = library.pigments.iter().position(|pigment| pigment.name == *name);
@@ -188,7 +188,7 @@ impl LayerHeader {
                 format!("channel `{channel}` of `{part}` names no pigment of the library: `{name}`")
             })?;
             match slots.get_mut(*slot) {
-                Some(place @ None) => *place = Some(index),
+                Some(place @ None) => *place = Some(PigmentId(index)),
                 Some(_) => return Err(format!("slot of `{part}` named twice: `{slot}`")),
                 None => return Err(format!("slots of `{part}` are 0 to 7, found `{slot}`")),
             }
@@ -204,8 +204,8 @@ impl LayerHeader {
 fn pigments(library: &PigmentLibrary, slots: &Slots) -> Option<Vec<PigmentHeader>> {
     let mut names = ChannelNames::default();
     let used = slots.iter().enumerate().filter_map(|(slot, pigment)| Some((slot, (*pigment)?)));
-    used.map(|(slot, index)| {
-        let name = &library.pigments.get(index)?.name;
+    used.map(|(slot, pigment)| {
+        let name = &library.pigments.get(pigment.index())?.name;
         Some(PigmentHeader { slot, name: name.clone(), channel: names.channel(name) })
     })
     .collect()

@@ -4,6 +4,7 @@ use super::failure::PaintingError;
 use super::state::{Brush, Painting};
 use crate::amount::{MAX_COLUMN, mm_from_quanta, quanta_from_mm};
 use crate::brush::{Head, HeadShape};
+use crate::engine::BrushId;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::pose::Sample;
 
@@ -12,18 +13,18 @@ use crate::pose::Sample;
 const CAPACITY: u32 = MAX_COLUMN / 16;
 
 impl Painting {
-    /// Adds a clean brush of `size_mm` mm and returns its index, which is the number of
-    /// brushes before it.
+    /// Adds a clean brush of `size_mm` mm and returns its id.
     ///
     /// # Errors
     /// [`PaintingError`] if the size is out of range, or the memory of the device does not
     /// suffice.
-    pub fn add_brush(&mut self, shape: HeadShape, size_mm: f64) -> Result<usize, PaintingError> {
+    pub fn add_brush(&mut self, shape: HeadShape, size_mm: f64) -> Result<BrushId, PaintingError> {
         let head = Head::new(shape, size_mm, self.cell_mm)?;
         let cells = head.paint_grid();
         let id = self.engine.add_brush(cells.0, cells.1)?;
+        debug_assert_eq!(id.0, self.brushes.len(), "the engine numbers brushes from 0");
         self.brushes.push(Brush { id, head, cells });
-        Ok(self.brushes.len() - 1)
+        Ok(id)
     }
 
     /// Adds paint to a brush: to every cell of the head `amount_mm` mm of the mixture of
@@ -38,13 +39,13 @@ impl Painting {
     /// If there is no such brush.
     pub fn load(
         &mut self,
-        brush: usize,
+        brush: BrushId,
         recipe: &[f64; SLOTS],
         vehicle: f64,
         amount_mm: f64,
     ) -> Result<(), PaintingError> {
         let fresh = self.mixture(recipe, vehicle, amount_mm)?;
-        let Brush { id, cells, .. } = self.brushes[brush];
+        let Brush { id, cells, .. } = self.brushes[brush.0];
         let mut paint = self.engine.brush_paint(id)?;
         let cells = 0..cells.0 * cells.1;
         let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
@@ -109,9 +110,9 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush.
-    pub fn wipe(&mut self, brush: usize, kept: f64) -> Result<(), PaintingError> {
+    pub fn wipe(&mut self, brush: BrushId, kept: f64) -> Result<(), PaintingError> {
         let share = share_of_65536_parts("kept", kept)?;
-        let mut paint = self.engine.brush_paint(self.brushes[brush].id)?;
+        let mut paint = self.engine.brush_paint(self.brushes[brush.0].id)?;
         for index in 0..paint.vehicle.values().len() {
             paint.set_cell(index, paint.cell(index).share_of_65536(share));
         }
@@ -125,8 +126,8 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush.
-    pub fn wash(&mut self, brush: usize) -> Result<(), PaintingError> {
-        let (width, height) = self.brushes[brush].cells;
+    pub fn wash(&mut self, brush: BrushId) -> Result<(), PaintingError> {
+        let (width, height) = self.brushes[brush.0].cells;
         self.change_brush(brush, &Layer::empty(width, height))
     }
 
@@ -137,8 +138,8 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush.
-    pub fn brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
-        Ok(self.engine.brush_paint(self.brushes[brush].id)?)
+    pub fn brush_paint(&mut self, brush: BrushId) -> Result<Layer, PaintingError> {
+        Ok(self.engine.brush_paint(self.brushes[brush.0].id)?)
     }
 
     /// Replaces the paint on a brush by `paint`, whose slots are those of this painting's
@@ -149,7 +150,7 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush, or `paint` does not have the cells of the head.
-    pub fn set_brush_paint(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
+    pub fn set_brush_paint(&mut self, brush: BrushId, paint: &Layer) -> Result<(), PaintingError> {
         self.change_brush(brush, paint)
     }
 
@@ -158,8 +159,8 @@ impl Painting {
     /// # Panics
     /// If there is no such brush.
     #[must_use]
-    pub fn head(&self, brush: usize) -> &Head {
-        &self.brushes[brush].head
+    pub fn head(&self, brush: BrushId) -> &Head {
+        &self.brushes[brush.0].head
     }
 
     /// Holds a brush just above the canvas, for drawing its [`Painting::head`] there. Does
@@ -167,9 +168,9 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush.
-    pub fn hover(&mut self, brush: usize, sample: &Sample) {
+    pub fn hover(&mut self, brush: BrushId, sample: &Sample) {
         if self.stroke_brush != Some(brush) {
-            self.brushes[brush].head.hover(&sample.pose(self.cell_mm), &self.relief);
+            self.brushes[brush.0].head.hover(&sample.pose(self.cell_mm), &self.relief);
         }
     }
 
@@ -181,9 +182,9 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush, or a stroke is open.
-    pub fn take_brush_paint(&mut self, brush: usize) -> Result<Layer, PaintingError> {
+    pub fn take_brush_paint(&mut self, brush: BrushId) -> Result<Layer, PaintingError> {
         self.apply_action(|painting| {
-            let id = painting.brushes[brush].id;
+            let id = painting.brushes[brush.0].id;
             painting.history.save_brush(&mut painting.engine, id)?;
             let paint = painting.engine.brush_paint(id)?;
             painting.wash(brush)?;
@@ -191,8 +192,8 @@ impl Painting {
         })
     }
 
-    fn change_brush(&mut self, brush: usize, paint: &Layer) -> Result<(), PaintingError> {
-        Ok(self.engine.set_brush_paint(self.brushes[brush].id, paint)?)
+    fn change_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), PaintingError> {
+        Ok(self.engine.set_brush_paint(self.brushes[brush.0].id, paint)?)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Layers: drying, pigments and opacity, and merging.
 
+use pigment::PigmentId;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 use super::brushes::share_of_65536_parts;
@@ -51,15 +52,14 @@ impl Painting {
         Ok(true)
     }
 
-    /// Sets the pigments of the palette, as indices into the library. Pigments that stay keep
-    /// their slots.
+    /// Sets the pigments of the palette. Pigments that stay keep their slots.
     ///
     /// # Errors
     /// The errors of [`Painting::slots_with`]; nothing is changed then.
     ///
     /// # Panics
     /// If a stroke is open.
-    pub fn set_palette(&mut self, pigments: &[usize]) -> Result<(), PaintingError> {
+    pub fn set_palette(&mut self, pigments: &[PigmentId]) -> Result<(), PaintingError> {
         let slots = self.slots_with(pigments)?;
         self.apply_action(|painting| {
             // From now on brushes hold paint of the new palette.
@@ -76,8 +76,8 @@ impl Painting {
     /// # Errors
     /// [`PaintingError`] for more than eight pigments, or if a pigment that leaves is still
     /// wet on the canvas or on a brush.
-    pub fn slots_with(&mut self, pigments: &[usize]) -> Result<Slots, PaintingError> {
-        let mut wanted: Vec<usize> = Vec::new();
+    pub fn slots_with(&mut self, pigments: &[PigmentId]) -> Result<Slots, PaintingError> {
+        let mut wanted: Vec<PigmentId> = Vec::new();
         for &pigment in pigments {
             if !wanted.contains(&pigment) {
                 wanted.push(pigment);
@@ -87,7 +87,8 @@ impl Painting {
             return Err(PaintingError::TooManyPigments { found: wanted.len() });
         }
         let mut slots: Slots = self.state.slots;
-        let leaves = |slot: Option<usize>| slot.is_some_and(|pigment| !wanted.contains(&pigment));
+        let leaves =
+            |slot: Option<PigmentId>| slot.is_some_and(|pigment| !wanted.contains(&pigment));
         if slots.iter().any(|&slot| leaves(slot)) {
             let wet = self.wet_totals_mm()?;
             for (slot, amount) in slots.iter_mut().zip(wet).filter(|(slot, _)| leaves(**slot)) {
@@ -108,8 +109,8 @@ impl Painting {
         Ok(slots)
     }
 
-    /// Replaces the pigment `from` of a layer by `to` (indices into the library), as if the
-    /// layer had been painted with it.
+    /// Replaces the pigment `from` of a layer by `to`, as if the layer had been painted with
+    /// it.
     ///
     /// # Errors
     /// [`PaintingError`] if the layer does not have `from`, or has `to` already.
@@ -119,8 +120,8 @@ impl Painting {
     pub fn swap_pigment(
         &mut self,
         layer: LayerRef,
-        from: usize,
-        to: usize,
+        from: PigmentId,
+        to: PigmentId,
     ) -> Result<(), PaintingError> {
         let slots = self.slots(layer)?;
         if slots.contains(&Some(to)) {
@@ -176,17 +177,17 @@ impl Painting {
         }
     }
 
-    /// Slot of the palette that holds the pigment with this index of the library.
+    /// Slot of the palette that holds a pigment.
     ///
     /// # Errors
     /// [`PaintingError::OffPalette`] if no slot does.
-    pub fn slot_of(&self, pigment: usize) -> Result<usize, PaintingError> {
+    pub fn slot_of(&self, pigment: PigmentId) -> Result<usize, PaintingError> {
         let found = self.state.slots.iter().position(|&slot| slot == Some(pigment));
         found.ok_or_else(|| PaintingError::OffPalette { pigment: self.pigment_name(pigment) })
     }
 
-    pub(super) fn pigment_name(&self, index: usize) -> String {
-        self.library.pigments[index].name.clone()
+    pub(super) fn pigment_name(&self, pigment: PigmentId) -> String {
+        self.library[pigment].name.clone()
     }
 
     /// Updates the relief and all pictures after the height of ground and dry paint changed.
@@ -292,10 +293,7 @@ fn farthest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> (f64, usize, usize) {
 }
 
 /// Slots of both layers merged, and the slot of each pigment of the upper layer in them.
-fn united(
-    lower: [Option<usize>; SLOTS],
-    upper: [Option<usize>; SLOTS],
-) -> Result<([Option<usize>; SLOTS], [usize; SLOTS]), PaintingError> {
+fn united(lower: Slots, upper: Slots) -> Result<(Slots, [usize; SLOTS]), PaintingError> {
     let mut slots = lower;
     let mut place = [0; SLOTS];
     let mut lacking = 0;

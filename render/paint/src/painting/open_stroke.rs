@@ -4,6 +4,7 @@ use super::failure::PaintingError;
 use super::state::Painting;
 use crate::brush::{Head, Relief};
 use crate::contact::Contact;
+use crate::engine::BrushId;
 use crate::history::CommitOutcome;
 use crate::layer::Layer;
 use crate::pose::Sample;
@@ -37,7 +38,7 @@ pub struct StrokeReport {
 #[must_use = "the painting refuses other actions until the stroke is finished"]
 pub struct OpenStroke {
     /// Index of the brush, once the stroke is open in the painting.
-    brush: Option<usize>,
+    brush: Option<BrushId>,
     path: Path,
     lifted: bool,
     /// Whether the head was set down.
@@ -104,11 +105,11 @@ impl OpenStroke {
     pub(crate) fn open(
         &mut self,
         painting: &mut Painting,
-        brush: usize,
+        brush: BrushId,
         paint: Option<&Layer>,
     ) -> Result<(), PaintingError> {
         painting.assert_idle("a stroke");
-        let id = painting.brushes[brush].id;
+        let id = painting.brushes[brush.0].id;
         painting.history.begin(painting.undo_state());
         let engine = &mut painting.engine;
         let opened = painting.history.save_brush(engine, id).and_then(|()| match paint {
@@ -195,7 +196,7 @@ impl OpenStroke {
         let Some(brush) = self.brush else { return Ok(0) };
         painting.assert_stroke_of(brush);
         let bounds = painting.engine.bounds();
-        let tool = &mut painting.brushes[brush];
+        let tool = &mut painting.brushes[brush.0];
         let (head, relief) = (&mut tool.head, &painting.relief);
         let (engine, history) = (&mut painting.engine, &mut painting.history);
         self.set_down(head, relief);
@@ -294,7 +295,7 @@ impl Painting {
     /// If there is no such brush, or a stroke is open.
     pub fn stroke(
         &mut self,
-        brush: usize,
+        brush: BrushId,
         samples: &[Sample],
     ) -> Result<StrokeReport, PaintingError> {
         if samples.is_empty() {
@@ -313,7 +314,7 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush, or a stroke is open.
-    pub fn begin_stroke(&mut self, brush: usize) -> Result<OpenStroke, PaintingError> {
+    pub fn begin_stroke(&mut self, brush: BrushId) -> Result<OpenStroke, PaintingError> {
         let mut stroke = OpenStroke::new(self.cell_mm)?;
         stroke.open(self, brush, None)?;
         Ok(stroke)
@@ -330,7 +331,7 @@ impl Painting {
     /// the head.
     pub fn begin_stroke_with(
         &mut self,
-        brush: usize,
+        brush: BrushId,
         paint: &Layer,
     ) -> Result<OpenStroke, PaintingError> {
         let mut stroke = OpenStroke::new(self.cell_mm)?;
@@ -344,7 +345,7 @@ impl Painting {
         self.stroke_brush.is_some()
     }
 
-    fn assert_stroke_of(&self, brush: usize) {
+    fn assert_stroke_of(&self, brush: BrushId) {
         assert_eq!(self.stroke_brush, Some(brush), "the stroke was begun on another painting");
     }
 }

@@ -153,6 +153,7 @@ fn view(second: bool) -> View {
 
 #[cfg(test)]
 mod tests {
+    use pigment::PigmentId;
     use pigment::library::PigmentLibrary;
 
     use super::*;
@@ -172,7 +173,7 @@ mod tests {
         let library = PigmentLibrary::van_gogh_oils();
         let ground = GroundSpec::default().build(300, 200, 0.1, &library).unwrap();
         let (medium, lighting) = (Medium::default(), Lighting::default());
-        let slots = std::array::from_fn(Some);
+        let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
     }
 

@@ -82,8 +82,8 @@ pub struct Painting {
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<UndoState>,
-    /// Index of the brush of the open stroke, if one is open.
-    pub(super) stroke_brush: Option<usize>,
+    /// Brush of the open stroke, if one is open.
+    pub(super) stroke_brush: Option<BrushId>,
     /// The open adjustment, if one is open.
     pub(super) adjusting: Option<Adjusting>,
     /// Parts of the pictures that are out of date.

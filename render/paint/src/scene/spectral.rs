@@ -37,9 +37,9 @@ impl SpectralStack {
         let ground = at(&internal_ground(library, &appearance.ground.reflectance));
         let optics = |slots: &Slots, opacity: f64| {
             let mut optics = vec![[[0.0; 2]; SLOTS]; ground.len()];
-            for (slot, index) in slots.iter().enumerate() {
-                let Some(index) = *index else { continue };
-                let pigment = &library.pigments[index];
+            for (slot, pigment) in slots.iter().enumerate() {
+                let Some(pigment) = *pigment else { continue };
+                let pigment = &library[pigment];
                 let both = at(&pigment.absorption).into_iter().zip(at(&pigment.scattering));
                 for (optics, (k, s)) in optics.iter_mut().zip(both) {
                     optics[slot] = [k, s].map(|v| v * thickness * opacity);

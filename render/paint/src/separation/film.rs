@@ -88,9 +88,9 @@ impl PaintFilm {
             })
             .collect();
         let mut used = Vec::new();
-        for (slot, index) in slots.iter().enumerate() {
-            let Some(index) = index else { continue };
-            let pigment = &library.pigments[*index];
+        for (slot, pigment) in slots.iter().enumerate() {
+            let Some(pigment) = pigment else { continue };
+            let pigment = &library[*pigment];
             used.push(slot);
             let planes = at(&pigment.absorption).into_iter().zip(at(&pigment.scattering));
             for (band, (k, s)) in bands.iter_mut().zip(planes) {

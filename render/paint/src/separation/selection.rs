@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use pigment::PigmentId;
 use rayon::prelude::*;
 use spectra::color::delta_e_ciede2000;
 
@@ -52,56 +53,56 @@ pub fn choose_palette(
 ) -> Result<ChosenPalette, SeparationError> {
     settings.check()?;
     let colors = frequent_colors(picture);
-    let mut open: Vec<usize> = (0..materials.library.pigments.len())
-        .filter(|&index| materials.library.pigments[index].identified)
-        .collect();
+    let library = materials.library;
+    let mut open: Vec<PigmentId> =
+        library.ids().filter(|&pigment| library[pigment].identified).collect();
     if open.is_empty() {
         return Err(SeparationError::NoPigment);
     }
-    let mean = |chosen: &[usize]| {
+    let mean = |chosen: &[PigmentId]| {
         let slots = slots_of(chosen);
         mean_error(&film(FilmMaterials { slots: &slots, ..materials }), settings, &colors)
     };
     // Pigment that does best at one place of the palette.
-    let best = |chosen: &[usize], place: usize, open: &[usize]| {
-        let tried: Vec<(f64, usize)> = open
+    let best = |chosen: &[PigmentId], place: usize, open: &[PigmentId]| {
+        let tried: Vec<(f64, PigmentId)> = open
             .par_iter()
-            .map(|&index| {
+            .map(|&pigment| {
                 let mut with = chosen.to_vec();
                 if place < with.len() {
-                    with[place] = index;
+                    with[place] = pigment;
                 } else {
-                    with.push(index);
+                    with.push(pigment);
                 }
-                (mean(&with), index)
+                (mean(&with), pigment)
             })
             .collect();
         tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let mut chosen: Vec<usize> = Vec::new();
+    let mut chosen: Vec<PigmentId> = Vec::new();
     let mut least = f64::INFINITY;
     while chosen.len() < SLOTS {
-        let Some((found, index)) = best(&chosen, chosen.len(), &open) else { break };
+        let Some((found, pigment)) = best(&chosen, chosen.len(), &open) else { break };
         if least - found < WORTHWHILE {
             break;
         }
         least = found;
-        chosen.push(index);
-        open.retain(|&other| other != index);
+        chosen.push(pigment);
+        open.retain(|&other| other != pigment);
     }
     for place in 0..chosen.len() {
-        let Some((found, index)) = best(&chosen, place, &open) else { break };
+        let Some((found, pigment)) = best(&chosen, place, &open) else { break };
         if least - found >= WORTHWHILE {
             least = found;
-            open.retain(|&other| other != index);
+            open.retain(|&other| other != pigment);
             open.push(chosen[place]);
-            chosen[place] = index;
+            chosen[place] = pigment;
         }
     }
     Ok(ChosenPalette { slots: slots_of(&chosen), mean: least })
 }
 
-fn slots_of(chosen: &[usize]) -> Slots {
+fn slots_of(chosen: &[PigmentId]) -> Slots {
     std::array::from_fn(|slot| chosen.get(slot).copied())
 }
 

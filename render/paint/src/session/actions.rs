@@ -1,9 +1,12 @@
 //! Applying actions to a session.
 
+use pigment::PigmentId;
+
 use super::failure::SessionError;
 use super::history::Entry;
 use super::label::label;
 use super::state::{Outcome, PaintingSession};
+use crate::engine::BrushId;
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
 use crate::stroke::{Path, SampleDecimals};
@@ -111,13 +114,13 @@ impl PaintingSession {
         let on = match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
                 let recipe = recipe(&self.canvas, parts)?;
-                self.with_brush(&load.brush, |painting, number| {
-                    painting.load(number, &recipe, load.vehicle, load.amount_mm)
+                self.with_brush(&load.brush, |painting, id| {
+                    painting.load(id, &recipe, load.vehicle, load.amount_mm)
                 })?;
                 NONE
             }
             (Action::Wipe { brush, keep }, _) => {
-                self.with_brush(brush, |painting, number| painting.wipe(number, *keep))?;
+                self.with_brush(brush, |painting, id| painting.wipe(id, *keep))?;
                 NONE
             }
             (Action::Wash { brush }, _) => {
@@ -132,7 +135,7 @@ impl PaintingSession {
             }
             (Action::Palette(_), ActionPigments::Palette(slots)) => {
                 self.wash_replaced_brushes()?;
-                let pigments: Vec<usize> = slots.iter().flatten().copied().collect();
+                let pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
                 if let Some(palette) = &mut self.palette {
                     palette.slots_with(&pigments)?;
                 }
@@ -196,14 +199,14 @@ impl PaintingSession {
     fn with_brush(
         &mut self,
         name: &str,
-        change: impl FnOnce(&mut Painting, usize) -> Result<(), PaintingError>,
+        change: impl FnOnce(&mut Painting, BrushId) -> Result<(), PaintingError>,
     ) -> Result<(), SessionError> {
         check_brush(&CheckContext::default(), name, self.brushes.names().map(|(name, _)| name))?;
         let Some(tool) = self.brushes.find(name) else { return Ok(()) };
         let at = self.brushes.tools[tool].at;
-        let fresh = self.brushes.tools[tool].numbers[at].is_none();
-        let number = self.number(tool, at)?;
-        let changed = change(self.surface_mut(at)?, number);
+        let fresh = self.brushes.tools[tool].ids[at].is_none();
+        let id = self.brush_id(tool, at)?;
+        let changed = change(self.surface_mut(at)?, id);
         if changed.is_err() && fresh {
             self.note(Action::Wash { brush: name.to_owned() });
         }
@@ -215,10 +218,10 @@ impl PaintingSession {
     fn wash_replaced_brushes(&mut self) -> Result<(), SessionError> {
         for tool in self.brushes.replaced() {
             let at = self.brushes.tools[tool].at;
-            let Some(number) = self.brushes.tools[tool].numbers[at] else { continue };
+            let Some(id) = self.brushes.tools[tool].ids[at] else { continue };
             let painting = self.surface_mut(at)?;
-            if painting.brush_paint(number)?.totals().iter().any(|total| *total > 0) {
-                painting.wash(number)?;
+            if painting.brush_paint(id)?.totals().iter().any(|total| *total > 0) {
+                painting.wash(id)?;
                 let brush = self.brushes.tools[tool].name.clone();
                 self.note_with(Action::Wash { brush }, Some(tool));
             }
@@ -226,15 +229,15 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Index of a head in the painting of a surface; it is added there if it is new.
-    pub(super) fn number(&mut self, tool: usize, on: SurfaceId) -> Result<usize, SessionError> {
-        if let Some(number) = self.brushes.tools[tool].numbers[on] {
-            return Ok(number);
+    /// Id of a head in the painting of a surface; it is added there if it is new.
+    pub(super) fn brush_id(&mut self, tool: usize, on: SurfaceId) -> Result<BrushId, SessionError> {
+        if let Some(id) = self.brushes.tools[tool].ids[on] {
+            return Ok(id);
         }
         let spec = self.brushes.tools[tool].spec.clone();
-        let number = self.surface_mut(on)?.add_brush(spec.shape, spec.size_mm)?;
-        self.brushes.tools[tool].numbers[on] = Some(number);
-        Ok(number)
+        let id = self.surface_mut(on)?.add_brush(spec.shape, spec.size_mm)?;
+        self.brushes.tools[tool].ids[on] = Some(id);
+        Ok(id)
     }
 
     /// Adds an action that was done to history and recording.
@@ -273,8 +276,8 @@ impl PaintingSession {
     /// not depend on the palette.
     fn with_library_names(&self, action: &Action, pigments: &ActionPigments) -> Action {
         let library = self.canvas.library();
-        let name = |pigment: usize| library.pigments[pigment].name.clone();
-        let recipe = |parts: &[(usize, f64)]| -> Recipe {
+        let name = |pigment: PigmentId| library[pigment].name.clone();
+        let recipe = |parts: &[(PigmentId, f64)]| -> Recipe {
             parts.iter().map(|(pigment, part)| (name(*pigment), *part)).collect()
         };
         match (action, pigments) {
@@ -301,7 +304,7 @@ pub(super) fn nothing_unless(done: bool) -> Outcome {
 }
 
 /// Parts by slot of the palette as it is now.
-fn recipe(painting: &Painting, parts: &[(usize, f64)]) -> Result<[f64; SLOTS], PaintingError> {
+fn recipe(painting: &Painting, parts: &[(PigmentId, f64)]) -> Result<[f64; SLOTS], PaintingError> {
     let mut recipe = [0.0; SLOTS];
     for &(pigment, part) in parts {
         recipe[painting.slot_of(pigment)?] = part;

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::engine::BrushId;
 use crate::strokes::{BrushSpec, PerSurface, SurfaceId};
 
 /// A head that was added under a name.
@@ -12,15 +13,15 @@ pub(super) struct Tool {
     /// Its name in the recording, unique among all heads.
     pub(super) recorded: String,
     pub(super) spec: BrushSpec,
-    /// Its index in the painting of each surface, once it was used there.
-    pub(super) numbers: PerSurface<Option<usize>>,
+    /// Its id in the painting of each surface, once it was used there.
+    pub(super) ids: PerSurface<Option<BrushId>>,
     /// Surface whose painting holds its paint; in the other one it is clean.
     pub(super) at: SurfaceId,
 }
 
 impl Tool {
     pub(super) fn used(&self) -> bool {
-        self.numbers.iter().any(Option::is_some)
+        self.ids.iter().any(Option::is_some)
     }
 }
 
@@ -62,7 +63,7 @@ impl Brushes {
             name: name.to_owned(),
             recorded: self.free_name(name),
             spec: spec.clone(),
-            numbers: PerSurface::default(),
+            ids: PerSurface::default(),
             at: SurfaceId::Canvas,
         });
         self.names.insert(name.to_owned(), self.tools.len() - 1);
@@ -115,7 +116,7 @@ mod tests {
         // Not used yet: replaced in its place.
         brushes.add("round", &spec(7.0));
         assert_eq!((now(&brushes, "round"), brushes.tools.len()), ((0, "round".to_owned()), 1));
-        brushes.tools[0].numbers[SurfaceId::Canvas] = Some(0);
+        brushes.tools[0].ids[SurfaceId::Canvas] = Some(BrushId(0));
         brushes.add("round", &spec(8.0));
         assert_eq!(now(&brushes, "round"), (1, "round 2".to_owned()));
         brushes.add("round 2", &spec(8.0));

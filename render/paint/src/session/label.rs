@@ -1,5 +1,6 @@
 //! Labels of actions for the history.
 
+use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 
 use crate::strokes::{Action, ActionPigments, LayerRef, SurfaceId};
@@ -10,7 +11,7 @@ pub(super) fn label(
     pigments: &ActionPigments,
     library: &PigmentLibrary,
 ) -> String {
-    let name = |pigment: usize| library.pigments[pigment].name.as_str();
+    let name = |pigment: PigmentId| library[pigment].name.as_str();
     let on = |surface: SurfaceId| if surface.is_canvas() { "" } else { " on the palette" };
     match action {
         Action::Stroke(stroke) => format!("stroke{}, {}", on(stroke.on), stroke.brush),

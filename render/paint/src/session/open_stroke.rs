@@ -85,14 +85,14 @@ impl PaintingSession {
         let open = self.stroke.as_ref().ok_or(SessionError::NoStroke)?;
         let (on, tool) = (open.on, open.tool);
         let from = self.brushes.tools[tool].at;
-        let (number, paint) = if from == on {
-            (self.number(tool, on)?, None)
+        let (id, paint) = if from == on {
+            (self.brush_id(tool, on)?, None)
         } else {
-            let (away, here) = (self.number(tool, from)?, self.number(tool, on)?);
+            let (away, here) = (self.brush_id(tool, from)?, self.brush_id(tool, on)?);
             (here, Some(self.surface_mut(from)?.take_brush_paint(away)?))
         };
         let (open, painting) = self.stroke_and_painting()?;
-        open.stroke.open(painting, number, paint.as_ref())?;
+        open.stroke.open(painting, id, paint.as_ref())?;
         open.from = Some(from);
         self.brushes.tools[tool].at = on;
         Ok(())

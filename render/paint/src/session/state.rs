@@ -6,6 +6,7 @@ use super::history::SharedHistory;
 use super::record::Record;
 use crate::brush::Head;
 use crate::document::Document;
+use crate::engine::BrushId;
 use crate::layer::Layer;
 use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport};
 use crate::pose::Sample;
@@ -213,16 +214,16 @@ impl PaintingSession {
     pub fn brush_paint(&mut self, name: &str) -> Result<Option<Layer>, SessionError> {
         let Some(tool) = self.brushes.find(name) else { return Ok(None) };
         let at = self.brushes.tools[tool].at;
-        let Some(number) = self.brush_number(name, at) else { return Ok(None) };
+        let Some(id) = self.brush_id_on(name, at) else { return Ok(None) };
         let painting = self.surface_mut(at)?;
-        Ok(Some(painting.brush_paint(number)?))
+        Ok(Some(painting.brush_paint(id)?))
     }
 
-    /// Index of a brush in the painting of a surface, once it was used there.
+    /// Id of a brush in the painting of a surface, once it was used there.
     #[must_use]
-    pub fn brush_number(&self, name: &str, surface: SurfaceId) -> Option<usize> {
+    pub fn brush_id_on(&self, name: &str, surface: SurfaceId) -> Option<BrushId> {
         let tool = self.brushes.find(name)?;
-        self.brushes.tools[tool].numbers[surface]
+        self.brushes.tools[tool].ids[surface]
     }
 
     /// Canvas and palette as they are now, with the painted part of an open stroke.

@@ -12,7 +12,7 @@ use super::script::StrokeScript;
 use crate::document::Slots;
 use crate::layer::SLOTS;
 
-/// The pigments of a script, as indices into a library.
+/// The pigments of a script.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
     /// Pigments of the wet layer before the first action.
@@ -28,15 +28,15 @@ pub enum ActionPigments {
     None,
     /// Pigments and parts of a load or a heap, in the order of the library. Parts are
     /// above 0.
-    Recipe(Vec<(usize, f64)>),
+    Recipe(Vec<(PigmentId, f64)>),
     /// Pigments of a palette by slot.
     Palette(Slots),
     /// Pigments of a swap.
     Swap {
         /// Pigment to replace.
-        from: usize,
+        from: PigmentId,
         /// Pigment that takes its place.
-        to: usize,
+        to: PigmentId,
     },
 }
 
@@ -115,8 +115,8 @@ impl PigmentNames {
         at: &CheckContext,
         recipe: &Recipe,
         library: &PigmentLibrary,
-    ) -> Result<Vec<(usize, f64)>, Box<InvalidValue>> {
-        let mut parts: Vec<(usize, f64)> = Vec::new();
+    ) -> Result<Vec<(PigmentId, f64)>, Box<InvalidValue>> {
+        let mut parts: Vec<(PigmentId, f64)> = Vec::new();
         for (name, &part) in recipe {
             let index = self.pigment(at, "recipe", name, library)?;
             if !self.palettes.iter().any(|(_, slots)| slots.contains(&Some(index))) {
@@ -136,14 +136,14 @@ impl PigmentNames {
         Ok(parts)
     }
 
-    /// Index of the pigment with a short name or a name of the library.
+    /// Pigment with a short name or a name of the library.
     fn pigment(
         &self,
         at: &CheckContext,
         field: &str,
         name: &str,
         library: &PigmentLibrary,
-    ) -> Result<usize, Box<InvalidValue>> {
+    ) -> Result<PigmentId, Box<InvalidValue>> {
         let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.library_name(name));
         find_pigment(at, field, short.unwrap_or(name), library)
     }
@@ -170,8 +170,8 @@ fn find_pigment(
     field: &str,
     name: &str,
     library: &PigmentLibrary,
-) -> Result<usize, Box<InvalidValue>> {
-    library.find(name).map(PigmentId::index).map_err(|error| {
+) -> Result<PigmentId, Box<InvalidValue>> {
+    library.find(name).map_err(|error| {
         let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
         let hint = match &error {
             RecipeError::UnknownPigment { .. } => {

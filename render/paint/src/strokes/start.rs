@@ -1,5 +1,6 @@
 //! The surfaces that a script starts on: bare ones, or a painting to continue.
 
+use pigment::PigmentId;
 use pigment::digits::rounded;
 use pigment::library::PigmentLibrary;
 
@@ -126,7 +127,7 @@ impl StrokeScript {
             return Err(at.invalid("canvas.cell_mm", &wanted, &self.canvas.cell_mm, hint));
         }
         let sorted = |slots: &Slots| {
-            let mut pigments: Vec<usize> = slots.iter().flatten().copied().collect();
+            let mut pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
             pigments.sort_unstable();
             pigments
         };
@@ -167,5 +168,5 @@ impl StrokeScript {
 
 /// The names of the pigments of `slots`, in the order of the slots.
 pub(crate) fn pigment_names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
-    slots.iter().flatten().map(|&pigment| library.pigments[pigment].name.as_str()).collect()
+    slots.iter().flatten().map(|&pigment| library[pigment].name.as_str()).collect()
 }

@@ -99,6 +99,6 @@ impl GlazePainter {
     #[must_use]
     pub fn pigments(&self) -> Vec<&str> {
         let slots = self.glazes.as_ref().map(|glazes| *glazes.slots()).unwrap_or_default();
-        slots.iter().flatten().map(|&i| self.library.pigments[i].name.as_str()).collect()
+        slots.iter().flatten().map(|&pigment| self.library[pigment].name.as_str()).collect()
     }
 }

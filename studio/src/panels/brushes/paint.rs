@@ -45,11 +45,11 @@ pub(super) fn load_matching(cx: &PanelContext<'_>, brush: &BrushState) -> Option
     if brush.amount_mm <= 0.0 {
         return None;
     }
-    let pigments = &cx.painting.library.pigments;
+    let library = &cx.painting.library;
     let parts = cx.painting.slots.iter().zip(brush.parts);
     let recipe: Recipe = parts
         .filter(|(_, part)| *part > 0.0)
-        .filter_map(|(slot, part)| Some((pigments[(*slot)?].name.clone(), part)))
+        .filter_map(|(slot, part)| Some((library[(*slot)?].name.clone(), part)))
         .collect();
     // Paint without any pigment is clear medium.
     let vehicle = if recipe.is_empty() { 1.0 } else { brush.vehicle };

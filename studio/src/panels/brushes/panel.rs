@@ -208,8 +208,7 @@ impl Brushes {
             let slot = cx.tools.tube;
             let held = cx.painting.slots.get(slot).copied().flatten();
             let empty = held.is_none().then_some("no tube is selected");
-            let name =
-                held.map_or("", |pigment| cx.painting.library.pigments[pigment].name.as_str());
+            let name = held.map_or("", |pigment| cx.painting.library[pigment].name.as_str());
             let tip = format!("Adds paint of the selected tube to the brush: {name}");
             if button(ui, "Load from tube", &tip, none.or(empty)) {
                 tubes::load(cx, slot);

@@ -77,7 +77,7 @@ fn paint(painting: &PaintingState, state: &BrushState) -> String {
         words += &format!(", {:.0} % medium", 100.0 * state.vehicle);
     }
     let parts = painting.slots.iter().zip(state.parts).filter_map(|(slot, part)| {
-        let name = &painting.library.pigments[(*slot)?].name;
+        let name = &painting.library[(*slot)?].name;
         (part >= 0.005).then(|| format!("{:.0} % {name}", 100.0 * part))
     });
     let parts: Vec<String> = parts.collect();

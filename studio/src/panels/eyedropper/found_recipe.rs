@@ -1,5 +1,6 @@
 //! A recipe that the search found, with buttons to load the brush and fill the palette.
 
+use pigment::PigmentId;
 use std::f64::consts::TAU;
 
 use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
@@ -54,7 +55,7 @@ impl FoundRecipe<'_> {
                 ui.spacing_mut().item_spacing.y = 2.0;
                 ui.spacing_mut().interact_size.y = 16.0;
                 self.amounts().enumerate().for_each(|(at, (name, amount))| {
-                    self.line(ui, cx, self.recipe.shares.parts()[at].0.index(), name, amount);
+                    self.line(ui, cx, self.recipe.shares.parts()[at].0, name, amount);
                 });
             });
         });
@@ -101,7 +102,7 @@ impl FoundRecipe<'_> {
         &self,
         ui: &mut Ui,
         cx: &mut PanelContext<'_>,
-        pigment: usize,
+        pigment: PigmentId,
         name: &str,
         amount: f64,
     ) {
@@ -147,17 +148,16 @@ impl FoundRecipe<'_> {
     }
 
     /// Pigments of the recipe that are not on the palette.
-    fn missing(&self, cx: &PanelContext<'_>) -> Vec<usize> {
+    fn missing(&self, cx: &PanelContext<'_>) -> Vec<PigmentId> {
         let slots = &cx.painting.slots;
-        let pigments = self.recipe.shares.iter().map(|(pigment, _)| pigment.index());
-        pigments.filter(|&pigment| !slots.contains(&Some(pigment))).collect()
+        self.recipe.shares.pigments().filter(|&pigment| !slots.contains(&Some(pigment))).collect()
     }
 
     /// Draws a button that adds `pigment` to the palette, or a menu of pigments to
     /// replace if the palette is full.
-    fn add_button(&self, ui: &mut Ui, cx: &mut PanelContext<'_>, pigment: usize) {
-        let name = &self.library.pigments[pigment].name;
-        let on_palette: Vec<usize> = cx.painting.slots.iter().copied().flatten().collect();
+    fn add_button(&self, ui: &mut Ui, cx: &mut PanelContext<'_>, pigment: PigmentId) {
+        let name = &self.library[pigment].name;
+        let on_palette: Vec<PigmentId> = cx.painting.slots.iter().copied().flatten().collect();
         if on_palette.len() < SLOTS {
             let add = ui.small_button("Add").accessible_name(format!("Add {name}"));
             let hover = format!("{name} is not on the palette. Click to put a tube of it there");
@@ -168,7 +168,7 @@ impl FoundRecipe<'_> {
         }
         let menu = ui.menu_button("For\u{2026}", |ui| {
             for &other in on_palette.iter().filter(|&&other| !self.uses(other)) {
-                let line = ui.button(&self.library.pigments[other].name);
+                let line = ui.button(&self.library[other].name);
                 let hover = "Replaces it, unless wet paint of it is left";
                 if line.on_hover_text(hover).clicked() {
                     let all =
@@ -184,12 +184,12 @@ impl FoundRecipe<'_> {
         ));
     }
 
-    fn uses(&self, pigment: usize) -> bool {
-        self.recipe.shares.iter().any(|(used, _)| used.index() == pigment)
+    fn uses(&self, pigment: PigmentId) -> bool {
+        self.recipe.shares.pigments().any(|used| used == pigment)
     }
 
-    fn set_palette(&self, cx: &mut PanelContext<'_>, pigments: impl Iterator<Item = usize>) {
-        let name = |pigment: usize| self.library.pigments[pigment].name.as_str();
+    fn set_palette(&self, cx: &mut PanelContext<'_>, pigments: impl Iterator<Item = PigmentId>) {
+        let name = |pigment: PigmentId| self.library[pigment].name.as_str();
         cx.command(Command::Apply(Action::Palette(PaletteSpec::from_names(pigments.map(name)))));
     }
 }

@@ -1,5 +1,6 @@
 //! The paint of a picked layer, described as a recipe.
 
+use pigment::PigmentId;
 use std::collections::BTreeMap;
 
 use pigment::library::{AmountKind, PigmentLibrary};
@@ -23,11 +24,11 @@ const NEAR: f64 = 0.005;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LayerPaint {
     /// Pairs of pigment index and share, largest first; the shares sum to 1.
-    pub(super) shares: Vec<(usize, f64)>,
+    pub(super) shares: Vec<(PigmentId, f64)>,
     /// Shares as small whole numbers, if these are close enough.
     pub(super) parts: Option<Vec<u32>>,
     /// Indices of pigments present only as traces.
-    pub(super) traces: Vec<usize>,
+    pub(super) traces: Vec<PigmentId>,
     /// Total height of the paint, in mm.
     pub(super) thickness_mm: f64,
     /// Share of the height that is clear vehicle, 0 to 1.
@@ -39,7 +40,7 @@ pub(super) struct LayerPaint {
 impl LayerPaint {
     /// Describes the paint of a picked layer; `None` if it has none there.
     pub(super) fn of(layer: &PickedLayer) -> Option<Self> {
-        let mut amounts: BTreeMap<usize, f64> = BTreeMap::new();
+        let mut amounts: BTreeMap<PigmentId, f64> = BTreeMap::new();
         for (slot, amount) in layer.slots.iter().zip(layer.amounts_mm) {
             if let Some(pigment) = slot.filter(|_| amount > 0.0) {
                 *amounts.entry(pigment).or_default() += amount;
@@ -53,7 +54,7 @@ impl LayerPaint {
         let (plain, traces): (Vec<_>, Vec<_>) =
             amounts.into_iter().partition(|(_, amount)| *amount >= TRACE * pigments);
         let total: f64 = plain.iter().map(|(_, amount)| amount).sum();
-        let mut shares: Vec<(usize, f64)> =
+        let mut shares: Vec<(PigmentId, f64)> =
             plain.into_iter().map(|(pigment, amount)| (pigment, amount / total)).collect();
         shares.sort_by(|a, b| b.1.total_cmp(&a.1));
         let values: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
@@ -70,12 +71,12 @@ impl LayerPaint {
 
     /// Returns amount (`6` or `61.3 %`) and name of each pigment.
     pub(super) fn lines(&self, library: &PigmentLibrary) -> Vec<(String, String)> {
-        let line = |(at, (pigment, share)): (usize, &(usize, f64))| {
+        let line = |(at, (pigment, share)): (usize, &(PigmentId, f64))| {
             let amount = match &self.parts {
                 Some(parts) => parts[at].to_string(),
                 None => format!("{:.1} %", 100.0 * share),
             };
-            (amount, library.pigments[*pigment].name.clone())
+            (amount, library[*pigment].name.clone())
         };
         self.shares.iter().enumerate().map(line).collect()
     }
@@ -95,7 +96,7 @@ impl LayerPaint {
                 Some(parts) => parts[at].to_string(),
                 None => significant(*share),
             };
-            quoted(&format!("{}={amount}", library.pigments[*pigment].name))
+            quoted(&format!("{}={amount}", library[*pigment].name))
         });
         let recipe = words.collect::<Vec<_>>().join(" ");
         Some(match absolute {
@@ -137,7 +138,7 @@ mod tests {
         let mut slots = [None; SLOTS];
         let mut amounts_mm = [0.0; SLOTS + 1];
         for (slot, (pigment, amount)) in amounts.iter().enumerate() {
-            (slots[slot], amounts_mm[slot]) = (Some(*pigment), *amount);
+            (slots[slot], amounts_mm[slot]) = (Some(PigmentId(*pigment)), *amount);
         }
         amounts_mm[SLOTS] = vehicle;
         PickedLayer { slots, amounts_mm, opacity: 1.0 }
@@ -147,15 +148,15 @@ mod tests {
     fn amounts_become_small_whole_parts_largest_first() {
         let paint = LayerPaint::of(&layer(&[(3, 0.02), (0, 0.06), (7, 0.0)], 0.02)).unwrap();
         assert_eq!(paint.parts, Some(vec![3, 1]));
-        let pigments: Vec<usize> = paint.shares.iter().map(|(pigment, _)| *pigment).collect();
-        assert_eq!(pigments, [0, 3]);
+        let pigments: Vec<PigmentId> = paint.shares.iter().map(|(pigment, _)| *pigment).collect();
+        assert_eq!(pigments, [0, 3].map(PigmentId));
         assert!((paint.thickness_mm - 0.1).abs() < 1e-12 && (paint.vehicle - 0.2).abs() < 1e-12);
     }
 
     #[test]
     fn other_amounts_are_percentages_and_traces_are_separate() {
         let paint = LayerPaint::of(&layer(&[(3, 0.0487), (0, 0.0513), (5, 0.0002)], 0.0)).unwrap();
-        assert_eq!((&paint.parts, &paint.traces[..]), (&None, &[5][..]));
+        assert_eq!((&paint.parts, &paint.traces[..]), (&None, &[PigmentId(5)][..]));
         let library = PigmentLibrary::van_gogh_oils();
         let lines = paint.lines(&library);
         assert_eq!(lines[0], ("51.3 %".to_owned(), library.pigments[0].name.clone()));
@@ -165,7 +166,7 @@ mod tests {
     #[test]
     fn slots_of_the_same_pigment_are_added() {
         let paint = LayerPaint::of(&layer(&[(3, 0.01), (3, 0.03)], 0.0)).unwrap();
-        assert_eq!((paint.shares, paint.parts), (vec![(3, 1.0)], Some(vec![1])));
+        assert_eq!((paint.shares, paint.parts), (vec![(PigmentId(3), 1.0)], Some(vec![1])));
     }
 
     #[test]

@@ -110,7 +110,7 @@ fn layer(ui: &mut Ui, cx: &PanelContext<'_>, name: &str, paint: &LayerPaint) {
     });
     recipe(ui, &format!("parts of {name}"), &paint.lines(library));
     if !paint.traces.is_empty() {
-        let names = paint.traces.iter().map(|&trace| library.pigments[trace].name.as_str());
+        let names = paint.traces.iter().map(|&trace| library[trace].name.as_str());
         ui.weak(format!("traces of {}", names.collect::<Vec<_>>().join(", ")));
     }
 }

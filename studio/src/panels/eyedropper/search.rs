@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use eframe::egui::{Button, DragValue, ProgressBar, Ui};
-use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::matching::{MatchRequest, ViewingCondition};
 use spectra::{Observer, light_from_text};
@@ -59,7 +58,7 @@ impl SearchPanel {
         let film = MatchRequest::usual_film(library, painting.ground_reflectance.to_vec());
         let mut limits = MatchRequest::new(library, conditions, film);
         if !self.whole_library {
-            limits.allowed = painting.slots.iter().copied().flatten().map(PigmentId).collect();
+            limits.allowed = painting.slots.iter().copied().flatten().collect();
             limits.allowed.sort_unstable();
             limits.allowed.dedup();
         }

@@ -2,6 +2,7 @@
 
 use eframe::egui::{RichText, Ui, vec2};
 
+use pigment::PigmentId;
 use pigment::palette::Hides;
 
 use super::catalogue::Catalogue;
@@ -16,10 +17,10 @@ const WIDTH: f32 = 280.0;
 pub(in crate::panels) fn card(
     ui: &mut Ui,
     catalogue: &Catalogue,
-    pigment: usize,
+    pigment: PigmentId,
     scattering_per_mm: f64,
 ) {
-    let known = &catalogue.library.pigments[pigment];
+    let known = &catalogue.library[pigment];
     ui.set_max_width(WIDTH);
     ui.horizontal(|ui| {
         ui.label(RichText::new(&known.name).strong());
@@ -42,8 +43,8 @@ pub(in crate::panels) fn card(
     }
 }
 
-fn lines(catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) -> Vec<String> {
-    let known = &catalogue.library.pigments[pigment];
+fn lines(catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) -> Vec<String> {
+    let known = &catalogue.library[pigment];
     let power = catalogue.strength(pigment);
     let mut lines = vec![match power.hides {
         Some(Hides::From(thickness)) => {
@@ -81,7 +82,7 @@ mod tests {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);
-        let card_lines = |name: &str| lines(&catalogue, library.find(name).unwrap().index(), 50.0);
+        let card_lines = |name: &str| lines(&catalogue, library.find(name).unwrap(), 50.0);
 
         let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
         let white = library.find("Zinc White").unwrap();

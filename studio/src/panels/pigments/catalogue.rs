@@ -56,23 +56,23 @@ impl Catalogue {
         Arc::ptr_eq(&self.library, library) && Arc::ptr_eq(&self.light, light)
     }
 
-    /// Colour of a pigment, by its index in the library.
-    pub(in crate::panels) fn colors(&self, pigment: usize) -> &PigmentColors {
-        &self.colors[pigment]
+    /// Colour of a pigment.
+    pub(in crate::panels) fn colors(&self, pigment: PigmentId) -> &PigmentColors {
+        &self.colors[pigment.index()]
     }
 
-    /// Name of a pigment, by its index in the library.
-    pub(in crate::panels) fn name(&self, pigment: usize) -> &str {
-        &self.library.pigments[pigment].name
+    /// Name of a pigment.
+    pub(in crate::panels) fn name(&self, pigment: PigmentId) -> &str {
+        &self.library[pigment].name
     }
 
-    /// Strengths of a pigment, by its index in the library.
-    pub(in crate::panels) fn strength(&self, pigment: usize) -> PaintStrength {
-        self.strengths.get_or_init(|| strengths(&self.library, &self.light))[pigment]
+    /// Strengths of a pigment.
+    pub(in crate::panels) fn strength(&self, pigment: PigmentId) -> PaintStrength {
+        self.strengths.get_or_init(|| strengths(&self.library, &self.light))[pigment.index()]
     }
 
     /// Text of the film height from which a pigment hides.
-    pub(in crate::panels) fn hiding(&self, pigment: usize, scattering_per_mm: f64) -> String {
+    pub(in crate::panels) fn hiding(&self, pigment: PigmentId, scattering_per_mm: f64) -> String {
         match self.strength(pigment).hides {
             Some(Hides::From(thickness)) => {
                 super::super::controls::millimetres(thickness / scattering_per_mm)
@@ -150,8 +150,7 @@ mod tests {
         let other = Arc::new(light.as_ref().clone());
         assert!(!Arc::ptr_eq(&first, &known.under(&library, &other)), "another light");
 
-        let [white, blue] =
-            ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap().index());
+        let [white, blue] = ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap());
         let sums = |srgb: [u8; 3]| srgb.map(u32::from).iter().sum::<u32>();
         assert!(sums(first.colors(white).masstone_srgb) > 690, "{:?}", first.colors(white));
         let blue = first.colors(blue);

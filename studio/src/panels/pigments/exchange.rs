@@ -1,6 +1,7 @@
 //! The window that replaces a pigment in existing paint.
 
 use eframe::egui::{ComboBox, Context, Id, Ui, Window};
+use pigment::PigmentId;
 use render::paint::document::Slots;
 use render::paint::strokes::{Action, LayerRef};
 
@@ -22,20 +23,25 @@ pub(in crate::panels) enum ExchangeScope {
 #[derive(Debug, Clone)]
 pub(in crate::panels) struct Exchange {
     open: bool,
-    from: usize,
+    from: PigmentId,
     scope: ExchangeScope,
     list: PigmentList,
 }
 
 impl Default for Exchange {
     fn default() -> Self {
-        Self { open: false, from: 0, scope: ExchangeScope::AllLayers, list: PigmentList::default() }
+        Self {
+            open: false,
+            from: PigmentId(0),
+            scope: ExchangeScope::AllLayers,
+            list: PigmentList::default(),
+        }
     }
 }
 
 impl Exchange {
-    /// Opens the window for a pigment, by its index in the library.
-    pub(in crate::panels) fn open(&mut self, from: usize, scope: ExchangeScope) {
+    /// Opens the window for a pigment.
+    pub(in crate::panels) fn open(&mut self, from: PigmentId, scope: ExchangeScope) {
         *self = Self { open: true, from, scope, ..Self::default() };
     }
 
@@ -57,7 +63,7 @@ impl Exchange {
         self.open = open;
         if let Some(to) = chosen.and_then(|inner| inner.inner).flatten() {
             for layer in layers(cx.painting, self.scope, self.from, to) {
-                let name = |pigment: usize| catalogue.name(pigment).to_owned();
+                let name = |pigment: PigmentId| catalogue.name(pigment).to_owned();
                 cx.act(Action::Swap { layer, from: name(self.from), to: name(to) });
             }
             self.open = false;
@@ -74,7 +80,7 @@ impl Exchange {
         ui: &mut Ui,
         catalogue: &Catalogue,
         painting: &PaintingState,
-    ) -> Option<usize> {
+    ) -> Option<PigmentId> {
         ui.horizontal(|ui| {
             ui.label("In");
             let tip = "Layers in which the pigment is replaced";
@@ -149,7 +155,7 @@ fn scope_layers(painting: &PaintingState, scope: ExchangeScope) -> Vec<LayerRef>
 }
 
 /// Pigments of the given layers in slot order, without duplicates.
-fn pigments(painting: &PaintingState, scope: ExchangeScope) -> Vec<usize> {
+fn pigments(painting: &PaintingState, scope: ExchangeScope) -> Vec<PigmentId> {
     let mut found = Vec::new();
     let layers = scope_layers(painting, scope);
     for pigment in layers.into_iter().flat_map(|layer| slots(painting, layer)).flatten() {
@@ -162,7 +168,12 @@ fn pigments(painting: &PaintingState, scope: ExchangeScope) -> Vec<usize> {
 
 /// Layers in which `from` can be replaced by `to`: those that contain `from` and not
 /// `to`.
-fn layers(painting: &PaintingState, scope: ExchangeScope, from: usize, to: usize) -> Vec<LayerRef> {
+fn layers(
+    painting: &PaintingState,
+    scope: ExchangeScope,
+    from: PigmentId,
+    to: PigmentId,
+) -> Vec<LayerRef> {
     let mut found = scope_layers(painting, scope);
     found.retain(|&layer| {
         let slots = slots(painting, layer);

@@ -6,6 +6,7 @@ use super::card::card;
 use super::catalogue::Catalogue;
 use crate::panels::controls::{patch, row, text};
 use crate::theme;
+use pigment::PigmentId;
 
 /// Height of the list, in points.
 const LIST: f32 = 300.0;
@@ -24,8 +25,8 @@ impl PigmentList {
         ui: &mut Ui,
         catalogue: &Catalogue,
         scattering_per_mm: f64,
-        disabled_reason: impl Fn(usize) -> Option<String>,
-    ) -> Option<usize> {
+        disabled_reason: impl Fn(PigmentId) -> Option<String>,
+    ) -> Option<PigmentId> {
         let field = TextEdit::singleline(&mut self.search)
             .hint_text("name or colour index")
             .desired_width(f32::INFINITY);
@@ -33,9 +34,9 @@ impl PigmentList {
             .accessible_name("Search")
             .on_hover_text("Lists only pigments whose name or colour index contains this text");
         heads(ui, catalogue);
-        let found: Vec<usize> = (0..catalogue.library.pigments.len())
-            .filter(|&pigment| self.finds(catalogue, pigment))
-            .collect();
+        let pigments = catalogue.library.ids();
+        let found: Vec<PigmentId> =
+            pigments.filter(|&pigment| self.finds(catalogue, pigment)).collect();
         if found.is_empty() {
             ui.weak(format!("no pigment of {} matches", catalogue.library.title));
         }
@@ -60,9 +61,9 @@ impl PigmentList {
         chosen
     }
 
-    fn finds(&self, catalogue: &Catalogue, pigment: usize) -> bool {
+    fn finds(&self, catalogue: &Catalogue, pigment: PigmentId) -> bool {
         let wanted = self.search.trim().to_lowercase();
-        let pigment = &catalogue.library.pigments[pigment];
+        let pigment = &catalogue.library[pigment];
         let index = pigment.color_index.as_deref().unwrap_or_default();
         pigment.name.to_lowercase().contains(&wanted) || index.to_lowercase().contains(&wanted)
     }
@@ -87,7 +88,7 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), 16.0), eframe::egui::Sense::hover());
     let [_, name, index, hides] = places(rect);
-    let any_marked = (0..catalogue.library.pigments.len()).any(|p| !mark(catalogue, p).is_empty());
+    let any_marked = catalogue.library.ids().any(|p| !mark(catalogue, p).is_empty());
     for (place, align, words) in [
         (name, Align::Min, "pigment"),
         (index, Align::Min, if any_marked { "index" } else { "" }),
@@ -97,7 +98,7 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
     }
 }
 
-fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_per_mm: f64) {
+fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) {
     let [swatch, name, index, hides] = places(rect);
     let color = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
     let colors = catalogue.colors(pigment);
@@ -115,8 +116,8 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: usize, scattering_p
 }
 
 /// The colour index, or `guessed` for a pigment that was not measured.
-fn mark(catalogue: &Catalogue, pigment: usize) -> &str {
-    let known = &catalogue.library.pigments[pigment];
+fn mark(catalogue: &Catalogue, pigment: PigmentId) -> &str {
+    let known = &catalogue.library[pigment];
     match (&known.color_index, known.guessed) {
         (Some(index), _) => index,
         (None, true) => "guessed",

@@ -1,6 +1,7 @@
 //! The window that chooses the pigments on the palette.
 
 use eframe::egui::{Align, Context, Sense, TextStyle, Ui, Window, vec2};
+use pigment::PigmentId;
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, PaletteSpec};
 
@@ -78,7 +79,7 @@ impl Chooser {
         }
     }
 
-    fn slot(&mut self, ui: &mut Ui, catalogue: &Catalogue, held: Option<usize>, slot: usize) {
+    fn slot(&mut self, ui: &mut Ui, catalogue: &Catalogue, held: Option<PigmentId>, slot: usize) {
         let (rect, response) = ui.allocate_exact_size(vec2(42.0, 42.0), Sense::click());
         button_background(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
         let (upper, lower) = rect.shrink(5.0).split_top_bottom_at_fraction(0.6);
@@ -95,10 +96,10 @@ impl Chooser {
 }
 
 /// Queues a palette with another pigment in one slot, or none.
-fn set_slot(cx: &mut PanelContext<'_>, slot: usize, pigment: Option<usize>) {
+fn set_slot(cx: &mut PanelContext<'_>, slot: usize, pigment: Option<PigmentId>) {
     let mut slots = cx.painting.slots;
     slots[slot] = pigment;
-    let pigments = &cx.painting.library.pigments;
-    let names = slots.iter().flatten().map(|&pigment| pigments[pigment].name.as_str());
+    let library = &cx.painting.library;
+    let names = slots.iter().flatten().map(|&pigment| library[pigment].name.as_str());
     cx.act(Action::Palette(PaletteSpec::from_names(names)));
 }

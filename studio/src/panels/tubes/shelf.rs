@@ -3,6 +3,7 @@
 use eframe::egui::{
     Button, DragAndDrop, Id, LayerId, Order, Rect, Response, RichText, Sense, Slider, Ui, vec2,
 };
+use pigment::PigmentId;
 use render::layer::SLOTS;
 
 use super::chooser::Chooser;
@@ -75,7 +76,7 @@ impl Tubes {
         });
     }
 
-    fn menu(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, slot: usize, pigment: usize) {
+    fn menu(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, slot: usize, pigment: PigmentId) {
         if item(ui, "Load the brush", "Loads the selected brush with this paint", no_brush(cx)) {
             cx.tools.tube = slot;
             load(cx, slot);
@@ -100,7 +101,7 @@ impl Tubes {
     fn chosen(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let slot = cx.tools.tube.min(SLOTS - 1);
         let held = cx.painting.slots[slot];
-        let name = held.map(|pigment| cx.painting.library.pigments[pigment].name.as_str());
+        let name = held.map(|pigment| cx.painting.library[pigment].name.as_str());
         ui.label(RichText::new(name.unwrap_or("no tube selected")).strong());
         ui.horizontal(|ui| {
             let empty = name.is_none().then_some("the slot is empty");

@@ -32,5 +32,5 @@ pub fn load(cx: &mut PanelContext<'_>, slot: usize) {
 /// Recipe of a slot's pigment alone.
 fn recipe(cx: &PanelContext<'_>, slot: usize) -> Option<Recipe> {
     let pigment = (*cx.painting.slots.get(slot)?)?;
-    Some(Recipe::from([(cx.painting.library.pigments[pigment].name.clone(), 1.0)]))
+    Some(Recipe::from([(cx.painting.library[pigment].name.clone(), 1.0)]))
 }

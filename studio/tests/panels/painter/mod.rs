@@ -228,7 +228,7 @@ impl Painter {
     /// Share of a pigment in the paint of a brush.
     fn part(&self, brush: &str, pigment: &str) -> f64 {
         let painting = self.painting();
-        let index = painting.library.find(pigment).unwrap().index();
+        let index = painting.library.find(pigment).unwrap();
         let slot = painting.slots.iter().position(|slot| *slot == Some(index)).unwrap();
         self.brush(brush).parts[slot]
     }

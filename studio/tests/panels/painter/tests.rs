@@ -161,7 +161,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.click("slot 5");
     painter.choose("Cobalt Blue");
     let mut wanted = slots;
-    wanted[4] = Some(painter.painting().library.find("Cobalt Blue").unwrap().index());
+    wanted[4] = Some(painter.painting().library.find("Cobalt Blue").unwrap());
     painter.wait_until("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
     painter.click("Close window");
 
@@ -173,7 +173,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.harness.run();
     painter.click("Exchange in the painting...");
     painter.choose("Minium");
-    let minium = Some(painter.painting().library.find("Minium").unwrap().index());
+    let minium = Some(painter.painting().library.find("Minium").unwrap());
     painter.wait_until("Minium, wet and dry", |painting| {
         painting.slots[3] == minium && painting.layers[0].slots[3] == minium
     });

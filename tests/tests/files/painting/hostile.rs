@@ -2,11 +2,13 @@
 
 use std::io::Cursor;
 
+use calibrate::PigmentId;
 use exr::prelude::{
     AnyChannel, AttributeValue, FlatImage, FlatSamples, ReadChannels, ReadLayers, Text,
     WritableImage,
 };
 use proptest::prelude::*;
+use render::paint::document::Slots;
 use render::paint::file::{PaintingFileError, read, read_within, write};
 use spectra::hint::Explain;
 
@@ -163,7 +165,7 @@ fn values_that_are_no_amounts_are_told_with_their_place() {
 #[test]
 fn cells_that_overflow_are_told_with_their_place() {
     let mut document = painting(5, (40, 33), 0, 0);
-    document.slots = [Some(0); 8];
+    document.slots = [Some(PigmentId(0)); 8];
     let bytes = write(&document).unwrap();
     let mut image = image(&bytes);
     let high = (document.cell_mm * 450.0) as f32;
@@ -266,9 +268,9 @@ fn sound() -> &'static [u8] {
         document.library.evidence = None;
         document.library.reference = None;
         document.library.pigments.truncate(2);
-        let fewer = |slots: &mut [Option<usize>; 8]| {
+        let fewer = |slots: &mut Slots| {
             for slot in slots.iter_mut().flatten() {
-                *slot = *slot * 2 / all;
+                *slot = PigmentId(slot.index() * 2 / all);
             }
         };
         fewer(&mut document.slots);

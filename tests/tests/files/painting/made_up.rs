@@ -1,5 +1,6 @@
 //! Paintings of random amounts.
 
+use calibrate::PigmentId;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::field::Field;
@@ -44,7 +45,7 @@ pub(crate) fn painting(
     let library = library();
     let count = library.pigments.len();
     let mut slots = || -> Slots {
-        std::array::from_fn(|_| rng.random_bool(0.7).then(|| rng.random_range(0..count)))
+        std::array::from_fn(|_| rng.random_bool(0.7).then(|| PigmentId(rng.random_range(0..count))))
     };
     let palettes: Vec<Slots> = (0..=dry).map(|_| slots()).collect();
     let rise = i32::try_from(highest.min(i32::MAX as u32)).unwrap();

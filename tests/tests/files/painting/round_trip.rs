@@ -94,7 +94,7 @@ fn other_programs_find_parts_and_channels_in_millimetres() {
     let mut seen = 0;
     for slot in 0..SLOTS {
         let Some(pigment) = document.slots[slot] else { continue };
-        let name = &document.library.pigments[pigment].name;
+        let name = &document.library[pigment].name;
         let first = document.slots.iter().position(|s| *s == Some(pigment)) == Some(slot);
         if first && !name.contains('.') {
             assert_mm(name, cell.pigments[slot]);

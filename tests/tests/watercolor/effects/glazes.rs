@@ -1,5 +1,6 @@
 //! Glazes of calibrated pigments over measured paper.
 
+use calibrate::PigmentId;
 use render::compute::Compute;
 use render::field::Field;
 use render::light::Light;
@@ -34,7 +35,7 @@ fn made() -> &'static Made {
     MADE.get_or_init(|| {
         let library = suite::oils::library();
         let light = Light::named(&library, "D65", "1931-2").unwrap();
-        let slots: Slots = std::array::from_fn(|i| (i < 6).then_some(3 * i));
+        let slots: Slots = std::array::from_fn(|i| (i < 6).then_some(PigmentId(3 * i)));
         let paper = paper(library.grid.count());
         let glazes = Glazes::new(&library, &slots, paper, &light).unwrap();
         let sheet = PaperTexture::new(40, 30, &Settings::default().paper).unwrap();
