@@ -7,6 +7,7 @@ use crate::swatch::SwatchSet;
 use pigment::PigmentId;
 use pigment::evaluate::percentile;
 use pigment::library::SampleEvidence;
+use spectra::name_list;
 use spectra::optics::Surface;
 
 /// All warnings of a fit of shares, the most important first.
@@ -119,10 +120,7 @@ fn counted(observations: &[Observation], count: impl Fn(&Observation) -> usize) 
 
 /// One line for several samples, of which eight are named.
 fn listed(what: &str, samples: Vec<String>) -> Option<String> {
-    let more = samples.len().saturating_sub(8);
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    let shown = samples.iter().take(8).cloned().collect::<Vec<_>>().join(", ");
-    (!samples.is_empty()).then(|| format!("{what}: {shown}{rest}"))
+    (!samples.is_empty()).then(|| format!("{what}: {}", name_list(&samples, 8, ", ")))
 }
 
 /// Warnings about films that are assumed to hide; those whose readings contradict this come first.

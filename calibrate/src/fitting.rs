@@ -18,9 +18,6 @@ use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
 use pigment::visible_band::check_visible_band;
 
-/// k1 and k2 of most paints, within the usual ranges of Saunderson's correction; see [`Surface`].
-const USUAL_SURFACE: (f64, f64) = (0.03, 0.6);
-
 /// Options of [`fit`].
 ///
 /// ```
@@ -189,8 +186,7 @@ impl PreparedFit {
                 let name = &set.pigments[reference.index()];
                 let note = Remark::note(format!("reference white: {name}"));
                 remarks.push(note);
-                let (k1, k2) = USUAL_SURFACE;
-                let usual = Surface { k1, k2, specular: options.specular };
+                let usual = Surface::of_most_paints(options.specular);
                 FilmModel::Relative { reference, surface: options.surface.unwrap_or(usual) }
             }
             AmountKind::Absolute => {

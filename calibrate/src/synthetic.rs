@@ -35,7 +35,7 @@ impl SyntheticMixtures {
     #[must_use]
     pub fn paper_size(seed: u64, noise: f64) -> Self {
         let grid = Grid::from_nm(400.0, 3.0, 101).expect("a grid");
-        let surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
+        let surface = Surface::of_most_paints(Specular::Included);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let pigments = 11;
         let white = Curves {

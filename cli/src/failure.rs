@@ -38,12 +38,6 @@ impl Failure {
         Self::with_hint(message, hint, USAGE)
     }
 
-    /// Creates a failure with `error` and its sources as causes: exit status 2.
-    pub(crate) fn caused_by(message: impl Into<String>, error: &(dyn Error + 'static)) -> Self {
-        let causes = Self::from_causes(error);
-        causes.within(message)
-    }
-
     /// Puts `message` first; the messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());

@@ -16,7 +16,9 @@ mod referencing;
 
 mod readings;
 
-mod named_spectra;
+mod selected_spectra;
+
+mod grid_option;
 
 mod ground;
 

@@ -43,10 +43,9 @@ impl SurfaceOptions {
         })
     }
 
-    /// Surface given by `--saunderson`; if it is absent, k1 = 0.03 and k2 = 0.6, usual for paint.
+    /// Surface given by `--saunderson`; if it is absent, that of most paints.
     pub(crate) fn surface_or_usual(&self) -> Result<Surface> {
-        let usual = Surface { k1: 0.03, k2: 0.6, specular: self.specular() };
-        Ok(self.surface()?.unwrap_or(usual))
+        Ok(self.surface()?.unwrap_or_else(|| Surface::of_most_paints(self.specular())))
     }
 
     /// Whether `--saunderson` is present.

@@ -1,14 +1,14 @@
 //! Target colours: `#rrggbb`, CIELAB, or measured spectra.
 
 use calibrate::matching::ColorTarget;
-use calibrate::measurement::Film;
+use calibrate::measurement::{AveragedSpectra, AveragedSpectrum, Film};
 use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::remark_coverage;
-use crate::named_spectra::{NamedSpectrum, SelectedSpectra, select_spectra};
 use crate::readings::ReadingOptions;
+use crate::selected_spectra::{SelectedSpectra, select_spectra};
 
 /// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the spectra of `FILE` or `FILE#SAMPLE`.
 pub(crate) fn targets(
@@ -31,7 +31,7 @@ pub(crate) fn targets(
 /// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
 /// nothing else was selected.
 fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
-    let SelectedSpectra { file, grid, mut spectra } = selected;
+    let SelectedSpectra { file, averaged: AveragedSpectra { grid, mut spectra } } = selected;
     remark_coverage(grid, console)?;
     let count = spectra.len();
     if spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
@@ -43,7 +43,7 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
             "{file}: skipped {bare} bare cards, which are targets only if selected by name"
         ))?;
     }
-    let target = |spectrum: NamedSpectrum| {
+    let target = |spectrum: AveragedSpectrum| {
         let reflectance = Spectrum::<Reflectance>::new(grid, spectrum.reflectance)?;
         Ok(ColorTarget::measured(spectrum.name, reflectance))
     };

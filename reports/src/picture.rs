@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
+use spectra::hint::{Explain, Fault};
 
 /// Pixels per px of the figure.
 const SCALE: f32 = 2.0;
@@ -49,6 +50,12 @@ fn fonts() -> Arc<Database> {
 pub struct PictureError {
     /// Reason, as text.
     pub reason: String,
+}
+
+impl Explain for PictureError {
+    fn fault(&self) -> Fault {
+        Fault::Environment
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use calibrate::comparison::Comparison;
 use calibrate::evaluate::Summary;
 use calibrate::validation::Validation;
+use spectra::name_list;
 
 use crate::figure::Figure;
 use crate::page::{self, Head};
@@ -109,12 +110,10 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     lacking.dedup();
     let samples: Vec<&str> = absent.iter().map(|(sample, _)| sample.as_str()).collect();
     let absent = (!samples.is_empty()).then(|| {
-        let more = samples.len().saturating_sub(NAMED);
         format!(
-            "left out of this report, since the library has no {}: {}{}",
+            "left out of this report, since the library has no {}: {}",
             lacking.join(", no "),
-            samples[..samples.len() - more].join(", "),
-            if more > 0 { format!(" and {more} more") } else { String::new() }
+            name_list(&samples, NAMED, ", ")
         )
     });
     resampled.into_iter().chain(absent).collect()

@@ -37,6 +37,20 @@ impl Grid {
         Ok(Self { start, step_nm, count })
     }
 
+    /// The grid from `first_nm` to `last_nm` in steps of `step_nm`.
+    ///
+    /// # Errors
+    /// [`GridError`] unless the last wavelength is a whole number of steps, at most 100 000,
+    /// from the first (to a millionth of a step), and for what [`Grid::from_nm`] refuses.
+    pub fn from_range(first_nm: f64, last_nm: f64, step_nm: f64) -> Result<Self, GridError> {
+        let steps = (last_nm - first_nm) / step_nm;
+        let is_whole = (steps - steps.round()).abs() <= 1e-6;
+        if !(is_whole && (0.0..=100_000.0).contains(&steps)) {
+            return Err(GridError::Range { first_nm, last_nm, step_nm });
+        }
+        Self::from_nm(first_nm, step_nm, steps.round() as usize + 1)
+    }
+
     /// The grid of 360 to 830 nm at 1 nm: the band of the CIE standard observers, over which
     /// this crate sums tristimulus values (CIE 15:2018, section 7.1).
     #[must_use]
@@ -166,6 +180,16 @@ pub enum GridError {
     /// The step is not a finite number above 0.
     #[error("the step of a grid is a finite number of nanometres above 0, found `{step_nm}`")]
     Step {
+        /// The step that was given, in nm.
+        step_nm: f64,
+    },
+    /// The last wavelength is not a whole number of steps from the first.
+    #[error("{last_nm} nm is not a whole number of steps of `{step_nm}` nm from {first_nm} nm")]
+    Range {
+        /// The first wavelength in nm.
+        first_nm: f64,
+        /// The last wavelength in nm.
+        last_nm: f64,
         /// The step that was given, in nm.
         step_nm: f64,
     },

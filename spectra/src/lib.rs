@@ -37,6 +37,8 @@
 
 pub mod hint;
 
+mod name_list;
+
 pub mod file;
 
 mod wavelength;
@@ -92,6 +94,7 @@ pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
 pub use irregular::{IrregularSpectrum, IrregularSpectrumError};
 pub use lamp::{LampError, lamp_from_bytes};
 pub use light::{LightError, light_from_text};
+pub use name_list::name_list;
 pub use observer::{Observer, ObserverError};
 pub use spectrum::{
     Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,

@@ -16,10 +16,13 @@ mod common_grid;
 
 mod csv;
 
+mod averaged;
+
 mod recipes;
 
 mod records;
 
+pub use averaged::{AveragedSpectra, AveragedSpectrum, SpectrumNameError};
 pub use column::names_a_pigment;
 pub use csv::is_measurement_csv;
 pub use error::MeasurementError;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use spectra::hint::{Explain, Hint};
+use spectra::name_list;
 
 use super::column::{Column, TableKind};
 use super::csv::CsvRows;
@@ -84,7 +85,7 @@ impl Recipes {
         if !table.pigments.is_empty() {
             return Err(RecipesError::Twice {
                 file: table.readings[0].file.to_string(),
-                pigments: listed(table.pigments.iter().map(String::as_str)),
+                pigments: name_list(&table.pigments, NAMES, ", "),
             });
         }
         let by_name: BTreeMap<&str, &Reading> =
@@ -93,10 +94,11 @@ impl Recipes {
         let (matched, unmatched): (Vec<&str>, Vec<&str>) =
             known.iter().map(String::as_str).partition(|name| by_name.contains_key(name));
         if matched.is_empty() {
+            let names: Vec<&str> = self.rows.iter().map(|(name, _)| name.as_str()).collect();
             return Err(RecipesError::NoneMatched {
                 file: self.file.clone(),
-                recipes: listed(self.rows.iter().map(|(name, _)| name.as_str())),
-                readings: listed(unmatched.into_iter()),
+                recipes: name_list(&names, NAMES, ", "),
+                readings: name_list(&unmatched, NAMES, ", "),
             });
         }
         let unread: Vec<&str> = self
@@ -157,15 +159,6 @@ impl Recipes {
 fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut seen = std::collections::BTreeSet::new();
     names.filter(|name| seen.insert(*name)).map(str::to_owned).collect()
-}
-
-/// The first names as a list, and the number of the others.
-fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
-    let count = names.len();
-    let shown: Vec<&str> = names.take(NAMES).collect();
-    let more = count - shown.len();
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    shown.join(", ") + &rest
 }
 
 /// Recipes that cannot be used.

@@ -3,18 +3,16 @@
 use std::path::PathBuf;
 
 use calibrate::evaluate::Viewing;
+use calibrate::measurement::AveragedSpectrum;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
-use spectra::color::{
-    Adaptation, Cie94, Cmc, Lab, Rgb, RgbSpace, Xyz, delta_e_cie76, delta_e_cie94,
-    delta_e_ciede2000, delta_e_cmc, metamerism_index,
-};
+use spectra::TristimulusWeights;
+use spectra::color::{Adaptation, ColorDifferences, Lab, Rgb, RgbSpace, Xyz, metamerism_index};
 
 use super::mix::gamut_note;
 use crate::console::Console;
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
 use crate::input::{remark_coverage, viewing};
-use crate::named_spectra::{NamedSpectrum, find_by_name, named_spectra};
 use crate::readings::{ReadingOptions, spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -100,8 +98,8 @@ impl Color {
             AdaptationName::Bradford => Adaptation::Bradford,
             AdaptationName::Cat16 => Adaptation::Cat16,
         };
-        let spectra = named_spectra(&table);
-        let row = |spectrum: &NamedSpectrum| Row {
+        let averaged = table.averaged();
+        let row = |spectrum: &AveragedSpectrum| Row {
             name: spectrum.name.clone(),
             colors: weights
                 .iter()
@@ -116,33 +114,22 @@ impl Color {
                 })
                 .collect(),
         };
-        let rows: Vec<Row> = spectra.iter().map(row).collect();
-        let standard = match &self.compare {
-            None => None,
-            Some(name) => match find_by_name(&spectra, name)?.as_slice() {
-                &[index] => Some(&rows[index]),
-                several => {
-                    let names: Vec<&str> = several.iter().map(|&i| rows[i].name.as_str()).collect();
-                    return Err(Failure::data(
-                        format!("`{name}` has several spectra"),
-                        format!("select one of them: {}", names.join(", ")),
-                    ));
-                }
-            },
-        };
-        let mut selected: Vec<&Row> = Vec::new();
+        let standard = self.compare.as_ref().map(|name| averaged.find_one(name)).transpose()?;
+        let standard = standard.map(row);
+        let standard = standard.as_ref();
+        let mut selected: Vec<Row> = Vec::new();
         for name in &self.sample {
-            selected.extend(find_by_name(&spectra, name)?.into_iter().map(|index| &rows[index]));
+            selected.extend(averaged.find(name)?.into_iter().map(row));
         }
         if self.sample.is_empty() {
-            selected.extend(&rows);
+            selected.extend(averaged.spectra.iter().map(row));
         }
-        let whites: Vec<Xyz> = weights.iter().map(spectra::TristimulusWeights::white).collect();
+        let whites: Vec<Xyz> = weights.iter().map(TristimulusWeights::white).collect();
         if self.json {
             let mut list = Vec::new();
             for row in selected {
                 for light in 0..lights.len() {
-                    list.push(entry(row, light, standard, &lights, &whites));
+                    list.push(entry(&row, light, standard, &lights, &whites));
                 }
             }
             return console.json(&Value::from(list));
@@ -178,13 +165,13 @@ fn entry(
         entry["illuminant"] = json!(lights[light].illuminant.name());
     }
     if let Some(standard) = standard {
-        let reference = standard.colors[light].lab;
+        let difference = ColorDifferences::between(standard.colors[light].lab, *lab);
         entry["difference"] = json!({
             "from": standard.name,
-            "ciede2000": delta_e_ciede2000(reference, *lab),
-            "cie1976": delta_e_cie76(reference, *lab),
-            "cie94": delta_e_cie94(reference, *lab, Cie94::GraphicArts),
-            "cmc_2_1": delta_e_cmc(reference, *lab, Cmc::ACCEPTABILITY),
+            "ciede2000": difference.ciede2000,
+            "cie1976": difference.cie1976,
+            "cie94": difference.cie94,
+            "cmc_2_1": difference.cmc_2_1,
         });
         if light > 0 {
             entry["metamerism"] = json!(metamerism(standard, row, light, whites));
@@ -200,7 +187,7 @@ fn metamerism(standard: &Row, row: &Row, light: usize, whites: &[Xyz]) -> Option
 }
 
 fn print(
-    rows: &[&Row],
+    rows: &[Row],
     light: usize,
     standard: Option<&Row>,
     whites: &[Xyz],
@@ -223,13 +210,10 @@ fn print(
             line += &format!(" {value:7.2}");
         }
         if let Some(standard) = standard {
-            let reference = standard.colors[light].lab;
+            let difference = ColorDifferences::between(standard.colors[light].lab, *lab);
             line += &format!(
                 "  {:9.2} {:6.2} {:6.2}  {:6.2}",
-                delta_e_ciede2000(reference, *lab),
-                delta_e_cie76(reference, *lab),
-                delta_e_cie94(reference, *lab, Cie94::GraphicArts),
-                delta_e_cmc(reference, *lab, Cmc::ACCEPTABILITY),
+                difference.ciede2000, difference.cie1976, difference.cie94, difference.cmc_2_1,
             );
             if light > 0 {
                 let index = metamerism(standard, row, light, whites);

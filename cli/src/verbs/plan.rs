@@ -10,8 +10,12 @@ use spectra::Grid;
 use super::plan_report;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::grid_option::{grid, numbers};
 use crate::input::library;
 use crate::output::Output;
+
+/// Maximum number of wavelengths of a measurement file.
+const MAX_WAVELENGTHS: usize = 5001;
 
 /// Plan the swatches to prepare, so that K and S of every pigment can be determined
 ///
@@ -131,22 +135,17 @@ impl Plan {
     }
 
     fn grid(&self) -> Result<Grid> {
-        let invalid = || {
-            Failure::usage(
-                format!(
-                    "--grid takes FIRST,LAST,STEP in nm, within 200 to 2500 and LAST a whole number of steps from FIRST, found `{}`",
-                    self.grid
-                ),
-                "try --grid 400,700,10",
-            )
-        };
-        let [first, last, step] = numbers(&self.grid).ok_or_else(invalid)?;
-        let steps = (last - first) / step;
-        let is_whole = (steps - steps.round()).abs() < 1e-6 && (0.0..=5000.0).contains(&steps);
-        if !(first >= 200.0 && last <= 2500.0 && step > 0.0 && is_whole) {
-            return Err(invalid());
+        let grid = grid(&self.grid)?;
+        if grid.start_nm() >= 200.0 && grid.end_nm() <= 2500.0 && grid.count() <= MAX_WAVELENGTHS {
+            return Ok(grid);
         }
-        Ok(Grid::from_nm(first, step, steps.round() as usize + 1)?)
+        Err(Failure::usage(
+            format!(
+                "--grid takes up to {MAX_WAVELENGTHS} wavelengths from 200 to 2500 nm, found `{}`",
+                self.grid
+            ),
+            "try --grid 400,700,10",
+        ))
     }
 
     fn noise(&self) -> Result<Option<ExpectedNoise>> {
@@ -165,10 +164,4 @@ impl Plan {
             )),
         }
     }
-}
-
-/// Parses exactly N numbers separated by commas.
-fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    numbers?.try_into().ok()
 }

@@ -103,8 +103,7 @@ impl Report {
             quadratures,
             pair,
         };
-        let report = reports::Report::draw(&subject, &step)
-            .map_err(|error| Failure::caused_by("a figure cannot be drawn", &error))?;
+        let report = reports::Report::draw(&subject, &step)?;
         progress.done();
         self.write(&report, page)?;
         self.print(&report, &subject, console)

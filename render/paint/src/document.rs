@@ -1,14 +1,12 @@
 //! A painting at rest: everything that its file stores.
 
-use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 
 use crate::ground::Ground;
-use crate::layer::{Layer, SLOTS};
+use crate::layer::Layer;
 use crate::optics::Gloss;
 
-/// The pigments of a layer by slot.
-pub type Slots = [Option<PigmentId>; SLOTS];
+pub use crate::layer::Slots;
 
 /// A dry layer of paint.
 #[derive(Debug, Clone, PartialEq)]

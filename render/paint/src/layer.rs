@@ -3,9 +3,13 @@
 use crate::amount::{share_of_256, share_of_65536};
 use graphics::field::Field;
 use graphics::tile::Rect;
+use pigment::PigmentId;
 
 /// Number of pigments that a layer can hold, each in a slot of its own.
 pub const SLOTS: usize = 8;
+
+/// The pigments of a layer by slot.
+pub type Slots = [Option<PigmentId>; SLOTS];
 
 /// The paint in one cell, in quanta: the paint of each pigment and transparent vehicle
 /// (oil, medium). Their sum is the cell's volume.

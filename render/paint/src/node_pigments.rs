@@ -7,7 +7,7 @@ use spectra::Grid;
 use spectra::optics::Surface;
 
 use crate::amount::QUANTA_PER_CELL;
-use crate::document::Slots;
+use crate::layer::Slots;
 use crate::optics::{LayerOptics, NODES, SceneSurface};
 
 /// Thickness of one quantum in the library's unit. `cell_mm` is the width of a cell in

@@ -12,6 +12,32 @@ pub fn delta_e_cie76(first: Lab, second: Lab) -> f64 {
     (d_l * d_l + d_a * d_a + d_b * d_b).sqrt()
 }
 
+/// Differences of one colour from a standard by four formulas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColorDifferences {
+    /// CIEDE2000.
+    pub ciede2000: f64,
+    /// CIE 1976.
+    pub cie1976: f64,
+    /// CIE94 for graphic arts.
+    pub cie94: f64,
+    /// CMC(2:1).
+    pub cmc_2_1: f64,
+}
+
+impl ColorDifferences {
+    /// Differences of `sample` from `standard`.
+    #[must_use]
+    pub fn between(standard: Lab, sample: Lab) -> Self {
+        Self {
+            ciede2000: delta_e_ciede2000(standard, sample),
+            cie1976: delta_e_cie76(standard, sample),
+            cie94: delta_e_cie94(standard, sample, Cie94::GraphicArts),
+            cmc_2_1: delta_e_cmc(standard, sample, Cmc::ACCEPTABILITY),
+        }
+    }
+}
+
 /// The application for which CIE94 weights its terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Cie94 {

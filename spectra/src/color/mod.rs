@@ -27,8 +27,8 @@ mod metamerism;
 pub use adaptation::{Adaptation, adapt};
 pub use code::{ColorCode, ColorCodeError};
 pub use difference::{
-    Cie94, Cmc, ciede2000_metric, ciede2000_residuals, delta_e_cie76, delta_e_cie94,
-    delta_e_ciede2000, delta_e_cmc,
+    Cie94, Cmc, ColorDifferences, ciede2000_metric, ciede2000_residuals, delta_e_cie76,
+    delta_e_cie94, delta_e_ciede2000, delta_e_cmc,
 };
 pub use lab::{Lab, Lch};
 pub use luv::Luv;

@@ -52,6 +52,13 @@ impl Surface {
         Ok(Self { k1, k2, specular })
     }
 
+    /// The surface of most paints: k1 = 0.03 and k2 = 0.6, within the usual ranges of
+    /// Saunderson's correction.
+    #[must_use]
+    pub fn of_most_paints(specular: Specular) -> Self {
+        Self { k1: 0.03, k2: 0.6, specular }
+    }
+
     /// The smallest possible measured reflectance: that of a perfectly black film.
     #[must_use]
     pub fn floor(&self) -> f64 {

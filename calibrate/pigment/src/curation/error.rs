@@ -1,7 +1,8 @@
 //! Reasons why a library cannot be changed as requested.
 
 use spectra::InterpolateError;
-use spectra::hint::{Explain, Hint};
+use spectra::color::ColorCodeError;
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::library::RecipeError;
 
@@ -144,6 +145,27 @@ pub enum CurationError {
         /// CIEDE2000 from the requested colour to the nearest.
         delta_e: f64,
     },
+    /// Tints were requested of a library without a reference white.
+    #[error("the library has no reference white to tint with")]
+    NoWhite,
+    /// The ratio of a tint is out of range.
+    #[error("a tint has more than 0 and up to 1e6 parts of white, found `{parts}`")]
+    TintParts {
+        /// Parts of white to one of the pigment.
+        parts: f64,
+    },
+    /// A text is not a colour.
+    #[error(transparent)]
+    Color(#[from] ColorCodeError),
+    /// A pigment was to be guessed without a name.
+    #[error("a pigment needs a name")]
+    Unnamed,
+    /// A pigment was to be guessed under the name of another.
+    #[error("the library has a pigment called `{name}`")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
     /// A pigment was to be guessed for a library of absolute amounts.
     #[error("a guessed pigment has no unit of amount, and this library is of absolute amounts")]
     GuessedAmount,
@@ -184,9 +206,21 @@ impl Explain for CurationError {
             }
             Self::Empty { .. } => "name a pigment to keep".into(),
             Self::OutOfReach { .. } => "accept the nearest colour: [nearest]".into(),
+            Self::Color(error) => return error.hint(),
+            Self::NoWhite => "leave out [tints]".into(),
+            Self::TintParts { .. } => "try [tints=1,4,9]".into(),
+            Self::Unnamed => "give [name=\"Sky Blue\"]".into(),
+            Self::NameTaken { .. } => "choose another [name]".into(),
             Self::GuessedAmount => {
                 "first convert the library to shares: `impasto library convert` with [reference=WHITE]".into()
             }
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::TintParts { .. } | Self::Unnamed | Self::Color(_) => Fault::Setting,
+            _ => Fault::Input,
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A pigment guessed from a colour.
 
 use spectra::color::RgbSpace;
-use spectra::color::{Adaptation, Lab, Xyz, delta_e_ciede2000};
+use spectra::color::{Adaptation, ColorCode, Lab, Xyz, delta_e_ciede2000};
 use spectra::optics::{Layer, absorption_over_scattering};
 
 use super::error::CurationError;
@@ -97,6 +97,37 @@ pub fn guessed_pigment(
         return Err(CurationError::OutOfReach { k1, k2, nearest: hex, delta_e });
     }
     Ok(Guess { pigment, delta_e, hex })
+}
+
+/// Adds to `library` a pigment of a colour (`#rrggbb`, or `L,a,b` under D65), see
+/// [`guessed_pigment`]. The first paint of an empty library becomes its reference white if it
+/// hides.
+///
+/// # Errors
+/// [`CurationError`] for an empty name or one that the library has, a text that is not a colour,
+/// and what [`guessed_pigment`] refuses. The library is unchanged then.
+pub fn add_guessed(
+    library: &mut PigmentLibrary,
+    name: &str,
+    color: &str,
+    body: Body,
+    nearest: bool,
+) -> Result<Guess, CurationError> {
+    let name = name.trim();
+    if name.is_empty() || name.contains(char::is_control) {
+        return Err(CurationError::Unnamed);
+    }
+    if library.pigments.iter().any(|pigment| pigment.name == name) {
+        return Err(CurationError::NameTaken { name: name.to_owned() });
+    }
+    let weights = Viewing::default().weights(library.grid).expect("a method for the grid");
+    let wanted = color.parse::<ColorCode>()?.xyz(weights.white());
+    let guess = guessed_pigment(library, (name, color), wanted, body, nearest)?;
+    if library.pigments.is_empty() && body == Body::Hiding {
+        library.reference = Some(name.to_owned());
+    }
+    library.pigments.push(guess.pigment.clone());
+    Ok(guess)
 }
 
 /// Returns the K of a film of unit thickness with S = `scattering` that reflects `internal` over white,

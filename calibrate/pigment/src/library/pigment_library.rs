@@ -172,6 +172,25 @@ pub struct PigmentLibrary {
 }
 
 impl PigmentLibrary {
+    /// A library of relative amounts without pigments. Title, licence and source are empty.
+    #[must_use]
+    pub fn empty(grid: Grid, surface: Surface) -> Self {
+        Self {
+            title: String::new(),
+            licence: String::new(),
+            source: String::new(),
+            grid,
+            amounts: AmountKind::Relative,
+            reference: None,
+            saunderson: surface,
+            unevenness: 0.0,
+            inputs: Vec::new(),
+            settings: None,
+            pigments: Vec::new(),
+            evidence: None,
+        }
+    }
+
     /// Finds a pigment by `name`: the exact name, else without regard to case, else the only pigment
     /// whose name starts so.
     ///

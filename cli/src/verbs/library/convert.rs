@@ -8,9 +8,10 @@ use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
 use spectra::Interpolation;
 
-use super::grid_option::{ResamplingOptions, parse_grid};
+use super::resampling::ResamplingOptions;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::grid_option::grid;
 use crate::input::library;
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
@@ -39,7 +40,7 @@ pub(super) struct Convert {
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// The new wavelengths in nm, such as 400,700,5
-    #[arg(long, value_name = "START,END,STEP")]
+    #[arg(long, value_name = "FIRST,LAST,STEP")]
     grid: Option<String>,
     /// The pigment whose S becomes 1
     #[arg(long, value_name = "PIGMENT")]
@@ -65,7 +66,7 @@ pub(super) struct Convert {
 impl Convert {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
-        let grid = self.grid.as_deref().map(parse_grid).transpose()?;
+        let grid = self.grid.as_deref().map(grid).transpose()?;
         let file = self.library.display().to_string();
         let before = if is_table(&self.library) {
             self.table(&file)?
@@ -74,7 +75,7 @@ impl Convert {
             if grid.is_none() && self.reference.is_none() {
                 return Err(Failure::usage(
                     "nothing to convert to",
-                    "give --grid START,END,STEP or --reference PIGMENT",
+                    "give --grid FIRST,LAST,STEP or --reference PIGMENT",
                 ));
             }
             library(&self.library)?

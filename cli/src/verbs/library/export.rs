@@ -2,20 +2,16 @@
 
 use std::path::PathBuf;
 
-use calibrate::PigmentId;
-use calibrate::curation::to_csv;
-use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::curation::{SwatchSpace, Swatches, to_csv};
+use calibrate::library::PigmentLibrary;
 use clap::{Args, ValueEnum};
-use spectra::color::{Adaptation, Lab, Rgb, Xyz, adapt};
 use spectra::instrument::{CxfHead, write_cxf};
-use spectra::swatch_file::{
-    SwatchColor, SwatchEntry, SwatchFile, d50_white, write_aco, write_ase, write_gpl,
-};
-use spectra::{Reflectance, Spectrum, TristimulusWeights};
+use spectra::swatch_file::{write_aco, write_ase, write_gpl};
+use spectra::{Reflectance, Spectrum};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, color_weights, library, srgb};
+use crate::input::{ViewingOptions, library, remark_coverage};
 use crate::output::Output;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -83,32 +79,22 @@ impl Export {
             let count = library.pigments.len();
             return console.line(format!("{}: {count} pigments", self.output.display()));
         }
-        let weights = color_weights(&viewing, library.grid, console)?;
-        let colors = colors(&library, &weights, &tints)?;
+        remark_coverage(library.grid, console)?;
+        let swatches = Swatches::new(&library, &viewing, &tints)?;
+        let count = swatches.swatches.len();
         if self.to == Format::Cxf {
-            output.write(cxf(&library, &colors)?)?;
-            let count = colors.len();
+            output.write(cxf(&library, &swatches)?)?;
             return console.line(format!("{}: {count} spectra", self.output.display()));
         }
-        let clipped: Vec<&str> = (colors.iter())
-            .filter(|color| self.space == Space::Rgb && !color.rgb.in_gamut())
-            .map(|color| color.name.as_str())
-            .collect();
-        if !clipped.is_empty() {
+        let clipped = swatches.outside_srgb();
+        if self.space == Space::Rgb && !clipped.is_empty() {
             let names = clipped.join(", ");
             console.warnings(&[format!("outside sRGB, clipped to its gamut: {names}")])?;
         }
-        let count = colors.len();
-        let swatch = |color: NamedColor| SwatchEntry {
-            group: if tints.is_empty() { String::new() } else { color.pigment },
-            name: color.name,
-            color: match self.space {
-                Space::Rgb => SwatchColor::Rgb(color.rgb),
-                Space::Lab => SwatchColor::Lab(lab_d50(color.xyz, weights.white())),
-            },
-        };
-        let swatches = colors.into_iter().map(swatch).collect();
-        let palette = SwatchFile { name: library.title, swatches };
+        let palette = swatches.palette(match self.space {
+            Space::Rgb => SwatchSpace::Srgb,
+            Space::Lab => SwatchSpace::LabD50,
+        });
         output.write(match self.to {
             Format::Ase => write_ase(&palette)?,
             Format::Aco => write_aco(&palette)?,
@@ -118,56 +104,15 @@ impl Export {
     }
 }
 
-/// Colour of one swatch.
-struct NamedColor {
-    pigment: String,
-    name: String,
-    reflectance: Vec<f64>,
-    xyz: Xyz,
-    rgb: Rgb,
-}
-
-/// Computes the masstone of each pigment, followed by its tints.
-fn colors(
-    library: &PigmentLibrary,
-    weights: &TristimulusWeights,
-    tints: &[f64],
-) -> Result<Vec<NamedColor>> {
-    let white = library.reference.as_deref().map(|name| library.find(name)).transpose()?;
-    if !tints.is_empty() && (white.is_none() || library.amounts == AmountKind::Absolute) {
-        return Err(Failure::data(
-            "the library has no reference white to tint with",
-            "leave out --tints",
-        ));
-    }
-    let mut colors = Vec::new();
-    for (index, pigment) in library.ids().zip(&library.pigments) {
-        let mut add = |name: String, recipe: &[(PigmentId, f64)]| -> Result<()> {
-            let reflectance = library.mix(recipe)?.hiding(library.saunderson);
-            let xyz = weights.xyz(&reflectance);
-            let rgb = srgb(xyz, weights.white());
-            colors.push(NamedColor { pigment: pigment.name.clone(), name, reflectance, xyz, rgb });
-            Ok(())
-        };
-        add(pigment.name.clone(), &[(index, 1.0)])?;
-        let Some(white) = white.filter(|white| *white != index && pigment.identified) else {
-            continue;
-        };
-        for parts in tints {
-            add(format!("{} 1:{parts}", pigment.name), &[(index, 1.0), (white, *parts)])?;
-        }
-    }
-    Ok(colors)
-}
-
-/// Encodes the spectra of `colors` as CxF3.
-fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> Result<String> {
-    let spectra = colors
+/// Encodes the spectra of the swatches as CxF3.
+fn cxf(library: &PigmentLibrary, swatches: &Swatches) -> Result<String> {
+    let swatches = &swatches.swatches;
+    let spectra = swatches
         .iter()
-        .map(|color| Ok(Spectrum::new(library.grid, color.reflectance.clone())?))
+        .map(|swatch| Ok(Spectrum::new(library.grid, swatch.reflectance.clone())?))
         .collect::<Result<Vec<Spectrum<Reflectance>>>>()?;
     let named: Vec<(&str, &Spectrum<Reflectance>)> =
-        colors.iter().map(|color| color.name.as_str()).zip(&spectra).collect();
+        swatches.iter().map(|swatch| swatch.name.as_str()).zip(&spectra).collect();
     let head = CxfHead {
         creator: "impasto",
         description: &library.title,
@@ -175,12 +120,6 @@ fn cxf(library: &PigmentLibrary, colors: &[NamedColor]) -> Result<String> {
         creation_date: None,
     };
     Ok(write_cxf(&head, &named))
-}
-
-/// Converts XYZ under `white` to CIELAB under D50.
-fn lab_d50(xyz: Xyz, white: Xyz) -> Lab {
-    let d50 = d50_white();
-    Lab::from_xyz(adapt(xyz, white, d50, Adaptation::Bradford), d50)
 }
 
 /// Parses the parts of white of `--tints`.

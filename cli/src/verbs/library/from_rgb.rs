@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use calibrate::curation::{Body, guessed_pigment};
-use calibrate::evaluate::Viewing;
-use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::curation::{Body, add_guessed};
+use calibrate::library::PigmentLibrary;
 use clap::Args;
-use spectra::color::{ColorCode, ColorCodeError, Rgb, Xyz};
-use spectra::hint::Explain;
-use spectra::{Grid, TristimulusWeights};
+use spectra::Grid;
+use spectra::color::Rgb;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -69,23 +67,8 @@ impl FromRgb {
             None => self.new_library()?,
         };
         let name = self.name.trim();
-        if name.is_empty() || name.contains(char::is_control) {
-            return Err(Failure::usage("a pigment needs a name", "give --name \"Sky Blue\""));
-        }
-        if library.pigments.iter().any(|pigment| pigment.name == name) {
-            return Err(Failure::data(
-                format!("the library has a pigment called `{name}`"),
-                "choose another --name",
-            ));
-        }
-        let weights = Viewing::default().weights(library.grid)?;
-        let target = target_xyz(color, &weights)?;
         let body = if self.glaze { Body::Glaze } else { Body::Hiding };
-        let guess = guessed_pigment(&library, (name, color), target, body, self.nearest)?;
-        if path.is_none() && body == Body::Hiding {
-            library.reference = Some(name.to_owned());
-        }
-        library.pigments.push(guess.pigment);
+        let guess = add_guessed(&mut library, name, color, body, self.nearest)?;
         output.write(library.to_json())?;
         if guess.delta_e >= 0.05 {
             let (hex, off) = (&guess.hex, guess.delta_e);
@@ -118,28 +101,8 @@ impl FromRgb {
 
     /// Makes an empty library.
     fn new_library(&self) -> Result<PigmentLibrary> {
-        Ok(PigmentLibrary {
-            title: String::new(),
-            licence: String::new(),
-            source: "guessed from colours".to_owned(),
-            grid: Grid::from_nm(400.0, 10.0, 31)?,
-            amounts: AmountKind::Relative,
-            reference: None,
-            saunderson: self.surface.surface_or_usual()?,
-            unevenness: 0.0,
-            inputs: Vec::new(),
-            settings: None,
-            pigments: Vec::new(),
-            evidence: None,
-        })
+        let grid = Grid::from_nm(400.0, 10.0, 31)?;
+        let library = PigmentLibrary::empty(grid, self.surface.surface_or_usual()?);
+        Ok(PigmentLibrary { source: "guessed from colours".to_owned(), ..library })
     }
-}
-
-/// Parses a colour code and converts it to XYZ under D65.
-fn target_xyz(text: &str, weights: &TristimulusWeights) -> Result<Xyz> {
-    let code: ColorCode = text.parse().map_err(|error: ColorCodeError| {
-        let hint = error.hint().map(|hint| hint.to_string());
-        Failure::usage(error.to_string(), hint.unwrap_or_default())
-    })?;
-    Ok(code.xyz(weights.white()))
 }

@@ -6,7 +6,7 @@ use calibrate::curation::{MergeSettings, Prefer, Source, merged};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use super::grid_option::ResamplingOptions;
+use super::resampling::ResamplingOptions;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::input::{ViewingOptions, library};

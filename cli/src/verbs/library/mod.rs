@@ -4,7 +4,7 @@ mod list;
 
 mod show;
 
-mod grid_option;
+mod resampling;
 
 mod merge;
 
