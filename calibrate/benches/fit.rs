@@ -1,7 +1,8 @@
 //! Fits, validation and quadrature: `cargo bench -p impasto-calibrate`.
 //!
-//! The size of Baxter, Wendt and Lin 2004 is 11 pigments, 71 mixtures, 101 wavelengths. Other solvers
-//! need there on 2 cores: quadprog 3.5 ms, Clarabel one program after the other 19 ms, cvxpy 196 ms.
+//! The problem of Baxter, Wendt and Lin 2004 has 11 pigments, 71 mixtures and 101 wavelengths.
+//! Other solvers take on 2 cores: quadprog 3.5 ms, Clarabel (one program after another) 19 ms,
+//! cvxpy 196 ms.
 
 use calibrate::PigmentId;
 use calibrate::calibration::calibrate;

@@ -1,5 +1,5 @@
-//! Makes the photograph that the README paints: two pears and a plum on a table
-//! under a window's light, ray traced. CC0-1.0.
+//! Makes the picture that the README paints: two pears and a plum on a table in the light of a
+//! window, ray traced. CC0-1.0.
 //!
 //! `cargo run --release -p impasto-render --example photograph -- docs/images/still-life.png`
 //! gives the same bytes every time.
@@ -13,12 +13,12 @@ use render::field::Field;
 
 const WIDTH: usize = 400;
 const HEIGHT: usize = 300;
-/// Rays through each pixel, and of each to the window.
+/// Rays per pixel, and shadow rays to the window per ray.
 const RAYS: usize = 24;
 
 type Vector = [f64; 3];
 
-/// A ball, in units of a hand: x right, y up, z away from the viewer.
+/// A ball. Coordinates: x to the right, y upwards, z away from the viewer; `shine` is the gloss.
 struct Ball {
     middle: Vector,
     radius: f64,
@@ -26,7 +26,7 @@ struct Ball {
     shine: f64,
 }
 
-/// The still life: what is a pear consists of three balls.
+/// The still life: a plum of one ball, two pears of a row of balls each, with stalks.
 fn balls() -> Vec<Ball> {
     let ball = |middle, radius, color, shine| Ball { middle, radius, color, shine };
     let mut balls = vec![ball([1.55, 0.52, -0.35], 0.52, [0.16, 0.035, 0.09], 0.3)];
@@ -59,7 +59,7 @@ fn unit(v: Vector) -> Vector {
     v.map(|side| side / dot(v, v).sqrt())
 }
 
-/// Where a ray first meets a ball.
+/// Distance and ball of the first hit of a ray.
 fn met(balls: &[Ball], from: Vector, way: Vector) -> Option<(f64, &Ball)> {
     let hits = balls.iter().filter_map(|ball| {
         let off: Vector = std::array::from_fn(|i| from[i] - ball.middle[i]);
@@ -71,13 +71,13 @@ fn met(balls: &[Ball], from: Vector, way: Vector) -> Option<(f64, &Ball)> {
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// A place that a ray shows: normal, colour, shine; `None` on the wall.
+/// The first hit of a ray: position, normal, colour, shine; `None` if it is the wall.
 fn seen(balls: &[Ball], from: Vector, way: Vector) -> Option<(Vector, Vector, Vector, f64)> {
     let table = if way[1] < 0.0 { -from[1] / way[1] } else { f64::INFINITY };
     if let Some((far, ball)) = met(balls, from, way).filter(|(far, _)| *far < table) {
         let place = along(from, way, far);
         let normal = unit(std::array::from_fn(|i| place[i] - ball.middle[i]));
-        // Ripe on the side of the sun.
+        // The right side of a ball is redder.
         let blush = (0.5 + 0.5 * normal[0]).powi(3);
         let [red, green, blue] = ball.color;
         return Some((place, normal, [red, green * (1.0 - 0.45 * blush), blue], ball.shine));
@@ -109,7 +109,7 @@ fn shaded(balls: &[Ball], from: Vector, way: Vector, random: &mut ChaCha8Rng) ->
         }
     }
     let (light, mirrored) = (light / RAYS as f64, shine * mirrored / RAYS as f64);
-    // Light from the room, and from the table below.
+    // Ambient light of the room, and warm light reflected by the table.
     let room = 0.1 + 0.06 * normal[1];
     let table = 0.08 * (0.5 - 0.5 * normal[1]);
     let glow = [1.0, 0.85, 0.6].map(|warm| room + warm * table);

@@ -1,4 +1,4 @@
-//! Paints a 3D model as a watercolor.
+//! Paints a 3D model as a watercolour.
 //!
 //! `cargo run --release -p impasto-render --example watercolor_model -- MODEL.obj OUT.png`;
 //! without arguments it paints the sample still life into `watercolor.png`.

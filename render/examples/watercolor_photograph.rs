@@ -1,4 +1,4 @@
-//! Paints a photograph as a watercolor.
+//! Paints a photograph as a watercolour.
 //!
 //! `cargo run --release -p impasto-render --example watercolor_photograph -- PHOTOGRAPH OUT.png`;
 //! without arguments it paints the still life of the README into `watercolor.png`.

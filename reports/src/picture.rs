@@ -75,7 +75,7 @@ mod tests {
             picture.pixels().iter().filter(|pixel| pixel.alpha() > 0).count()
         };
         assert_eq!(ink(""), 0);
-        // Latin, and Greek that the figures use.
+        // A Latin letter, and a Greek letter of the figures.
         assert!(ink("M") > 40 && ink("\u{39b}") > 20, "{} {}", ink("M"), ink("\u{39b}"));
     }
 

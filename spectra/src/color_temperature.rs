@@ -108,7 +108,7 @@ mod tests {
         for &(name, expected) in PUBLISHED {
             let found = ColorTemperature::of(&Illuminant::named(name).unwrap()).unwrap();
             let off = (found.kelvin / expected - 1.0).abs();
-            // The CIE gives three digits for FL1 to FL12, and sums at 5 nm.
+            // The CIE rounds FL1 to FL12 to three digits and sums at steps of 5 nm.
             assert!(off < 2e-3, "{name}: {found:?} for {expected}");
         }
     }

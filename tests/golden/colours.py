@@ -1,4 +1,4 @@
-"""Golden values that begin from XYZ and Lab."""
+"""Golden values computed from XYZ and Lab."""
 
 import math
 
@@ -14,13 +14,13 @@ CAT_NAMES = ("Bradford", "CAT16")
 
 
 def to_lab(xyz, white):
-    """Lab by colour, which takes the chromaticity of the white and Y of 1."""
+    """Lab by colour-science, which takes the white as a chromaticity and Y from 0 to 1."""
     xyz, white = np.asarray(xyz, float), np.asarray(white, float)
     return colour.XYZ_to_Lab(xyz / 100, colour.XYZ_to_xy(white / 100))
 
 
 def to_lch(lab):
-    """LCh in degrees, hue 0 where rounding of a and b would show in it."""
+    """LCh with the hue in degrees, 0 for near greys, where rounding determines it."""
     L, C, h = colour.models.Lab_to_LCHab(lab)
     return [L, C, h if C >= 0.01 else 0.0]
 
@@ -63,7 +63,7 @@ def lab():
         xy = colour.XYZ_to_xy(np.array(white) / 100)
         for value in [*LAB_XYZ, white]:
             got = to_lab(value, white)
-            # The recorded Lab must lead back within a part of the tolerance.
+            # The rounded Lab must convert back to XYZ within a part of the tolerance.
             back = colour.Lab_to_XYZ(rounded(plain(got), 10), xy) * 100
             if np.abs(back - value).max() > 5e-10:
                 raise ValueError(f"{value}: Lab leads back to {back}")
@@ -101,7 +101,7 @@ def lab():
 
 
 def to_luv(xyz, white):
-    """Luv by colour, and written out."""
+    """Luv by colour-science, checked against the formula."""
     xyz, white = np.asarray(xyz, float) / 100, np.asarray(white, float) / 100
     got = colour.XYZ_to_Luv(xyz, colour.XYZ_to_xy(white)) if sum(xyz) > 0 else np.zeros(3)
     share = [4 * xyz[0], 9 * xyz[1]] / (xyz @ [1, 15, 3]) if sum(xyz) > 0 else np.zeros(2)
@@ -199,9 +199,9 @@ SHARMA = [
 
 
 def opposite(one, two):
-    """Whether the hues lie exactly half a turn apart, where CIEDE2000 branches."""
+    """Whether the hues differ by exactly 180 degrees, where CIEDE2000 branches."""
     chroma = math.hypot(*one[1:]) * math.hypot(*two[1:])
-    # Both a are scaled alike, so opposite before the scaling is opposite after.
+    # Both a* are scaled by the same factor, so opposite hues stay opposite.
     return chroma > 0 and one[1:] == [-v for v in two[1:]]
 
 
@@ -271,7 +271,7 @@ CATS = {name: np.asarray(CHROMATIC_ADAPTATION_TRANSFORMS[name]) for name in CAT_
 
 
 def adapt(name, source, target):
-    """Matrix of von Kries, by colour and written out."""
+    """Von Kries matrix by colour-science, checked against the formula."""
     got = matrix_chromatic_adaptation_VonKries(
         np.array(source), np.array(target), transform=name
     )
@@ -376,7 +376,7 @@ def rgb():
                 }
             colours.append(case)
 
-    # Nothing between 0.04044 and 0.04046: definitions differ about the joint.
+    # No encoded value lies between 0.04044 and 0.04046, where definitions of the curve differ.
     levels = [-1.0, -0.25, -0.002, 0.0, 0.0001, 0.001, 0.003, 0.0032, 0.01, 0.05]
     levels += [0.18, 0.2140411, 0.5, 0.735, 1.0, 1.5, 12.0]
     transfer = []

@@ -1,4 +1,4 @@
-"""What the golden values share: plain numbers, and spectra at 1 nm."""
+"""Helpers of the golden values: plain numbers, and spectra at 1 nm."""
 
 import math
 
@@ -8,7 +8,7 @@ from colour.colorimetry import sd_to_XYZ_integration
 
 import tables
 
-# Decimals of a white point, which other cases start from.
+# Decimals of a white point, which is an input of other cases.
 WHITE_PLACES = 10
 
 NM = np.arange(360, 831)
@@ -16,7 +16,7 @@ SHAPE = colour.SpectralShape(360, 830, 1)
 
 
 def plain(x):
-    """Numbers and arrays as plain floats."""
+    """Convert numbers and arrays to plain floats."""
     if isinstance(x, (list, tuple, np.ndarray)):
         return [plain(v) for v in x]
     x = float(x)
@@ -26,7 +26,7 @@ def plain(x):
 
 
 def rounded(value, places):
-    """All floats of a record with so many decimals; other things as they are."""
+    """Round all floats of a record to `places` decimals; keep other values."""
     if isinstance(value, dict):
         return {k: rounded(v, places) for k, v in value.items()}
     if isinstance(value, list):
@@ -38,7 +38,7 @@ def rounded(value, places):
 
 
 def near(a, b, relative=1e-12):
-    """Refuse to write what two ways of computing do not agree about."""
+    """Raise an error unless two computations of a value agree."""
     if not np.allclose(a, b, rtol=relative, atol=relative):
         raise ValueError(f"two ways disagree: {a} and {b}")
 
@@ -78,7 +78,7 @@ def grid_of(spectrum):
 
 
 def sprague(spectrum, to):
-    """Sprague inside, end values held outside."""
+    """Sprague interpolation inside the band, end values held outside."""
     x = grid_of(spectrum)
     f = colour.SpragueInterpolator(x, spectrum["values"])
     return np.asarray(f(np.clip(np.asarray(to, float), x[0], x[-1])))
@@ -91,7 +91,7 @@ def linear(spectrum, to):
 
 
 def illuminant_1nm(name):
-    """Linear between the rows, end values held: as colour does it, and checked."""
+    """Illuminant at 1 nm: linear between rows, end values held; checked against NumPy."""
     sd = colour.SDS_ILLUMINANTS[name]
     straight = np.interp(NM, sd.wavelengths, sd.values)
     aligned = sd.copy().align(
@@ -112,10 +112,10 @@ def observer_1nm(key):
 
 
 def tristimulus(rows, cmfs, illuminant):
-    """XYZ of rows of 1 nm reflectances: by colour, and by the sum written out.
+    """XYZ of rows of 1 nm reflectances: exact sums, checked against colour-science.
 
-    The second is kept, for its sums are exact on every machine; those of the first
-    depend on the order in which a linear algebra library adds.
+    The exact sums are the same on every machine; those of colour-science depend on the
+    order in which a linear algebra library adds.
     """
     rows = np.atleast_2d(rows)
     by_colour = sd_to_XYZ_integration(rows, cmfs, illuminant, shape=SHAPE)
@@ -127,7 +127,7 @@ def tristimulus(rows, cmfs, illuminant):
 
 
 def white_of(illuminant, observer="cie-1931-2"):
-    """White point, rounded as it is recorded so that readers start from the same."""
+    """White point, rounded as in the files so that tests start from the same values."""
     xyz = tristimulus(
         np.ones(NM.size), observer_1nm(observer), illuminant_1nm(illuminant)
     )

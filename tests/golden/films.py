@@ -1,10 +1,10 @@
-"""Golden values of Kubelka and Munk, in many digits."""
+"""Golden values of Kubelka-Munk films and Saunderson surfaces, from 50 digits."""
 
 import mpmath
 
 
 def km_layer(K, S, d, g):
-    """Layer over a backing by the textbook form, or by its limits."""
+    """Reflectance of a layer over a backing, by the textbook formula or its limits."""
     K, S, d, g = (mpmath.mpf(v) for v in (K, S, d, g))
     if d == 0:
         return g
@@ -27,7 +27,7 @@ def km_free(K, S, d):
         return S * d / (1 + S * d), 1 / (1 + S * d)
     a = 1 + K / S
     b = mpmath.sqrt(a * a - 1)
-    # sinh and cosh of a great thickness both overflow in doubles, not here.
+    # For a thick layer sinh and cosh overflow in doubles, but not in mpmath.
     sinh, cosh = mpmath.sinh(b * S * d), mpmath.cosh(b * S * d)
     below = a * sinh + b * cosh
     return sinh / below, b / below

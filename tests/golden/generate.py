@@ -22,8 +22,8 @@ from spectral import blackbody, daylight, metamerism, resampling, xyz
 COMMAND = "python tests/golden/generate.py"
 HERE = "tests/golden"
 
-# Function and decimals kept: a tenth of the tolerance and no finer, for the digits
-# behind it belong to the machine. km.json is rounded once, to doubles.
+# Function and number of decimals: a tenth of the tolerance and no finer, because further
+# digits differ between machines. km.json is rounded once, to doubles.
 GOLDEN = {
     "xyz.json": (xyz, 10),
     "sprague.json": (resampling, 12),
@@ -42,7 +42,7 @@ GOLDEN = {
 
 
 def lines(value, depth):
-    """Lists of objects one a line, so that a changed case is a changed line."""
+    """JSON with each object of a list on a line, so that a changed case is one line."""
     pad = " " * depth
     if isinstance(value, list) and value and isinstance(value[0], dict):
         rows = [f"{pad} {json.dumps(v, ensure_ascii=True)}" for v in value]
@@ -65,7 +65,7 @@ def golden_files():
             "package": f"colour-science {tables.VERSION}",
             "method": "",
             "tolerance": 0.0,
-            # What is shared by the cases comes between, the cases last.
+            # Data that the cases share come before the cases.
             **{k: v for k, v in made.items() if k != "cases"},
             "cases": made["cases"],
         }
@@ -74,7 +74,7 @@ def golden_files():
 
 
 def alike(old, new, slack):
-    """The same record, floats within slack of each other."""
+    """Whether two records are equal, with floats within slack of each other."""
     if type(old) is not type(new):
         return False
     if isinstance(new, dict):
@@ -87,11 +87,11 @@ def alike(old, new, slack):
 
 
 def current(path, text):
-    """Whether a file already says what it should.
+    """Whether a file is up to date.
 
-    To the byte, but for one thing: a value close to the edge between two roundings
-    falls to one side on one machine and to the other on the next. So the last decimal
-    of a golden value may differ by one, and the older file then stays.
+    Files are compared to the byte, with one exception: a value close to the edge between
+    two roundings can be rounded differently on another machine. So the last decimal of a
+    golden value may differ by one, and the older file is then kept.
     """
     at = tables.ROOT / path
     if not at.is_file():
@@ -106,7 +106,7 @@ def current(path, text):
         old = json.loads(old)
     except ValueError:
         return False
-    # Written anew in our form it must be unchanged: nobody edits the layout either.
+    # The old file must have the layout that this program writes.
     if (lines(old, 0) + "\n").encode("ascii") != at.read_bytes():
         return False
     new = json.loads(text)

@@ -1,8 +1,8 @@
-"""Pictures with known regions, and how far OpenCV's mean shift finds them; modes of
+"""Pictures with known regions and how well OpenCV's mean shift finds them; modes of
 small sets by scikit-learn.
 
-The pictures are made by sums, products, quotients and square roots alone, so that
-they are the same bytes in every language: the test makes them again.
+The pictures are made by sums, products, quotients and square roots alone, so that their
+bytes are the same in every language: the test makes them again.
 """
 
 import math
@@ -15,20 +15,20 @@ from sklearn.cluster import MeanShift
 
 WIDTH, HEIGHT = 160, 120
 SETTINGS = {"spatial_radius_px": 8.0, "range_radius": 8.0, "least_region_px": 40}
-# Range radii in RGB bytes, for none is the same as 8 in CIELUV everywhere.
+# Range radii in RGB bytes: several, because none equals 8 in CIELUV for all colours.
 OPENCV_RANGES = (10.0, 15.0, 20.0, 30.0)
-# How near neighbours must be to be of one region, in range radii.
+# Largest colour difference of neighbours in one region, in range radii.
 LINK = 0.5
 OPENCV_LEVELS = 1
-# How far a boundary may be off, in pixels.
+# Tolerance of the position of a boundary, in pixels.
 REACH = 2
 CHECKED = ("opencv-python-headless", "5.0.0")
 
 
 def shape(kind, numbers, rgb, across=(0, 0, 0), down=(0, 0, 0), texture=0.0, period=4.0,
           soft=1.5):
-    """A shape: its outline, its colour at the top left, and what that gains to the
-    right and to the bottom; a triangular wave along the diagonal; a soft edge."""
+    """A shape: its outline, its colour at the top left and the gain of that to the right
+    and to the bottom, a triangular wave along the diagonal, and a soft edge."""
     return {"kind": kind, "numbers": numbers, "rgb": rgb, "across": across, "down": down,
             "texture": texture, "period": period, "soft": soft}
 
@@ -81,7 +81,7 @@ PICTURES = {
 
 
 class Noise:
-    """The upper 32 bits of a linear congruence, as a number in 0..1."""
+    """Random numbers of 0 to 1: the upper 32 bits of a linear congruential generator."""
 
     def __init__(self, seed):
         self.state = seed
@@ -92,7 +92,7 @@ class Noise:
 
 
 def distance(kind, n, x, y):
-    """How far outside of the shape a place is; negative inside."""
+    """Distance of a place from the outline of a shape; negative inside."""
     if kind == "everywhere":
         return -1e6
     if kind == "disc":
@@ -146,7 +146,7 @@ def luv_of(picture):
 
 
 def linked(luv, near):
-    """Labels of neighbours in rows and columns whose colours are near."""
+    """Labels of regions: neighbours in rows and columns with near colours share one."""
     parents = list(range(WIDTH * HEIGHT))
 
     def root(i):
@@ -165,7 +165,7 @@ def linked(luv, near):
 
 
 def pruned(labels, luv, least):
-    """Small regions joined to the neighbour nearest in colour, the smallest first."""
+    """Join small regions to the neighbour nearest in colour, the smallest first."""
     labels = labels.copy()
     while True:
         names, counts = np.unique(labels, return_counts=True)
@@ -185,7 +185,7 @@ def pruned(labels, luv, least):
 
 
 def joined(labels, luv, range_radius):
-    """Neighbours of like mean colour made one, the nearest first."""
+    """Join neighbouring regions of near mean colours, the nearest first."""
     labels = labels.copy()
     while True:
         across = np.stack([labels[:, :-1].ravel(), labels[:, 1:].ravel()], axis=1)
@@ -240,10 +240,10 @@ def pictures():
 
 
 def modes():
-    """Modes of every pixel of tiny pictures, where either radius alone decides."""
+    """Mean-shift modes of pixels of tiny pictures in which only one radius matters."""
     random = Noise(7)
     rows = []
-    # The window has every pixel: colour decides.
+    # The window holds every pixel, so only the range radius matters.
     for spread, radius in ((0.10, 12.0), (0.18, 20.0)):
         picture = np.zeros((6, 8, 3), np.uint8)
         for y in range(6):
@@ -254,7 +254,7 @@ def modes():
                     picture[y, x, i] = int(value * 255.0 + 0.5)
         points = luv_of(picture.astype(float)).reshape(-1, 3)
         rows.append(mode_case(picture, points, np.arange(48), 64.0, radius))
-    # One colour here and there, all else far from it: place decides.
+    # Pixels of one colour among pixels far from it, so only the spatial radius matters.
     picture = np.zeros((12, 16, 3), np.uint8)
     for y in range(12):
         for x in range(16):

@@ -1,4 +1,4 @@
-"""Golden values that begin from spectra."""
+"""Golden values computed from spectra."""
 
 import math
 
@@ -119,7 +119,7 @@ def daylight_weights(xy):
     m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / m
     m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / m
     for weight in (m1, m2):
-        # Three decimals must not hang on the last bit of a weight.
+        # Rounding to three decimals must not depend on the last bit of a weight.
         if abs(math.fmod(abs(weight) * 1000, 1) - 0.5) < 1e-6:
             raise ValueError(f"daylight weight {weight} is halfway between decimals")
     return m1, m2
@@ -141,7 +141,7 @@ def daylight():
         if name:
             table = colour.SDS_ILLUMINANTS[name].values
             off = np.abs(short.values[: table.size] - table).max()
-            # Printed to three decimals, the rows between sometimes cut.
+            # The tables have three decimals; some interpolated rows are truncated.
             if off > 1e-3:
                 raise ValueError(f"{name}: {off} from its table")
         cases.append(
@@ -180,7 +180,7 @@ def blackbody():
     for kelvin in (2000, 2856, 3200, 4000, 5003, 5600, 6504, 10000, 20000):
         spd = planck_law(nm * 1e-9, kelvin)
         spd = 100 * spd / planck_law(560e-9, kelvin)
-        # The same written out, so that the formula in the method is what was used.
+        # Check against the formula stated in the method.
         c = CONSTANT_C2 * 1e9
         ratio = np.expm1(c / (560 * kelvin)) / np.expm1(c / (nm * kelvin))
         near(spd, 100 * (560 / nm) ** 5 * ratio)
@@ -200,7 +200,7 @@ def blackbody():
 
 
 def metameric_pairs(cmfs, light):
-    """Pairs on 400 to 700 nm by 10 nm that match under one light, or nearly."""
+    """Pairs of reflectances at 400 to 700 nm that match, or nearly, under one light."""
     nm = np.arange(400, 701, 10)
     weights = np.array(
         [
@@ -210,14 +210,14 @@ def metameric_pairs(cmfs, light):
     )
 
     def unseen(v):
-        """The part of v that the observer does not see under this light."""
+        """The metameric black in v: its component with XYZ of 0 under this light."""
         seen, *_ = np.linalg.lstsq(weights.T, weights.T @ v, rcond=None)
         return v - seen
 
     def of(function):
         return np.array([function(float(w)) for w in nm])
 
-    # Not flat: the hue of a true neutral is noise, and CIEDE2000 shows its root.
+    # Not flat: the hue of an exact neutral is rounding noise, which CIEDE2000 enlarges.
     grey = of(lambda w: 0.32 + 0.12 * rise(w, 580, 60))
     ochre = of(lambda w: 0.08 + 0.5 * rise(w, 560, 25))
     blue = of(lambda w: 0.1 + 0.4 * bump(w, 450, 60))
@@ -229,7 +229,7 @@ def metameric_pairs(cmfs, light):
         "ochre_off": (ochre, 1.03 * (ochre + 0.12 * unseen(ripple))),
         "blue_off": (blue, blue + 0.06 * unseen(wave) + 0.004),
     }
-    # Six decimals leave the pairs a hair off, as measured ones are.
+    # Rounding to six decimals leaves small mismatches, as in measured pairs.
     return {
         name: [[round(float(v), 6) for v in one] for one in pair]
         for name, pair in pairs.items()

@@ -99,7 +99,7 @@ def daylight():
 
 
 def spans():
-    """Where each illuminant has values, names of equal span together."""
+    """Span of wavelengths of the illuminants, grouped by span."""
     groups = {}
     for name in ILLUMINANTS:
         nm = whole_nm(colour.SDS_ILLUMINANTS[name])
@@ -176,7 +176,7 @@ interpolation for illuminants, CIE 167:2005 Sprague's for regular reflectance).
 
 {licence}"""
 
-# BSD-3-Clause asks that this text travels with what is carried over.
+# BSD-3-Clause requires this text with every copy.
 LICENCE = """\
 > Copyright 2013 Colour Developers
 >
@@ -238,7 +238,7 @@ def write(root, texts):
     for path, text in texts.items():
         target = pathlib.Path(root) / path
         target.parent.mkdir(parents=True, exist_ok=True)
-        # Bytes, so that no platform changes the line ends.
+        # Written as bytes, so that no platform changes the line ends.
         target.write_bytes(text.encode("ascii"))
 
 

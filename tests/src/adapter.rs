@@ -1,11 +1,12 @@
-//! The device that tests run on.
+//! The graphics device of the GPU tests.
 
 use std::io::Write;
 
 use render::gpu::{BackendChoice, Device, choose};
 
-/// The device to test on, hardware before software; none where there is none,
-/// which is said. Adds a line to the file of `IMPASTO_GPU_TESTS`.
+/// Opens the graphics device for a test, a hardware adapter before a software one. `None` without
+/// an adapter, with a note on standard error. Appends the name of the adapter (or `none`) to the
+/// file that the environment variable `IMPASTO_GPU_TESTS` names, if it is set.
 ///
 /// # Panics
 /// If that file cannot be written.

@@ -1,27 +1,27 @@
-//! Golden files: values by colour-science, with the tolerance to meet.
+//! Reader of golden files: reference values of independent programs, with a tolerance.
 
 use std::path::PathBuf;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-/// A golden file: how it was made, how near to come, and its cases. Keys that
-/// only some files have land in `shared`.
+/// A golden file: its tolerance, its cases and, in `shared`, every other key: how the file was
+/// made, and data that several cases use.
 #[derive(Debug, Deserialize)]
 pub struct Golden<Cases, Shared = serde_json::Value> {
-    /// Largest difference allowed.
+    /// Largest difference allowed between a result and its reference value.
     pub tolerance: f64,
-    /// The cases.
+    /// Inputs with their reference values.
     pub cases: Cases,
-    /// Other keys.
+    /// All other keys of the file.
     #[serde(flatten)]
     pub shared: Shared,
 }
 
-/// The golden file `tests/golden/NAME.json`.
+/// Reads the golden file `tests/golden/NAME.json`.
 ///
 /// # Panics
-/// If it is missing or of another form, with the reason.
+/// If the file is missing or has another form; the message names the file and the cause.
 #[must_use]
 pub fn read<Cases: DeserializeOwned, Shared: DeserializeOwned>(
     name: &str,

@@ -1,4 +1,4 @@
-//! What the tests of this folder share.
+//! Helpers of several test programs: golden files, comparison, sample data and runs of `impasto`.
 
 pub mod adapter;
 pub mod golden;

@@ -1,4 +1,4 @@
-//! The Van Gogh oils, read and fitted.
+//! The shipped Van Gogh oils: swatches, fits and pigment library.
 
 use calibrate::PigmentId;
 use calibrate::calibration::{Calibration, calibrate};
@@ -9,10 +9,10 @@ use calibrate::observation::BelowSurface;
 use calibrate::swatch::SwatchSet;
 use spectra::optics::{Specular, Surface};
 
-/// The surface of the figures that are to be met.
+/// Saunderson surface for which the error limits of the oils are stated.
 pub const SURFACE: Surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
 
-/// The swatches of the shipped file, and the index of zinc white.
+/// Swatches of the shipped measurement file, and the index of zinc white.
 ///
 /// # Panics
 /// If the file cannot be read.
@@ -26,13 +26,13 @@ pub fn swatches() -> (SwatchSet, PigmentId) {
     (set, PigmentId(white))
 }
 
-/// Settings for the oils, some of whose readings lie below k1.
+/// Fit settings for the oils. Some readings lie below k1 and are raised to the floor.
 #[must_use]
 pub fn settings(method: Method) -> FitSettings {
     FitSettings { method, below_surface: BelowSurface::Floor, ..FitSettings::default() }
 }
 
-/// A fit of all of them.
+/// Fits all swatches of the oils with zinc white as the reference.
 ///
 /// # Panics
 /// If the fit fails.
@@ -42,7 +42,7 @@ pub fn fitted(method: Method, surface: Surface) -> Calibration {
     calibrate(&set, white, surface, &settings(method), &Viewing::default()).expect("a fit")
 }
 
-/// The pigment library that ships.
+/// The shipped pigment library of the oils.
 ///
 /// # Panics
 /// If it cannot be read.
@@ -50,5 +50,5 @@ pub fn fitted(method: Method, surface: Surface) -> Calibration {
 pub fn library() -> calibrate::library::PigmentLibrary {
     let path = crate::program::repository("measurements/van-gogh-oils.pigments.json");
     let text = std::fs::read_to_string(&path).expect("the shipped library is there");
-    calibrate::library::PigmentLibrary::from_json(&path, &text).expect("it is sound")
+    calibrate::library::PigmentLibrary::from_json(&path, &text).expect("the library is valid")
 }

@@ -1,23 +1,23 @@
-//! The program `impasto`, run in process.
+//! Runs of the program `impasto` in process, with captured output.
 
 use std::path::PathBuf;
 
-/// What a run gave.
+/// Exit status and output of a run.
 #[derive(Debug)]
 pub struct Run {
-    /// Its exit status.
+    /// Exit status: 0 done, 1 if the data or a comparison fails, 2 if the program could not run.
     pub status: u8,
-    /// Its results.
+    /// Standard output: the results.
     pub out: String,
-    /// Its remarks and errors.
+    /// Standard error: remarks and errors.
     pub err: String,
 }
 
 impl Run {
-    /// The results as JSON.
+    /// Parses the results as JSON.
     ///
     /// # Panics
-    /// If they are none.
+    /// If the results are not JSON.
     #[must_use]
     pub fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.out)
@@ -35,7 +35,7 @@ pub fn impasto(arguments: &[&str]) -> Run {
     Run { status, out: text(out), err: text(err) }
 }
 
-/// A file of the repository, as a path from anywhere.
+/// Path of a file of the repository, valid from any working folder.
 #[must_use]
 pub fn repository(file: &str) -> String {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -1,7 +1,7 @@
-//! Made-up watercolors on paper: ladders of each, and mixtures of each two.
+//! Synthetic watercolours on white paper: ladders of every paint and mixtures of every pair.
 //!
-//! Nothing here was measured. The hard set imitates what makes real washes
-//! differ from the theory.
+//! K and S are invented, not measured. The hard set adds the deviations of real washes from
+//! Kubelka-Munk theory: errors of amount, uneven films, a surface and noise.
 
 use calibrate::Curves;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
@@ -12,10 +12,11 @@ use rand_distr::{Distribution, StandardNormal};
 use spectra::Grid;
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
-/// Name; K as a base and Gaussian bands (height, middle, width), per mL; S.
+/// Name; K per mL as a constant plus Gaussian bands (height, centre in nm, standard deviation in
+/// nm); S per mL at 550 nm.
 type Paint = (&'static str, f64, &'static [(f64, f64, f64)], f64);
 
-/// From staining and clear to opaque.
+/// Thirteen paints, from transparent (S of 1.5 per mL) to opaque (S of 55 per mL).
 const PAINTS: [Paint; 13] = [
     ("cadmium red", 1.0, &[(150.0, 460.0, 75.0)], 45.0),
     ("alizarin", 1.0, &[(120.0, 525.0, 38.0), (35.0, 430.0, 45.0)], 2.0),
@@ -32,24 +33,25 @@ const PAINTS: [Paint; 13] = [
     ("chinese white", 0.3, &[(3.0, 390.0, 12.0)], 55.0),
 ];
 
-/// Films of known amounts, and the K and S behind them.
+/// Readings of films of known amounts, and the K that they were computed with.
 #[derive(Debug)]
 pub struct Watercolors {
-    /// K by paint and wavelength, per mL.
+    /// K per mL, by paint and wavelength.
     pub absorption: Vec<Vec<f64>>,
     csv: String,
 }
 
 impl Watercolors {
-    /// As the theory has it, without error.
+    /// Readings of even films without a surface, as the theory predicts them, without errors.
     #[must_use]
     pub fn exact() -> Self {
         let even = UnevenFilm { surface: Surface::NONE, unevenness: 0.0 };
         Self::made(even, &mut |amount| amount, &mut || 0.0)
     }
 
-    /// With errors of amount (5 %) and of the wash (12 %), films uneven by half
-    /// their thickness, a surface nobody is told of, and noise of 0.003.
+    /// Readings with errors: log-normal errors of the measured-out amount (5 %) and of the amount
+    /// that stays on the paper (12 %), films of unevenness 0.5, a surface that the file does not
+    /// state, and normal noise of 0.003 in the reflectance.
     #[must_use]
     pub fn hard(seed: u64) -> Self {
         let surface = Surface { k1: 0.01, k2: 0.5, specular: Specular::Included };
@@ -61,7 +63,8 @@ impl Watercolors {
             film,
             &mut |amount| {
                 let pipette = (0.05 * normal(&mut amounts)).exp();
-                // A wash keeps less of a larger amount than its share.
+                // The film gets a smaller share of a larger amount: power 0.85, unchanged at 0.04
+                // mL.
                 let kept: f64 = amount * pipette * (0.12 * normal(&mut amounts)).exp();
                 (kept / 0.04).powf(0.85) * 0.04
             },
@@ -69,10 +72,10 @@ impl Watercolors {
         )
     }
 
-    /// The swatches of the file this set would be.
+    /// Swatches read from the measurement file.
     ///
     /// # Panics
-    /// If the set were unsound.
+    /// If the measurement file is not valid.
     #[must_use]
     pub fn swatches(&self) -> SwatchSet {
         let table =
@@ -80,7 +83,7 @@ impl Watercolors {
         SwatchSet::from_table(&table.expect("a sound file")).expect("sound swatches")
     }
 
-    /// The file.
+    /// The readings as a measurement file in CSV.
     #[must_use]
     pub fn csv(&self) -> &str {
         &self.csv
@@ -133,7 +136,8 @@ impl Watercolors {
     }
 }
 
-/// Twelve steps of each paint, then each two at three ratios and three levels.
+/// Amounts in mL of each film: twelve steps of every paint, then every pair of paints in three
+/// ratios at three levels.
 fn recipes() -> Vec<Vec<f64>> {
     let with = |parts: &[(usize, f64)]| {
         let mut amounts = vec![0.0; PAINTS.len()];

@@ -1,7 +1,7 @@
 //! Recipe search: `cargo bench -p impasto-pigment --bench matching`.
 //!
-//! Bound on 2 cores: 0.5 s for 20 pigments, up to 4 of them. A public Python tool needs about 112 s
-//! for 13 pigments.
+//! Time limit on 2 cores: 0.5 s for recipes of up to 4 of 20 pigments. A public Python tool takes
+//! about 112 s for 13 pigments.
 
 use divan::{Bencher, black_box};
 use pigment::evaluate::Viewing;
@@ -18,7 +18,7 @@ fn oils() -> PigmentLibrary {
     PigmentLibrary::van_gogh_oils()
 }
 
-/// All 20 pigments, up to four, under the named lights.
+/// Request for recipes of up to four of all 20 pigments, under the lights named in `lights`.
 fn request(library: &PigmentLibrary, lights: &[&str], film: FilmKind) -> MatchRequest {
     let conditions = lights.iter().map(|name| {
         let illuminant = Illuminant::named(name).expect("a CIE light");

@@ -189,8 +189,8 @@ mod tests {
     fn the_minimum_on_a_bound_is_found() {
         let minimum = rosenbrock(0.5);
         assert!(minimum.point.max() <= 0.5, "{minimum:?}");
-        // On the face y = 0.5 the minimum of 100 (0.5 - x^2)^2 + (1 - x)^2,
-        // limited to x <= 0.5, is its corner.
+        // With x and y limited to 0.5 or less, the minimum of 100 (y - x^2)^2 + (1 - x)^2 on the
+        // edge y = 0.5 is at the corner x = 0.5.
         assert!((minimum.point[0] - 0.5).abs() < 1e-6, "{minimum:?}");
     }
 }

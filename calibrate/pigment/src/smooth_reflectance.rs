@@ -242,7 +242,7 @@ mod tests {
     fn black_is_limited_by_the_surface_reflection() {
         let surface = Surface::new(0.03, 0.6, Specular::Included).unwrap();
         let (_, black) = recovered(surface, [Rgb([0.0; 3])].into_iter()).remove(0);
-        // L* of 3 % is 20.0, 12.5 in CIEDE2000 from black.
+        // The darkest reading, Y = 3, has L* = 20.0, which is 12.5 in CIEDE2000 from black.
         assert!(black.delta_e > 12.0 && (black.xyz.y - 3.0).abs() < 0.1, "{black:?}");
         let (_, white) = recovered(surface, [Rgb([1.0; 3])].into_iter()).remove(0);
         assert!(white.delta_e < 0.01, "{white:?}");
@@ -260,7 +260,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         for _ in 0..20 {
             let nudge = DVector::from_fn(31, |_, _| random.random_range(-0.05..0.05));
-            // Returns to the colour from nearby, along the three weights alone.
+            // Newton steps of least norm bring the nudged curve back to the wanted XYZ.
             let mut other = &best + nudge;
             for _ in 0..20 {
                 let jacobian = DMatrix::from_fn(3, 31, |c, i| {

@@ -1,5 +1,5 @@
-//! Noise that stays on its object, a frame of 750 x 570 and 60,000 triangles: flow
-//! and dispersion both, from what is seen to both noises.
+//! Coherent noise for a frame of 750 x 570 pixels and 60,000 triangles: flow and dispersion, from
+//! a visible surface to both noises.
 
 use std::sync::Arc;
 
@@ -34,14 +34,14 @@ fn frame() -> Frame {
     Frame { mesh, hierarchy, projection: Projection::new(&camera, width, height), depth }
 }
 
-/// Once for each model.
+/// The hierarchy of patches, built once for each model.
 #[divan::bench]
 fn hierarchy(bencher: Bencher<'_, '_>) {
     let frame = frame();
     bencher.bench_local(|| Hierarchy::new(&frame.mesh));
 }
 
-/// The selection of features, which the processor makes for both forms of compute.
+/// The selection of features, which runs on the CPU for both backends.
 #[divan::bench]
 fn features_of_a_view(bencher: Bencher<'_, '_>) {
     let frame = frame();

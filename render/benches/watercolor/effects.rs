@@ -1,4 +1,4 @@
-//! Effects on a picture of 750 x 570.
+//! Effects on a picture of 750 x 570 pixels.
 
 use divan::Bencher;
 use render::compute::{ColorImage, Compute};
@@ -11,7 +11,7 @@ use render::watercolor::{
 
 const SIZE: (usize, usize) = (750, 570);
 
-/// Flat patches, as an abstracted picture has them.
+/// A wash of flat patches, like an abstracted photograph.
 fn wash() -> Wash {
     let (width, height) = SIZE;
     let patch = |i: usize| {
@@ -39,7 +39,7 @@ fn all_on_cpu(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// With the picture downloaded.
+/// Includes the download of the picture.
 #[divan::bench]
 fn all_on_gpu(bencher: Bencher<'_, '_>) {
     let Ok(mut gpu) = Compute::choose(BackendChoice::Gpu) else { return };
@@ -51,7 +51,7 @@ fn all_on_gpu(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// One effect on the processor, which may use the picture's memory.
+/// Times one effect on the CPU. The effect may reuse the memory of its input.
 fn effect(
     bencher: Bencher<'_, '_>,
     effect: impl Fn(&mut Compute, ColorImage, &TextureImages) -> Result<ColorImage, DeviceError>,
@@ -102,7 +102,7 @@ fn paper_shading(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// All textures, made once for a picture.
+/// All textures, which are computed once for a picture.
 #[divan::bench]
 fn making_textures(bencher: Bencher<'_, '_>) {
     let settings = settings();

@@ -1,5 +1,5 @@
-//! Whole pictures of a mesh of 750 x 570, from another side each time: seen, shaded,
-//! noise, all effects, and read back.
+//! Whole pictures of a mesh at 750 x 570 pixels, each from another direction: visibility, shading,
+//! noise, all effects, and readback.
 
 use divan::Bencher;
 use render::camera::{Camera, Framing};
@@ -10,7 +10,7 @@ use render::watercolor::{CoherenceMethod, ModelPainter, Settings};
 
 const SIZE: (usize, usize) = (750, 570);
 
-/// A painter of a knot with one sample a pixel, and the cameras around it.
+/// A painter of a torus knot with one sample per pixel, and the cameras of a turntable.
 fn painter(
     compute: Compute,
     triangles: usize,

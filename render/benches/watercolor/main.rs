@@ -1,4 +1,5 @@
-//! How fast watercolor is: what of a mesh is seen, abstraction, effects, noise.
+//! Benchmarks of watercolour: visibility and shading of meshes, abstraction, effects, coherent
+//! noise, and whole frames.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 

@@ -1,4 +1,4 @@
-//! Abstraction of a picture of 1000 x 1000: mean shift, and the brush after it.
+//! Abstraction of pictures: mean shift segmentation, then morphological smoothing.
 
 use divan::Bencher;
 use rand::{RngExt, SeedableRng};
@@ -8,7 +8,7 @@ use render::field::Field;
 use render::morphology::opening_then_closing;
 use render::segmentation::{SegmentationSettings, segment};
 
-/// Shaded discs, one over the other, with noise: as busy as a photograph.
+/// Shaded discs over each other, with noise: as much detail as a photograph.
 fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut number = |from: f32, to: f32| random.random_range(from..to);
@@ -37,7 +37,7 @@ fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
     picture
 }
 
-/// 1 megapixel, radii of 10 px and 8 in CIELUV.
+/// 1 megapixel, with radii of 10 px and 8 in CIELUV.
 #[divan::bench(sample_count = 5)]
 fn mean_shift(bencher: Bencher<'_, '_>) {
     let picture = picture(1000, 1000);

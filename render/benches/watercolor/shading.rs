@@ -1,4 +1,4 @@
-//! What is seen of a mesh, and its toon shading, at 750 x 570.
+//! Visibility of a mesh and its toon shading, at 750 x 570 pixels.
 
 use divan::Bencher;
 use render::camera::{Camera, Framing};
@@ -10,7 +10,8 @@ use render::watercolor::{Toon, shade_toon};
 
 const TRIANGLES: [usize; 2] = [25_000, 160_000];
 
-/// A turntable of the knot, which fills some third of the picture, twice over.
+/// A torus knot and the cameras of a turntable. The knot covers about a third of the picture, with
+/// an overdraw of about two.
 fn knot(triangles: usize) -> (Mesh, Vec<Camera>) {
     let mesh = Mesh::torus_knot(triangles);
     let framing = Framing { aspect: 750.0 / 570.0, ..Framing::default() };
@@ -18,7 +19,7 @@ fn knot(triangles: usize) -> (Mesh, Vec<Camera>) {
     (mesh, cameras)
 }
 
-/// Frame by frame, in the picture's size times the samples.
+/// Times one frame of the turntable at `samples` times 750 x 570.
 fn frames(
     bencher: Bencher<'_, '_>,
     mut compute: Compute,
@@ -52,7 +53,7 @@ fn toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     });
 }
 
-/// Four samples a pixel.
+/// Four samples per pixel.
 #[divan::bench(args = TRIANGLES)]
 fn smooth_toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let toon = Toon { samples: 2, ..Toon::default() };
@@ -61,7 +62,7 @@ fn smooth_toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     });
 }
 
-/// With the picture downloaded, on any adapter; nothing without one.
+/// Includes the download of the picture. Uses any adapter; does nothing without one.
 #[divan::bench(args = TRIANGLES)]
 fn toon_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let Ok(compute) = Compute::choose(BackendChoice::Gpu) else { return };

@@ -1,5 +1,5 @@
-//! A study of mixtures: yellow and Prussian blue meeting wet through green, a
-//! scale of tints, a patch mixed by knife, and a brush that is not washed.
+//! A study of mixtures: yellow and Prussian blue that mix wet to green, scales of tints, a brush
+//! that is not washed, patches mixed by knife, and a line by each head shape.
 
 use render::paint::brush::HeadShape;
 use render::paint::document::{Lighting, Medium};
@@ -8,7 +8,7 @@ use render::paint::strokes::{Canvas, StrokeScript};
 
 use super::script_builder::ScriptBuilder;
 
-/// The script.
+/// The stroke script of the study.
 pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 3, threads_per_cm: 16.0, relief_mm: 0.06 };
     let ground = GroundRelief::Linen(linen).into();
@@ -46,7 +46,7 @@ pub(crate) fn script() -> StrokeScript {
     script.built
 }
 
-/// Yellow from the left and blue from the right, then one brush to and fro.
+/// Yellow on the left and blue on the right, then strokes of the blue brush into the yellow.
 fn through_green(script: &mut ScriptBuilder) {
     script.fresh("flat", "Y1", 0.0, 1.0);
     for y in [9.0, 16.0, 10.3, 17.3] {
@@ -63,7 +63,7 @@ fn through_green(script: &mut ScriptBuilder) {
     }
 }
 
-/// Ultramarine and eosin lake with more and more white.
+/// Tints of ultramarine and of eosin lake, with white increasing from left to right.
 fn tints(script: &mut ScriptBuilder) {
     for (y, name) in [(29.0, "U"), (39.0, "L")] {
         for (step, white) in [0, 2, 5, 12, 30, 80].into_iter().enumerate() {
@@ -78,7 +78,7 @@ fn tints(script: &mut ScriptBuilder) {
     }
 }
 
-/// One load of vermilion through white, yellow, blue and white again.
+/// One load of vermilion, painted in three strokes across white, yellow, blue and white.
 fn unwashed(script: &mut ScriptBuilder) {
     for (number, recipe) in ["W1", "Y1", "U1W2", "W1"].into_iter().enumerate() {
         script.wash("bright");
@@ -96,7 +96,8 @@ fn unwashed(script: &mut ScriptBuilder) {
     }
 }
 
-/// Dabs of white, yellow and red, spread by a clean knife in one and in three pulls.
+/// Short strokes of white, yellow, pink and pale blue, spread by a clean knife: two pulls on the
+/// left, ten on the right.
 fn knifed(script: &mut ScriptBuilder) {
     for left in [10.0, 50.0] {
         for (number, recipe) in ["W1", "Y1", "L1W4", "W1", "U1W6"].into_iter().enumerate() {
@@ -116,7 +117,7 @@ fn knifed(script: &mut ScriptBuilder) {
     }
 }
 
-/// A wavy line of each shape, until its paint ends.
+/// A wavy line by each head shape with a single load.
 fn shapes(script: &mut ScriptBuilder) {
     let names = ["round", "filbert", "bright", "fan", "rigger", "mop"];
     for (number, name) in names.into_iter().enumerate() {

@@ -1,6 +1,5 @@
-//! A glaze over impasto: ridges of stiff white and yellow put on by knife and
-//! brush, dried; thin transparent lakes over them, partly dragged off again; the
-//! light low from the side.
+//! Glazes over impasto: dried ridges of white and yellow by brush and knife, thin transparent
+//! glazes over them, partly wiped off, and a low light from the side.
 
 use std::f64::consts::PI;
 
@@ -14,7 +13,7 @@ use super::script_builder::{Place, ScriptBuilder};
 const WIDTH: f64 = 100.0;
 const HEIGHT: f64 = 70.0;
 
-/// The script.
+/// The stroke script of the painting.
 pub(crate) fn script() -> StrokeScript {
     let ground = GroundKind::Panel.spec(1);
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.125, ground };
@@ -46,8 +45,8 @@ pub(crate) fn script() -> StrokeScript {
     script.built
 }
 
-/// Three whirls of white petals and a border of waves, each stroke painted over
-/// and over so that it piles up; and two pulls of the knife.
+/// Three whirls of white petals and a wavy border, each stroke repeated so that the paint piles up;
+/// two pulls of the knife below.
 fn relief(script: &mut ScriptBuilder) {
     for number in 0..3 {
         let (x, y) = (18.0 + 32.0 * f64::from(number), 27.0);
@@ -77,8 +76,8 @@ fn relief(script: &mut ScriptBuilder) {
     }
 }
 
-/// Three bands of glaze from left to right; a clean stiff brush then takes them off
-/// the crests of their lower half and leaves them in the hollows.
+/// Three bands of glaze from left to right. A clean flat brush then takes the glaze off the crests
+/// of their lower half and leaves it in the hollows.
 fn glazes(script: &mut ScriptBuilder) {
     for (recipe, left, vehicle) in [("L1", 6.0, 0.9), ("U1", 38.0, 0.95), ("V1", 70.0, 0.93)] {
         for row in 0..7 {

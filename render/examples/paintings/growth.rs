@@ -1,20 +1,21 @@
-//! What grows in the landscape: cypresses and their shadows, bushes, ears and
-//! stalks of wheat, poppies.
+//! Plants of the landscape: cypresses and their shadows, bushes, ears and stalks of wheat,
+//! poppies.
 
 use std::f64::consts::PI;
 
 use super::field_path::{HEIGHT, HORIZON, path};
 use super::script_builder::{Place, ScriptBuilder};
 
-/// A stroke of `length` whose second half goes another way.
+/// The three points of a bent stroke of `length` mm from `x`, `y`. Its halves have the directions
+/// `first` and `second`, in radians.
 pub(crate) fn bowed((x, y): Place, first: f64, second: f64, length: f64) -> [Place; 3] {
     let half = 0.5 * length;
     let middle = (x + half * first.cos(), y + half * first.sin());
     [(x, y), middle, (middle.0 + half * second.cos(), middle.1 + half * second.sin())]
 }
 
-/// Flames of dark green, from the outside in and from below upwards; then the
-/// lights on the side of the sun.
+/// A cypress in upward strokes: four passes from dark and wide to light and narrow, each from the
+/// foot to the top, then highlights on the side of the sun.
 pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half: f64) {
     let passes = [
         ("K2V1P0.5", 1.0, 7.0),
@@ -64,7 +65,7 @@ pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half
     }
 }
 
-/// What the trees throw on the wheat, away from the sun.
+/// Shadows of the cypresses on the wheat, away from the sun.
 pub(crate) fn shadows(script: &mut ScriptBuilder) {
     for (x, y, length) in [(163.0, 104.0, 60.0), (181.0, 100.0, 40.0)] {
         for number in 0..14 {
@@ -106,7 +107,7 @@ pub(crate) fn bushes(script: &mut ScriptBuilder) {
     }
 }
 
-/// Ears of wheat put on thick, and stalks by rigger.
+/// Ears of wheat in thick paint, and stalks by the rigger.
 pub(crate) fn wheat(script: &mut ScriptBuilder) {
     for number in 0..150_usize {
         let near = 0.65 + script.about(0.35);

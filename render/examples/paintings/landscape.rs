@@ -1,8 +1,8 @@
-//! A wheat field with cypresses: underpainting, a sky painted wet in wet, then
-//! hills, field and trees on what is dry, lights put on thick, lines by rigger.
+//! A wheat field with cypresses: underpainting, a sky painted wet in wet, then hills, field and
+//! trees over dry paint, with thick highlights and thin lines by the rigger.
 //!
-//! Most strokes come in tufts: places on a shaken grid, each with a way to go and
-//! a mixture that depends on where it is. What is near is painted larger.
+//! Most strokes start at the points of a jittered grid; direction and mixture depend on the
+//! position. Strokes in the foreground are longer.
 
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ const EARTH: [(&str, &str); 8] = [
     ("P", "Prussian Blue"),
 ];
 
-/// The script.
+/// The stroke script of the landscape.
 pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06 };
     let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
@@ -76,7 +76,7 @@ pub(crate) fn script() -> StrokeScript {
     script.built
 }
 
-/// Thin paint all over, so that no gap is bare.
+/// A thin coat of paint on the whole canvas, so that no bare ground shows in gaps.
 fn underpainting(script: &mut ScriptBuilder) {
     for (recipe, from, to) in
         [("W8C1", -4.0, 44.0), ("W9R0.5Y1", 44.0, 66.0), ("Y6R1W2", 66.0, 142.0)]
@@ -96,8 +96,8 @@ fn underpainting(script: &mut ScriptBuilder) {
     script.dry();
 }
 
-/// Which way the air goes at a place: eastwards in waves, around two whirls and
-/// around the sun.
+/// Direction of the wind at a position, in radians: to the right in waves, and around two whirls
+/// and the sun.
 fn wind((x, y): Place) -> f64 {
     let mut way = (1.0, 0.22 * (x / 23.0 + y / 31.0).sin());
     for ((cx, cy), reach, turn) in
@@ -106,14 +106,14 @@ fn wind((x, y): Place) -> f64 {
         let (dx, dy): (f64, f64) = (x - cx, y - cy);
         let distance = dx.hypot(dy).max(0.5);
         let weight = 3.2 * (-(distance / reach).powi(4)).exp();
-        // A little inwards, so that it winds up.
+        // A small inward component makes the whirls spirals.
         way.0 += weight * (-turn * dy - 0.2 * dx) / distance;
         way.1 += weight * (turn * dx - 0.2 * dy) / distance;
     }
     way.1.atan2(way.0)
 }
 
-/// Places that follow the wind from `at` for `length`.
+/// Three points that follow the wind from `at` over `length` mm.
 fn drift(at: Place, length: f64) -> Vec<Place> {
     let mut places = vec![at];
     let mut place = at;
@@ -153,7 +153,7 @@ fn sky(script: &mut ScriptBuilder) {
     }
 }
 
-/// How much lighter the sky is by clouds, whirls and the sun.
+/// Added lightness of the sky by clouds, whirls and the sun, in steps of the blue mixtures.
 fn brightness((x, y): Place) -> f64 {
     let ring = |(cx, cy): Place, radius: f64, width: f64| {
         let off = ((x - cx).hypot(y - cy) - radius) / width;
@@ -192,11 +192,11 @@ fn sun(script: &mut ScriptBuilder) {
     }
 }
 
-/// The height of a crest by place, and the mixtures below it.
+/// Position of a crest below the top, in mm, as a function of x, and the mixtures below it.
 type Ridge = (fn(f64) -> f64, [&'static str; 3]);
 
 fn hills(script: &mut ScriptBuilder) {
-    // Each behind the next: its crest, the mixtures, how steep its strokes are.
+    // From the farthest ridge to the nearest.
     let ridges: [Ridge; 3] = [
         (
             |x| 51.0 - 5.0 * (x / 34.0 + 0.6).sin() - 2.0 * (x / 11.0).sin(),
@@ -229,9 +229,9 @@ fn hills(script: &mut ScriptBuilder) {
     }
 }
 
-/// A house with a red roof among bushes, and its chimney.
+/// A house with a red roof and two windows.
 fn house(script: &mut ScriptBuilder) {
-    // Walls in the light and in the shade, the roof, its ridge in the light.
+    // The lit wall, the shaded wall, the roof, and its lit ridge.
     for (recipe, rows, from, to) in [
         ("W24Y0.5R0.2", [57.0, 58.5, 60.0, 61.5], 77.0, 91.0),
         ("W9C1R0.5", [57.0, 58.5, 60.0, 61.5], 68.0, 74.0),
@@ -275,7 +275,7 @@ fn field(script: &mut ScriptBuilder) {
             };
             let at = (x + script.about(1.5), y + script.about(1.2));
             let length = 5.5 + 9.5 * near + script.about(2.0);
-            // Level far away, standing and bowed by the wind near by.
+            // Strokes are nearly level far away; near by they are steep and bent by the wind.
             let (way, bow) = if on_path {
                 (-0.3 - near * 0.4, 0.0)
             } else {
@@ -285,7 +285,7 @@ fn field(script: &mut ScriptBuilder) {
             row.push((recipe, bowed(at, way, way + bow, length)));
             x += 5.0 + 1.5 * near;
         }
-        // A row is painted colour by colour, so that a brush need not be washed for each.
+        // Sorted by mixture, so that the brush is not washed for every stroke.
         row.sort_by(|a, b| a.0.cmp(b.0));
         for (recipe, places) in row {
             script.fresh(brush, recipe, 0.05, 0.55);

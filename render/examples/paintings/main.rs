@@ -1,4 +1,4 @@
-//! Writes the scripts of `paintings/`, the same bytes each time:
+//! Writes the stroke scripts of `paintings/`; the output is deterministic:
 //! `cargo run -p impasto-render --example paintings -- paintings`.
 
 mod script_builder;

@@ -1,8 +1,8 @@
-//! One sub-step of a head, spines included: `cargo bench -p impasto-paint
-//! --bench brush`.
+//! One sub-step of a brush head, bending included:
+//! `cargo bench -p impasto-paint --bench brush`.
 //!
-//! Wanted: 80 microseconds for a contact of 88 x 88 cells, 25 for 26 x 26. An
-//! item is a cell of the contact.
+//! Target: 80 microseconds for a contact of 88 x 88 cells, 25 for 26 x 26. Items are cells of the
+//! contact.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -19,7 +19,7 @@ fn main() {
 const CELL_MM: f64 = 0.1;
 const BOUNDS: Rect = Rect { x: 0, y: 0, width: 2048, height: 512 };
 
-/// Shape, size in mm, pressure.
+/// Shape, size in mm and pressure of each head.
 const HEADS: [(HeadShape, f64, f64); 8] = [
     (HeadShape::Round, 1.7, 1.0),
     (HeadShape::Round, 6.0, 1.0),

@@ -1,7 +1,6 @@
-//! How fast on a graphics device: sub-steps, light, and what a submission costs.
+//! Benchmarks on the GPU: sub-steps, rendering, and the cost of a submission.
 //!
-//! Runs on the best adapter, software ones included; times nothing where there
-//! is none.
+//! Runs on the best adapter, software adapters included. Without an adapter nothing is timed.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -25,7 +24,7 @@ fn device() -> Option<Device> {
     choose(BackendChoice::Gpu).ok().flatten()
 }
 
-/// Eight pigments everywhere.
+/// Paint of eight pigments and vehicle in every cell.
 fn paint(width: usize, height: usize) -> Layer {
     let mut layer = Layer::empty(width, height);
     for i in 0..width * height {
@@ -35,7 +34,7 @@ fn paint(width: usize, height: usize) -> Layer {
     layer
 }
 
-/// A canvas of `side` cells with wet paint, and a loaded head of 96 x 96.
+/// A canvas of `side` x `side` cells with wet paint, and a loaded head of 96 x 96 cells.
 fn engine(side: usize) -> Option<(PaintEngine, BrushId)> {
     let mut engine = PaintEngine::on_device(device()?, &Field::filled(side, side, 0)).unwrap();
     let brush = engine.add_brush(96, 96).unwrap();
@@ -55,7 +54,7 @@ fn contacts(side: usize, count: usize) -> Vec<Contact> {
     (0..count).map(|step| Contact { rect: rect(step), touches: touches.clone() }).collect()
 }
 
-/// 256 sub-steps sent together, and waited for.
+/// 256 sub-steps in one call, then a wait.
 #[divan::bench(args = [26, 88], sample_count = 10)]
 fn sub_steps(bencher: Bencher<'_, '_>, side: usize) {
     let Some((mut engine, brush)) = engine(512) else { return };
@@ -66,7 +65,7 @@ fn sub_steps(bencher: Bencher<'_, '_>, side: usize) {
     });
 }
 
-/// Sub-steps sent one by one, each waited for.
+/// One sub-step per call, with a wait after each.
 #[divan::bench(args = [1, 26, 88], sample_count = 10)]
 fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
     let Some((mut engine, brush)) = engine(512) else { return };
@@ -103,7 +102,7 @@ fn scene(dry: usize) -> Scene {
     }
 }
 
-/// Wet paint over what is baked, to linear light, 1024 x 1024.
+/// Composites and shades the wet layer over baked reflectance, 1024 x 1024 cells.
 #[divan::bench(sample_count = 10)]
 fn one_layer(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };
@@ -114,7 +113,7 @@ fn one_layer(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Two dry layers baked and the wet one shown, 1024 x 1024.
+/// Bakes two dry layers and shows the wet layer over them, 1024 x 1024 cells.
 #[divan::bench(sample_count = 10)]
 fn three_layers(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };
@@ -128,7 +127,7 @@ fn three_layers(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The picture back to the processor, 1024 x 1024.
+/// Reads the picture back to the CPU, 1024 x 1024 cells.
 #[divan::bench(sample_count = 10)]
 fn readback(bencher: Bencher<'_, '_>) {
     let Some((mut engine, _)) = engine(1024) else { return };

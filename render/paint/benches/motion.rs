@@ -1,10 +1,10 @@
-//! Sub-steps on the processor: `cargo bench -p impasto-paint --bench motion`.
+//! Sub-steps on the CPU: `cargo bench -p impasto-paint --bench motion`.
 //!
-//! A head with a curved bottom moves one cell a sub-step over wet paint of
-//! eight pigments. Items are cells of the contact's rectangle. To beat: 0.52
-//! million cells/s at 88 x 88 and 116 sub-steps/s at 26 x 26 (Baxter, Wendt and
-//! Lin 2004, GeForce FX 5900); libmypaint's dab of radius 32, without any
-//! simulation, 8.5 million. `RAYON_NUM_THREADS=1` for one core.
+//! A head with a curved bottom moves one cell per sub-step over wet paint of eight pigments. Items
+//! are cells of the rectangle of the contact. For comparison: 0.52 million cells/s at 88 x 88 and
+//! 116 sub-steps/s at 26 x 26 (Baxter, Wendt and Lin 2004, GeForce FX 5900); 8.5 million cells/s
+//! for a dab of radius 32 by libmypaint, which simulates no paint. Set `RAYON_NUM_THREADS=1` for
+//! one core.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -23,10 +23,10 @@ fn main() {
 
 const CANVAS: usize = 512;
 const HEAD: usize = 96;
-/// Sub-steps of one stroke, over fresh paint all the way.
+/// Sub-steps of one stroke across the canvas, over paint that no stroke has moved.
 const STROKE: usize = CANVAS - HEAD;
 
-/// Every pigment in every cell, `cells` cells high.
+/// Paint of eight pigments and vehicle in every cell, about `cells` cells high.
 fn paint(width: usize, height: usize, cells: f64) -> Layer {
     let mut layer = Layer::empty(width, height);
     let part = cells * f64::from(QUANTA_PER_CELL) / 9.0;
@@ -46,8 +46,8 @@ fn engine() -> (PaintEngine, BrushId) {
     (engine, brush)
 }
 
-/// The contact of a `whole` square, or of the disc in it, whose bottom curves
-/// up by a cell and a half towards its rim.
+/// The contact of a square head, or, unless `whole`, of the disc in it. The bottom of the square
+/// curves up by one and a half cells from the centre to the corners.
 fn contact(size: usize, x: usize, whole: bool) -> Contact {
     let radius = size as f64 / 2.0;
     let touches = (0..size * size).map(|i| {
@@ -88,7 +88,7 @@ fn disc(bencher: Bencher<'_, '_>, size: usize) {
     run(bencher, size, false, STROKE);
 }
 
-/// Each sub-step by itself, as an interactive program sends them.
+/// One sub-step per call, as in an interactive program.
 #[divan::bench(args = [26, 65, 88], sample_count = 10)]
 fn one_by_one(bencher: Bencher<'_, '_>, size: usize) {
     run(bencher, size, true, 1);

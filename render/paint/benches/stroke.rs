@@ -1,18 +1,15 @@
-//! A painting at work, everything included: `cargo bench -p impasto-paint
-//! --bench stroke`.
+//! Complete strokes, a replay, and relighting: `cargo bench -p impasto-paint --bench stroke`.
 //!
-//! Strokes go from samples to paint: the head bends, its footprint is drawn, the
-//! paint of eight pigments moves, undo keeps what was there. Items are cells of
-//! the contacts' rectangles, cycles are sub-steps. Wanted on two cores: 20
-//! million cells/s with a rectangle of 88 x 88, 5,000 sub-steps/s with one of
-//! 26 x 26.
+//! Strokes run from samples to paint: the head bends, its footprint is rasterised, the paint of
+//! eight pigments moves, and undo saves tiles. Items are cells of the rectangles of contacts,
+//! cycles are sub-steps. Target on two cores: 20 million cells/s with a rectangle of 88 x 88, 5,000
+//! sub-steps/s with one of 26 x 26.
 //!
-//! The replay is that of the shipped colour study, from bare linen to the last
-//! stroke; items are its strokes.
+//! The replay paints the shipped colour study from bare linen to the last stroke. Items are
+//! strokes.
 //!
-//! Relights compute every cell of a painting of three dry layers anew, with
-//! relief and gloss; items are cells of the canvas. Wanted at 4096 x 4096: under
-//! 3 s, which is 5.6 million cells/s.
+//! Relighting recomputes every cell of a painting of three dry layers, with relief and gloss. Items
+//! are cells of the canvas. Target at 4096 x 4096: below 3 s, or 5.6 million cells/s.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -40,7 +37,7 @@ fn main() {
 const CELL_MM: f64 = 0.1;
 const UNDO_BYTES: u64 = 512 << 20;
 
-/// Every pigment in every cell, half a cell high.
+/// Paint of eight pigments and vehicle in every cell, about half a cell high.
 fn paint(width: usize, height: usize, seed: usize) -> Layer {
     let mut layer = Layer::empty(width, height);
     let part = f64::from(QUANTA_PER_CELL) / 18.0;
@@ -56,7 +53,7 @@ fn oils() -> PigmentLibrary {
     PigmentLibrary::van_gogh_oils()
 }
 
-/// A painting on linen with wet paint all over, and `dry` layers below it.
+/// A painting on linen with wet paint in every cell and `dry` dry layers below it.
 fn painting(width: usize, height: usize, dry: usize) -> Painting {
     let library = oils();
     let ground = GroundSpec::default().build(width, height, CELL_MM, &library).expect("linen");
@@ -70,7 +67,7 @@ fn painting(width: usize, height: usize, dry: usize) -> Painting {
     Painting::open(document, engine, UNDO_BYTES).expect("a painting")
 }
 
-/// A head, its size in mm and its pressure.
+/// Shape, size in mm and pressure of each head.
 const HEADS: [(HeadShape, f64, f64); 4] = [
     (HeadShape::Round, 1.6, 1.0),
     (HeadShape::Flat, 2.1, 0.7),
@@ -78,7 +75,7 @@ const HEADS: [(HeadShape, f64, f64); 4] = [
     (HeadShape::Flat, 8.75, 0.7),
 ];
 
-/// One stroke of 160 mm, always over the same paint with the same load.
+/// One stroke of 160 mm. An undo before each restores the paint and the load of the brush.
 #[divan::bench(args = 0..HEADS.len(), sample_count = 10, sample_size = 1)]
 fn stroke(bencher: Bencher<'_, '_>, head: usize) {
     let (shape, size_mm, pressure) = HEADS[head];
@@ -104,7 +101,7 @@ fn stroke(bencher: Bencher<'_, '_>, head: usize) {
         .bench_local_values(|_| painting.borrow_mut().stroke(brush, &samples).expect("painted"));
 }
 
-/// The same lamp from another side.
+/// Changes the direction of the light only.
 #[divan::bench(args = [1024, 2048], sample_count = 5, sample_size = 1)]
 fn relight_from_another_side(bencher: Bencher<'_, '_>, side: usize) {
     let mut azimuths = [45.0, 315.0].into_iter().cycle();
@@ -114,7 +111,7 @@ fn relight_from_another_side(bencher: Bencher<'_, '_>, side: usize) {
     });
 }
 
-/// Another illuminant; its eight wavelengths are fitted too.
+/// Changes the illuminant, which includes fitting its eight wavelengths.
 #[divan::bench(args = [1024, 2048], sample_count = 5, sample_size = 1)]
 fn relight_by_another_illuminant(bencher: Bencher<'_, '_>, side: usize) {
     let mut lights = ["A", "D65"].into_iter().cycle();

@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn every_packed_form_gives_the_same_values() {
-        // 120, 130, 130, 95 in tenths.
+        // Every form encodes 120, 130, 130, 95, in units of a tenth.
         for data in [
             "800 120 130 130 95",
             "800+120+130+130+95",

@@ -105,7 +105,7 @@ mod tests {
         let mut meter = Meter::default();
         for _ in 0..40 {
             let substeps = meter.slice();
-            // A machine that plays 40,000 sub-steps a second.
+            // A machine that computes 40,000 sub-steps per second.
             let time = Duration::from_secs_f64(substeps as f64 / 40_000.0);
             meter.add_slice(Instant::now(), substeps, time);
         }

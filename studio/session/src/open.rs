@@ -189,7 +189,7 @@ mod tests {
         let (canvas, palette) = worker.session().documents().unwrap();
         let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
         let snapshot = Snapshot { number: 1, canvas, palette, revision: 1 };
-        // As on a device.
+        // Set by hand, because a worker without a graphics device keeps no snapshot.
         worker.kept = saved.then(|| snapshot.clone());
         events.borrow_mut().clear();
         let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };

@@ -29,7 +29,7 @@ const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
 /// One picture and the tiles that must be sent.
 #[derive(Debug)]
-struct View {
+struct UnsentTiles {
     surface: SurfaceId,
     second: bool,
     unsent: TileSet,
@@ -39,7 +39,7 @@ struct View {
 #[derive(Debug)]
 pub(super) struct Outbox {
     bytes: SrgbBytes,
-    views: [View; 3],
+    views: [UnsentTiles; 3],
     /// Number of parts sent and not confirmed.
     unconfirmed: usize,
     next: Instant,
@@ -49,7 +49,7 @@ pub(super) struct Outbox {
 
 impl Outbox {
     pub(super) fn new() -> Self {
-        let view = |surface, second| View { surface, second, unsent: TileSet::default() };
+        let view = |surface, second| UnsentTiles { surface, second, unsent: TileSet::default() };
         Self {
             bytes: SrgbBytes::new(),
             views: [

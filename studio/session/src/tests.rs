@@ -11,12 +11,13 @@ use render::paint::strokes::{Action, BrushSpec, MAX_NAMES, StrokeScript};
 
 use super::{Command, Event, Worker, WorkerOptions, blank_canvas};
 
-/// Events of a worker. One batch may hold more than what a test waits for.
+/// Events of a worker. A batch may go beyond the event that a test waits for; the rest is kept for
+/// the next wait.
 #[derive(Default)]
 struct Events {
-    /// Events that a wait has looked at, in order.
+    /// Events that were examined, in order.
     seen: Vec<Event>,
-    /// Events that arrived after the last one that was waited for.
+    /// Events that arrived but were not examined yet.
     pending: VecDeque<Event>,
 }
 
@@ -66,7 +67,7 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
         let _ = wake.send(());
     });
     worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 4.0, 3.0, 0.5)));
-    // Each new head needs a name in the recording; used so that it is recorded.
+    // Each new head takes a name in the recording once it is used, here for a wipe.
     let wipe = Action::Wipe { brush: "round".to_owned(), keep: 0.5 };
     let use_head = |head: usize| {
         let spec = BrushSpec { shape: HeadShape::Round, size_mm: 1.0 + 0.01 * head as f64 };
@@ -86,7 +87,7 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
     });
     let cut = recording(&worker, &woken, &mut events);
     assert!(cut.actions.len() <= complete.actions.len() + 1, "nothing was added since");
-    // The request reports it again, after the answer.
+    // After the answer to the request, the worker reports the early end again.
     wait(&worker, &woken, &mut events, |event| {
         (!endings(std::slice::from_ref(event)).is_empty()).then_some(())
     });

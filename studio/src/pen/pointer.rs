@@ -216,7 +216,7 @@ mod tests {
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
         let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
-        // Together with the pointer events that egui adds for a finger.
+        // egui adds these pointer events for a finger.
         let down = [touch(1, TouchPhase::Start, 0.0), button(true)];
         assert_eq!(frame(0, &down), "");
         let moved = [touch(1, TouchPhase::Move, 4.0), Event::PointerMoved(pos2(4.0, 0.0))];
@@ -229,7 +229,7 @@ mod tests {
         assert_eq!(frame(160, &[]), "");
         assert_eq!(frame(180, &[]), "P");
         assert_eq!(frame(190, &[touch(1, TouchPhase::End, 0.0)]), "R");
-        // A tap.
+        // A tap is a short press at one place.
         assert_eq!(frame(300, &down), "");
         assert_eq!(frame(310, &[touch(1, TouchPhase::End, 0.0)]), "PR");
     }

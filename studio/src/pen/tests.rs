@@ -67,7 +67,7 @@ fn state(x: f32, pressure: f64) -> PointerState {
     PointerState { at: pos2(x, 40.0), pressure: Some(pressure), tilt_deg, twist_deg }
 }
 
-/// All samples, rounded as the stroke rounds them.
+/// All samples of the output, with the rounding of a stroke.
 fn samples(output: &[PenEvent]) -> Vec<PenSample> {
     let round = |sample: &PenSample| PenSample {
         sample: SampleDecimals::PEN.round(&sample.sample),
@@ -265,7 +265,7 @@ fn the_pen_follows_a_transform_that_changes() {
     let [PenEvent::Hover { sample, .. }] = output[..] else { panic!("{output:?}") };
     let sample = SampleDecimals::PEN.round(&sample);
     assert_eq!((sample.x_mm, sample.tilt_x_deg, sample.tilt_y_deg), (90.0, -20.0, -10.0));
-    // Also during a stroke: each sample uses the transform of its frame.
+    // During a stroke each sample uses the transform of its frame.
     test.feed(4, ReportKind::Pressed(state(40.0, 0.5)));
     assert_eq!(samples(&test.frame(5, &[]))[0].sample.x_mm, 90.0);
     test.transforms = transforms();
@@ -282,19 +282,19 @@ fn values_out_of_range_are_clamped_or_dropped() {
     test.feed(0, ReportKind::Pressed(odd));
     test.feed(5, ReportKind::Moved(PointerState { pressure: Some(f64::NAN), ..odd }));
     test.feed(6, ReportKind::Moved(PointerState { at: pos2(f32::INFINITY, 0.0), ..odd }));
-    // Earlier than the last report, which no clock should produce.
+    // A report earlier than the last one, which no clock should produce.
     test.feed(2, ReportKind::Moved(state(12.0, -1.0)));
     let output = samples(&test.frame(8, &[]));
     assert_eq!(output.len(), 2);
     assert_eq!((output[0].sample.pressure, output[1].sample.pressure), (1.0, 0.0));
     assert!(output.iter().all(|sample| sample.sample.tilt_x_deg.abs() <= 90.0), "{output:?}");
     assert!(output.is_sorted_by_key(|sample| sample.sample.seconds), "{output:?}");
-    // A late report: the rest sample was sent before it.
+    // A report that arrives after the sample of a resting pen, although it is older.
     assert_eq!(samples(&test.frame(48, &[])).len(), 1);
     test.feed(44, ReportKind::Moved(state(14.0, 0.5)));
     let output = samples(&test.frame(50, &[]));
     assert_eq!((output[0].sample.x_mm, output[0].sample.seconds), (3.5, 0.048));
-    // A release that was lost.
+    // A second press without a release ends the stroke and begins another.
     test.feed(60, ReportKind::Pressed(state(50.0, 0.5)));
     assert_eq!(letters(&test.frame(61, &[])), "UDM");
     assert_eq!(letters(&test.pen.end_stroke(test.at(70))), "U");

@@ -298,7 +298,7 @@ mod tests {
         }
     }
 
-    /// The server and its display name.
+    /// Starts an X server; `None` without Xvfb. Returns it with its display name.
     fn server() -> Option<(Server, String)> {
         let mut command = Command::new("Xvfb");
         command.args(["-displayfd", "1", "-screen", "0", "320x200x24", "-nolisten", "tcp"]);

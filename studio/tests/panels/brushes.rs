@@ -137,7 +137,7 @@ fn a_brush_is_added_renamed_and_removed() {
     harness.key_press(Key::Enter);
     harness.run();
     assert!(harness.query_by_label("for highlights").is_some(), "its new name");
-    assert_eq!(harness.state().tools.brush, "bright", "the painting knows it as before");
+    assert_eq!(harness.state().tools.brush, "bright", "the painting keeps the old name");
 
     click(&mut harness, "Rename");
     harness.event(Event::Text(" never".to_owned()));

@@ -111,7 +111,7 @@ pub(crate) struct Fixture<P> {
 }
 
 impl<P> Fixture<P> {
-    /// Calls `act` with the panel and its context, as a key would.
+    /// Calls `act` with the panel and its context, as a keyboard shortcut does.
     pub(crate) fn with_panel<T>(
         &mut self,
         act: impl FnOnce(&mut P, &mut PanelContext<'_>) -> T,

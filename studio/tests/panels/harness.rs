@@ -194,7 +194,7 @@ impl Window {
         has_adapter().then(|| self.harness.render().expect("the window is drawn"))
     }
 
-    /// Draws the window into `target/tmp/NAME.png`.
+    /// Renders the window into `target/tmp/NAME.png` if there is an adapter.
     pub(crate) fn save(&mut self, name: &str) {
         if let Some(picture) = self.picture() {
             let path = folder().join(format!("{name}.png"));
@@ -209,7 +209,7 @@ impl Window {
         [red, green, blue]
     }
 
-    /// The window, in points.
+    /// Rectangle of the whole window, in points.
     pub(crate) fn whole(&self) -> Rect {
         self.harness.ctx.content_rect()
     }
@@ -228,7 +228,8 @@ impl Drop for Window {
     }
 }
 
-/// Whether there is a graphics adapter. Notes the result as the other adapter tests do.
+/// Whether there is a graphics adapter. Appends its name (or `none`) to the file that the
+/// environment variable `IMPASTO_GPU_TESTS` names, if it is set.
 pub(crate) fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);

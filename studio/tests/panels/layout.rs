@@ -135,7 +135,7 @@ fn the_view_follows_drag_wheel_and_held_keys() {
     assert_eq!(window.studio().tools.mode, Mode::Zoom);
     let zoom = window.studio().canvas.view.zoom;
     drag(&mut window, PointerButton::Primary, vec2(0.0, -60.0));
-    assert!(window.studio().canvas.view.zoom > 1.2 * zoom, "up is in");
+    assert!(window.studio().canvas.view.zoom > 1.2 * zoom, "dragging up zooms in");
     window.harness().key_up(Key::Z);
     window.harness().step();
     assert_eq!(window.studio().tools.mode, Mode::Paint);
@@ -155,7 +155,7 @@ fn the_view_follows_drag_wheel_and_held_keys() {
     }]);
     window.harness().run_steps(30);
     assert!(window.studio().canvas.view.zoom > 1.1 * zoom, "the wheel zooms");
-    assert!(near(cell(&window, pointer), held), "about the pointer");
+    assert!(near(cell(&window, pointer), held), "the cell under the pointer is kept");
 }
 
 #[test]
@@ -175,8 +175,8 @@ fn the_hovering_head_is_drawn_translucent_at_the_pointer() {
             |offset: Vec2| window.color(&before, at + offset) != window.color(&after, at + offset);
         // The brush of a mouse leans to the lower right of the window, however the
         // canvas is rotated.
-        assert!(changed(vec2(14.0, 14.0)), "the head is seen");
-        assert!(!changed(vec2(-60.0, -60.0)), "and nowhere else");
+        assert!(changed(vec2(14.0, 14.0)), "the head is drawn");
+        assert!(!changed(vec2(-60.0, -60.0)), "nothing else is drawn");
         let [red, green, blue] = window.color(&after, at + vec2(14.0, 14.0));
         assert!(red.min(green).min(blue) > 10, "the head is translucent: {red} {green} {blue}");
         window.frame(vec![UiEvent::PointerMoved(pos2(1200.0, 300.0))]);
@@ -284,7 +284,7 @@ fn the_second_light_is_shown_right_of_a_draggable_line() {
     let to = knob + vec2(120.0, 0.0);
     window.pen_stroke(&[knob, knob + vec2(60.0, 0.0), to, to]);
     window.settle();
-    assert_eq!(window.studio().painting().unwrap().history_done, done, "the line is no paint");
+    assert_eq!(window.studio().painting().unwrap().history_done, done, "the drag does not paint");
     let wanted = window.studio().canvas.placement().cell(to)[0] / 320.0;
     assert!((f64::from(window.studio().tools.split) - wanted).abs() < 0.02, "{wanted}");
     window.save("split");

@@ -115,7 +115,7 @@ fn dragging_the_direction_adjusts_and_ends_on_release() {
         .collect();
     assert!(matches!(commands.last(), Some(Command::EndAdjustment)), "{commands:?}");
     assert_eq!(lights.len(), commands.len() - 1, "{commands:?}");
-    assert_eq!(lights[0].elevation_deg, 90.0, "the middle is straight above");
+    assert_eq!(lights[0].elevation_deg, 90.0, "the centre is light from straight above");
     assert!(lights.iter().any(|light| light.azimuth_deg == 90.0), "{lights:?}");
     let last = lights[lights.len() - 1];
     assert_eq!(last.azimuth_deg, 180.0);
@@ -210,7 +210,7 @@ fn the_second_light_is_switched_and_swapped() {
     let [Command::SetSecondLight(Some(to_second)), Command::Apply(Action::Light(to_first))] =
         &commands[..]
     else {
-        panic!("both change places: {commands:?}");
+        panic!("both lights are exchanged: {commands:?}");
     };
     assert_eq!((to_first, to_second), (&second, &first));
     stage.click("Second light");

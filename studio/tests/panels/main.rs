@@ -1,4 +1,5 @@
-//! Every panel without a window, on a real engine, with a synthetic pen.
+//! Tests of the panels and of the whole window without a window system, some with a real worker and
+//! a synthetic pen.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -67,7 +67,7 @@ fn more_pressure_paints_a_broader_stroke() {
 fn mouse_events_emulated_for_a_pen_make_no_second_stroke() {
     let mut window = Window::open("pen-mouse");
     let end = stroke(&mut window, 5.0, 0.5);
-    // The mouse events arrive late, as from another connection.
+    // The mouse events of the pen arrive late, because they come over another connection.
     window.frame(vec![Event::PointerMoved(end), button(end, true)]);
     assert!(!window.studio().pen.is_down(), "the pen is near");
     window.frame(vec![button(end, false)]);

@@ -38,7 +38,7 @@ fn a_click_selects_a_tube_and_sends_nothing() {
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (2, Mode::Squeeze));
     assert_requests(&mut harness, &[]);
     click(&mut harness, "Squeeze");
-    assert_eq!(harness.state().tools.mode, Mode::Paint, "the button is a switch");
+    assert_eq!(harness.state().tools.mode, Mode::Paint, "a second click ends squeezing");
 }
 
 #[test]

@@ -128,7 +128,7 @@ fn a_new_illuminant_changes_the_color_of_the_brush() {
     let painting = window.studio().painting().unwrap();
     assert_eq!(painting.lighting.illuminant, "LED-RGB1");
     assert_eq!(painting.light.viewing.illuminant.name(), "LED-RGB1");
-    assert_ne!(color(&window), before, "red paint looks otherwise under it");
+    assert_ne!(color(&window), before, "the lamp changes the colour of red paint");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! From the first stroke to the file and back.
+//! Painting, drying, undo and another light in the window, then saving and reopening the painting.
 
 use studio::files::Preferences;
 
@@ -68,6 +68,6 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     let Some(screen) = crate::screen(1920, 1080) else { return };
     let program = Program::start(&screen, &home, "1920x1080", &[&path]);
     let covered = shows(&program, &picture);
-    assert!(covered > x.len() * y.len(), "{covered} pixels are compared, not more");
+    assert!(covered > x.len() * y.len(), "only {covered} pixels are compared");
     assert!(program.quit().success());
 }

@@ -83,12 +83,12 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     let killed = SystemTime::now();
     program.kill();
     screen.button(false);
-    let (canvas, written) = kept(&home).expect("the autosave stands");
+    let (canvas, written) = kept(&home).expect("the autosave exists");
     let lost = killed.duration_since(written).unwrap_or_default();
     // The delay depends on the machine, but the autosave must date from the stroke.
     eprintln!("killed {:.1} s after the last autosave", lost.as_secs_f64());
     let last = painting(&canvas);
-    assert!(wet(&last) >= wet(&some), "autosaves go forwards");
+    assert!(wet(&last) >= wet(&some), "a later autosave holds no less paint");
 
     let program = Program::start(&screen, &home, "1280x800", &[]);
     let recover = until("a lost painting is offered", || recover_button(&screen.all()));
@@ -97,7 +97,7 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     let covered = shows(&program, &picture);
     assert_eq!(covered, x.len() * y.len());
     let now = screen.pixels(x.clone(), y.clone());
-    assert!(before.differing(&now) > 0, "what came after the autosave is lost");
+    assert!(before.differing(&now) > 0, "paint after the autosave is lost");
     // Quitting would ask about the unsaved painting.
     program.kill();
 }

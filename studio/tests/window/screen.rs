@@ -44,7 +44,7 @@ impl Pixels {
 
     /// Number of pixels that differ from another picture of equal size.
     pub(crate) fn differing(&self, other: &Self) -> usize {
-        assert_eq!((self.width, self.height), (other.width, other.height), "two sizes");
+        assert_eq!((self.width, self.height), (other.width, other.height), "the sizes differ");
         self.rows.iter().zip(&other.rows).filter(|(a, b)| a != b).count()
     }
 

@@ -85,7 +85,7 @@ fn commands_without_a_painting_fail_and_a_failed_open_keeps_the_painting() {
     window.ask(Command::Open(Origin::Blank { script, library }));
     let (text, _, failed) = window.message();
     assert!(failed && text.contains("canvas"), "{text}");
-    assert!(Arc::clone(&window.snapshot().canvas) == before.canvas, "the last one is still there");
+    assert!(Arc::clone(&window.snapshot().canvas) == before.canvas, "the painting is still open");
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! Synthetic strokes.
+//! Synthetic strokes and brush loads for the tests of the worker.
 
 use render::paint::pose::Sample;
 use render::paint::strokes::{Action, Load, Stroke, SurfaceId};
 
-/// Samples of a random stroke within `width_mm` x `height_mm`, at 120 samples per
-/// second.
+/// Samples of a wandering stroke of sines within `width_mm` x `height_mm`, at 120 samples per
+/// second. `seed` selects the phase.
 pub(crate) fn wander(seed: u64, count: usize, width_mm: f64, height_mm: f64) -> Vec<Sample> {
     let phase = seed as f64 * 1.7;
     let sample = |index: usize| {

@@ -70,7 +70,7 @@ fn all_samples_of_bursts_are_painted_in_the_order_of_commands() {
         }
     }
     let snapshot = window.snapshot();
-    assert_same(&snapshot, &mut session, "after all");
+    assert_same(&snapshot, &mut session, "after all actions");
     assert_eq!(window.recording(), *session.recording().unwrap(), "all is recorded");
     let (history, done) = session.history();
     window.wait_until("the history", |window| {
@@ -103,7 +103,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     let whole = window.snapshot();
     session.apply(&stroke(SurfaceId::Canvas, "filbert", &samples)).unwrap();
     assert_same(&whole, &mut session, "after a stroke that was saved midway");
-    assert!(whole.canvas.wet != midway.canvas.wet, "the stroke went on");
+    assert!(whole.canvas.wet != midway.canvas.wet, "the stroke continued");
     assert!(whole.revision > midway.revision, "changes are counted");
     assert_eq!(window.snapshot().revision, whole.revision, "nothing happened since");
 }
@@ -124,7 +124,7 @@ fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     window.handle_events();
     let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
     let waiting = window.events.iter().filter(paced).count();
-    assert!((1..=4).contains(&waiting), "{waiting} parts waited");
+    assert!((1..=4).contains(&waiting), "{waiting} events are queued");
     let snapshot = window.snapshot();
     super::pictures::assert_pictures(&mut window, &snapshot);
 }
@@ -159,7 +159,7 @@ fn an_invalid_sample_is_reported_and_the_stroke_continues() {
     window.stroke(SurfaceId::Canvas, "round", [&samples[..]]);
     let snapshot = window.snapshot();
     session.apply(&stroke(SurfaceId::Canvas, "round", &good)).unwrap();
-    assert_same(&snapshot, &mut session, "without the samples that cannot be");
+    assert_same(&snapshot, &mut session, "without the invalid samples");
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn the_head_is_reported_while_down_and_removed_when_lifted() {
         (10.0 * sample.x_mm - x).hypot(10.0 * sample.y_mm - y)
     };
     let nearest = samples.iter().map(near).fold(f64::INFINITY, f64::min);
-    assert!(nearest < 100.0, "the tip is {nearest} cells off the way");
+    assert!(nearest < 100.0, "the tip is {nearest} cells off the path");
     window.wait("the lifted head", |event| matches!(event, Event::Head(None)).then_some(()));
 }
 
@@ -220,7 +220,8 @@ fn a_device_gives_the_same_painting() {
     });
 }
 
-/// Whether there is a graphics adapter. Notes the result as the other adapter tests do.
+/// Whether there is a graphics adapter. Appends its name (or `none`) to the file that the
+/// environment variable `IMPASTO_GPU_TESTS` names, if it is set.
 fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);

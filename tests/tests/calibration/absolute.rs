@@ -1,4 +1,5 @@
-//! Absolute amounts on one backing: ladders and mixtures of watercolor.
+//! Calibration with absolute amounts on one backing: ladders and mixtures of synthetic
+//! watercolours.
 
 use calibrate::absolute::{calibrate_absolute, chosen_film, films};
 use calibrate::evaluate::Viewing;
@@ -23,7 +24,7 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
     for (index, pigment) in library.pigments.iter().enumerate() {
         for at in 0..library.grid.count() {
             let (found, truth) = (pigment.absorption[at], made.absorption[index][at]);
-            // What absorbs a hundredth of this cannot be seen in a film.
+            // K below 1 per mL, about a hundredth of the peaks, hardly changes these films.
             if truth > 1.0 {
                 assert!(
                     (found / truth).ln().abs() < 0.05,
@@ -37,8 +38,8 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
 
 #[test]
 fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
-    // As hard as real watercolor is said to be: the even film without a surface
-    // predicts these to 2.2 or so.
+    // The deviations are as large as reported for real watercolour: an even film without a surface
+    // predicts these mixtures with a mean error of about 2.2.
     let set = Watercolors::hard(1).swatches();
     let problem = films(&set).unwrap();
     let film = chosen_film(&problem, Surface::NONE, &|| ()).unwrap();
@@ -53,9 +54,9 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
         progress: &|| (),
     };
     let chosen = leave_out_films(&set, film, &plan).unwrap();
-    assert_eq!(chosen.per_sample.len(), 702, "234 unseen at a time");
+    assert_eq!(chosen.per_sample.len(), 702, "three folds of 234 left-out mixtures");
     assert!(chosen.delta_e.mean < 2.0, "{:?}", chosen.delta_e);
-    // What was left out is predicted worse than what was fitted.
+    // The error of a sample is larger when the fit has not seen it.
     let fitted = calibrate_absolute(&set, film, &settings, &viewing).unwrap().library;
     let fitted = fitted.evidence.unwrap().per_sample;
     let error = |name: &String| fitted.iter().find(|f| f.sample == *name).unwrap().delta_e;
@@ -123,7 +124,7 @@ fn few_films_are_fitted_without_holding_any_back() {
 fn thin_films_that_tell_little_of_scattering_are_told() {
     let set = Watercolors::hard(2).swatches();
     let white = set.pigments.iter().position(|p| p == "chinese white").unwrap();
-    // White in its thinnest washes on white paper: nothing but noise to see.
+    // Keeps chinese white only in its thinnest wash, which on white paper shows only noise.
     let kept = |s: &calibrate::swatch::Swatch| {
         let alone = s.amounts.iter().filter(|a| **a > 0.0).count() == 1;
         alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)

@@ -1,4 +1,4 @@
-//! Paint of known K and S.
+//! Fits of synthetic mixtures whose K and S are known.
 
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
@@ -18,7 +18,7 @@ fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
     fit_refined(&problem(made), &weights, Refinement::whole(smoothness)).unwrap()
 }
 
-/// The largest error of log K and log S where the pigment shows at all.
+/// Largest error of the logarithm of `curve` (K or S) where the true value exceeds 0.01.
 fn largest_log_error(found: &[Curves], truth: &[Curves], curve: fn(&Curves) -> &[f64]) -> f64 {
     let pairs = found.iter().flat_map(curve).zip(truth.iter().flat_map(curve));
     pairs.filter(|(_, t)| **t > 1e-2).map(|(f, t)| (f / t).ln().abs()).fold(0.0, f64::max)
@@ -46,7 +46,8 @@ fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
     for seed in [11, 12] {
         let made = SyntheticMixtures::paper_size(seed, 0.002);
         let rms = |fit: &Refined| made.rms_to_truth(&fit.curves);
-        // The floor without smoothness is 0.002 sqrt(21 / 71) = 0.00109.
+        // Noise of 0.002 in 71 mixtures with 21 unknowns leaves 0.002 sqrt(21 / 71) = 0.00109
+        // without smoothing.
         let rough = rms(&refined(&made, Smoothness::None));
         assert!(rough < 0.00115, "seed {seed}: {rough}");
         let smooth = rms(&refined(&made, Smoothness::Auto));
@@ -76,8 +77,8 @@ fn standard_deviations_are_of_the_size_of_the_errors() {
 
 #[test]
 fn the_program_ends_at_its_optimum() {
-    // At the minimum of a convex program over the nonnegative orthant the
-    // gradient is 0 along what is positive, and not negative along what is 0.
+    // At the minimum of a convex program over nonnegative unknowns, the gradient is 0 for each
+    // positive unknown and at least 0 for each unknown at 0.
     let made = SyntheticMixtures::paper_size(5, 0.002);
     let curves = fit_qp(&problem(&made)).unwrap();
     let pigments = curves.len();
@@ -109,7 +110,7 @@ fn the_program_ends_at_its_optimum() {
             } else {
                 curves[place - pigments].scattering[at]
             };
-            assert!(slope > -1e-5, "unknown {place} at {at} falls further: {slope}");
+            assert!(slope > -1e-5, "the cost still falls along unknown {place} at {at}: {slope}");
             assert!(value < 1e-6 || slope < 1e-5, "unknown {place} = {value} at {at}: {slope}");
         }
     }
@@ -167,6 +168,6 @@ fn pigments_always_mixed_alike_lower_the_rank() {
         condition(&problem, &made.curves).rank
     };
     assert_eq!(rank(&made.observations), 21);
-    // K of the two always adds up, and so does S: two unknowns fewer.
+    // The mixtures determine only the sums of the two K and of the two S: two unknowns fewer.
     assert_eq!(rank(&tied), 19);
 }

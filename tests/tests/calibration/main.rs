@@ -1,5 +1,5 @@
-//! Fits: known K and S are recovered, the figures to meet on real oils are met,
-//! and what the data cannot tell is said.
+//! Tests of fits: known K and S are recovered, error limits on the Van Gogh oils are met, and
+//! unknowns that the data do not determine are reported.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 

@@ -1,4 +1,4 @@
-//! A few wavelengths for the oils.
+//! Quadrature rules of few wavelengths: colour errors on mixtures of the oils, weights and nodes.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
@@ -40,7 +40,8 @@ fn fitting_beats_moments_and_moments_beat_the_papers_weights() {
         let moments = mean(Quadrature::moments(&viewing, 8).unwrap());
         let fitted = mean(Quadrature::library(&viewing, &library, 8).unwrap());
         assert!(fitted < moments && fitted < gauss, "{light}: {fitted} {moments} {gauss}");
-        // Lines of a lamp are no smooth weight; there the paper's may be nearer.
+        // FL11 has emission lines, so its weight function is not smooth; there the weights of the
+        // paper may have the smaller error.
         assert!(light == "FL11" || moments < gauss, "{light}: {moments} {gauss}");
     }
 }
@@ -59,7 +60,7 @@ fn the_weights_of_each_channel_sum_to_the_white() {
             assert!((found - wanted).abs() < 1e-8, "{name}: {found} for {wanted}");
         }
     }
-    // The paper's ratios do not sum channel by channel, only all together.
+    // The weights of the paper sum to the white over all three channels, not in each channel.
     let gauss = Quadrature::gauss(&viewing, count).unwrap();
     let sum: f64 = gauss.weights.iter().flatten().sum();
     let wanted: f64 = gauss.white.to_array().iter().sum();

@@ -1,4 +1,4 @@
-//! From rows of a file to swatches.
+//! Swatches from the rows of a measurement file: scale, grid, repeated readings, backings, faults.
 
 use calibrate::measurement::{MeasurementError, MeasurementTable, Scale, ScaleChoice};
 use calibrate::observation::{BelowSurface, Hiding, observations};
@@ -27,7 +27,7 @@ fn repeated_readings_are_averaged_and_their_spread_kept() {
     for (mean, wanted) in film.reflectance.iter().zip([0.51, 0.61]) {
         assert!((mean - wanted).abs() < 1e-12, "{mean}");
     }
-    // Two readings 0.02 apart deviate by 0.01 sqrt(2).
+    // The standard deviation of two readings 0.02 apart is 0.01 sqrt(2).
     assert!((film.spread.unwrap() - 0.01 * 2f64.sqrt()).abs() < 1e-12, "{:?}", film.spread);
 }
 

@@ -1,7 +1,7 @@
-//! Colour and optics: laws that hold for any values, and values of colour-science.
+//! Colour and optics: properties that hold for any values, and values of colour-science.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-mod laws;
 mod optics;
+mod properties;
 mod science;

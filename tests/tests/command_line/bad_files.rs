@@ -1,9 +1,9 @@
-//! Bad files, one fault each: refused with place and reason, exit status 1,
-//! nothing written.
+//! `impasto fit` on files with one fault each: exit status 1, an error with place and reason, and
+//! no output file.
 
 use suite::program::{Run, impasto};
 
-/// A small sound file; each fault is made by changing it.
+/// A small valid file; each test changes it to make one fault.
 const SOUND: &str = "\
 sample,film,backing,White,Red,400,410,420
 a,paint,card,100,,90,91,92
@@ -12,7 +12,8 @@ c,paint,card,50,50,20,22,70
 d,paint,card,90,10,40,42,80
 ";
 
-/// Runs `fit` on a file of these bytes; nothing must be left in the folder.
+/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a file, the
+/// library.
 fn fit(bytes: &[u8]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.csv");
@@ -32,7 +33,7 @@ fn fit(bytes: &[u8]) -> Run {
     run
 }
 
-/// The file must be refused, in words that hold all of `words`.
+/// Asserts that the file is refused with an error that contains all of `words`.
 fn refused(bytes: &[u8], words: &[&str]) {
     let run = fit(bytes);
     assert_eq!(run.status, 1, "{}", run.err);

@@ -1,4 +1,4 @@
-//! The demo, and the library that ships.
+//! `impasto demo`: its output, and that it reproduces the shipped library.
 
 use suite::program::{impasto, repository};
 
@@ -32,7 +32,7 @@ fn the_library_records_its_input() {
         std::fs::read_to_string(repository("measurements/van-gogh-oils.pigments.json")).unwrap();
     let library: serde_json::Value = serde_json::from_str(&library).unwrap();
     let recorded = library["inputs"][0]["sha256"].as_str().unwrap();
-    // A fit of the same bytes records the same hash, one of others another.
+    // A fit of the same bytes records the same hash, a fit of other bytes another hash.
     let folder = tempfile::tempdir().unwrap();
     let fitted = |bytes: &[u8]| {
         let (csv, out) = (folder.path().join("a.csv"), folder.path().join("a.json"));

@@ -1,4 +1,4 @@
-//! What cannot run, and what data deny.
+//! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data.
 
 use suite::program::{impasto, repository};
 
@@ -150,7 +150,7 @@ fn an_input_is_never_written_over() {
     let file = folder.path().join("oils.csv");
     std::fs::copy(oils(), &file).unwrap();
     let before = std::fs::read(&file).unwrap();
-    // The same file by another path.
+    // Another path of the input file.
     let round_about = folder.path().join("./oils.csv");
     let run = impasto(&["fit", file.to_str().unwrap(), "--output", round_about.to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);

@@ -1,4 +1,4 @@
-//! The program as a user meets it, run in process.
+//! The program `impasto` on the command line, run in process: output, files, errors, exit status.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 

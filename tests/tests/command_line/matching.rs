@@ -1,4 +1,4 @@
-//! `impasto match`.
+//! `impasto match`: targets, prices, limits, lights and films on the command line.
 
 use serde_json::Value;
 use suite::program::{impasto, repository};
@@ -111,7 +111,7 @@ fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
     assert!(told[0]["nearest"].as_f64().unwrap() > 5.0);
     let run = impasto(&["match", &library(), "#ff00ff"]);
     assert!(run.out.contains("out of reach"), "{}", run.out);
-    // CIEDE2000 alone would hold a grey to be the nearest to a brilliant magenta.
+    // In CIEDE2000 the colour nearest to this magenta is a grey; in CIE 1976 it is chromatic.
     let lab = &told[0]["by_cie1976"][0]["lab"]["D65"];
     assert!(lab[1].as_f64().unwrap() > 30.0, "{lab}");
     assert!(matched(&["#7a6a50"])[0]["by_cie1976"].as_array().unwrap().is_empty());
@@ -182,7 +182,7 @@ fn what_cannot_be_is_refused_with_a_way_out() {
     }
 }
 
-/// The names and shares of a target's first recipe.
+/// Pigment names and shares of the first recipe for the first target.
 fn first(told: &Value) -> Vec<(String, f64)> {
     let pigments = told[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
     pigments

@@ -1,4 +1,4 @@
-//! What each verb prints for programs.
+//! JSON output of the verbs: its keys, and values with known results.
 
 use serde_json::Value;
 use suite::program::{Run, impasto, repository};
@@ -78,7 +78,7 @@ fn validate_prints_its_keys() {
     let found = json(&["validate", &oils(), "--folds", "4", "--method", "weighted", "--json"]);
     assert_eq!(keys(&found), FIT_KEYS);
     let other = json(&["validate", &oils(), "--folds", "9", "--method", "weighted", "--json"]);
-    assert_ne!(other["delta_e"], found["delta_e"], "other groups");
+    assert_ne!(other["delta_e"], found["delta_e"], "the folds differ");
     let with = json(&[
         "validate",
         &oils(),
@@ -103,7 +103,7 @@ fn color_prints_its_keys_with_white_at_100() {
     assert_eq!(keys(&list[0]), ["sample", "xyz", "lab", "srgb", "hex"]);
     assert_eq!(list[0]["sample"], "white");
     assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
-    // The white of A for 10 degrees, CIE 15: 111.14, 100, 35.20.
+    // White of illuminant A for the 10 degree observer in CIE 15: 111.14, 100, 35.20.
     assert!((list[0]["xyz"][0].as_f64().unwrap() - 111.14).abs() < 0.02, "{}", list[0]);
     assert!((list[0]["xyz"][2].as_f64().unwrap() - 35.20).abs() < 0.02, "{}", list[0]);
     assert_eq!(list[0]["hex"], "#ffffff");
@@ -146,7 +146,7 @@ fn color_tells_differences_and_metamerism() {
     assert_eq!(keys(difference), ["from", "ciede2000", "cie1976", "cie94", "cmc_2_1"]);
     assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
     assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
-    // As computed from the four XYZ with colour-science's CIEDE2000.
+    // Computed from the four XYZ with CIEDE2000 of colour-science.
     let index = list[1]["metamerism"].as_f64().unwrap();
     assert!((index - 4.6387).abs() < 5e-4, "{index}");
     assert!(list[0].get("metamerism").is_none(), "the first light is the reference");
@@ -157,7 +157,7 @@ fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
     let mix = json(&["mix", &library(), "viridian=2", "--json"]);
     assert_eq!(keys(&mix), ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex"]);
     assert_eq!(mix["wavelengths_nm"].as_array().unwrap().len(), 31);
-    // 09A reads 6.1 % at 410 nm in a film that hides.
+    // Sample 09A, a film that hides, reads 6.1 % at 410 nm.
     let at_410 = mix["reflectance"][1].as_f64().unwrap();
     assert!((at_410 - 0.061).abs() < 0.004, "{at_410}");
 }
@@ -223,7 +223,7 @@ fn quadrature_prints_its_keys_and_its_error_on_unseen_mixtures() {
     assert_eq!(keys(&rule["error"]), ["mean", "p95", "max"]);
     assert!(rule["error"]["mean"].as_f64().unwrap() < 0.25, "{}", rule["error"]);
     let other = json(&["quadrature", &library(), "--seed", "4", "--json"]);
-    assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed is that of the unseen mixtures");
+    assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed only selects the unseen mixtures");
     assert_ne!(other["error"], rule["error"]);
     let paper =
         json(&["quadrature", "--method", "gauss", "-n", "4", "--illuminant", "5600K", "--json"]);
@@ -261,7 +261,7 @@ fn absolute_amounts_are_fitted_validated_and_mixed() {
     let mix = json(&["mix", path, "cadmium red=0.01", "--over", &over, "--json"]);
     let on_white = json(&["mix", path, "cadmium red=0.01", "--json"]);
     let white = json(&["mix", path, "cadmium red=0.01", "--over", "white", "--json"]);
-    assert_eq!(on_white, white, "amounts lie on something, white if nothing is told");
+    assert_eq!(on_white, white, "the default ground of amounts is white");
     assert_ne!(white, mix);
     let color = json(&["color", csv, "--sample", "W000", "--json"]);
     for channel in 0..3 {

@@ -1,4 +1,4 @@
-//! Paintings and pictures as files, read back by our readers and by others.
+//! Painting files and exported pictures, read back with the library and with independent readers.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

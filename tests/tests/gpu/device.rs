@@ -1,4 +1,4 @@
-//! What a device cannot is an error.
+//! Errors of the graphics device: sizes beyond its limits, and a lost device.
 
 use render::field::Field;
 use render::gpu::DeviceError;
@@ -10,7 +10,7 @@ use spectra::hint::Explain;
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
-    // A strip of cells whose pigments pass the limit; its floor is an eighth.
+    // A strip of cells whose pigments, 32 bytes a cell, exceed the limit; the floor has 4 bytes.
     let cells = (limit / 32 + 1) as usize;
     if cells > 1 << 26 {
         return;

@@ -1,11 +1,11 @@
-//! What can be known of kernels without an adapter.
+//! Checks of GPU kernels without an adapter: validity, bindings and layouts of structs.
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
 use render::{graphics_kernels, paint, watercolor};
 
-/// Those of all techniques.
+/// The kernels of graphics, paint and watercolour.
 fn kernels() -> Vec<&'static Kernel> {
     [graphics_kernels(), paint::engine::kernels(), watercolor::kernels()].concat()
 }
@@ -51,7 +51,7 @@ fn every_kernel_is_bound_as_it_says() {
     }
 }
 
-/// The WGSL struct of this name, as Rust would tell of its own.
+/// Size in bytes of a WGSL struct, and its fields with their offsets, as a [`Layout`] has them.
 fn fields(module: &naga::Module, name: &str) -> Option<(u32, Vec<(String, usize)>)> {
     let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(name);
     let ty = module.types.iter().map(|(_, ty)| ty).find(of_name)?;

@@ -1,4 +1,4 @@
-//! Light on the device against the formulas in f64.
+//! Rendering on the GPU against the layer and shading formulas in f64.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,11 +11,11 @@ use render::paint::engine::PaintEngine;
 use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
-/// What f32 with the loose `exp`, `sqrt` and division of WGSL may be off, in
-/// linear light. Found on lavapipe: 4e-7.
+/// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. Largest
+/// error measured on lavapipe: 4e-7.
 const NEAR: f64 = 3e-6;
 
-/// The same for three films, relief and gloss. Found on lavapipe: 1.9e-6.
+/// Tolerance for three films with relief and gloss. Largest error on lavapipe: 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
 
 const NO_LAYER: LayerOptics =
@@ -23,7 +23,7 @@ const NO_LAYER: LayerOptics =
 
 fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
-    // Red, green and blue each see other wavelengths.
+    // Channels with different weights: red even, green of the first four nodes, blue rising.
     let rgb = |node: usize| [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0];
     Scene {
         ground: [ground; NODES],
@@ -42,7 +42,7 @@ fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     }
 }
 
-/// Of each wavelength's internal reflectance, the flat colour.
+/// Linear RGB of a level surface from its internal reflectance at each node.
 fn color(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
     let surface = Surface::new(0.03, 0.5, Specular::Included).unwrap();
     let mut sum = [0.0; 3];
@@ -62,8 +62,8 @@ fn film(coat: &LayerOptics, cell: &Cell, node: usize, backing: f64) -> f64 {
     Film::new(of(&coat.absorption), of(&coat.scattering), 1.0).over(backing)
 }
 
-/// The largest difference of a picture, and where; nothing in it may be other
-/// than a number.
+/// Largest difference of a channel, and its cell. Panics if a value is not finite or alpha is not
+/// 1.
 fn largest(found: &Field<[f32; 4]>, wanted: impl Fn(usize) -> [f64; 3]) -> (f64, usize) {
     let mut worst = (0.0, 0);
     for (i, found) in found.values().iter().enumerate() {
@@ -82,7 +82,7 @@ fn largest(found: &Field<[f32; 4]>, wanted: impl Fn(usize) -> [f64; 3]) -> (f64,
 
 #[test]
 fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
-    // Amounts of the first pigment make K d, of the second S d.
+    // The first pigment only absorbs and sets K d, the second only scatters and sets S d.
     let steps: Vec<u32> =
         std::iter::once(0).chain((0..32).map(|power| 1 << power)).chain([3, 1 << 31]).collect();
     let count = steps.len();
@@ -152,7 +152,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     let mut scene = flat_scene(0.8, coats[2], coats[..2].to_vec());
     scene.lamp.relief = 0.7;
     let all = TileSet::all(engine.bounds());
-    // Baked under nothing, then shown only: no tile needs both at once.
+    // The first call bakes the dry layers, the second only composites the wet layer over them.
     engine.render(View::First, &scene, &all, &TileSet::default()).unwrap();
     scene.lamp.ambient = 0.2;
     engine.render(View::First, &scene, &TileSet::default(), &all).unwrap();
@@ -200,8 +200,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }
 
-/// What lies on top of a cell, the last layer being wet: 0 wet paint, 1 dry, 2
-/// the ground.
+/// Topmost material of a cell: 0 wet paint (the last of `layers`), 1 dry paint, 2 the ground.
 fn bare(layers: &[Layer], cell: usize) -> u8 {
     let has = |layer: &Layer| layer.cell(cell).volume() > 0;
     match (has(&layers[2]), layers[..2].iter().any(has)) {

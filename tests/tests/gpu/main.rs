@@ -1,9 +1,9 @@
-//! Painting on a graphics device: its kernels are valid WGSL, hold their
-//! structs where Rust does, and compute what the processor computes.
+//! Painting on the GPU: kernels are valid WGSL, their structs have the layout of the Rust structs,
+//! and their results match the CPU.
 //!
-//! Where there is no adapter the tests that need one pass and say so. If the
-//! variable `IMPASTO_GPU_TESTS` names a file, each adds a line to it: the
-//! adapter it ran on, or `none`.
+//! Without a graphics adapter the tests that need one pass, with a note on stderr. If the
+//! environment variable `IMPASTO_GPU_TESTS` names a file, each of them appends a line: the name of
+//! its adapter, or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

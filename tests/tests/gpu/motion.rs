@@ -1,4 +1,4 @@
-//! Motion on the device is that of the processor, bit for bit.
+//! Sub-steps on the GPU equal the reference on the CPU bit for bit, and conserve paint.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

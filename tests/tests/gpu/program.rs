@@ -1,4 +1,4 @@
-//! What `impasto gpu` says.
+//! `impasto gpu`: the adapters that it lists, and the one that painting would use.
 
 use render::gpu::{BackendChoice, Kind, adapters, best};
 use suite::program::impasto;

@@ -1,5 +1,5 @@
-//! A sub-step by the functions of `paint::motion`, written plainly; and canvases,
-//! heads and contacts of many kinds.
+//! Reference for a sub-step, cell by cell with the functions of `paint::motion`; random paint and
+//! contacts to test with.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -14,7 +14,7 @@ use render::paint::motion::press::{
 use render::paint::motion::transfer::{Exchange, Source, exchange};
 use render::tile::Rect;
 
-/// A canvas and one head.
+/// A canvas (floor and wet paint) and the paint on one brush head.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
     pub(crate) floor: Field<i32>,
@@ -104,23 +104,23 @@ impl Reference {
         }
     }
 
-    /// Every pigment's total over canvas and head, and vehicle's.
+    /// Paint on canvas and head in quanta: by slot, vehicle last.
     pub(crate) fn totals(&self) -> [u64; 9] {
         let (wet, brush) = (self.wet.totals(), self.brush.totals());
         std::array::from_fn(|i| wet[i] + brush[i])
     }
 }
 
-/// How much a cell may hold.
+/// Range of the random amounts in a cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Amounts {
-    /// Nothing anywhere.
+    /// No paint.
     None,
-    /// Around the adhesion minimum.
+    /// Up to 1000 quanta per slot: columns below and above the adhesion.
     Thin,
-    /// As painted.
+    /// Up to a quarter of a cell per slot, as in a painting.
     Usual,
-    /// As much as eight neighbours may bring without passing 32 bits.
+    /// Up to 2^28 quanta in all: a cell and the inflow of eight such neighbours fit in 32 bits.
     Full,
 }
 
@@ -144,8 +144,8 @@ pub(crate) fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), amounts: Amounts
     layer
 }
 
-/// A contact over `rect`: heights about the tops, some cells of the head above
-/// several of the canvas, some of the canvas under none.
+/// A random contact over `rect`: heights near the tops of the paint, head cells that several
+/// canvas cells share, and an eighth of the canvas cells without a head cell.
 pub(crate) fn contact(
     rng: &mut ChaCha8Rng,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! Drying, undo and what lies on the device come back as they were.
+//! Drying, dry layers and undo tiles on the GPU: exact amounts, and exact restoring.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -41,10 +41,10 @@ fn paint_dries_from_the_bottom_and_the_floor_rises() {
             left.set_cell(i, wet.cell(i).minus(&dried.cell(i)));
         }
         engine.dry(share).unwrap();
-        assert!(engine.wet().unwrap() == left, "what is left of {share}");
+        assert!(engine.wet().unwrap() == left, "wet paint after {share}");
         assert_eq!(engine.dry_layer_count(), 1);
-        assert!(engine.dry_layer(0).unwrap() == dried, "what dried of {share}");
-        assert!(engine.floor().unwrap() == raised(&floor, &dried), "the floor of {share}");
+        assert!(engine.dry_layer(0).unwrap() == dried, "dry layer after {share}");
+        assert!(engine.floor().unwrap() == raised(&floor, &dried), "floor after {share}");
     }
 }
 
@@ -55,12 +55,12 @@ fn a_dry_layer_comes_and_goes() {
     engine.dry(20000).unwrap();
     let top = engine.pop_dry_layer().unwrap();
     assert_eq!(engine.dry_layer_count(), 1);
-    assert!(engine.floor().unwrap() == raised(&floor, &wet), "the floor of one layer");
+    assert!(engine.floor().unwrap() == raised(&floor, &wet), "floor with one layer");
     engine.push_dry_layer(&top).unwrap();
-    assert!(engine.dry_layer(1).unwrap() == top, "the layer that came back");
+    assert!(engine.dry_layer(1).unwrap() == top, "the layer pushed again");
     engine.pop_dry_layer().unwrap();
     assert!(engine.pop_dry_layer().unwrap() == wet, "the first layer");
-    assert!(engine.floor().unwrap() == floor, "the floor of none");
+    assert!(engine.floor().unwrap() == floor, "floor without layers");
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn undo_then_redo_is_the_identity() {
     let tiles: Vec<_> = (0..SIZE.1.div_ceil(TILE))
         .flat_map(|row| (0..SIZE.0.div_ceil(TILE)).map(move |column| Tile { row, column }))
         .collect();
-    // Slots of two stores, not in order.
+    // Slots in several blocks of undo memory, in descending order.
     let slot = |i: usize| UndoSlot(200 - 30 * i);
     for (i, &tile) in tiles.iter().enumerate() {
         engine.save_tile(tile, slot(i)).unwrap();

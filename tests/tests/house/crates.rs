@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::files::{text, texts};
 
-/// The dependencies of a manifest, of every kind, each with its line.
+/// Dependencies of every kind in a manifest, by name, each with its line.
 fn dependencies(manifest: &str) -> BTreeMap<String, String> {
     let mut section = "";
     let mut found = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The files of the workspace.
+//! Lists and reads the files of the workspace.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,8 +7,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
 }
 
-/// Every file below `folder`, as paths from the root; what is built and what
-/// is hidden left out.
+/// Paths from the root of all files below `folder`, without hidden files and build output.
 pub(crate) fn files_below(folder: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut folders = vec![root().join(folder)];
@@ -30,7 +29,7 @@ pub(crate) fn files_below(folder: &str) -> Vec<String> {
     found
 }
 
-/// Every file whose name ends in one of `endings`, with its text.
+/// Path and text of every file whose name ends in one of `endings`.
 pub(crate) fn texts(endings: &[&str]) -> BTreeMap<String, String> {
     let files = files_below("");
     let wanted = files.into_iter().filter(|path| endings.iter().any(|end| path.ends_with(end)));
@@ -43,7 +42,7 @@ pub(crate) fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Whether there is a file at `path`, from the root.
+/// Whether there is a file at `path`, a path from the root.
 pub(crate) fn exists(path: &str) -> bool {
     root().join(path).is_file()
 }

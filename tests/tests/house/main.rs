@@ -1,4 +1,4 @@
-//! The rules of this house, read from its files.
+//! Rules for the files of this repository: dependencies, imports, length, sources, wording.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,25 +1,25 @@
-//! Files of a crate import what stands above them, so that no circle is left.
+//! Order of imports: a file imports only from modules declared above it, so there is no cycle.
 
 use std::collections::BTreeMap;
 
 use crate::files::{files_below, text};
 
-/// A module: its file, and what it declares.
+/// A module: its file, its child modules, re-exports and other paths.
 #[derive(Debug, Default)]
 struct Module {
     file: String,
-    /// Child modules in the order of their declaration; those of tests left out.
+    /// Child modules in the order of their declaration, without test modules.
     children: Vec<String>,
-    /// Names that it re-exports, each with the path behind it.
+    /// Re-exported names, each with its path.
     reexports: BTreeMap<String, Vec<String>>,
-    /// Every other path that its code names, from this module on.
+    /// All other paths in its code, as they are written.
     paths: Vec<Vec<String>>,
 }
 
 /// All modules of one crate, example or bench by their paths from its root.
 type Modules = BTreeMap<Vec<String>, Module>;
 
-/// The code of a file: comments, strings and modules of tests left out.
+/// Code of a file without comments, strings and test modules.
 fn code(source: &str) -> String {
     let mut kept = String::new();
     let mut lines = source.lines().peekable();
@@ -39,7 +39,7 @@ fn code(source: &str) -> String {
         kept.push_str(without);
         kept.push('\n');
     }
-    // Strings hold no paths: every other piece between quotes goes.
+    // Strings hold no paths, so every second piece between quotes is dropped.
     kept.split('"').step_by(2).collect::<Vec<_>>().join("\"\"")
 }
 
@@ -82,7 +82,7 @@ fn use_tree(tree: &str, before: &[String], found: &mut Vec<(String, Vec<String>)
     }
 }
 
-/// Reads `module` from its file and all modules below it.
+/// Reads the module `path` from `file` and its child modules from `folder` into `modules`.
 fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
     let source = text(file);
     let mut module = Module { file: file.to_owned(), ..Module::default() };
@@ -140,8 +140,8 @@ fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
     modules.insert(path, module);
 }
 
-/// The module in which the last name of `names` is defined, seen from `from`; nothing
-/// if it is another crate's.
+/// Module that defines the item with the path `names` in the module `from`; `None` if another crate
+/// defines it. `hops` counts the re-exports followed so far.
 fn resolve(
     modules: &Modules,
     from: &[String],
@@ -186,7 +186,8 @@ fn resolve(
     Some(at)
 }
 
-/// Faults of the order: each file that imports from one that stands below it.
+/// Faults of the order: each import from a module declared below, or of an item of a parent whose
+/// own code uses its children.
 fn faults(modules: &Modules) -> Vec<String> {
     let mut faults = Vec::new();
     let mut uses_children = BTreeMap::new();
@@ -206,7 +207,7 @@ fn faults(modules: &Modules) -> Vec<String> {
         let (user, used) = (&modules[path].file, &modules[&target].file);
         let shared = path.iter().zip(&target).take_while(|(a, b)| a == b).count();
         if target.len() == shared {
-            // An item of a module above: that module's own code must not use its children.
+            // An item of a parent module: the parent's own code must not use its children.
             if let Some(child) = uses_children.get(&target) {
                 let child = &modules[child].file;
                 faults.push(format!("{user} uses {used}, which uses {child}"));
@@ -224,7 +225,7 @@ fn faults(modules: &Modules) -> Vec<String> {
     faults
 }
 
-/// The roots of all crates, examples and benches of several files, tests left out.
+/// Root files of all libraries, and of examples and benches that have several files.
 fn roots() -> Vec<String> {
     let all = files_below("");
     let root = |path: &&String| {
@@ -246,7 +247,7 @@ fn a_file_uses_only_files_that_stand_above_it() {
         read(&mut modules, Vec::new(), &root, &folder);
         all.extend(faults(&modules));
     }
-    assert!(all.is_empty(), "{} imports run back up:\n{}", all.len(), all.join("\n"));
+    assert!(all.is_empty(), "{} imports against the order:\n{}", all.len(), all.join("\n"));
 }
 
 #[test]
@@ -270,7 +271,7 @@ fn imports_that_run_back_up_are_found() {
     modules.insert(path("low::b"), module("b", &[], &["super::a::A"], &[]));
     modules.insert(path("high"), module("high", &[], &["crate::low::B"], &[]));
     assert_eq!(faults(&modules), ["a uses b, which is declared below it"]);
-    // The same through the name that the parent re-exports.
+    // An import through a name that the parent re-exports.
     modules.insert(path("low::a"), module("a", &[], &["super::B"], &[]));
     assert_eq!(faults(&modules), ["a uses b, which is declared below it"]);
     // A child that uses its parent's own item, while the parent uses children.

@@ -1,5 +1,5 @@
-//! Files of source: their length, their letters, and that each shader belongs to a kernel; data
-//! with its source.
+//! Source files: length, ASCII, no unfinished code, every shader in a kernel. Data files: each
+//! names its source.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn sources_are_ascii() {
 
 #[test]
 fn nothing_is_left_to_do() {
-    // In two parts, so that this file does not hold what it forbids.
+    // Joined from two parts, so that this file does not contain the forbidden macros.
     let needles = ["todo", "unimplemented", "dbg"].map(|word| [word, "!("].concat());
     for (path, text) in texts(&[".rs"]) {
         for needle in &needles {
@@ -60,7 +60,7 @@ fn every_measurement_has_its_source() {
         let name = path.strip_prefix("measurements/").unwrap();
         let stem = name.split('.').next().unwrap();
         let page = text(&format!("measurements/{stem}.md"));
-        // A library is made from the table of the same stem, by one page.
+        // A library is made from the table of the same stem and shares its page.
         let told = name.ends_with(".pigments.json") || page.contains(name);
         assert!(told, "measurements/{stem}.md does not name {name}");
     }

@@ -1,15 +1,15 @@
-//! Plain words: doc comments that stand alone, and libraries that name no option.
+//! Wording: doc comments that can be read alone, and libraries that name no command-line option.
 
 use crate::files::texts;
 
-/// Openers of a riddle, and how many doc comments of the workspace may begin so.
+/// Openers that make a doc comment hard to read, and the number from which the test fails.
 const RIDDLES: [&str; 3] = ["What ", "The same", "As "];
 const MOST_RIDDLES: usize = 40;
 
-/// Doc comments of one or two words.
+/// Number of doc comments of one or two words from which the test fails.
 const MOST_SHORT: usize = 100;
 
-/// Doc comments in the sources of crates: the place of each, and its text as one line.
+/// Place and text, joined to one line, of every doc comment in the sources of crates.
 fn doc_comments() -> Vec<(String, String)> {
     let mut found = Vec::new();
     for (path, source) in texts(&[".rs"]) {
@@ -55,8 +55,8 @@ fn doc_comments_say_what_a_thing_is() {
     assert!(short.len() < MOST_SHORT, "{} of one or two words:\n{}", short.len(), short.join("\n"));
 }
 
-/// Whether `line` names an option of a command line: two dashes and a small letter at the
-/// begin of a word. A property of a style sheet, `var(--ink)` or `{--ink:`, is none.
+/// Whether `line` names a command-line option: two dashes and a lower-case letter at the start of a
+/// word. Properties of a style sheet, `var(--ink)` or `{--ink:`, do not count.
 fn names_an_option(line: &str) -> bool {
     let bytes = line.as_bytes();
     (0..bytes.len().saturating_sub(2)).any(|at| {

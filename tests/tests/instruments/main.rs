@@ -1,4 +1,4 @@
-//! Files of instruments: readings in text and XML, references and lamps.
+//! Instrument files: readings in text and XML formats, references and lamps.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! What leaves a library for other programs.
+//! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs.
 
 use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_cie76};
 use spectra::swatch_file::{SwatchColor, SwatchFile, d50_white, read_aco, read_ase, read_gpl};
@@ -6,7 +6,7 @@ use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
 
-/// The oils written as `format` with `more`, and read again.
+/// Exports the oils as `format` with the further arguments `more`, and reads the file back.
 fn exported(format: &str, more: &[&str]) -> SwatchFile {
     let shelf = Shelf::new();
     let file = shelf.path("palette");
@@ -51,7 +51,7 @@ fn lab_of_a_palette_is_the_same_color_under_d50() {
             assert!(off < 0.03, "{format} {}: {off}", lab.name);
         }
     }
-    // As ISO 11664-2 has D50: 96.42, 100, 82.51.
+    // White of D50 in ISO 11664-2: 96.42, 100, 82.51.
     suite::near::assert_near("D50", &d50_white().to_array(), &[96.42, 100.0, 82.51], 0.01);
 }
 

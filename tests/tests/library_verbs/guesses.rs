@@ -1,4 +1,4 @@
-//! Pigments made up from colours.
+//! Pigments guessed from a colour: mixing gives the colour back, and the guess is marked.
 
 use calibrate::PigmentId;
 use calibrate::curation::{Body, guessed_pigment};

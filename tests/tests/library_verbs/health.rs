@@ -1,4 +1,4 @@
-//! What `check` and `diff` see.
+//! `impasto library check` and `diff`: doubtful data, faults, and differences of two libraries.
 
 use serde_json::Value;
 
@@ -97,7 +97,7 @@ fn a_batch_that_differs_is_told_and_fails() {
     let shelf = Shelf::new();
     let batch = shelf.changed("batch.json", &oils(), |library| {
         let cobalt = library.find("Cobalt").unwrap();
-        // The same masstone, but half as strong in mixtures.
+        // Half of both K and S leaves the masstone unchanged but halves the strength in mixtures.
         for curve in [0, 1] {
             let pigment = &mut library[cobalt];
             let curve = [&mut pigment.absorption, &mut pigment.scattering].into_iter().nth(curve);

@@ -1,11 +1,11 @@
-//! Merging, converting, renaming and choosing keep every mixture.
+//! `impasto library merge`, `convert`, `rename` and `subset`: the colours of mixtures are kept.
 
 use calibrate::library::{AmountKind, Pigment};
 use suite::near::assert_near;
 
 use crate::{Shelf, done, furthest, oils, read, refused, text};
 
-/// Six digits of K and S move a reflectance by less.
+/// Bound on the change of a reflectance when K and S are rounded to six digits.
 const ROUNDING: f64 = 1e-5;
 
 #[test]
@@ -46,7 +46,7 @@ fn a_merged_library_mixes_as_its_sources_do() {
     let (blues, reds) = (shelf.path("blues.json"), shelf.path("reds.json"));
     let scaled = shelf.path("scaled.json");
     done(&["subset", &oils(), "Zinc White", "Cobalt", "Ultramarine", "--output", &blues]);
-    // The other stands relative to lead white, and calls zinc white by another name.
+    // The second library is relative to lead white and has another name for zinc white.
     done(&[
         "subset",
         &oils(),
@@ -98,7 +98,7 @@ fn two_pigments_of_one_name_need_a_choice() {
     assert_eq!(k(&merged), k(&oils()));
     done(&[&clash[..], &["--prefer", "last"]].concat());
     assert_eq!(k(&merged), k(&batch));
-    assert_eq!(read(&merged).pigments.len(), 20, "identical pigments stand once");
+    assert_eq!(read(&merged).pigments.len(), 20, "identical pigments are merged");
     assert_eq!(read(&merged).licence, "CC0 1.0; CC BY 4.0");
 }
 
@@ -209,12 +209,12 @@ fn renaming_changes_names_alone() {
     let names = ["Zinc White=Lead White", "Lead White=Zinc White", "Viridian=PG18 = green"];
     done(&[&["rename", &oils()][..], &names, &["--output", &there]].concat());
     let exchanged = read(&there);
-    assert_eq!(exchanged.reference.as_deref(), Some("Lead White"), "the reference follows");
+    assert_eq!(exchanged.reference.as_deref(), Some("Lead White"), "the reference is renamed too");
     assert!(exchanged.find("PG18 = green").is_ok(), "a name may hold an equals sign");
     assert!(exchanged.pigments[1].scattering.iter().all(|s| *s == 1.0));
     let names = ["Zinc White=Lead White", "Lead White=Zinc White", "PG18=Viridian"];
     done(&[&["rename", &there][..], &names, &["--output", &back]].concat());
-    assert_eq!(text(&back), text(&oils()), "and back, byte for byte");
+    assert_eq!(text(&back), text(&oils()), "renaming back restores the file");
     let index = ["--colour-index", "Ultramarine=PB29"];
     done(&[&["rename", &oils()][..], &index, &["--output", &there]].concat());
     assert_eq!(read(&there).pigments[14].color_index.as_deref(), Some("PB29"));

@@ -1,4 +1,4 @@
-//! Keeping libraries: what `impasto library` promises, law by law.
+//! The subcommands of `impasto library` that check, compare, join, convert, guess and export.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
@@ -14,7 +14,7 @@ use calibrate::library::PigmentLibrary;
 use suite::program::{Run, impasto, repository};
 use tempfile::TempDir;
 
-/// The oils that ship.
+/// Path of the shipped library of the Van Gogh oils.
 fn oils() -> String {
     repository("measurements/van-gogh-oils.pigments.json")
 }
@@ -27,7 +27,7 @@ fn read(path: &str) -> PigmentLibrary {
     PigmentLibrary::from_json(path, &text(path)).unwrap()
 }
 
-/// A folder of files to be.
+/// A temporary folder for the files of a test.
 struct Shelf(TempDir);
 
 impl Shelf {
@@ -40,7 +40,7 @@ impl Shelf {
         path.to_str().unwrap().to_owned()
     }
 
-    /// `library` changed by `change`, as a file.
+    /// Writes the library `from`, changed by `change`, as the file `name`; returns its path.
     fn changed(&self, name: &str, from: &str, change: impl FnOnce(&mut PigmentLibrary)) -> String {
         let mut library = read(from);
         change(&mut library);
@@ -50,7 +50,7 @@ impl Shelf {
     }
 }
 
-/// `impasto library ARGUMENTS`, which must succeed.
+/// Runs `impasto library ARGUMENTS` and asserts that it succeeds.
 fn done(arguments: &[&str]) -> Run {
     let run = tried(arguments);
     assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
@@ -61,7 +61,7 @@ fn tried(arguments: &[&str]) -> Run {
     impasto(&[&["library"], arguments].concat())
 }
 
-/// Refused with `status`, a hint, and all of `words` in what is said.
+/// Asserts that the command ends with `status` and an error that has a hint and all of `words`.
 fn refused(arguments: &[&str], status: u8, words: &[&str]) {
     let run = tried(arguments);
     assert_eq!(run.status, status, "{arguments:?}: {}", run.err);
@@ -70,8 +70,8 @@ fn refused(arguments: &[&str], status: u8, words: &[&str]) {
     }
 }
 
-/// The largest difference of reflectance of every masstone and of every pair 1:1
-/// that `first` and `second` can both mix, without pigments whose S is not known.
+/// Largest difference of reflectance between the libraries, over masstones and 1:1 mixtures of two
+/// pigments that both have. Pigments with unknown S are left out.
 fn furthest(first: &PigmentLibrary, second: &PigmentLibrary) -> f64 {
     let known: Vec<&str> = (first.pigments.iter())
         .filter(|p| p.identified && second.pigments.iter().any(|q| q.name == p.name))

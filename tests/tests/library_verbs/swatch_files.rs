@@ -1,4 +1,4 @@
-//! Palettes are read as they are written, and nothing else is.
+//! Swatch files (ASE, ACO, GPL): a round trip of random palettes, and errors of faulty files.
 
 use proptest::prelude::*;
 use spectra::color::{Lab, Rgb};
@@ -7,7 +7,7 @@ use spectra::swatch_file::{
     write_gpl,
 };
 
-/// Numbers that 8 bits, 16 bits and 32-bit floats all hold.
+/// Colours whose components are exact in 8 bits, in 16 bits and in 32-bit floats.
 fn color() -> impl Strategy<Value = SwatchColor> {
     let step = || (0..=1u8).prop_map(f64::from);
     let quarter = |from: i32, to: i32| (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0);
@@ -139,7 +139,7 @@ fn errors_name_file_and_byte_or_line() {
 
 #[test]
 fn hue_saturation_and_brightness_are_read_as_rgb() {
-    // A third of a turn, full and bright: green.
+    // A hue of 120 degrees with full saturation and brightness is green.
     let bytes = b"\x00\x01\x00\x01\x00\x01\x55\x55\xff\xff\xff\xff\x00\x00";
     let SwatchColor::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].color else {
         panic!("RGB")

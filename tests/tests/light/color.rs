@@ -1,5 +1,5 @@
-//! Colour of paint: what eight wavelengths keep of the spectrum, and what paint
-//! does that light alone does not.
+//! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
+//! mixtures of lights.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::{Summary, Viewing, percentile};
@@ -10,7 +10,7 @@ use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, Xyz, delta_e_ciede2000
 
 use crate::made_up::{document, glazes_over_mixtures, lay, light, slots, viewing};
 
-/// The flat picture of `document` as Lab on the screen's white.
+/// CIELAB of every cell of the flat picture of `document`, relative to the white of sRGB.
 fn labs(document: &Document, light: &Light) -> Vec<Lab> {
     let picture = picture(document, &scene(document, light));
     picture.values().iter().map(|c| lab([c[0], c[1], c[2]])).collect()
@@ -21,7 +21,7 @@ fn lab(rgb: [f32; 3]) -> Lab {
     Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
 }
 
-/// XYZ of every cell over the full spectrum.
+/// XYZ of every cell, integrated over the full spectrum.
 fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
     let spectral = SpectralDocument::full(document);
     let weights = viewing.weights(document.library.grid).unwrap();
@@ -30,8 +30,8 @@ fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
     cells.map(|(x, y)| weights.xyz(&spectral.measured_reflectance(x, y))).collect()
 }
 
-/// CIEDE2000 of the eight wavelengths against the full spectrum, by cell, both
-/// as they look on the screen.
+/// CIEDE2000 of eight wavelengths against the full spectrum, by cell, both adapted to the white of
+/// sRGB.
 fn errors(document: &Document, name: &str) -> Vec<f64> {
     let light = light(&document.library, name);
     let white = light.quadrature.white;
@@ -92,7 +92,7 @@ fn a_perfect_diffuse_is_white_under_every_light() {
     }
 }
 
-/// Lightness, chroma and hue of linear light.
+/// CIELAB lightness, chroma and hue of a linear sRGB colour.
 fn seen(rgb: [f32; 3]) -> Lch {
     lab(rgb).to_lch()
 }
@@ -103,7 +103,7 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
     let light = light(&library, "D65");
     let [yellow, blue, white] = ["Chrome Yellow (Otero)", "Prussian Blue", "Lead White"]
         .map(|name| library.find(name).unwrap());
-    // An ochre-like yellow, and a blue strong enough to see.
+    // Tints with white: an ochre-like yellow and a clearly visible blue.
     let [yellow, blue] = [vec![(yellow, 0.6), (white, 0.4)], vec![(blue, 0.03), (white, 0.97)]];
     let mixer = Mixer::new(&library, &light, &yellow, &blue).unwrap();
     let [first, last] = [mixer.mix(0.0), mixer.mix(1.0)];
@@ -117,8 +117,8 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
             let is_green = |c: &Lch| c.chroma > 20.0 && (130.0..190.0).contains(&c.hue_degrees);
             (green | is_green(&paint), grey | is_green(&lights))
         });
-    assert!(green, "paint goes through green");
-    assert!(!grey, "light does not");
+    assert!(green, "no mixture of paint is green");
+    assert!(!grey, "a mixture of lights is green");
 }
 
 #[test]
@@ -227,5 +227,5 @@ fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
         Summary::of(&each).mean
     };
     let (relit, not_relit) = (errors(&bulb), errors(&day));
-    assert!(relit < 0.3 && not_relit > 1.0, "relit {relit}, left as it was {not_relit}");
+    assert!(relit < 0.3 && not_relit > 1.0, "relit {relit}, not relit {not_relit}");
 }

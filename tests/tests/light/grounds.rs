@@ -1,4 +1,4 @@
-//! Grounds: what their descriptions may say, and what is made of them.
+//! Grounds: relief, reflectance and gloss of each kind, and refusal of invalid descriptions.
 
 use calibrate::evaluate::Viewing;
 use render::amount::QUANTA_PER_CELL;
@@ -16,7 +16,7 @@ fn made(json: &str, width: usize, height: usize) -> Ground {
     spec(json).build(width, height, CELL_MM, &oils()).unwrap()
 }
 
-/// Heights in mm, rising.
+/// Heights of all cells in mm, ascending.
 fn sorted_mm(ground: &Ground) -> Vec<f64> {
     let mm = |&quanta: &i32| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM;
     let mut heights: Vec<f64> = ground.height.values().iter().map(mm).collect();
@@ -33,7 +33,7 @@ fn every_kind_is_as_deep_as_it_says_and_the_same_again() {
         let ground = described(1, relief);
         assert_eq!(ground, described(1, relief), "{kind}");
         assert_eq!(ground.name, format!("{kind}, seed 1"));
-        assert_eq!(ground, made(&format!(r#"{{"kind":"{kind}"}}"#), 300, 200), "{kind}: usual");
+        assert_eq!(ground, made(&format!(r#"{{"kind":"{kind}"}}"#), 300, 200), "{kind}: defaults");
         assert_ne!(ground.height, described(2, relief).height, "{kind}");
         let heights = sorted_mm(&ground);
         let [low, high] = [0.02, 0.98].map(|share| heights[(share * 59_999.0) as usize]);
@@ -51,7 +51,7 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
     let wood = made(r#"{"kind":"wood"}"#, 400, 400);
     let white = made(r#"{"kind":"panel"}"#, 2, 2);
     assert!(wood.gloss.strength > 0.0 && white.gloss.strength == 0.0, "{:?}", wood.gloss);
-    // Red more than green more than blue, and nowhere dazzling or black.
+    // Reflectance falls from red over green to blue, and is neither very light nor black.
     let part = |from: usize, to: usize| {
         let values = &wood.reflectance[from..to];
         values.iter().sum::<f64>() / values.len() as f64
@@ -85,8 +85,7 @@ fn linen_has_as_many_threads_as_it_says() {
     for count in [8.0, 14.0, 22.0] {
         let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":{count}}}"#);
         let cloth = spec(&json).build(2000, 400, 0.05, &oils()).unwrap().height;
-        // Over all rows the up and down of the weave is gone; what stays is a
-        // hill for each thread.
+        // The sum over all rows cancels the weave and keeps one maximum for each thread along y.
         let column = |x: usize| -> f64 { (0..400).map(|y| f64::from(cloth[(x, y)])).sum() };
         let profile: Vec<f64> = (0..2000).map(column).collect();
         let mean = profile.iter().sum::<f64>() / 2000.0;
@@ -115,7 +114,7 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     assert_eq!(eight.height, sixteen.height);
     let heights = sorted_mm(&eight);
     assert!(heights[0].abs() < 1e-9 && (heights[399] - 0.3).abs() < 1e-6, "{heights:?}");
-    // Straight lines between the middles of pixels: a quarter of the picture in.
+    // Linear interpolation between the centres of pixels, a quarter of the width from the left.
     let mm = f64::from(eight.height[(10, 5)]) / f64::from(QUANTA_PER_CELL) * CELL_MM;
     assert!((mm - 0.055).abs() < 1e-6, "{mm}");
 

@@ -1,4 +1,4 @@
-//! Small paintings of the shipped oils.
+//! Helpers: small documents in the shipped oils.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
@@ -28,7 +28,8 @@ pub(crate) fn light(library: &PigmentLibrary, light: &str) -> Light {
     Light::new(library, &viewing(light)).unwrap()
 }
 
-/// A document without relief, lit by `illuminant`, its ground white unless given.
+/// A document without paint, with the pigments `names` in its slots, on a level ground of
+/// reflectance 0.9; shown without relief.
 pub(crate) fn document(width: usize, height: usize, names: &[&str]) -> Document {
     let library = oils();
     let slots = slots(&library, names);
@@ -50,15 +51,15 @@ pub(crate) fn document(width: usize, height: usize, names: &[&str]) -> Document 
     }
 }
 
-/// Lays `mm` of each slot at a cell.
+/// Sets the heights of the slots of a cell, in mm.
 pub(crate) fn lay(layer: &mut Layer, cell: (usize, usize), mm: &[f64]) {
     for (slot, mm) in mm.iter().enumerate() {
         layer.pigments[cell][slot] = quanta_from_mm(*mm, CELL_MM);
     }
 }
 
-/// Opaque mixtures below, glazes of few pigments above, bare ground here and
-/// there: 48 x 48 cells, 16 pigments.
+/// 48 x 48 cells with a dry layer of mixtures up to 0.3 mm per pigment, wet glazes up to 0.02 mm
+/// per pigment over it, and bare ground in places. Each layer has eight pigments.
 pub(crate) fn glazes_over_mixtures() -> Document {
     let names = [
         "Lead White",

@@ -1,4 +1,4 @@
-//! Light on paint: colour laws, and eight wavelengths against the full spectrum.
+//! Light on paint: colour from eight wavelengths, shading of relief and gloss, and grounds.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! Relief and gloss.
+//! Shading of relief and gloss.
 
 use calibrate::evaluate::Viewing;
 use render::light::Light;
@@ -12,14 +12,14 @@ use TopMaterial::{Dry, Ground, Wet};
 
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay};
 
-/// The light of one cell of grey whose neighbours rise by `slopes`, in cells.
+/// Linear green of a grey cell whose surface rises by `slopes` along x and y, in cells per cell.
 fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
     let quanta = |cells: f32| (cells * (1 << 21) as f32) as i32;
     let (x, y) = (quanta(slopes.0), quanta(slopes.1));
     let mut out = [[0.0; 4]];
     let heights = RowHeights { above: &[0, -y, 0], here: &[-x, 0, x], below: &[0, y, 0] };
     shade_row(scene, &heights, &[[0.5; 8]], &[material], &mut out);
-    assert_eq!(out[0][3], 1.0, "the fourth number");
+    assert_eq!(out[0][3], 1.0, "alpha");
     out[0][1]
 }
 
@@ -43,7 +43,7 @@ fn a_level_surface_shows_what_was_measured() {
             }
         }
     }
-    // A whole painting over a level ground, its paint of one height.
+    // A whole picture of paint of even height on a level ground.
     let mut level = document(4, 4, &["Vermilion"]);
     for cell in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
         lay(&mut level.wet, cell, &[0.1]);
@@ -61,23 +61,23 @@ fn a_level_surface_shows_what_was_measured() {
 
 #[test]
 fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
-    // From the upper left: rising to the right and downwards faces it.
+    // The lamp is at the upper left: a surface that rises to the right or downwards faces it.
     let scene = studio(Lighting::default());
     let level = lit(&scene, (0.0, 0.0), Ground);
     assert!(lit(&scene, (0.2, 0.0), Ground) > level * 1.02);
     assert!(lit(&scene, (0.0, 0.2), Ground) > level * 1.02);
     assert!(lit(&scene, (-0.2, 0.0), Ground) < level * 0.98);
     assert!(lit(&scene, (0.0, -0.2), Ground) < level * 0.98);
-    // By Lambert's law, as told in the module.
+    // Half of the light is ambient; the other half follows Lambert's law, relative to level paint.
     let [x, y, z] = scene.lamp.direction;
     let (a, b) = (0.3f32, -0.1f32);
     let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
     let found = lit(&scene, (a, b), Ground) / level;
     assert!((found - (0.5 + 0.5 * lambert)).abs() < 1e-5, "{found} {lambert}");
-    // All light ambient: no relief.
+    // With ambient light only, slopes do not show.
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
     assert!((lit(&soft, (0.2, 0.1), Wet) - level).abs() < 1e-6);
-    // Turned away from the lamp altogether: what is ambient is left.
+    // A slope that faces away from the lamp receives the ambient light only.
     let steep = lit(&scene, (-5.0, -5.0), Ground) / level;
     assert!((steep - 0.5).abs() < 1e-5, "{steep}");
 }
@@ -89,7 +89,7 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     scene.lamp.dry = Gloss { strength: 0.25, exponent: 60.0 };
     scene.lamp.ground = Gloss { strength: 0.0, exponent: 60.0 };
     let [x, y, z] = scene.lamp.direction;
-    // The normal that is h: slopes -h_x / h_z.
+    // Slopes -h_x / h_z and -h_y / h_z: the normal is the halfway vector h of lamp and viewer.
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
     let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;

@@ -1,4 +1,4 @@
-//! Against every recipe on a grid of shares.
+//! Recipe search compared with an exhaustive search over a grid of shares.
 
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
@@ -13,7 +13,7 @@ use super::{conditions, oils};
 const PIGMENTS: usize = 12;
 const STEPS: usize = 20;
 
-/// Every way to share `left` steps among `count` pigments, each one step or more.
+/// Every division of `left` steps among `count` pigments with at least one step each.
 fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
     if count == 1 {
         return vec![vec![left]];
@@ -38,7 +38,7 @@ fn sets(pigments: &[PigmentId]) -> Vec<Vec<PigmentId>> {
     masks.filter(|mask| mask.count_ones() <= 4).map(of).collect()
 }
 
-/// The colour of every recipe on the grid.
+/// Colours of all hiding mixtures of one to four pigments in shares of 1 / `STEPS`.
 fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
     let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
     let by_count: Vec<Vec<Vec<usize>>> = (1..=4).map(|count| shares(count, STEPS)).collect();
@@ -54,7 +54,7 @@ fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
     colors
 }
 
-/// Half of them colours of random mixtures, half anywhere in CIELAB.
+/// Target colours: half are random points in CIELAB, half are random mixtures.
 fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(2004);
     let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
@@ -90,8 +90,8 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
         let target = Target::from_lab("", wanted, &conditions);
         let found = recipes(&library, &target, &request).unwrap()[0].distance;
-        // CIEDE2000 is never below a twelfth of CIE 1976 at these chromas; the
-        // rest need not be computed.
+        // CIEDE2000 is at least a twelfth of CIE 1976 at these chromas, so farther colours are
+        // skipped.
         let nearest = every.iter().fold(f64::INFINITY, |least, &color| {
             let far = delta_e_cie76(wanted, color) > 12.0 * least;
             if far { least } else { least.min(delta_e_ciede2000(wanted, color)) }
@@ -99,7 +99,7 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
         assert!(found <= nearest + 1e-6, "target {number}, {wanted:?}: {found} for {nearest}");
         reached += usize::from(found < 0.01);
     }
-    assert!((60..190).contains(&reached), "{reached} of 200 are in reach: too one-sided a test");
+    assert!((60..190).contains(&reached), "{reached} of 200 targets are in reach");
 }
 
 #[test]

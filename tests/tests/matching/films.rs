@@ -1,4 +1,4 @@
-//! Mixtures laid over a ground, and amounts on an area.
+//! Recipes for films over a ground, and for absolute amounts on an area.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{FilmKind, MatchError, MatchRequest, Thickness, recipes};
@@ -52,7 +52,7 @@ fn the_reflectance_told_is_that_of_the_recipe() {
     }
 }
 
-/// The oils with K and S taken as those of a unit amount.
+/// The oils as a library of absolute amounts: K and S count per unit amount.
 fn absolute() -> PigmentLibrary {
     PigmentLibrary { amounts: AmountKind::Absolute, reference: None, ..oils() }
 }
@@ -90,7 +90,7 @@ fn absolute_amounts_cost_what_is_laid() {
         let parts =
             recipe.shares.iter().map(|(pigment, share)| share * request.costs[pigment.index()]);
         let wanted = amount * parts.sum::<f64>();
-        assert!((amount - 1.0).abs() > 1e-3, "the amount tells nothing: {amount}");
+        assert!((amount - 1.0).abs() > 1e-3, "an amount near 1 tests nothing: {amount}");
         assert!((recipe.cost.unwrap() - wanted).abs() < 1e-9, "{recipe:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! What the user forbids, requires and bounds.
+//! Limits of a recipe search: allowed and required pigments, their number, shares, whole parts.
 
 use calibrate::PigmentId;
 use calibrate::matching::{FilmKind, MatchError, MatchRequest, RequiredPigment, Target, recipes};

@@ -1,4 +1,4 @@
-//! Recipes for a colour: nearness, limits, order.
+//! Search of recipes for a colour: distance, films, limits, order, progress and cancelling.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -46,7 +46,8 @@ fn lights_that_count_rank_metameric_recipes_lower() {
     let white = library.find("Zinc White").unwrap();
     let tint = library.mix([(blue, 1.0), (white, 4.0)]).unwrap().hiding(library.saunderson);
     let target = target_of(&library, &tint, &three);
-    // Without the blue itself, under daylight alone and under three lights.
+    // Errors of the best recipe without ultramarine: under D65, and root mean square of the three
+    // lights.
     let apart = |weights: [f64; 3]| {
         let mut conditions = three.clone();
         conditions
@@ -101,7 +102,7 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
     let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
     request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
-    // More than there are sets of one to four of six: 56.
+    // More than the 56 sets of one to four of six pigments.
     request.count = 100;
     let found = recipes(&library, &target, &request).unwrap();
     assert!((2..56).contains(&found.len()), "{} recipes", found.len());

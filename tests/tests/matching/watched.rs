@@ -1,4 +1,4 @@
-//! A search that others look at.
+//! Recipe search with progress, and with cancelling from another thread.
 
 use std::thread;
 use std::time::{Duration, Instant};

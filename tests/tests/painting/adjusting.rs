@@ -1,4 +1,4 @@
-//! Sliders, shine, and what undo may keep.
+//! Continuous adjustments, gloss, the memory limit of undo, and setting the paint on a brush.
 
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
@@ -32,9 +32,9 @@ fn a_slider_that_is_dragged_is_one_action_and_shows_every_state() {
         assert_eq!(painting.undo_count(), actions + 1);
         let after = (painting.document().unwrap(), painting.picture().unwrap());
         assert!(painting.undo().unwrap(), "no undo");
-        assert!((painting.document().unwrap(), painting.picture().unwrap()) == before, "undone");
+        assert!((painting.document().unwrap(), painting.picture().unwrap()) == before, "undo");
         assert!(painting.redo().unwrap(), "no redo");
-        assert!((painting.document().unwrap(), painting.picture().unwrap()) == after, "redone");
+        assert!((painting.document().unwrap(), painting.picture().unwrap()) == after, "redo");
     }
 }
 
@@ -64,12 +64,12 @@ fn gloss_changes_what_shines_is_kept_by_the_file_and_undone() {
         let (before, medium) = (painting.picture().unwrap(), painting.medium().clone());
         let (wet, dry) = (Gloss { strength: 0.9, exponent: 90.0 }, medium.dry);
         painting.set_gloss(wet, dry).unwrap();
-        assert!(painting.picture().unwrap() != before, "no shine");
+        assert!(painting.picture().unwrap() != before, "the gloss changed nothing");
         let found = painting.document().unwrap().medium;
         assert_eq!((found.wet, found.dry), (wet, dry));
-        assert!(found.scattering_per_mm == medium.scattering_per_mm, "another medium");
+        assert!(found.scattering_per_mm == medium.scattering_per_mm, "the scattering changed");
         painting.undo().unwrap();
-        assert!(painting.picture().unwrap() == before, "undone");
+        assert!(painting.picture().unwrap() == before, "undo");
         assert_eq!(painting.medium(), &medium);
         for strength in [-0.1, f32::NAN, 1e3] {
             let error = painting.set_gloss(wet, Gloss { strength, ..dry }).unwrap_err();
@@ -96,7 +96,7 @@ fn what_undo_may_keep_is_told_and_can_be_less() {
         assert!(kept <= limit && limit == used / 2, "{kept} of {limit}");
         let actions = painting.undo_count() + painting.redo_count();
         assert!((1..4).contains(&actions), "{actions} actions");
-        assert!(painting.wet().unwrap() == wet, "the paint itself");
+        assert!(painting.wet().unwrap() == wet, "the limit changed the paint");
         while painting.undo().unwrap() {}
         painting.set_undo_bytes(0);
         assert_eq!((painting.undo_bytes(), painting.undo_count()), ((0, 0), 0));
@@ -110,7 +110,7 @@ fn paint_put_on_a_brush_from_elsewhere_is_what_it_holds() {
         let paint = painting.brush_paint(brush).unwrap();
         painting.wash(brush).unwrap();
         painting.set_brush_paint(brush, &paint).unwrap();
-        assert!(painting.brush_paint(brush).unwrap() == paint, "other paint");
+        assert!(painting.brush_paint(brush).unwrap() == paint, "the brush holds other paint");
         assert_eq!(painting.undo_count(), 0);
         assert_eq!(painting.head(brush).shape(), HeadShape::Flat);
     }

@@ -1,5 +1,5 @@
-//! The processor and a graphics device paint the same; eight wavelengths stand
-//! for the whole spectrum.
+//! CPU and GPU hold equal paint and show it alike; pictures from eight wavelengths match the
+//! full spectrum.
 
 use calibrate::evaluate::Viewing;
 use render::paint::brush::HeadShape;
@@ -13,7 +13,8 @@ use super::studio::{
     on_gpu, pigment, sorted, tell,
 };
 
-/// Impasto, dried; a thin glaze of much vehicle over it, dried half; wet strokes.
+/// Paints dried impasto, a thin glaze of 90 % vehicle over it, half dried, and wet strokes; also
+/// sets an opacity, swaps a pigment, undoes and redoes.
 fn finished(painting: &mut Painting) {
     crossing(painting);
     painting.dry(1.0).unwrap();
@@ -101,5 +102,5 @@ fn eight_wavelengths_show_a_finished_painting_as_the_full_spectrum_does() {
     let (mean, largest) = (mean(&found), found[found.len() - 1]);
     tell(&format!("8 wavelengths against 31: mean {mean:.3}, largest {largest:.3} CIEDE2000"));
     assert!(mean < 0.3, "mean {mean}");
-    assert!(mean > 0.0, "the one was compared with itself");
+    assert!(mean > 0.0, "the full spectrum was compared with itself");
 }

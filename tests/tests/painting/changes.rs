@@ -1,4 +1,5 @@
-//! A painting changed afterwards is the painting made so from the start.
+//! Relighting, swapping a pigment or changing an opacity gives the same painting as making it
+//! with those settings from the start.
 
 use calibrate::PigmentId;
 use render::paint::brush::HeadShape;
@@ -9,7 +10,7 @@ use super::studio::{
     RED, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu, pigment, pure,
 };
 
-/// Two dry layers and wet paint.
+/// Paints two dry layers; 30 % of the paint of the last stroke stays wet.
 fn layered(mut painting: Painting) -> Painting {
     crossing(&mut painting);
     painting.dry(1.0).unwrap();
@@ -38,14 +39,14 @@ fn relighting_gives_what_a_painting_opened_under_that_light_shows() {
         let off = differences(&relit, &opened.picture().unwrap());
         assert!(off[off.len() - 1] < 0.01, "{:?} off", off.last());
         let moved = differences(&daylight, &relit);
-        assert!(moved[moved.len() - 1] > 1.0, "the light shows");
-        // The lamp alone moves: nothing is baked anew, and all is seen anew.
+        assert!(moved[moved.len() - 1] > 1.0, "the lamp changed nothing");
+        // Only the direction of the light changes: the reflectance of dry layers is not recomputed.
         painting.relight(Lighting { azimuth_deg: 200.0, ..lamp.clone() }).unwrap();
         let moved = painting.picture().unwrap();
-        assert!(moved != relit, "the lamp moved");
+        assert!(moved != relit, "the azimuth changed nothing");
         painting.relight(lamp.clone()).unwrap();
-        assert!(painting.picture().unwrap() == relit, "and back");
-        assert!(painting.undo().unwrap() && painting.picture().unwrap() == moved, "undone");
+        assert!(painting.picture().unwrap() == relit, "picture at the first azimuth");
+        assert!(painting.undo().unwrap() && painting.picture().unwrap() == moved, "after undo");
     }
 }
 
@@ -62,7 +63,7 @@ fn a_swapped_pigment_looks_as_if_it_had_been_painted_with() {
         painting.swap_pigment(LayerRef::Dry(1), vermilion, minium).unwrap();
         painting.swap_pigment(LayerRef::Dry(0), vermilion, minium).unwrap();
         painting.swap_pigment(LayerRef::Wet, vermilion, minium).unwrap();
-        assert!(painting.picture().unwrap() != before, "minium is no vermilion");
+        assert!(painting.picture().unwrap() != before, "the swap changed nothing");
         other = layered(other);
         assert!(painting.picture().unwrap() == other.picture().unwrap(), "not the same picture");
         assert!(painting.document().unwrap() == other.document().unwrap(), "not the same painting");
@@ -113,7 +114,7 @@ fn a_palette_changes_only_where_nothing_wet_would_be_left_behind() {
     painting.set_palette(&without).unwrap();
     let slots = painting.slots(LayerRef::Wet).unwrap();
     assert_eq!(slots.iter().flatten().count(), 2);
-    assert_eq!(slots[0], Some(pigment("Lead White")), "who stays keeps the slot");
+    assert_eq!(slots[0], Some(pigment("Lead White")), "slot of a pigment that stays");
     let error = painting.load(brush, &pure(RED), 0.0, 0.1).unwrap_err();
     assert!(matches!(error, PaintingError::EmptySlot { slot: RED }), "{error}");
     let nine: Vec<PigmentId> = (0..9).map(PigmentId).collect();

@@ -1,4 +1,5 @@
-//! No paint comes from nowhere, and none gets lost.
+//! Conservation of paint: strokes, drying, undo and redo neither create nor lose a quantum of any
+//! pigment or of vehicle.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -10,7 +11,7 @@ use render::paint::painting::Painting;
 
 use super::studio::{CELL_MM, along, bare, on_both, tell};
 
-/// Sums over all wet and dry paint, in quanta, by pigment of the palette.
+/// Paint in dry layers, in the wet layer and on `brushes`, in quanta: by slot, vehicle last.
 fn totals(painting: &mut Painting, brushes: &[BrushId]) -> [u64; SLOTS + 1] {
     let document = painting.document().unwrap();
     let mut layers: Vec<Layer> = document.dry.into_iter().map(|layer| layer.paint).collect();
@@ -20,7 +21,7 @@ fn totals(painting: &mut Painting, brushes: &[BrushId]) -> [u64; SLOTS + 1] {
         for index in 0..layer.vehicle.values().len() {
             let cell = layer.cell(index);
             let sum: u64 = cell.pigments.iter().chain([&cell.vehicle]).map(|&a| u64::from(a)).sum();
-            assert!(sum < u64::from(MAX_COLUMN), "cell {index} holds {sum}, as if it owed paint");
+            assert!(sum < u64::from(MAX_COLUMN), "cell {index} holds {sum}: wrapped below 0");
         }
     }
     let mut sums = [0; SLOTS + 1];
@@ -54,7 +55,7 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
                     *wanted += after - before;
                 }
             }
-            // Some of the way lies beyond the edge.
+            // Parts of the strokes lie outside the canvas.
             let mut place = || (random.random_range(-3.0..39.0), random.random_range(-3.0..27.0));
             let places: Vec<_> = (0..8).map(|_| place()).collect();
             let pressure = random.random_range(0.1..1.0);
@@ -76,7 +77,7 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
         let told: f64 = painting.wet_totals_mm().unwrap().iter().sum();
         let left = left as f64 * mm_from_quanta(1, CELL_MM);
         assert!((told - left).abs() < 1e-6, "{told} mm wet, {left} on the brushes");
-        assert!(wet.iter().sum::<f64>() > told, "drying left the canvas as wet");
+        assert!(wet.iter().sum::<f64>() > told, "drying did not reduce wet paint");
         tell(&format!(
             "{}: {substeps} sub-steps, {strokes} strokes, kept {wanted:?}",
             painting.backend()
@@ -89,7 +90,7 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
     for mut painting in on_both(&bare(40, 40)) {
         let brush = painting.add_brush(HeadShape::Knife, 4.0).unwrap();
         let recipe = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-        // Unbounded, 60 of these strokes piled 1057 cell widths.
+        // Without a limit on columns, 60 such strokes piled paint up to 1057 cell widths.
         for _ in 0..100 {
             painting.wash(brush).unwrap();
             painting.load(brush, &recipe, 0.0, 0.8).unwrap();
@@ -99,7 +100,7 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
         let highest = (0..1600).map(|index| wet.cell(index).volume()).max().unwrap();
         tell(&format!("{}: {} cell widths at most", painting.backend(), highest >> 21));
         assert!(highest < MAX_COLUMN / 2, "{highest} quanta on {}", painting.backend());
-        // So it can be dried and saved.
+        // Columns this high can still be dried and saved.
         painting.dry(1.0).unwrap();
         assert!(render::paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");
     }

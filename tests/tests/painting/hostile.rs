@@ -1,5 +1,5 @@
-//! Scripts that nobody should play, from the program's side: the exit status
-//! and the place of what is wrong.
+//! `impasto paint` with invalid or extreme scripts: exit status, the location of the fault in
+//! the error message, and no files left behind.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use suite::program::{Run, impasto};
 
 use super::program::{SCRIPT, place, script};
 
-/// What `impasto paint` says of the script once `from` reads `to`.
+/// Runs `impasto paint` on the script with `from` replaced by `to`.
 fn paint(folder: &Path, from: &str, to: &str) -> Run {
     let script = script(folder, from, to);
     impasto(&["paint", &script, "--backend", "cpu", "--picture", &place(folder, "out.png")])
@@ -135,7 +135,7 @@ fn nesting_and_counts_without_end_are_refused_quickly() {
     let run = paint(folder, STROKE, &deep);
     assert_eq!(run.status, 1, "{}", run.err.len());
     assert!(run.err.len() < 2000, "{} bytes of error", run.err.len());
-    // A long way beside the canvas is painted, one without end is not.
+    // A stroke of 8 m, mostly off the canvas, is painted; one of 5.5 km has too many sub-steps.
     let run = paint(folder, STROKE, "[0, -2000, 9, 1], [1, 2000, 9, 1], [2, -2000, 9, 1]");
     assert_eq!(run.status, 0, "{}", run.err);
     let many = "[0, -23000, 9, 1], [0, 23000, 9, 1], ".repeat(60);
@@ -156,7 +156,7 @@ fn what_a_script_saves_is_checked_before_it_paints() {
     for wanted in ["script.json", "action 7 (save)", "taken"] {
         assert!(run.err.contains(wanted), "{}", run.err);
     }
-    assert!(!folder.join("first.png").exists(), "painted as far as the first save");
+    assert!(!folder.join("first.png").exists(), "the first save was carried out");
     let good = r#"{"save": {"path": "sub/a.exr"}}, {"save": {"path": "sub/a.png"}}"#;
     let run = paint(folder, UNDO, good);
     assert_eq!(run.status, 0, "{}", run.err);

@@ -1,4 +1,4 @@
-//! What is saved, dried, merged or exported looks as what was shown.
+//! Saving, drying, merging and exporting keep the colours of the picture.
 
 use image::ImageDecoder;
 use render::export::{linear_exr, png8, png16};
@@ -14,14 +14,14 @@ use super::studio::{
     BLUE, CELL_MM, WHITE, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu,
 };
 
-/// What may be seen, in CIEDE2000.
+/// Largest colour difference that counts as invisible, in CIEDE2000.
 const UNSEEN: f64 = 0.1;
 
 fn largest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f64 {
     differences(a, b).last().copied().unwrap()
 }
 
-/// Wet paint over a dry layer, under a light of its own.
+/// Wet strokes over a partly dried layer, in daylight.
 fn some_painting() -> Painting {
     let mut painting = on_cpu(bare(130, 100));
     crossing(&mut painting);
@@ -41,7 +41,7 @@ fn a_saved_painting_comes_back_to_the_bit() {
     assert!(file::write(&back).unwrap() == bytes, "not the same bytes");
     let mut reopened = on_cpu(back);
     assert!(reopened.picture().unwrap() == painting.picture().unwrap(), "not the same picture");
-    assert!(reopened.document().unwrap() == document, "opened and closed");
+    assert!(reopened.document().unwrap() == document, "opening changed the painting");
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn drying_leaves_the_colors_as_they_were() {
     }
 }
 
-/// Two dry layers, of the pigments in `slots`.
+/// Paints two overlapping strokes with the pigments in `slots`, each dried to a layer of its own.
 fn two_layers(mut painting: Painting, slots: [usize; 2]) -> Painting {
     for (slot, y) in slots.into_iter().zip([6.0, 8.0]) {
         let brush = loaded(&mut painting, HeadShape::Flat, 5.0, slot, 0.4);
@@ -82,7 +82,7 @@ fn layers_of_like_paint_become_one_unseen() {
             let sum: u64 = two.dry.iter().map(|layer| layer.paint.totals()[slot]).sum();
             assert_eq!(one.dry[0].paint.totals()[slot], sum, "slot {slot}");
         }
-        assert!(painting.undo().unwrap() && painting.document().unwrap() == two, "undone");
+        assert!(painting.undo().unwrap() && painting.document().unwrap() == two, "undo");
     }
 }
 
@@ -96,10 +96,10 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
             matches!(error, PaintingError::MergeShows { delta_e, .. } if delta_e > MERGE_TOLERANCE),
             "{error}"
         );
-        assert!(error.hint().is_some(), "what else to do");
+        assert!(error.hint().is_some(), "no hint");
         assert!(painting.document().unwrap() == document, "the paint changed");
         assert!(painting.picture().unwrap() == before, "the picture changed");
-        // No action was added: the last one is the drying.
+        // The refused merge is no step of the history: the last step is the drying.
         assert!(painting.undo().unwrap(), "nothing to undo");
         assert_eq!(painting.state().dry.len(), 1);
         for lower in [1, 2, usize::MAX - 1] {
@@ -119,7 +119,7 @@ fn exported_pictures_have_the_colors_that_were_shown() {
         shown.values().iter().map(|rgb| rgb.map(|value| value.clamp(0.0, 1.0))).collect(),
     );
     for (bytes, within) in [
-        // Half a step of 8 bits in each channel is as much near black, and cannot be less.
+        // Rounding to 8 bits alone gives up to 1 CIEDE2000 near black.
         (png8(&shown, CELL_MM).unwrap().bytes, 1.0),
         (png16(&shown, CELL_MM).unwrap().bytes, UNSEEN),
     ] {
@@ -144,7 +144,7 @@ fn exported_pictures_have_the_colors_that_were_shown() {
     }
 }
 
-/// The channels of the only part of an OpenEXR.
+/// Names and values of the channels of a single-part OpenEXR file.
 fn exr_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
     use exr::prelude::{ReadChannels, ReadLayers, read};
     let image = read()

@@ -1,8 +1,7 @@
-//! The program as a process of its own: killed while it saves, without a
-//! driver, in a folder that nobody may write to.
+//! The program in a child process: killed while it saves, and without a graphics driver.
 //!
-//! A test cannot name the program of another package, so the child is this very
-//! binary, running one ignored test that calls the program.
+//! A test cannot locate the program of another package, so the child is this test binary, which
+//! runs one ignored test that calls the program.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -14,7 +13,7 @@ use super::program::{SCRIPT, place, script};
 
 const ARGUMENTS: &str = "IMPASTO_CHILD_ARGUMENTS";
 
-/// Runs in the child only.
+/// Runs `impasto` with the arguments in [`ARGUMENTS`]; without them it does nothing.
 #[test]
 #[ignore = "the child of the tests below"]
 fn child() {
@@ -24,7 +23,7 @@ fn child() {
     super::studio::tell(&format!("{}\nstatus {}\n{}", run.out, run.status, run.err));
 }
 
-/// `impasto` with `arguments` in a process of its own.
+/// A command that runs `impasto` with `arguments` in a child process.
 fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command.args(["--exact", "killed::child", "--ignored", "--nocapture", "--test-threads=1"]);
@@ -32,7 +31,7 @@ fn program(arguments: &[&str]) -> Command {
     command
 }
 
-/// What a run of its own says on the second writer, results included.
+/// Runs `command` and returns its stderr: output, exit status and errors of the program.
 fn told(mut command: Command) -> String {
     String::from_utf8_lossy(&command.output().unwrap().stderr).into_owned()
 }
@@ -46,7 +45,7 @@ fn files(folder: &Path) -> Vec<String> {
 fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // It saves over and over, so that most moments fall into a save.
+    // The script saves after every stroke, so most kills fall into a save.
     let mut text: serde_json::Value = serde_json::from_str(SCRIPT).unwrap();
     let actions = text["actions"].as_array_mut().unwrap();
     actions.pop();
@@ -69,12 +68,12 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     for moment in 0..12 {
         std::fs::write(&saved, &old).unwrap();
         let mut child = program(&["paint", &endless, "--backend", "cpu"]).spawn().unwrap();
-        // Some before the first save, the others amid many.
+        // The first four children may die before their first save, the others die after it.
         while moment > 3 && std::fs::read(&saved).unwrap() == old {
             assert!(child.try_wait().unwrap().is_none(), "it ended without a save");
             std::thread::sleep(Duration::from_millis(5));
         }
-        // Every other one at once, while what made the difference still goes on.
+        // After its first save, every second child is killed at once.
         let wait = if moment > 3 && moment % 2 == 0 { 0 } else { 7 * moment };
         std::thread::sleep(Duration::from_millis(wait));
         child.kill().unwrap();
@@ -111,7 +110,7 @@ fn without_a_driver_the_processor_paints_unless_a_device_is_asked_for() {
     let refused = without("gpu");
     assert!(refused.contains("status 2"), "{refused}");
     assert!(refused.contains("hint: paint on the processor: --backend cpu"), "{refused}");
-    assert!(!Path::new(&picture).exists(), "refused, and yet painted");
+    assert!(!Path::new(&picture).exists(), "refused, but a picture was written");
     let painted = without("auto");
     assert!(painted.contains("status 0") && painted.contains("on the processor"), "{painted}");
     assert!(Path::new(&picture).exists(), "no picture");

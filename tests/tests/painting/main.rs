@@ -1,7 +1,7 @@
-//! Whole paintings: strokes, drying, light, undo, files and the program, as they
-//! work together.
+//! Tests of whole paintings: strokes, drying, light, undo, painting files, sessions and the
+//! program `impasto`.
 //!
-//! Where there is no graphics adapter the tests that need one pass and say so.
+//! Without a graphics adapter the checks on the GPU are skipped, with a note on stderr.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -27,7 +27,7 @@ mod keeping;
 
 mod changes;
 
-mod laws;
+mod expected_behavior;
 
 mod program;
 

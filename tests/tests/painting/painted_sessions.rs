@@ -1,4 +1,4 @@
-//! Easels to try things on: a canvas and a palette, and what a hand does there.
+//! Helpers: sessions with a canvas and a palette, and random actions in them.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -16,7 +16,7 @@ use render::paint::strokes::{
 
 use super::studio::{PALETTE, gpu_engine, oils, open};
 
-/// A canvas of 130 x 100 cells and a palette of 90 x 70.
+/// A script without actions, with a canvas of 130 x 100 cells and a palette of 90 x 70.
 pub(crate) fn header() -> StrokeScript {
     let text = r#"{"format": "strokes", "version": 1, "title": "a session",
         "canvas": {"width_mm": 26, "height_mm": 20, "cell_mm": 0.2},
@@ -27,14 +27,15 @@ pub(crate) fn header() -> StrokeScript {
     script
 }
 
-/// How a backend is made for a document.
+/// Makes the engine for a document; `None` without a graphics adapter.
 pub(crate) type Backend = fn(&Document) -> Option<PaintEngine>;
 
-/// The processor, and a graphics device where there is one.
+/// CPU and GPU.
 pub(crate) const BACKENDS: [Backend; 2] =
     [|document| Some(PaintEngine::on_cpu(document.ground.height.clone())), gpu_engine];
 
-/// The surfaces that a script describes, and a record of what is done there.
+/// A recording session on the surfaces that `script` describes; `None` if the backend is
+/// missing.
 pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<PaintingSession> {
     let (canvas, palette) = script.surfaces(oils(), None).unwrap();
     let (engine, palette) = (backend(&canvas)?, palette.unwrap());
@@ -42,18 +43,18 @@ pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<Painting
     Some(PaintingSession::recorded(open(canvas, engine, UNDO_BYTES), Some(beside), script).unwrap())
 }
 
-/// The same on all backends.
+/// A session of [`header`] on each available backend.
 pub(crate) fn sessions() -> Vec<PaintingSession> {
     BACKENDS.into_iter().filter_map(|backend| set_up(&header(), backend)).collect()
 }
 
-/// All that there is: both surfaces, and the paint on the brushes.
+/// State of a session: canvas, palette, and the paint on each brush.
 pub(crate) type Whole = (Document, Option<Document>, Vec<Option<Layer>>);
 
 pub(crate) fn whole(session: &mut PaintingSession) -> Whole {
     let names: Vec<String> = session.brushes().map(|(name, _)| name.to_owned()).collect();
     let brushes = names.iter().map(|name| session.brush_paint(name).unwrap());
-    // A brush that was never used is as clean as one that was washed.
+    // A brush that was never used has no paint layer; it compares equal to a washed one.
     let brushes = brushes.map(|paint| paint.filter(|paint| paint.totals() != [0; 9])).collect();
     let (canvas, palette) = session.documents().unwrap();
     (canvas, palette, brushes)
@@ -63,7 +64,7 @@ pub(crate) fn spec(shape: HeadShape, size_mm: f64) -> BrushSpec {
     BrushSpec { shape, size_mm }
 }
 
-/// Loads a brush with one pigment of the palette.
+/// An action that loads a brush with one pigment and 10 % vehicle.
 pub(crate) fn load(brush: &str, pigment: &str, amount_mm: f64) -> Action {
     let recipe = [(pigment.to_owned(), 1.0)].into();
     Action::Load(Load { brush: brush.to_owned(), recipe, vehicle: 0.1, amount_mm })
@@ -74,12 +75,12 @@ pub(crate) fn squeeze(on: SurfaceId, pigment: &str, (x_mm, y_mm): (f64, f64)) ->
     Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3: 3.0 })
 }
 
-/// A surface, by lot.
+/// Canvas or palette at random.
 pub(crate) fn surface(random: &mut ChaCha8Rng) -> SurfaceId {
     if random.random_bool(0.5) { SurfaceId::Canvas } else { SurfaceId::Palette }
 }
 
-/// Samples as a pen tells them: with more digits than a file has.
+/// Random pen samples, with more digits than a script file keeps.
 pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
     let mut seconds = random.random_range(0.0..100.0);
     let (mut x_mm, mut y_mm) = (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
@@ -100,7 +101,8 @@ pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
     (0..samples).map(|_| next()).collect()
 }
 
-/// A stroke told in odd pieces, between which so much is painted.
+/// Paints a random stroke, extended in random portions with a random number of sub-steps after
+/// each.
 pub(crate) fn live(
     session: &mut PaintingSession,
     on: SurfaceId,
@@ -125,8 +127,8 @@ pub(crate) fn live(
     assert!(report.is_some_and(|report| report.undoable), "{report:?}");
 }
 
-/// One action; whether it counts in the history. A pigment may be wet, or a
-/// layer lack it.
+/// Tries a random action. Returns whether it became a step of the history; it may be refused, as
+/// for a palette without a pigment that is wet, or a swap in a layer without the pigment.
 pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) -> bool {
     let layers = session.canvas().state().dry.len();
     let on = surface(random);
@@ -173,7 +175,7 @@ pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) 
     matches!(session.apply(&action), Ok(Outcome::Done))
 }
 
-/// Two loaded brushes, one with a shape of its own.
+/// Adds a flat brush loaded with lead white and a knife loaded with Prussian blue.
 pub(crate) fn loaded(session: &mut PaintingSession) {
     session.set_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
     session.set_brush("knife", &spec(HeadShape::Knife, 4.0)).unwrap();

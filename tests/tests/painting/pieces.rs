@@ -1,4 +1,5 @@
-//! Strokes told piece by piece, as a pen tells them.
+//! Strokes extended in portions: any division into portions gives the paint and the undo of the
+//! whole stroke.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -12,14 +13,14 @@ use spectra::hint::Explain;
 
 use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both};
 
-/// Wet and dry paint, and that on every brush.
+/// The wet layer, then the paint on each of the first `brushes` brushes.
 fn paint(painting: &mut Painting, brushes: usize) -> Vec<Layer> {
     let mut layers = vec![painting.wet().unwrap()];
     layers.extend((0..brushes).map(BrushId).map(|brush| painting.brush_paint(brush).unwrap()));
     layers
 }
 
-/// A hand that rests, turns, leaves the canvas and comes back.
+/// Random samples, some outside the canvas; one position occurs twice (a pen at rest).
 fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     let count = random.random_range(1..9);
     let mut place = || (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0));
@@ -28,7 +29,8 @@ fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     along(&places, 0.6)
 }
 
-/// Tells `samples` and paints them in pieces of any size.
+/// Extends a stroke by `samples` in random portions and paints a random number of sub-steps after
+/// each. Returns the sub-steps, the cells, and whether the stroke can be undone.
 fn in_pieces(
     painting: &mut Painting,
     brush: BrushId,
@@ -80,12 +82,12 @@ fn however_a_stroke_is_cut_its_paint_brush_and_undo_are_those_of_the_whole() {
             assert!(paint(&mut cut, 4) == paint(&mut whole, 4), "seed {seed}");
         }
         assert!(painted > 500, "{painted} sub-steps");
-        assert!(cut.picture().unwrap() == whole.picture().unwrap(), "the pictures");
+        assert!(cut.picture().unwrap() == whole.picture().unwrap(), "pictures differ");
         let after = paint(&mut cut, 4);
         (0..16).for_each(|_| assert!(cut.undo().unwrap(), "one undo a stroke"));
-        assert!(paint(&mut cut, 4) == before, "undone");
+        assert!(paint(&mut cut, 4) == before, "paint after undo");
         (0..16).for_each(|_| assert!(cut.redo().unwrap(), "one redo a stroke"));
-        assert!(paint(&mut cut, 4) == after, "done again");
+        assert!(paint(&mut cut, 4) == after, "paint after redo");
     }
 }
 
@@ -107,7 +109,7 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             let mut stroke = cut.begin_stroke(brush).unwrap();
             stroke.extend(&samples[..2]).unwrap();
             stroke.advance(&mut cut, 20).unwrap();
-            // The good one before it counts, the one after it does not.
+            // The sample before the refused one is accepted; the one after it is not.
             let error = stroke.extend(&[samples[2], bad, samples[3]]).unwrap_err();
             let error = PaintingError::from(error);
             assert!(matches!(error, PaintingError::Stroke(_)), "{error}");
@@ -117,7 +119,7 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             stroke.finish(&mut cut).unwrap();
             assert!(paint(&mut cut, 1) == paint(&mut whole, 1), "{bad:?}");
             assert!(cut.undo().unwrap(), "no undo");
-            assert!(paint(&mut cut, 1) == clean, "undone");
+            assert!(paint(&mut cut, 1) == clean, "paint after undo");
         }
     }
 }
@@ -132,7 +134,7 @@ fn a_stroke_without_samples_is_no_action() {
         assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0);
         assert_eq!(stroke.finish(&mut painting).unwrap().substeps, 0);
         assert!(!painting.undo().unwrap(), "something to undo");
-        // One sample alone is a dab.
+        // A stroke of a single sample paints a dab when it ends.
         let mut stroke = painting.begin_stroke(brush).unwrap();
         stroke.extend(&along(&[(9.0, 9.0)], 0.6)).unwrap();
         assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0, "no dab before the end");
@@ -152,17 +154,17 @@ fn a_brush_that_comes_with_paint_gets_back_what_it_held_here() {
             other.set_cell(index, Cell { pigments, vehicle: 90_000 });
         }
         let mut stroke = painting.begin_stroke_with(brush, &other).unwrap();
-        assert!(painting.brush_paint(brush).unwrap() == other, "handed over");
+        assert!(painting.brush_paint(brush).unwrap() == other, "paint at the start of the stroke");
         stroke.extend(&along(&[(3.0, 4.0), (20.0, 9.0)], 0.6)).unwrap();
         stroke.finish(&mut painting).unwrap();
         let totals = painting.wet().unwrap().totals();
         assert!(totals[BLUE] > 0 && totals[WHITE] == 0, "{totals:?}");
         let after = painting.brush_paint(brush).unwrap();
-        assert!(after.totals()[BLUE] < other.totals()[BLUE], "none was given");
+        assert!(after.totals()[BLUE] < other.totals()[BLUE], "no paint left the brush");
         assert!(painting.undo().unwrap(), "no undo");
-        assert!(painting.brush_paint(brush).unwrap() == held, "undone");
+        assert!(painting.brush_paint(brush).unwrap() == held, "paint after undo");
         assert!(painting.redo().unwrap(), "no redo");
-        assert!(painting.brush_paint(brush).unwrap() == after, "done again");
+        assert!(painting.brush_paint(brush).unwrap() == after, "paint after redo");
     }
 }
 
@@ -171,10 +173,10 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     let mut painting = on_both(&bare(130, 100)).remove(0);
     let brush = loaded(&mut painting, HeadShape::Round, 4.0, BLUE, 0.4);
     let samples = along(&[(3.0, 4.0), (15.0, 9.0)], 0.6);
-    assert!(painting.head(brush).mesh().is_none(), "seen before it was held");
+    assert!(painting.head(brush).mesh().is_none(), "a mesh before the first hover");
     painting.hover(brush, &samples[0]);
     let hovering = painting.head(brush).mesh().unwrap();
-    assert!(painting.wet().unwrap().totals()[BLUE] == 0, "it touched");
+    assert!(painting.wet().unwrap().totals()[BLUE] == 0, "hovering left paint");
     let mut stroke = painting.begin_stroke(brush).unwrap();
     stroke.extend(&samples).unwrap();
     stroke.lift();
@@ -183,9 +185,9 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     let lowest = |mesh: &HeadMesh| {
         mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min)
     };
-    assert!(lowest(&bent) < lowest(&hovering), "not pressed");
+    assert!(lowest(&bent) < lowest(&hovering), "the head did not bend");
     painting.hover(brush, &samples[0]);
-    assert_eq!(painting.head(brush).mesh(), Some(bent), "it hovers while it paints");
+    assert_eq!(painting.head(brush).mesh(), Some(bent), "hover moved the head");
     stroke.finish(&mut painting).unwrap();
 }
 

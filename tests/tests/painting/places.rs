@@ -1,4 +1,4 @@
-//! Looking at one place of a painting, and not at the rest.
+//! Paint and reflectance read from a rectangle of a painting.
 
 use render::paint::painting::{LayerRef, PaintingError};
 use render::paint::scene::SpectralDocument;
@@ -58,7 +58,7 @@ fn the_reflectance_of_a_place_is_the_mean_of_its_cells() {
                 assert!((found - wanted / cells).abs() < 1e-12, "{found} of {rect:?}");
             }
             let unlike = found.iter().any(|value| (value - found[0]).abs() > 0.01);
-            assert!(unlike, "a grey of {found:?} at {rect:?}");
+            assert!(unlike, "a flat spectrum, {found:?}, at {rect:?}");
         }
     }
 }

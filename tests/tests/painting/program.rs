@@ -27,7 +27,7 @@ pub(crate) const SCRIPT: &str = r##"{
   ]
 }"##;
 
-/// [`SCRIPT`], once `from` reads `to`, in `folder`.
+/// Writes [`SCRIPT`] with `from` replaced by `to` into `folder`. Returns its path.
 pub(crate) fn script(folder: &Path, from: &str, to: &str) -> String {
     assert!(from.is_empty() || SCRIPT.matches(from).count() == 1, "`{from}` stands once");
     let path = folder.join("script.json");
@@ -36,14 +36,14 @@ pub(crate) fn script(folder: &Path, from: &str, to: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// A path in `folder`.
+/// The path of `name` in `folder`.
 pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
 }
 
 fn done(run: &Run) {
     assert_eq!(run.status, 0, "{}", run.err);
-    // Gloss is brighter than any screen.
+    // Highlights of gloss are brighter than sRGB white, on which the program remarks.
     let expected = run.err.lines().all(|line| line.contains("outside sRGB"));
     assert!(expected, "{}", run.err);
 }
@@ -79,12 +79,12 @@ fn the_same_script_gives_the_same_bytes() {
         let (a, b) = (std::fs::read(a).unwrap(), std::fs::read(b).unwrap());
         assert!(a.len() > 1000 && a == b, "{} and {} bytes", a.len(), b.len());
     }
-    // Shown again as it was saved, it is the same picture.
+    // `relight` without changes gives the picture that `paint` wrote.
     let again = place(folder, "again.png");
     let run = impasto(&["relight", &files[0][0], "--backend", "cpu", "--picture", &again]);
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(run.out.contains("light A") && run.out.contains("dry 0"), "{}", run.out);
-    assert!(std::fs::read(&again).unwrap() == std::fs::read(&files[0][1]).unwrap(), "relit");
+    assert!(std::fs::read(&again).unwrap() == std::fs::read(&files[0][1]).unwrap(), "not the same");
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_painting_is_relit_under_a_lamp_and_opened_again() {
     done(&run);
     assert_eq!(run.json()["layers"][0]["opacity"], 0.5);
     assert!(std::fs::read(&again).unwrap() == std::fs::read(&picture).unwrap(), "not the same");
-    // Without the lamp's file the painting is shown under another.
+    // Without the lamp's file `relight` is refused, unless another light is given.
     std::fs::remove_file(&lamp).unwrap();
     let run = impasto(&["relight", &relit, "--backend", "cpu"]);
     assert_eq!(run.status, 2, "{}", run.err);
@@ -129,7 +129,7 @@ fn a_painting_is_relit_under_a_lamp_and_opened_again() {
 
 fn done_with_lines(run: &Run) {
     done(run);
-    assert!(!run.out.is_empty(), "nothing told");
+    assert!(!run.out.is_empty(), "no output");
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn pigment_maps_sum_all_layers() {
     let document = render::paint::file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
     let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
     let layers: Vec<_> = dry.chain([(&document.slots, &document.wet)]).collect();
-    assert!(layers.len() > 1, "a dry layer, to be summed");
+    assert!(layers.len() > 1, "no dry layer to sum");
     let recipe = std::fs::read_to_string(Path::new(&maps).join("painting.recipe.csv")).unwrap();
     let quantum_mm3 = mm_from_quanta(1, document.cell_mm) * document.cell_mm.powi(2);
     for line in recipe.lines().skip(1) {

@@ -1,4 +1,4 @@
-//! What is painted by hand, recorded, and played again.
+//! Recordings of sessions: their replay gives the same paint and history bit for bit.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -17,7 +17,7 @@ use super::painted_sessions::{
 };
 use super::studio::{PALETTE, oils, on_cpu};
 
-/// What was recorded, written and read.
+/// The recording of a session, written as JSON and read back.
 fn read(session: &PaintingSession) -> StrokeScript {
     let text = session.recording().unwrap().to_json().unwrap();
     StrokeScript::from_json("recording.json", text.as_bytes()).unwrap()
@@ -28,17 +28,19 @@ fn replayed(script: &StrokeScript, session: &mut PaintingSession) -> ReplayRepor
     script.replay(session, save, || ControlFlow::Continue(())).unwrap()
 }
 
-/// The paint on each brush by its name in the recording.
+/// Asserts equal canvases and palettes, and that the paint on each brush of `painted` is on some
+/// brush of `played`.
 fn assert_same(painted: &mut Whole, played: &mut Whole, what: &str) {
     assert!(painted.0 == played.0, "{what}: another canvas");
     assert!(painted.1 == played.1, "{what}: another palette");
-    // Names given twice stand for the last head only; the others come first.
+    // The recording gives every head its own name, whereas the session reuses names for new heads.
+    // Brush paints are therefore compared without names.
     let last = |whole: &mut Whole| whole.2.drain(..).flatten().collect::<Vec<_>>();
     let (painted, played) = (last(painted), last(played));
     assert!(painted.iter().all(|paint| played.contains(paint)), "{what}: other paint on a brush");
 }
 
-/// An hour at the session in little.
+/// Paints at random: strokes, loads, adjustments, undo, redo and jumps in the history.
 fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
     let mut random = seeded(seed);
     loaded(session);
@@ -55,7 +57,7 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
                 let recipe = [("Lead White".to_owned(), 1.0 / 3.0), ("Viridian".to_owned(), 0.1)];
                 let (recipe, vehicle) = (recipe.into(), random.random_range(0.0..1.0));
                 let amount_mm = random.random_range(0.0..0.4);
-                // A palette may lack it, or the brush be full.
+                // Refused if the palette lacks viridian or the brush is full.
                 let load = Load { brush: knife(), recipe, vehicle, amount_mm };
                 let _ = session.apply(&Action::Load(load));
             }
@@ -65,7 +67,7 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
             }
             4 => _ = session.apply(&Action::Wash { brush: knife() }).unwrap(),
             5 => {
-                // Another head under the same name, or an earlier one again.
+                // A new head under the same name, or an earlier head again.
                 let size_mm = [4.0, 2.5, 10.0 / 3.0][random.random_range(0..3)];
                 session.set_brush("knife", &spec(HeadShape::Knife, size_mm)).unwrap();
             }
@@ -96,8 +98,8 @@ fn assert_replays(backend: Backend, seed: u64, actions: usize) {
     let Some(mut session) = set_up(&header(), backend) else { return };
     paint_at_random(&mut session, seed, actions);
     let script = read(&session);
-    assert_eq!(session.recording_stopped(), None, "it is short");
-    assert!(script.brushes.len() > 2, "exchanged heads have names of their own");
+    assert_eq!(session.recording_stopped(), None, "the recording stopped");
+    assert!(script.brushes.len() > 2, "no extra names for replaced heads");
     let mut other = set_up(&script, backend).unwrap();
     let report = replayed(&script, &mut other);
     let what = format!("seed {seed}");
@@ -105,11 +107,11 @@ fn assert_replays(backend: Backend, seed: u64, actions: usize) {
     let history = |session: &PaintingSession| (session.history().0.len(), session.history().1);
     assert_eq!(history(&other), history(&session), "{what}");
     assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
-    // All that was taken back, on both.
+    // Both sessions with all actions undone.
     session.go_to(0).unwrap();
     other.go_to(0).unwrap();
     assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
-    // The replay was recorded as well: it is the same recording.
+    // The replay is recorded too, with the same actions.
     let again = read(&other);
     assert_eq!(again.actions[..script.actions.len()], script.actions, "{what}");
 }
@@ -148,10 +150,10 @@ fn a_session_may_go_on_with_a_painting() {
     replayed(&script, &mut other);
     let mut painted = whole(&mut session);
     assert_ne!(painted.0.wet.totals(), [0; SLOTS + 1]);
-    assert_same(&mut painted, &mut whole(&mut other), "gone on");
+    assert_same(&mut painted, &mut whole(&mut other), "a continued painting");
 }
 
-/// Under the light of the document, which may not be daylight.
+/// `document` on the CPU under its own light, which may differ from daylight.
 fn on_cpu_lit(document: Document) -> Painting {
     let engine = BACKENDS[0](&document).unwrap();
     Painting::open(document, engine, render::paint::painting::UNDO_BYTES).unwrap()
@@ -176,7 +178,7 @@ fn a_replay_ends_where_it_is_told_to() {
     begun.actions.truncate(9);
     let mut whole_of_nine = set_up(&script, BACKENDS[0]).unwrap();
     replayed(&begun, &mut whole_of_nine);
-    assert!(whole(&mut other) == whole(&mut whole_of_nine), "nine actions are nine actions");
+    assert!(whole(&mut other) == whole(&mut whole_of_nine), "not the first nine actions");
 }
 
 #[test]
@@ -184,7 +186,7 @@ fn only_what_was_done_is_recorded() {
     let mut session = set_up(&header(), BACKENDS[0]).unwrap();
     loaded(&mut session);
     session.set_brush("mop", &spec(HeadShape::Mop, 3.0)).unwrap();
-    assert!(!session.undo().unwrap() && !session.redo().unwrap(), "nothing to take back");
+    assert!(!session.undo().unwrap() && !session.redo().unwrap(), "a step in an empty history");
     session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
     assert!(session.apply(&load("flat", "Octarine", 0.1)).is_err());
     assert!(session.apply(&load("flat", "Lead White", 50.0)).is_err(), "too much");
@@ -196,7 +198,7 @@ fn only_what_was_done_is_recorded() {
     assert_eq!(script.brushes.keys().collect::<Vec<_>>(), ["flat", "knife"], "the mop is unused");
     assert_eq!(script.title, "a session");
     assert_eq!(script.library.as_deref(), Some(oils().title.as_str()));
-    // Refused at its first use, a brush is there none the less.
+    // A brush whose first use is refused is recorded nevertheless, by a wash.
     assert!(session.apply(&load("mop", "Lead White", 50.0)).is_err(), "too much");
     let script = read(&session);
     assert_eq!(script.actions[2], Action::Wash { brush: "mop".to_owned() });

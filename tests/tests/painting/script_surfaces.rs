@@ -1,4 +1,4 @@
-//! `impasto paint` with a palette to mix on, and with a painting to go on with.
+//! `impasto paint` of scripts that mix on a palette or continue a painting.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ const HEADER: &str = r#""format": "strokes", "version": 1, "title": "A session",
   "palette": {"W": "Lead White", "Y": "Chrome Yellow", "B": "Prussian Blue"},
   "brushes": {"flat": {"shape": "flat", "size_mm": 5}, "knife": {"shape": "knife", "size_mm": 6}},"#;
 
-/// Yellow and blue are put on the palette, mixed, and taken to the canvas.
+/// Yellow and blue are squeezed onto the palette, mixed, and painted on the canvas.
 const MIXED: &str = r#"
   "mixing": {"width_mm": 20, "height_mm": 16, "cell_mm": 0.2, "ground": {"kind": "panel"}},
   "actions": [
@@ -58,7 +58,7 @@ fn paint_that_was_mixed_on_the_palette_comes_to_the_canvas() {
     assert_eq!((document.wet.width(), document.wet.height()), (120, 80), "the canvas alone");
     let mm3 = document.wet.totals().map(|quanta| quanta as f64 * mm_from_quanta(1, 0.2) * 0.04);
     assert!(mm3[1] > 0.01 && mm3[2] > 0.001, "yellow and blue of the heaps: {mm3:?} mm3");
-    assert_eq!(document.wet.totals()[0], 0, "nobody took white");
+    assert_eq!(document.wet.totals()[0], 0, "white was never loaded");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn a_script_goes_on_with_what_another_one_painted() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let first = written(folder, "first.json", &format!("{{{HEADER}\"actions\": [{OVER}, {DRY}]}}"));
-    // The brush of the second script is another one, and clean.
+    // The second script starts with clean brushes, so the whole script washes its brush.
     let wash = r#"{"wash": {"brush": "flat"}}"#;
     let whole = format!("{{{HEADER}\"actions\": [{OVER}, {DRY}, {wash},\n{OVER}]}}");
     let whole = written(folder, "whole.json", &whole);
@@ -78,7 +78,7 @@ fn a_script_goes_on_with_what_another_one_painted() {
         painted(&whole, &place(folder, "whole.exr")),
         painted(&second, &place(folder, "second.exr")),
     );
-    assert!(wanted.dry.len() == 1 && wanted == found, "it is as if painted at once");
+    assert!(wanted.dry.len() == 1 && wanted == found, "differs from painting at once");
 
     let run = paint(&second, &["--output", &place(folder, "no.exr"), "--library", &second]);
     assert_eq!(run.status, 2, "{}", run.err);

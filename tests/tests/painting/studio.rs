@@ -1,4 +1,4 @@
-//! Paintings to try things on: the shipped oils on linen, and strokes.
+//! Helpers: canvases and strokes in the shipped oils, and colour differences between pictures.
 
 use std::io::Write;
 use std::sync::OnceLock;
@@ -37,19 +37,19 @@ pub(crate) const YELLOW: usize = 1;
 pub(crate) const BLUE: usize = 2;
 pub(crate) const RED: usize = 3;
 
-/// The oils that ship.
+/// The pigment library of the shipped oils.
 pub(crate) fn oils() -> &'static PigmentLibrary {
     static OILS: OnceLock<PigmentLibrary> = OnceLock::new();
     OILS.get_or_init(suite::oils::library)
 }
 
-/// Daylight for them.
+/// Default light and observer, prepared for [`oils`].
 pub(crate) fn daylight() -> Light {
     static DAYLIGHT: OnceLock<Light> = OnceLock::new();
     DAYLIGHT.get_or_init(|| Light::new(oils(), &Viewing::default()).unwrap()).clone()
 }
 
-/// The index of a pigment.
+/// The id of a pigment of [`oils`].
 pub(crate) fn pigment(name: &str) -> PigmentId {
     oils().find(name).unwrap()
 }
@@ -81,18 +81,19 @@ pub(crate) fn bare_on(json: &str, width: usize, height: usize) -> Document {
     )
 }
 
-/// `document` under daylight, on the processor.
+/// `document` in daylight on the CPU.
 pub(crate) fn on_cpu(document: Document) -> Painting {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     open(document, engine, UNDO_BYTES)
 }
 
-/// The same on a graphics device, hardware or not; none where there is none.
+/// `document` in daylight on a graphics device, hardware or software; `None` without an
+/// adapter.
 pub(crate) fn on_gpu(document: Document) -> Option<Painting> {
     gpu_engine(&document).map(|engine| open(document, engine, UNDO_BYTES))
 }
 
-/// On both.
+/// `document` on the CPU and, with an adapter, on the GPU.
 pub(crate) fn on_both(document: &Document) -> Vec<Painting> {
     std::iter::once(on_cpu(document.clone())).chain(on_gpu(document.clone())).collect()
 }
@@ -109,7 +110,7 @@ pub(crate) fn open(document: Document, engine: PaintEngine, undo_bytes: u64) -> 
     Painting::open_under(document, daylight(), engine, undo_bytes).unwrap()
 }
 
-/// Parts of one slot alone.
+/// A recipe of the pigment in `slot` alone.
 pub(crate) fn pure(slot: usize) -> [f64; SLOTS] {
     std::array::from_fn(|i| if i == slot { 1.0 } else { 0.0 })
 }
@@ -123,13 +124,13 @@ pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
         pressure,
         tilt_x_deg: 10.0,
         tilt_y_deg: -15.0,
-        // Along x a flat head paints with its broad side.
+        // At 90 degrees a flat head that moves along x paints with its broad side.
         twist_deg: 90.0 + 5.0 * index as f64,
     };
     places.iter().enumerate().map(sample).collect()
 }
 
-/// A brush with `amount_mm` of one pigment's paint.
+/// Adds a brush loaded with `amount_mm` of the pigment in `slot`, with 10 % vehicle.
 pub(crate) fn loaded(
     painting: &mut Painting,
     shape: HeadShape,
@@ -152,7 +153,7 @@ pub(crate) fn crossing(painting: &mut Painting) {
     painting.stroke(blue, &along(&[(12.0, 2.0), (11.0, 9.0), (13.0, 14.0)], 0.6)).unwrap();
 }
 
-/// CIEDE2000 of every cell, in rising order.
+/// CIEDE2000 between two pictures, one value per cell, ascending.
 pub(crate) fn differences(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> Vec<f64> {
     assert_eq!((a.width(), a.height()), (b.width(), b.height()), "sizes of pictures");
     let pairs = a.values().iter().zip(b.values());
@@ -160,12 +161,12 @@ pub(crate) fn differences(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> Vec<f64> 
 }
 
 pub(crate) fn sorted(mut values: Vec<f64>) -> Vec<f64> {
-    assert!(values.iter().all(|value| value.is_finite()), "a colour that is none");
+    assert!(values.iter().all(|value| value.is_finite()), "a value is not finite");
     values.sort_by(f64::total_cmp);
     values
 }
 
-/// CIELAB of linear sRGB.
+/// CIELAB of a linear sRGB colour.
 pub(crate) fn lab(rgb: &[f32; 4]) -> Lab {
     let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
     let xyz = RgbSpace::Srgb.xyz_from_linear().apply(linear);
@@ -176,7 +177,7 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Adds a line to what the run tells.
+/// Prints a line on stderr.
 pub(crate) fn tell(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -1,4 +1,4 @@
-//! Canvas and palette as one: brushes between them, one history.
+//! Sessions with a canvas and a palette: brushes used on both, one history and one light.
 
 use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
@@ -29,16 +29,16 @@ fn whatever_was_done_on_either_surface_is_undone_and_redone_to_the_bit() {
                 assert_eq!(session.history().1, past.len() - 1, "round {round}: one action");
             } else {
                 let same = whole(&mut session) == past[past.len() - 1];
-                assert!(same, "round {round}: refused, and yet something changed");
+                assert!(same, "round {round}: a refused action changed something");
             }
         }
         assert!(past.len() > 25, "{} actions", past.len());
         for to in [0, past.len() - 1, 7, 20, 3, 19, past.len() - 1, 0, past.len() - 1] {
             session.go_to(to).unwrap();
             assert_eq!(session.history().1, to);
-            assert!(whole(&mut session) == past[to], "after travelling to {to}");
+            assert!(whole(&mut session) == past[to], "state {to}");
         }
-        assert!(!session.redo().unwrap(), "there is nothing more to do again");
+        assert!(!session.redo().unwrap(), "a redo after the last action");
     }
 }
 
@@ -47,7 +47,7 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
     for mut session in sessions() {
         let mut random = seeded(3);
         loaded(&mut session);
-        // The palette has 2 x 2 tiles: it forgets after a few strokes.
+        // The palette has 2 x 2 tiles: this limit drops its oldest steps after a few strokes.
         session.set_undo_bytes(4 * 9 * TILE_BYTES);
         let mut past = vec![whole(&mut session)];
         let mut done = 0;
@@ -66,15 +66,15 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
         assert!(used <= limit, "{used} of {limit} bytes");
         for place in (done - reachable..done).rev() {
             assert!(session.undo().unwrap(), "{place}");
-            assert!(whole(&mut session) == past[place], "back to {place}, in the order of doing");
+            assert!(whole(&mut session) == past[place], "state {place} after undo");
         }
-        assert!(!session.undo().unwrap(), "what is before that cannot be reached");
-        // Dry layers that were taken back take memory too: the last may be lost.
+        assert!(!session.undo().unwrap(), "an undo of a dropped step");
+        // Undone dry layers also count towards the limit, so the last redo may be dropped.
         let again = session.history().0.len();
         assert!((1..=reachable).contains(&again), "{again} of {reachable}");
         session.go_to(usize::MAX).unwrap();
         assert_eq!(session.history().1, again);
-        assert!(whole(&mut session) == past[done - reachable + again], "and forth");
+        assert!(whole(&mut session) == past[done - reachable + again], "state after redo");
         session.set_undo_bytes(0);
         assert_eq!(session.history(), (Vec::new(), 0));
         let white = squeeze(SurfaceId::Palette, "Lead White", (9.0, 7.0));
@@ -83,8 +83,8 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
     }
 }
 
-/// Heights of each pigment and of vehicle on both surfaces and all brushes there,
-/// in quanta summed over cells.
+/// Wet paint on both surfaces and on their brushes, in quanta summed over cells: by slot, vehicle
+/// last.
 fn wet(session: &mut PaintingSession) -> [u64; SLOTS + 1] {
     let mut totals = [0; SLOTS + 1];
     for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
@@ -106,17 +106,17 @@ fn a_brush_takes_its_paint_along_and_an_undo_takes_it_back() {
             session.begin_stroke(on, "flat").unwrap();
             session.extend(&there).unwrap();
             session.end_stroke().unwrap();
-            assert_eq!(wet(&mut session), all, "paint is only moved");
+            assert_eq!(wet(&mut session), all, "paint was lost or created");
         }
         let after = whole(&mut session);
         let palette = after.1.as_ref().unwrap().wet.totals();
         assert!(palette[0] > 0 && after.0.wet.totals()[0] > 0, "it painted on both");
         session.go_to(0).unwrap();
-        assert!(whole(&mut session) == before, "all is back on the brush");
-        // A brush that was loaded in between does as one on a canvas alone.
+        assert!(whole(&mut session) == before, "state after undoing all");
+        // Loading a brush is no step of the history: redo restores the paint that it had then.
         session.apply(&load("flat", "Vermilion", 0.2)).unwrap();
         session.go_to(3).unwrap();
-        assert!(whole(&mut session) == after, "what was done is done again");
+        assert!(whole(&mut session) == after, "state after redo");
         assert_eq!(wet(&mut session), all);
     }
 }
@@ -133,12 +133,12 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
         session.apply(&squeeze(SurfaceId::Palette, red, (9.0, 7.0))).unwrap();
         let before = whole(&mut session);
         assert_eq!(refused(&mut session).as_deref(), Some(red), "a heap on the palette");
-        assert!(whole(&mut session) == before, "refused on both");
+        assert!(whole(&mut session) == before, "the refused action changed something");
         session.apply(&Action::Scrape { on: SurfaceId::Palette }).unwrap();
         session.set_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
         session.apply(&load("flat", red, 0.3)).unwrap();
         assert_eq!(refused(&mut session).as_deref(), Some(red), "on the brush");
-        // It goes to the palette, where it is washed: nothing of it is left behind.
+        // The brush is used on the palette and washed; then no red is wet anywhere.
         session.begin_stroke(SurfaceId::Palette, "flat").unwrap();
         session.extend(&along(&[(3.0, 3.0), (9.0, 9.0)], 0.5)).unwrap();
         session.end_stroke().unwrap();
@@ -166,7 +166,7 @@ fn paint_on_a_head_that_was_put_away_holds_no_pigment_back() {
         session.end_stroke().unwrap();
         session.set_brush("flat", &spec(HeadShape::Flat, 3.0)).unwrap();
         assert_eq!(session.brush_paint("flat").unwrap(), None, "another head, and clean");
-        // The first head has its red again, though nobody holds it.
+        // Undo restores the red on the first head, which belongs to no brush now.
         session.undo().unwrap();
         assert!(session.canvas_mut().wet_totals_mm().unwrap()[RED] > 0.0);
         session
@@ -220,7 +220,7 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
         for azimuth_deg in [10.0, 20.0, 30.0] {
             session.adjust(&turned(azimuth_deg)).unwrap();
-            assert_eq!(session.canvas().state().lighting.azimuth_deg, azimuth_deg, "seen at once");
+            assert_eq!(session.canvas().state().lighting.azimuth_deg, azimuth_deg, "not applied");
         }
         for value in [0.9, 0.3] {
             session.adjust(&Action::Opacity { layer: LayerRef::Dry(0), value }).unwrap();
@@ -230,10 +230,10 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         assert_eq!(session.history(), (labels.to_vec(), 4));
         let after = whole(&mut session);
         session.go_to(2).unwrap();
-        assert!(whole(&mut session) == before, "two undos take both back");
+        assert!(whole(&mut session) == before, "two undos restore the state before");
         session.go_to(4).unwrap();
         assert!(whole(&mut session) == after);
-        // Refused, at first and in between, it leaves nothing behind.
+        // A refused adjustment changes neither the paint nor the history.
         let nowhere = Action::Opacity { layer: LayerRef::Dry(9), value: 0.5 };
         assert!(session.adjust(&nowhere).is_err());
         assert!(whole(&mut session) == after);
@@ -261,7 +261,7 @@ fn what_is_open_ends_before_anything_else() {
         session.apply(&Action::Dry { fraction: 0.5 }).unwrap();
         assert_eq!(session.open_stroke(), None);
         assert_eq!(session.history().0, ["stroke on the palette, knife"], "no wet paint to dry");
-        // A brush that was set down and told nothing leaves no action.
+        // A stroke without samples adds no step to the history.
         session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();
         assert_eq!(session.advance(100).unwrap(), 0);
         assert_eq!(session.end_stroke().unwrap(), None);
@@ -272,7 +272,7 @@ fn what_is_open_ends_before_anything_else() {
         let samples = wander(&mut random, 4);
         session.extend(&samples).unwrap();
         session.lift().unwrap();
-        assert!(matches!(session.extend(&samples), Err(SessionError::NoStroke)), "it was lifted");
+        assert!(matches!(session.extend(&samples), Err(SessionError::NoStroke)), "after lifting");
         assert!(session.undo().unwrap(), "the stroke that was open");
         assert_eq!(session.history(), (vec!["stroke on the palette, knife", "stroke, flat"], 1));
     }
@@ -307,9 +307,9 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let error = session.extend(&samples).unwrap_err().to_string();
     assert_eq!(error, "sample 1, pressure: 0 to 1, found `1.5`");
     session.end_stroke().unwrap();
-    assert_eq!(session.history().0, ["stroke, flat"], "as far as it was sound");
+    assert_eq!(session.history().0, ["stroke, flat"], "the samples before the refused one");
     session.undo().unwrap();
-    assert!(whole(&mut session) == before, "nothing else was done");
+    assert!(whole(&mut session) == before, "a refused action changed something");
 
     let mut alone =
         PaintingSession::new(super::studio::on_cpu(super::studio::bare(60, 40)), None).unwrap();

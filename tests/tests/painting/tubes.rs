@@ -1,4 +1,4 @@
-//! Paint squeezed out and scraped away.
+//! Squeezing paint onto a surface, and scraping wet paint off.
 
 use render::amount::{QUANTA_PER_CELL, mm_from_quanta};
 use render::layer::SLOTS;
@@ -10,7 +10,7 @@ use spectra::hint::Explain;
 
 use super::studio::{BLUE, CELL_MM, WHITE, YELLOW, along, bare, bare_on, loaded, on_both, pure};
 
-/// Quanta of a volume.
+/// Converts a volume in mm3 to quanta.
 fn quanta(volume_mm3: f64) -> f64 {
     volume_mm3 / CELL_MM.powi(3) * f64::from(QUANTA_PER_CELL)
 }
@@ -32,8 +32,8 @@ fn all_that_is_squeezed_out_lies_there_to_the_quantum() {
     }
 }
 
-/// The columns of wet paint: the highest in mm, and the smallest rectangle with
-/// all of them.
+/// Height of the highest column of wet paint, in mm, and the smallest rectangle around all wet
+/// cells.
 fn heap(painting: &mut Painting) -> (f64, Rect) {
     let wet = painting.wet().unwrap();
     let (mut highest, mut found): (u32, Option<[usize; 4]>) = (0, None);
@@ -67,7 +67,7 @@ fn a_heap_is_round_a_third_as_high_as_wide_and_brushes_take_from_it() {
         assert!(row[..middle].is_sorted() && row[middle..].iter().rev().is_sorted(), "{row:?}");
         let knife = painting.add_brush(HeadShape::Flat, 5.0).unwrap();
         painting.stroke(knife, &along(&[(18.0, 20.0), (32.0, 20.0)], 0.6)).unwrap();
-        assert!(painting.brush_paint(knife).unwrap().totals()[YELLOW] > 0, "a clean brush");
+        assert!(painting.brush_paint(knife).unwrap().totals()[YELLOW] > 0, "it took no paint");
     }
 }
 
@@ -97,7 +97,7 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
     let mut document = bare_on(r#"{"kind": "panel"}"#, 400, 400);
     document.cell_mm = 0.02;
     for mut painting in on_both(&document) {
-        // 8 mm across; a third of that would be 133 cells.
+        // Without the limit on the height of a heap it would be 85 cells high.
         painting.squeeze(&pure(WHITE), 0.0, 4.0, 4.0, 20.0).unwrap();
         let wet = painting.wet().unwrap();
         let highest = (0..400 * 400).map(|index| wet.cell(index).volume()).max().unwrap();
@@ -108,7 +108,7 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
                 Ok(()) => heaps += 1,
                 Err(error) => break error,
             }
-            assert!(heaps < 5000, "heaps without end");
+            assert!(heaps < 5000, "no limit on the pile");
         };
         assert!(matches!(error, PaintingError::NoRoom { .. }), "{error}");
         assert!(error.hint().is_some(), "{error}");
@@ -151,12 +151,12 @@ fn scraping_takes_all_wet_paint_and_no_dry() {
         let after = painting.document().unwrap();
         assert_eq!(after.wet.totals(), [0; SLOTS + 1]);
         assert!(after.dry == before.dry, "the dry layer");
-        assert!(!painting.refresh(false).unwrap().is_empty(), "nothing to be seen");
+        assert!(!painting.refresh(false).unwrap().is_empty(), "no tile changed");
         assert!(painting.undo().unwrap(), "no undo");
-        assert!(painting.document().unwrap() == before, "undone");
+        assert!(painting.document().unwrap() == before, "undo");
         painting.redo().unwrap();
-        assert!(painting.document().unwrap() == after, "done again");
-        // Where there is nothing to scrape off there is no action.
+        assert!(painting.document().unwrap() == after, "redo");
+        // Scraping a surface without wet paint adds no step to the history.
         let actions = painting.undo_count();
         assert!(!painting.scrape().unwrap(), "a clean canvas");
         assert_eq!(painting.undo_count(), actions);

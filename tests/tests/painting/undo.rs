@@ -1,4 +1,4 @@
-//! Undo and redo of whatever a painting can do, to the bit.
+//! Undo and redo of every kind of action restore paint, brushes and picture bit for bit.
 
 use calibrate::PigmentId;
 use rand::{RngExt, SeedableRng};
@@ -19,7 +19,7 @@ use super::studio::{
     pure,
 };
 
-/// All that there is, and how it looks.
+/// A painting, the paint on each of its brushes, and its picture.
 type Whole = (Document, Vec<Layer>, Field<[f32; 4]>);
 
 fn whole(painting: &mut Painting, brushes: usize) -> Whole {
@@ -28,7 +28,7 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
     (painting.document().unwrap(), paint, painting.picture().unwrap())
 }
 
-/// One action, chosen by `random`; whether something was done that can be undone.
+/// Applies a random action. Returns whether it added a step to the history.
 fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
     match random.random_range(0..13) {
@@ -77,7 +77,7 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
             let places: Vec<_> = (0..3).map(|_| place()).collect();
             let report = painting.stroke(BrushId(brush), &along(&places, 0.6)).unwrap();
-            assert!(report.undoable, "it takes too much memory");
+            assert!(report.undoable, "a stroke exceeds the undo memory");
             true
         }
     }
@@ -95,22 +95,22 @@ fn any_sequence_of_actions_is_undone_and_redone_to_the_bit() {
                 past.push(whole(&mut painting, 2));
             } else {
                 let same = whole(&mut painting, 2) == past[past.len() - 1];
-                assert!(same, "round {round}: refused, and yet something changed");
+                assert!(same, "round {round}: a refused action changed something");
             }
         }
         assert!(past.len() > 12, "only {} actions", past.len());
         let back: usize = past.len() - 1;
         for index in (0..back).rev() {
             assert!(painting.undo().unwrap(), "no undo left at {index}");
-            assert!(whole(&mut painting, 2) == past[index], "undone to {index}");
+            assert!(whole(&mut painting, 2) == past[index], "state {index} after undo");
         }
-        assert!(!painting.undo().unwrap(), "more was undone than was done");
-        assert!(whole(&mut painting, 2) == past[0], "an idle undo");
+        assert!(!painting.undo().unwrap(), "an undo before the first action");
+        assert!(whole(&mut painting, 2) == past[0], "an undo of nothing changed something");
         for (index, then) in past.iter().enumerate().skip(1) {
             assert!(painting.redo().unwrap(), "no redo left at {index}");
-            assert!(whole(&mut painting, 2) == *then, "redone to {index}");
+            assert!(whole(&mut painting, 2) == *then, "state {index} after redo");
         }
-        assert!(!painting.redo().unwrap(), "more was redone than was undone");
+        assert!(!painting.redo().unwrap(), "a redo after the last action");
     }
 }
 
@@ -126,21 +126,21 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
     let mut painting = open(document, engine, 3 * (TILE_BYTES + brush_bytes));
     let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.5);
     let mut past = Vec::new();
-    // Each within one tile, so that three fit.
+    // Each dab lies within one tile, so three of them fit into the memory limit.
     for place in [(4.0, 4.0), (6.0, 6.0), (4.0, 8.0), (8.0, 4.0), (5.0, 5.0)] {
         past.push(painting.wet().unwrap());
         let dab = along(&[place, (place.0 + 0.5, place.1)], 0.5);
         assert!(painting.stroke(brush, &dab).unwrap().undoable, "one tile fits");
     }
     for index in [4, 3, 2] {
-        assert!(painting.undo().unwrap(), "{index} was forgotten");
-        assert!(painting.wet().unwrap() == past[index], "undone to {index}");
+        assert!(painting.undo().unwrap(), "step {index} was dropped");
+        assert!(painting.wet().unwrap() == past[index], "state {index} after undo");
     }
     assert!(!painting.undo().unwrap(), "older ones do not fit");
-    // Right across, through more tiles than fit.
+    // Along three edges, through more tiles than the limit holds.
     let long = along(&[(2.0, 2.0), (24.0, 2.0), (24.0, 18.0), (2.0, 18.0)], 0.5);
-    assert!(!painting.stroke(brush, &long).unwrap().undoable, "eight tiles do not fit");
-    assert!(!painting.undo().unwrap(), "what came before it is gone too");
+    assert!(!painting.stroke(brush, &long).unwrap().undoable, "a stroke beyond the memory limit");
+    assert!(!painting.undo().unwrap(), "older steps are dropped too");
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn a_drying_keeps_only_the_tiles_that_were_wet() {
     let before = painting.wet().unwrap();
     assert!(painting.dry(1.0).unwrap(), "there was paint");
     assert!(painting.undo().unwrap(), "49 tiles do not fit, one does");
-    assert!(painting.wet().unwrap() == before, "undone");
+    assert!(painting.wet().unwrap() == before, "paint after undo");
     assert!(painting.dry(1.0).unwrap() && !painting.dry(1.0).unwrap(), "nothing stays wet");
 }
 
@@ -171,14 +171,14 @@ fn a_brush_never_changes_its_pigment_by_an_undo() {
         painting.load(brush, &pure(WHITE), 0.0, 0.2).unwrap();
         let late = painting.add_brush(HeadShape::Round, 2.0).unwrap();
         painting.load(late, &pure(WHITE), 0.0, 0.2).unwrap();
-        assert!(painting.undo().unwrap(), "the palette");
+        assert!(painting.undo().unwrap(), "no undo of the palette");
         let clean = [0; 9];
         for brush in [brush, late] {
             let paint = painting.brush_paint(brush).unwrap().totals();
             assert_eq!(paint, clean, "ultramarine became lead white on {brush:?}");
         }
-        assert!(painting.redo().unwrap(), "the palette again");
-        assert!(painting.brush_paint(brush).unwrap().totals()[WHITE] > 0, "as it was");
+        assert!(painting.redo().unwrap(), "no redo of the palette");
+        assert!(painting.brush_paint(brush).unwrap().totals()[WHITE] > 0, "paint after redo");
     }
 }
 
@@ -201,6 +201,6 @@ fn a_measured_light_comes_back_with_an_undo() {
     let seen = painting.picture().unwrap();
     painting.relight(Lighting::default()).unwrap();
     assert!(painting.picture().unwrap() != seen, "the light changed");
-    assert!(painting.undo().unwrap(), "nobody knows `my lamp` by name");
-    assert!(painting.picture().unwrap() == seen, "undone");
+    assert!(painting.undo().unwrap(), "no undo to a light without a known name");
+    assert!(painting.picture().unwrap() == seen, "picture after undo");
 }

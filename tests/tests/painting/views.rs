@@ -1,4 +1,5 @@
-//! Pictures kept up to date: what changed is told, and no more is computed.
+//! Incremental pictures: `refresh` renders and reports the changed tiles only, and reading those
+//! keeps a window correct.
 
 use render::field::Field;
 use render::paint::brush::HeadShape;
@@ -10,11 +11,11 @@ use super::studio::{
     BLUE, CELL_MM, WHITE, along, bare, crossing, loaded, on_both, on_cpu, on_gpu, pigment, pure,
 };
 
-/// Fifteen tiles.
+/// Size of the canvas in cells: 5 x 3 tiles.
 const WIDTH: usize = 300;
 const HEIGHT: usize = 180;
 
-/// A picture as a window keeps it: only tiles that were told are read.
+/// A window's copy of the picture; reads only the tiles that `refresh` reports.
 struct Window {
     second: bool,
     shown: Field<[f32; 4]>,
@@ -25,7 +26,7 @@ impl Window {
         Self { second, shown: Field::filled(WIDTH, HEIGHT, [f32::NAN; 4]) }
     }
 
-    /// Reads what changed; how many tiles that were.
+    /// Reads the changed tiles; returns their number.
     fn follow(&mut self, painting: &mut Painting) -> usize {
         let bounds = painting.bounds();
         let tiles = painting.refresh(self.second).unwrap();
@@ -47,7 +48,7 @@ fn lamp_light() -> Lighting {
     }
 }
 
-/// What a painting taken up anew shows, as it is lit or under `other` light.
+/// Picture of a newly opened copy of `painting`, under its own light or under `other`.
 fn anew(painting: &mut Painting, other: Option<&Lighting>) -> Field<[f32; 4]> {
     let mut document = painting.document().unwrap();
     let gpu = !painting.backend().starts_with("the processor");
@@ -84,7 +85,7 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 6, "the rest of it");
         painting.undo().unwrap();
         check(&mut painting, 12, "undo");
-        // A picture on the way is no answer to what changed.
+        // Reading the whole picture must not clear the set of changed tiles.
         painting.redo().unwrap();
         painting.picture().unwrap();
         check(&mut painting, 12, "redo");
@@ -118,7 +119,7 @@ fn relighting_changes_the_first_view_alone_and_the_second_comes_and_goes() {
         let unknown = Lighting { illuminant: "moon".into(), ..Lighting::default() };
         assert!(painting.set_second_light(Some(unknown)).is_err(), "an unknown light");
         assert_eq!(painting.second_light(), Some(&lamp_light()));
-        // Only the lamp moves, then it moves back; undo does not touch it.
+        // The direction of the second light changes and changes back; undo leaves that light alone.
         let moved = Lighting { azimuth_deg: 200.0, ..lamp_light() };
         painting.set_second_light(Some(moved)).unwrap();
         painting.refresh(true).unwrap();
@@ -130,7 +131,7 @@ fn relighting_changes_the_first_view_alone_and_the_second_comes_and_goes() {
         painting.set_second_light(None).unwrap();
         painting.set_second_light(Some(lamp_light())).unwrap();
         assert_eq!(painting.refresh(true).unwrap().len(), 15);
-        assert!(painting.picture_in(true, painting.bounds()).unwrap() == before, "come back");
+        assert!(painting.picture_in(true, painting.bounds()).unwrap() == before, "set again");
     }
 }
 
@@ -139,7 +140,7 @@ fn a_heap_that_ends_with_its_tile_is_seen_beyond_it() {
     for mut painting in on_both(&bare(130, 100)) {
         let mut ended = 0;
         for step in 0..12 {
-            // In cells: from well within the first tile to over its edge.
+            // From well inside the first tile (64 cells wide) until the heap crosses its edge.
             let x_mm = (56.0 + 0.25 * f64::from(step)) * CELL_MM;
             painting.squeeze(&pure(WHITE), 0.0, x_mm, 6.0, 3.0).unwrap();
             let wet = painting.wet().unwrap();

@@ -1,4 +1,4 @@
-//! The shipped paintings: each is what its program makes, and can be painted.
+//! The shipped stroke scripts equal the output of their generators, and can be painted.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -44,7 +44,7 @@ fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     (report, session)
 }
 
-/// Its first actions only.
+/// A copy of `script` with only its first `actions` actions.
 fn begun(script: &StrokeScript, actions: usize) -> StrokeScript {
     let mut begun = script.clone();
     begun.actions.truncate(actions);
@@ -87,7 +87,7 @@ fn the_study_is_the_same_twice_and_yellow_meets_blue_through_green() {
     let script = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
     let picture = || painted(&script).1.canvas_mut().picture().unwrap();
     let first: Field<[f32; 4]> = picture();
-    assert!(first.values() == picture().values(), "another picture");
+    assert!(first.values() == picture().values(), "the pictures differ");
     let cell = |mm: f64| (mm / script.canvas.cell_mm) as usize;
     let green = |x_mm: f64| {
         let cells = first.row(cell(12.0), cell(x_mm), cell(10.0));

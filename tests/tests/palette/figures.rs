@@ -1,4 +1,4 @@
-//! The figures of a palette.
+//! Figures of a palette in a report: which are drawn, their colours and their numbers.
 
 use calibrate::PigmentId;
 use calibrate::library::AmountKind;
@@ -161,7 +161,7 @@ fn small_and_odd_libraries_draw_what_there_is() {
     assert!(report.figures().all(|figure| !NAMES.contains(&figure.name.as_str())));
 }
 
-/// A white alone has no tints.
+/// Asserts that no figure holds a NaN. Allows empty tables: a white alone has no tints.
 fn finite_but_for_empty_tables(report: &Report) {
     for figure in report.figures() {
         let text = figure.svg.clone() + &figure.data.csv();

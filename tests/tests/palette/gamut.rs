@@ -1,4 +1,4 @@
-//! What a palette can mix.
+//! Gamut of a palette: sampled mixtures, outline, spectral locus and sRGB primaries.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -94,7 +94,7 @@ fn the_locus_and_srgb_stand_where_the_standards_put_them() {
     for (name, found, wanted) in
         [("red", red, [0.64, 0.33]), ("green", green, [0.3, 0.6]), ("blue", blue, [0.15, 0.06])]
     {
-        // The white computed from D65 is not the rounded one of the standard.
+        // The white computed from D65 differs from the rounded white of the standard.
         assert_near(name, &found, &wanted, 3e-4);
     }
     let outline = sampled_gamut(&palette).in_xy(72);
@@ -109,7 +109,7 @@ fn the_same_palette_gives_the_same_gamut() {
     assert_eq!(sampled_gamut(&oils.palette()), sampled_gamut(&oils.palette()));
 }
 
-/// Whether a chromaticity lies within the horseshoe, closed by the purple line.
+/// Whether a chromaticity lies inside the spectral locus, closed by the purple line.
 fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     let mut within = false;
     for (at, (_, a)) in locus.iter().enumerate() {
@@ -123,13 +123,13 @@ fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     within
 }
 
-/// A colour's cell of the grid in which gaps are looked for: L* by 10, a* and b* by 3.
+/// Cell of a colour in the grid that is searched for gaps: 10 of L*, 3 of a* and b*.
 fn cell(sample: &GamutSample) -> [i32; 3] {
     let lab = sample.color.lab;
     [lab.lightness / 10.0, lab.a / 3.0, lab.b / 3.0].map(|side| side.floor() as i32)
 }
 
-/// One half of each recipe, by paint, in shares of 1e-9.
+/// The mixture of two recipes in equal parts: share by paint, in units of 1e-9.
 fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<PigmentId, i64> {
     let mut shares: BTreeMap<PigmentId, f64> = BTreeMap::new();
     for &(paint, share) in first.iter().chain(second) {
@@ -148,7 +148,8 @@ fn a_gap_between_two_samples_is_filled_or_was_tried() {
     for (at, sample) in samples.iter().enumerate() {
         first.entry(cell(sample)).or_insert(at);
     }
-    // All pairs of cells with one cell between them, and what their halves make.
+    // All pairs of occupied cells with one cell between them: the cell between, the later of the
+    // two samples, and their mixture in equal parts.
     let mut pairs = Vec::new();
     for (&[band, a, b], &one) in &first {
         for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
@@ -160,7 +161,7 @@ fn a_gap_between_two_samples_is_filled_or_was_tried() {
     }
     let made: BTreeSet<_> = pairs.iter().map(|(_, _, mixed)| mixed).collect();
     let recipe = |at: usize| halves(&samples[at].recipe, &samples[at].recipe);
-    // The gaps' mixtures stand last.
+    // The mixtures that fill gaps are at the end of the list, from index `own` on.
     let own = (0..samples.len()).rev().find(|&at| !made.contains(&recipe(at))).unwrap() + 1;
     let tried: BTreeSet<_> = (own..samples.len()).map(recipe).collect();
     assert!(tried.len() > 300, "{} of {} fill gaps", tried.len(), samples.len());

@@ -1,4 +1,4 @@
-//! Mixtures graded from one paint to the other.
+//! Graded mixtures from one paint to another: steps, rows of prediction and their errors.
 
 use calibrate::palette::{MixingRow, PainterRules, default_pairs, graded};
 use calibrate::{PigmentId, Recipe};
@@ -60,7 +60,7 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
         1e-9,
     );
     assert!(steps[0].share.is_sign_positive(), "a share of -0");
-    // 13F and 13G are far from any tenth and stand beside them.
+    // 13F and 13G are far from any tenth, so they are steps besides the eleven tenths.
     assert_eq!(steps.len(), 13);
     assert!(steps.windows(2).all(|pair| pair[0].share < pair[1].share));
     let half = steps.iter().find(|s| s.sample.as_deref() == Some("13C")).unwrap();
@@ -89,7 +89,7 @@ fn without_a_measurement_errors_are_from_the_full_spectrum() {
     let off = delta_e_ciede2000(spectrum.unwrap().lab, linear.unwrap().lab);
     assert_eq!(middle.errors[MixingRow::LinearRgb as usize], Some(off));
     assert_eq!(middle.errors[MixingRow::Spectrum as usize], None);
-    // A yellow and a blue mix a green that no straight line passes.
+    // Yellow and blue mix to a green far from the straight line between them in linear RGB.
     assert!(off > 10.0, "{off}");
     let mean = |row| mixture.mean_error(row, false).unwrap();
     assert_eq!(mean(MixingRow::LinearRgb).1, 9);

@@ -1,4 +1,4 @@
-//! Hiding power.
+//! Hiding power: the thickness from which a film hides, against closed forms and the oils.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, Pigment};
@@ -21,8 +21,9 @@ fn hides(pigment: Pigment, cards: Cards) -> Hides {
 
 #[test]
 fn a_film_that_absorbs_nothing_hides_where_its_quadratic_says() {
-    // R over black is x / (1 + x), over a card g (g + x (1 - g)) / (1 + x (1 - g)),
-    // x = S d. With g = 0.8 a ratio of 0.98 is 0.004 x^2 + 0.02 x - 0.784 = 0.
+    // With K = 0 and x = S d, R is x / (1 + x) over black and (g + x (1 - g)) / (1 + x (1 - g))
+    // over a card of reflectance g. For g = 0.8 their ratio is 0.98 where 0.004 x^2 + 0.02 x -
+    // 0.784 = 0.
     let x = (-0.02 + (0.02f64.powi(2) + 4.0 * 0.004 * 0.784).sqrt()) / 0.008;
     let Hides::From(thickness) = hides(even("milk", 0.0, 2.0), cards(0.0, 0.8)) else {
         panic!("a film that scatters hides")
@@ -43,10 +44,10 @@ fn twice_the_paint_hides_at_half_the_thickness() {
 fn clear_films_never_hide() {
     let standard = Cards::standard(grid());
     let Hides::Never { contrast } = hides(even("nothing", 0.0, 0.0), standard.clone()) else {
-        panic!("no film hides nothing")
+        panic!("a film without K and S never hides")
     };
     assert_near("the cards' own", &[contrast], &[0.05 / 0.8], 1e-12);
-    // A dye that lets the rest of the spectrum through.
+    // A dye that does not absorb from 650 nm on.
     let mut dye = band("dye", 2.0, 550.0, 0.0);
     dye.absorption.iter_mut().for_each(|k| *k -= 0.01);
     dye.absorption[25..].fill(0.0);
@@ -55,7 +56,8 @@ fn clear_films_never_hide() {
 
 #[test]
 fn a_black_glaze_hides_once_no_eye_sees_the_card() {
-    // Y over the cards is 80 and 5, each times exp(-2 K d).
+    // Y over the cards is 80 and 5, each times exp(-2 K d). The film hides once they differ by
+    // 0.02.
     let Hides::From(thickness) = hides(even("ink", 0.5, 0.0), Cards::standard(grid())) else {
         panic!("black hides")
     };

@@ -1,4 +1,4 @@
-//! Colours under other lights.
+//! Colour shifts and metamers under other lights.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::AmountKind;
@@ -92,10 +92,10 @@ fn the_same_paint_under_two_names_is_no_metamer() {
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
     let found = metamers(&palette, &test_lights(&palette), &[], 0.5, 50);
-    assert!(!found.is_empty(), "the two match everywhere");
+    assert!(!found.is_empty(), "the two blues match under every light");
     for pair in found {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
-        // Nearly alike mixtures of the two part a little; as far as they differ.
+        // Two mixtures that differ a little in shares also differ a little under other lights.
         assert!(worst < 1.0, "{:?}: {worst}", pair.names);
     }
 }

@@ -10,7 +10,7 @@ use spectra::Grid;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, swatches};
 
-/// A pigment of the given K and S over nm.
+/// A pigment with K and S as functions of the wavelength in nm.
 pub(crate) fn pigment(name: &str, k: impl Fn(f64) -> f64, s: impl Fn(f64) -> f64) -> Pigment {
     Pigment {
         name: name.to_owned(),
@@ -39,7 +39,7 @@ pub(crate) fn grid() -> Grid {
     Grid::from_nm(400.0, 10.0, 31).unwrap()
 }
 
-/// A library without a surface; relative to its first pigment.
+/// A library without a surface. Relative amounts refer to its first pigment.
 pub(crate) fn library(pigments: Vec<Pigment>, amounts: AmountKind) -> PigmentLibrary {
     let relative = amounts == AmountKind::Relative;
     PigmentLibrary {
@@ -58,7 +58,7 @@ pub(crate) fn library(pigments: Vec<Pigment>, amounts: AmountKind) -> PigmentLib
     }
 }
 
-/// White, red, yellow, blue and black.
+/// A library of made-up white, red, yellow, blue and black.
 pub(crate) fn five() -> PigmentLibrary {
     let pigments = vec![
         even("white", 0.001, 1.0),
@@ -70,7 +70,7 @@ pub(crate) fn five() -> PigmentLibrary {
     library(pigments, AmountKind::Relative)
 }
 
-/// The oils, fitted, with their swatches.
+/// The Van Gogh oils: fitted library, viewing condition and measured swatches.
 pub(crate) struct Oils {
     pub(crate) library: PigmentLibrary,
     pub(crate) viewing: Viewing,
@@ -94,7 +94,7 @@ impl Oils {
     }
 }
 
-/// Recipe of pigments by place.
+/// A recipe of pigments given by their index in the library.
 pub(crate) fn recipe<const N: usize>(parts: [(usize, f64); N]) -> Recipe {
     parts.into_iter().map(|(place, part)| (PigmentId(place), part)).collect()
 }

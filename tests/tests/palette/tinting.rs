@@ -1,4 +1,4 @@
-//! Tinting strength.
+//! Tinting strength: closed forms, the tint of standard depth, and a standard paint.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
@@ -42,7 +42,7 @@ fn twice_the_absorption_is_twice_the_strength() {
 fn strength_is_k_over_s_of_one_part_in_nine_of_white_by_hand() {
     let found = strengths(four(), AmountKind::Relative, None);
     assert_near("K/S", &[found[1].strength], &[0.1 * 3.01 / (0.9 + 0.1 * 0.4)], 1e-12);
-    // And the white's own K/S does not count.
+    // The K/S of the white itself is subtracted.
     let mut grey = four();
     grey[0] = even("white", 0.2, 1.0);
     let found = strengths(grey, AmountKind::Relative, None);

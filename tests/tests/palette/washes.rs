@@ -1,4 +1,4 @@
-//! Libraries of absolute amounts: the paper is the white.
+//! Palettes of absolute amounts: washes over the white card, which replaces a white paint.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
@@ -27,7 +27,7 @@ fn a_wash_goes_nine_tenths_of_the_way_where_it_absorbs_most() {
     let library = watercolors();
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
-    // Without scattering the card is seen through exp(-2 K d) = 1/10.
+    // Without scattering a wash attenuates the card by exp(-2 K d) = 1/10 where it absorbs most.
     assert_near("red", &[palette.wash(PigmentId(0))], &[10f64.ln() / 2.0 / 120.01], 1e-9);
     assert_near("water", &[palette.wash(PigmentId(3))], &[1.0], 0.0);
     let at = 3;
@@ -83,6 +83,6 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let gamut = sampled_gamut(&palette);
     let most = |recipe: &Recipe| recipe.iter().map(|(_, share)| share).sum::<f64>();
     let deepest = gamut.samples.iter().map(|s| most(&s.recipe)).fold(0.0, f64::max);
-    assert!((deepest - 8.0).abs() < 1e-9, "washes lie {deepest} deep at most");
+    assert!((deepest - 8.0).abs() < 1e-9, "the largest sum of washes is {deepest}");
     assert!(gamut.samples.iter().all(|s| s.color.lab.a.is_finite()));
 }

@@ -1,4 +1,4 @@
-//! Palettes chosen for a photograph.
+//! Choosing the palette for a photograph from the pigments of a library.
 
 use calibrate::PigmentId;
 use render::field::Field;
@@ -18,7 +18,7 @@ fn chosen(picture: &Picture) -> ChosenPalette {
     choose_palette(picture, materials, film, &SeparationSettings::default()).unwrap()
 }
 
-/// Tints and shades of one pigment, from the oils.
+/// Sixty tints and shades of one pigment: mixtures with lead white and bone black.
 fn tints(name: &str) -> Picture {
     let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
     let mut slots: Slots = [None; SLOTS];
@@ -46,7 +46,7 @@ fn a_palette_holds_no_pigment_twice_and_none_unidentified() {
     let colors = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
     let found = chosen(&Field::from_values(216, 1, colors.collect()));
     let mut pigments: Vec<PigmentId> = found.slots.iter().flatten().copied().collect();
-    assert_eq!(pigments.len(), SLOTS, "all of sRGB wants a full palette: {found:?}");
+    assert_eq!(pigments.len(), SLOTS, "all of sRGB needs a full palette: {found:?}");
     assert!(pigments.iter().all(|&pigment| STUDIO.library[pigment].identified));
     pigments.sort_unstable();
     pigments.dedup();

@@ -1,4 +1,4 @@
-//! The oils on a white ground under daylight, tables of them, and mixtures.
+//! Helpers: the shipped oils on a white ground in daylight, separations, and random mixtures.
 
 use std::sync::LazyLock;
 
@@ -53,21 +53,21 @@ impl Studio {
     }
 }
 
-/// The palette's table as it is by default, but coarser.
+/// Separation with default settings, which prefer hiding films, but a coarser lattice.
 pub(crate) static HIDING: LazyLock<Separation> = LazyLock::new(|| {
     let settings = SeparationSettings { lattice: 17, ..SeparationSettings::default() };
     Separation::new(STUDIO.film(), &settings).unwrap()
 });
 
-/// The table of films that may be thin.
+/// Separation into films that may be thin and show the ground.
 pub(crate) static THIN: LazyLock<Separation> = LazyLock::new(|| {
     let settings =
         SeparationSettings { lattice: 17, hides: false, ..SeparationSettings::default() };
     Separation::new(STUDIO.film(), &settings).unwrap()
 });
 
-/// Colours that films of up to four pigments make, all within sRGB; heights from
-/// `least_mm` to 0.3 mm.
+/// Random colours within sRGB, each of a film of one to four pigments, `least_mm` to 0.3 mm
+/// high.
 pub(crate) fn mixtures(seed: u64, count: usize, least_mm: f32) -> Picture {
     let film = STUDIO.film();
     let mut random = ChaCha8Rng::seed_from_u64(seed);

@@ -1,4 +1,5 @@
-//! Photographs painted: nearer stroke by stroke, and the same when replayed.
+//! Painting a picture in strokes: the error falls from level to level, and the recorded script
+//! gives the same painting.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -53,12 +54,12 @@ fn opened(script: &StrokeScript) -> Painting {
     Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
 }
 
-/// What a painter made of the target.
+/// Result of painting the target.
 struct Finished {
     script: StrokeScript,
     session: PaintingSession,
     levels: Vec<LevelReport>,
-    /// Strokes that were announced, and strokes that were told as laid.
+    /// Number of strokes reported as planned, and number reported as painted.
     told: (usize, usize),
 }
 
@@ -101,7 +102,7 @@ fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
     }
     assert!(
         finished.session.canvas_mut().wet().unwrap().totals().iter().all(|total| *total == 0),
-        "wet"
+        "paint is still wet"
     );
 }
 
@@ -116,9 +117,9 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     let (document, report) = replayed(&text);
     let wanted = finished.session.canvas_mut().document().unwrap();
     assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
-    assert!(document.wet == wanted.wet && document.dry == wanted.dry, "another painting");
+    assert!(document.wet == wanted.wet && document.dry == wanted.dry, "the paintings differ");
     assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));
-    // Every stroke has paint of its own.
+    // Before every stroke the brush is washed and loaded.
     for actions in finished.script.actions.windows(3) {
         if let [first, Action::Load(load), stroke] = actions {
             assert_eq!((first.kind(), stroke.kind()), ("wash", "stroke"));

@@ -1,4 +1,4 @@
-//! Photographs as they come: depths, transparency, orientation, faults.
+//! Reading photographs: bit depth, transparency, resampling, EXIF orientation, broken files.
 
 use std::io::Cursor;
 
@@ -19,7 +19,7 @@ fn read(bytes: &[u8]) -> Photograph {
     Photograph::from_bytes("made.png", bytes).unwrap()
 }
 
-/// The linear light of one pixel.
+/// Linear sRGB of a picture of one pixel.
 fn one(bytes: &[u8]) -> [f32; 3] {
     read(bytes).on_canvas(1, 1)[(0, 0)]
 }
@@ -75,7 +75,7 @@ fn a_photograph_is_stretched_to_another_shape() {
     assert_eq!(photograph.size(), (30, 10));
     let stretched = photograph.on_canvas(3, 3);
     assert_eq!(stretched.row(1, 0, 3), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    // Finer than its pixels: no cell is dark or too bright.
+    // Cells smaller than pixels: interpolation makes no cell darker or brighter.
     let fine = photograph.on_canvas(90, 30);
     for value in fine.values() {
         assert!((value.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{value:?}");
@@ -129,7 +129,7 @@ fn a_broken_file_is_refused_by_its_name() {
 
 #[test]
 fn too_many_pixels_are_refused_before_they_are_read() {
-    // The head of a PNG says how large it is; nothing else is there.
+    // A PNG whose header claims 20000 x 20000 pixels, with the data of one.
     let whole = png(GrayImage::from_pixel(1, 1, [0].into()));
     let mut head = whole[..29].to_vec();
     head[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
@@ -143,7 +143,7 @@ fn too_many_pixels_are_refused_before_they_are_read() {
     assert_eq!(error.to_string(), told);
 }
 
-/// The check of a PNG chunk (ISO 3309).
+/// CRC-32 of a PNG chunk (ISO 3309).
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {

@@ -1,4 +1,4 @@
-//! `impasto paint --from`.
+//! `impasto paint --from`: refusals, separation maps, and painting a photograph.
 
 use std::path::Path;
 

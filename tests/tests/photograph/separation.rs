@@ -1,4 +1,4 @@
-//! Colours to films and back.
+//! Separation of colours into heights of pigments, and the colours of the films rebuilt.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -16,7 +16,7 @@ fn errors(separation: &Separation, picture: &Picture) -> ColorErrors {
     ColorErrors::between(separation, picture, &rebuild_picture(separation.film(), &heights))
 }
 
-/// Linear light of `#rrggbb`.
+/// Linear sRGB of `#rrggbb`.
 fn linear(hex: &str) -> [f32; 3] {
     Rgb::from_hex(hex).unwrap().linear().0.map(|value| value as f32)
 }
@@ -113,7 +113,7 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let picture = mixtures(15, 1000, 0.03);
     let (hiding, thin) = (errors(&HIDING, &picture), errors(&THIN, &picture));
     assert!(thin.out_of_gamut < hiding.out_of_gamut, "{thin:?} {hiding:?}");
-    // Over a black ground the same films change by what they do not hide.
+    // The colour change of a film over a black ground measures what the film does not hide.
     let black = vec![0.03; STUDIO.library.grid.count()];
     let materials = STUDIO.materials(&STUDIO.slots);
     let over_black = PaintFilm::at_nodes(

@@ -1,4 +1,4 @@
-//! Strokes planned for a picture.
+//! Planning the strokes of a layer: direction, geometry, coverage, order and limits.
 
 use render::field::Field;
 use render::photograph::{
@@ -9,12 +9,12 @@ use crate::made::HIDING;
 
 const CELL_MM: f64 = 0.5;
 
-/// A plan for the small pictures here.
+/// A plan with two brushes that suit pictures of 80 x 60 mm.
 fn plan() -> Plan {
     Plan { sizes_mm: vec![12.0, 4.0], ..Plan::default() }
 }
 
-/// A blank canvas.
+/// The bare ground, as a picture of the size of `picture`.
 fn blank(picture: &Picture) -> Picture {
     Field::filled(picture.width(), picture.height(), HIDING.film().rgb(&[0.0; 8]))
 }
@@ -23,7 +23,7 @@ fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
     plan_layer(picture, &blank(picture), &HIDING, &plan(), level, CELL_MM)
 }
 
-/// Waves of brown and cream whose crests run at an angle from x towards y.
+/// A sine grating of brown and cream; its crests run at `degrees` from x towards y.
 fn grating(degrees: f64) -> Picture {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let color = |i: usize| {
@@ -122,7 +122,7 @@ fn one_level_covers_a_blank_canvas_with_about_two_coats_at_most() {
 fn without_a_difference_there_is_no_stroke() {
     let picture = grating(30.0);
     assert_eq!(plan_layer(&picture, &picture, &HIDING, &plan(), 0, CELL_MM), []);
-    // Nor where the painting is as near as the palette comes.
+    // Nor for a colour out of gamut where the canvas has the nearest colour of the palette.
     let vivid = Field::filled(160, 120, [0.0, 1.0, 0.0]);
     let reached = rebuild_picture(HIDING.film(), &HIDING.separate(&vivid));
     assert_eq!(plan_layer(&vivid, &reached, &HIDING, &plan(), 1, CELL_MM), []);

@@ -1,4 +1,4 @@
-//! What a design tells, against fits of made-up readings.
+//! Predicted precision of swatch designs, compared with fits of simulated readings.
 
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
@@ -38,7 +38,7 @@ fn bench() -> Bench {
 }
 
 impl Bench {
-    /// A fit of `design`, painted by the oils and read with noise.
+    /// Fits the swatches of `design`, with readings simulated from the oils plus normal noise.
     fn fit(&self, design: &[usize], seed: u64) -> Refined {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let surface = self.oils.saunderson;
@@ -79,8 +79,8 @@ impl Bench {
         fit_refined(&problem, &weights, Refinement::prediction(Smoothness::None, None)).unwrap()
     }
 
-    /// Errors of log K, then of log S, by pigment and wavelength, each with the
-    /// deviation predicted of `design`; the white's S left out.
+    /// Errors of ln K and ln S by pigment and wavelength, each with the standard deviation
+    /// predicted for `design`. The S of the white is left out.
     fn errors(&self, design: &[usize], seed: u64) -> Vec<(f64, f64)> {
         let fit = self.fit(design, seed);
         let deviations = self.information.log_deviations(design);
@@ -100,9 +100,9 @@ impl Bench {
         errors
     }
 
-    /// The geometric mean of the errors of log K and log S over eight readings:
-    /// what D-optimality makes small. Where a paint hardly absorbs, no design
-    /// tells its K, and a plain mean would be of those errors alone.
+    /// Geometric mean of the absolute errors of ln K and ln S over eight simulated fits, the mean
+    /// that D-optimality makes small. Large errors of K where a paint hardly absorbs, which no
+    /// design determines, would dominate an arithmetic mean.
     fn typical_error(&self, design: &[usize]) -> f64 {
         let logs: Vec<f64> = (0..8)
             .flat_map(|seed| self.errors(design, 100 + seed))
@@ -143,12 +143,12 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     let start = usual(&bench.paints, &bench.pool, 24).unwrap();
     for design in [optimal(&bench.information, &start, 1), start] {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
-        // Beyond a third of its size a logarithm's error is no longer linear.
+        // The prediction is linear, which holds for relative deviations below about a third.
         let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
         let mut pulls: Vec<f64> = known.map(|(e, deviation)| (e / deviation).powi(2)).collect();
         assert!(pulls.len() > 800, "{} errors", pulls.len());
         pulls.sort_by(f64::total_cmp);
-        // Of a squared normal deviate the median is 0.455, and 95 % lie below 3.84.
+        // The square of a normal deviate has the median 0.455 and the 95th percentile 3.84.
         let (median, high) = (pulls[pulls.len() / 2], pulls[pulls.len() * 95 / 100]);
         assert!((0.25..0.8).contains(&median), "median squared error in deviations: {median}");
         assert!((2.0..8.0).contains(&high), "95 % of squared errors below {high}");
@@ -162,7 +162,7 @@ fn no_single_exchange_improves_the_optimal_plan() {
     let best = optimal(&bench.information, &start, 1);
     let reached = bench.information.log_determinant(&best);
     assert!(reached > bench.information.log_determinant(&start), "{reached}");
-    assert_eq!(best[0], 0, "the white by itself stays");
+    assert_eq!(best[0], 0, "the masstone of the white stays");
     for place in 1..best.len() {
         for entering in (0..bench.pool.len()).filter(|index| !best.contains(index)) {
             let mut other = best.clone();
@@ -171,7 +171,7 @@ fn no_single_exchange_improves_the_optimal_plan() {
             assert!(value < reached + 1e-8, "{entering} for {}: {value}", best[place]);
         }
     }
-    assert_eq!(best, optimal(&bench.information, &start, 1), "the same again");
+    assert_eq!(best, optimal(&bench.information, &start, 1), "the plan is reproducible");
 }
 
 #[test]

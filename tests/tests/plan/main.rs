@@ -1,5 +1,5 @@
-//! Plans of swatches: that they tell what they promise, and that the empty file
-//! goes through a fit once it is filled in.
+//! Plans of swatches: recipes, predicted precision, and the fit of the measurement file once it is
+//! filled in.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
@@ -7,4 +7,4 @@ mod painted;
 
 mod designs;
 mod page;
-mod sheets;
+mod program;

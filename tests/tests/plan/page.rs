@@ -4,7 +4,7 @@ use suite::program::{impasto, repository};
 
 use crate::painted::{filled, oils};
 
-/// The words of a command, as a shell would part them.
+/// Splits a command into words as a shell does, with double quotes.
 fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (index, part) in line.split('"').enumerate() {
@@ -17,7 +17,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// A filled measurement file as one of spectra and one of recipes.
+/// Splits a filled measurement file into a file of spectra and a file of recipes.
 fn parted(full: &str) -> (String, String) {
     let header: Vec<&str> = full.lines().next().unwrap().split(',').collect();
     let first_nm = header.iter().position(|name| *name == "400").unwrap();
@@ -58,7 +58,7 @@ fn every_command_of_the_page_on_measuring_runs() {
             assert_eq!(run.status, 0, "impasto {line}\n{}", run.err);
             assert!(!run.err.contains("left out: card"), "the cards are lost\n{}", run.err);
             ran += 1;
-            // A plan's file is filled in before what follows reads it.
+            // The file of a plan is filled in before the next command reads it.
             if let Some(at) = words.iter().position(|word| *word == "--output")
                 && words[0] == "plan"
             {

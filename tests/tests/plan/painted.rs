@@ -1,4 +1,4 @@
-//! Swatches painted and read by the oils' own K and S.
+//! Simulated readings of planned swatches, computed from K and S of the oils.
 
 use calibrate::Recipe;
 use calibrate::library::PigmentLibrary;
@@ -7,10 +7,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use suite::program::repository;
 
-/// Bare cards.
+/// Reflectances of the bare cards, equal at all wavelengths.
 const WHITE_CARD: f64 = 0.85;
 const BLACK_CARD: f64 = 0.05;
-/// In units in which zinc white has S d = 1: nearly hides.
+/// Thickness of the films, in units in which zinc white has S d = 1. Such films nearly hide.
 const THICKNESS: f64 = 8.0;
 
 pub(crate) const OILS: &str = "measurements/van-gogh-oils.pigments.json";
@@ -20,8 +20,8 @@ pub(crate) fn oils() -> PigmentLibrary {
     PigmentLibrary::from_json(OILS, &text).unwrap()
 }
 
-/// The empty file of a plan over the oils' wavelengths, filled in with what an
-/// instrument of normal noise `sd` would read.
+/// Fills in the empty file of a plan with readings predicted from `oils` plus normal noise of
+/// standard deviation `sd`. The file must have the wavelengths of `oils`.
 pub(crate) fn filled(empty: &str, oils: &PigmentLibrary, sd: f64, seed: u64) -> String {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let header: Vec<&str> = empty.lines().next().unwrap().split(',').collect();

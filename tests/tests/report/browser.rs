@@ -1,4 +1,4 @@
-//! The page in a browser, where the machine has one.
+//! The HTML page of a report in a headless browser, if one is installed.
 
 use std::process::Command;
 
@@ -33,7 +33,7 @@ fn a_browser_shows_every_figure_and_complains_of_nothing() {
     for name in page.split("<figure id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         assert!(dom.contains(&format!("<figure id=\"{name}\">")), "{name} is not shown");
     }
-    // The parser agrees with us where each figure begins and ends.
+    // The browser finds as many elements as the source has, so every figure is closed.
     for element in ["<svg ", "</svg>", "</figure>", "<table>", "</table>", "<polyline "] {
         assert_eq!(dom.matches(element).count(), page.matches(element).count(), "{element}");
     }

@@ -1,4 +1,4 @@
-//! Each figure as SVG, PNG and CSV.
+//! Figures of a report as SVG, PNG and CSV: size, numbers, axes, marks and escaped names.
 
 use resvg::tiny_skia::Pixmap;
 
@@ -86,7 +86,7 @@ fn the_numbers_of_a_figure_are_those_of_fit_and_validate() {
             let row = rows.iter().find(|row| &row[0] == name).unwrap();
             let (found, wanted): (f64, f64) =
                 (row[place].parse().unwrap(), wanted.as_f64().unwrap());
-            // A library holds six digits of K and S.
+            // A library file holds six digits of K and S.
             assert!((found - wanted).abs() < 2e-3, "{verb} {name}: {found}, {wanted}");
         }
     }
@@ -95,7 +95,7 @@ fn the_numbers_of_a_figure_are_those_of_fit_and_validate() {
 #[test]
 fn pigments_without_a_known_s_are_marked() {
     let samples = text("samples", "csv");
-    assert!(samples.contains("07B*"), "its masstone is starred");
+    assert!(samples.contains("07B*"), "its masstone is marked with a star");
     for name in ["absorption", "scattering"] {
         assert!(text(name, "csv").contains("Zinc White (linseed) (S unknown)"), "{name}");
         assert!(text(name, "svg").contains("S unknown"), "{name}");
@@ -106,7 +106,7 @@ fn pigments_without_a_known_s_are_marked() {
 
 #[test]
 fn wavelength_axes_are_all_the_same() {
-    // Where the labels 400 and 700 stand, from left to right, in tenths of a px.
+    // Horizontal positions of the labels 400 and 700, in tenths of a pixel.
     let places = |name: &str| {
         let svg = text(name, "svg");
         ["400", "700"].map(|tick| -> Vec<f64> {
@@ -120,7 +120,7 @@ fn wavelength_axes_are_all_the_same() {
         assert!(short.len() > 1 && short.iter().all(|x| *x == first), "{name}: {short:?}");
         assert!(long.len() > 1 && long.iter().all(|x| *x == second), "{name}: {long:?}");
     }
-    // The small charts divide the same band: as wide a share of their frames.
+    // In the small charts 400 to 700 nm take the same share of the frame.
     let [mut short, mut long] = places("samples");
     short.sort_by(f64::total_cmp);
     long.sort_by(f64::total_cmp);

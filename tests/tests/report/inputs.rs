@@ -1,4 +1,4 @@
-//! What a report is made from, and what it refuses.
+//! Inputs of `impasto report`: library, readings and pair; refused inputs and kept files.
 
 use suite::program::{impasto, repository};
 use suite::watercolors::Watercolors;
@@ -43,7 +43,7 @@ fn samples_of_pigments_that_the_library_lacks_are_left_out_and_named() {
 #[test]
 fn readings_of_other_pigments_are_refused_before_anything_is_written() {
     let work = Work::new();
-    // Names are compared without regard to case, and both have a Prussian blue.
+    // Names are compared without regard to case. Both sets have a Prussian blue, so it is renamed.
     let csv = Watercolors::exact().csv().replace("prussian blue", "indigo");
     std::fs::write(work.path("other.csv"), csv).unwrap();
     let run = work.report("out", &[&work.text("other.csv")]);
@@ -60,7 +60,7 @@ fn readings_of_other_pigments_are_refused_before_anything_is_written() {
 fn readings_of_a_narrower_band_are_refused_and_of_a_wider_one_resampled() {
     let work = Work::new();
     let (csv, json) = (work.text("narrow.csv"), work.text("library.json"));
-    // The last 16 of 31 wavelengths cut off.
+    // Cuts off the last 16 of 31 wavelengths.
     let cut = |line: &str| line.rsplitn(17, ',').last().unwrap().to_owned();
     let narrow: Vec<String> = crate::made::readings().lines().map(cut).collect();
     std::fs::write(&csv, narrow.join("\n")).unwrap();
@@ -110,7 +110,7 @@ fn absolute_amounts_are_held_against_their_films() {
     let work = Work::new();
     let (csv, json) = (work.text("washes.csv"), work.text("library.json"));
     let made = Watercolors::exact();
-    // The ladders, and the first mixtures.
+    // All ladders and the first mixtures.
     let some: Vec<&str> = made.csv().lines().take(180).collect();
     std::fs::write(&csv, some.join("\n")).unwrap();
     let how = ["--amounts", "absolute", "--unevenness", "0"];

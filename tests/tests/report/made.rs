@@ -1,15 +1,15 @@
-//! A few oils, one of them with a name that is markup, and a report on them.
+//! A report on a few of the oils, one of them with HTML markup as its name.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use suite::program::{Run, impasto, repository};
 
-/// What cobalt blue is called here.
+/// Name given to cobalt blue: markup that every output must escape.
 pub(crate) const HOSTILE: &str = "<b>&\"";
 
-/// The shipped oils of zinc white, bone black, cobalt blue and Prussian blue, and a
-/// zinc white of which there is only a masstone; cobalt blue renamed.
+/// Readings of the shipped zinc white, bone black, cobalt blue (renamed [`HOSTILE`]) and Prussian
+/// blue, and of a second zinc white of which there is only a masstone.
 pub(crate) fn readings() -> String {
     let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.csv")).unwrap();
     let (header, rows) = oils.split_once('\n').unwrap();
@@ -46,14 +46,14 @@ impl Work {
         self.path(inside).display().to_string()
     }
 
-    /// A report on the library, with further arguments.
+    /// Runs `impasto report` on the library with the further arguments `more`.
     pub(crate) fn report(&self, out: &str, more: &[&str]) -> Run {
         let (library, out) = (self.text("library.json"), self.text(out));
         impasto(&[&["report", &library, "--out", &out], more].concat())
     }
 }
 
-/// The report of all there is, made once.
+/// The report with all readings, made once for all tests.
 pub(crate) fn whole() -> &'static Work {
     static WORK: OnceLock<Work> = OnceLock::new();
     WORK.get_or_init(|| {
@@ -64,7 +64,7 @@ pub(crate) fn whole() -> &'static Work {
     })
 }
 
-/// Every file below `folder` with its bytes, by path.
+/// Path and bytes of every file in `folder` and its subfolder `figures`, sorted by path.
 pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for inside in [folder.to_owned(), folder.join("figures")] {

@@ -1,4 +1,4 @@
-//! The page.
+//! The HTML page of a report: links, escaped names, captions and colours in dark mode.
 
 use crate::made::whole;
 
@@ -12,7 +12,7 @@ fn it_loads_nothing() {
     for loading in ["<script", "<iframe", "<object", "<embed", "<img", "@import", "url(", "src="] {
         assert!(!page.contains(loading), "{loading}");
     }
-    // Links lead to figures, to places on the page, or to nothing at all.
+    // Links lead to figure files, to places on the page, or to the empty document `data:,`.
     let links: Vec<&str> =
         page.split("href=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
     assert!(links.len() > 20, "{links:?}");
@@ -27,7 +27,7 @@ fn it_loads_nothing() {
         }
     }
     let elsewhere = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
-    assert!(!elsewhere.contains("http:") && !elsewhere.contains("https:"), "an address is left");
+    assert!(!elsewhere.contains("http:") && !elsewhere.contains("https:"), "URL in the page");
 }
 
 #[test]

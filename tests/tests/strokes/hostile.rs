@@ -1,4 +1,4 @@
-//! Scripts that nobody can paint.
+//! Invalid stroke scripts: errors with location, expected range and hint, and no panic.
 
 use proptest::prelude::*;
 use render::paint::pose::Sample;
@@ -7,7 +7,7 @@ use spectra::hint::Explain;
 
 use crate::{SOUND, refused};
 
-/// The message without the file's name.
+/// The error message of [`SOUND`] with `from` replaced by `to`, without the name of the file.
 fn told(from: &str, to: &str) -> String {
     refused(from, to).to_string().split_off("a.json: ".len())
 }
@@ -85,7 +85,7 @@ fn numbers_out_of_range_are_told_with_action_sample_and_field() {
 #[test]
 fn strokes_off_the_canvas_and_without_pressure_are_fine() {
     let far = SOUND.replace("[0.5, 60, 12, 0.6, 10, 0, 45]", "[0, -5000, 9000, 0, -90, 90, -360]");
-    assert!(StrokeScript::from_json("a.json", far.as_bytes()).is_ok(), "it only misses the canvas");
+    assert!(StrokeScript::from_json("a.json", far.as_bytes()).is_ok(), "a stroke off the canvas");
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_canvas_beyond_memory_is_told_with_a_way_out() {
     assert_eq!(error.to_string(), wanted);
     let hint = error.hint().unwrap().to_string();
     let tried = SOUND.replace("\"cell_mm\": 0.1", &hint);
-    assert!(StrokeScript::from_json("a.json", tried.as_bytes()).is_ok(), "{hint} helps");
+    assert!(StrokeScript::from_json("a.json", tried.as_bytes()).is_ok(), "{hint} does not help");
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn other_formats_versions_and_encodings_are_told() {
         assert!(StrokeScript::from_json("a.json", text.as_bytes()).is_err(), "{text}");
     }
     let deep = "[".repeat(100_000);
-    assert!(StrokeScript::from_json("a.json", deep.as_bytes()).is_err(), "a stack has an end");
+    assert!(StrokeScript::from_json("a.json", deep.as_bytes()).is_err(), "nested too deeply");
 }
 
 #[test]

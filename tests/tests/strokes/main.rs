@@ -1,5 +1,5 @@
-//! Scripts of strokes: what is written is read, and what nobody can paint is
-//! refused with its place.
+//! Stroke scripts: round trips through JSON, and refusal of invalid scripts with the location of
+//! the fault.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -40,7 +40,7 @@ const SOUND: &str = r##"{
   ]
 }"##;
 
-/// The error of [`SOUND`] once `from` reads `to`.
+/// The error of [`SOUND`] with `from` replaced by `to`.
 fn refused(from: &str, to: &str) -> ScriptError {
     assert_eq!(SOUND.matches(from).count(), 1, "`{from}` stands once");
     let error = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap_err();
@@ -55,7 +55,7 @@ fn the_guide_shows_scripts_that_can_be_painted() {
     let shown: Vec<&str> = page.split("```json\n").skip(1).collect();
     let shown: Vec<&str> = shown.iter().map(|rest| rest.split("```").next().unwrap()).collect();
     let [script, keys] = shown[..] else { panic!("{} scripts", shown.len()) };
-    // The second is part of the first, with other actions.
+    // The second example has keys only, which replace those of the first.
     let mut mixed: serde_json::Value = serde_json::from_str(script).unwrap();
     let keys: serde_json::Value = serde_json::from_str(&format!("{{{keys}}}")).unwrap();
     for (key, value) in keys.as_object().unwrap() {

@@ -1,4 +1,4 @@
-//! Pigments by name.
+//! Pigments of a script by name: resolving, unknown names, and pigments off the palette.
 
 use render::paint::strokes::{ActionPigments, StrokeScript};
 use spectra::hint::Explain;

@@ -1,4 +1,4 @@
-//! What is written is read.
+//! Stroke scripts are equal, up to rounding, after writing and reading; the canonical JSON.
 
 use std::collections::BTreeMap;
 
@@ -120,7 +120,7 @@ fn config() -> ProptestConfig {
     ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() }
 }
 
-/// Every sample of a script, as numbers.
+/// All numbers of all samples of a script.
 fn numbers(script: &StrokeScript) -> Vec<f64> {
     let strokes = script.actions.iter().filter_map(|action| match action {
         Action::Stroke(stroke) => Some(&stroke.samples),
@@ -142,7 +142,7 @@ proptest! {
         prop_assert_eq!(&back.to_json().unwrap(), &text);
         let written: Vec<Action> = script.actions.iter().map(Action::rounded).collect();
         prop_assert_eq!(&back.actions, &written);
-        // Once its numbers are short, it is the same script.
+        // Numbers are rounded once: a second round trip changes nothing.
         let again = StrokeScript::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
         prop_assert_eq!(&again, &back);
         prop_assert_eq!(back.actions.len(), script.actions.len());

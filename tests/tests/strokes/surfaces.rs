@@ -1,4 +1,4 @@
-//! Scripts with a palette to mix on, and those that go on with a painting.
+//! Scripts with a mixing palette, and scripts that continue a painting.
 
 use render::layer::SLOTS;
 use render::optics::Gloss;
@@ -12,7 +12,7 @@ use crate::SOUND;
 
 const SAVE: &str = "{\"save\": {\"path\": \"out/study.exr\"}}";
 
-/// [`SOUND`] with a palette, and what is done there.
+/// [`SOUND`] with a mixing palette and six more actions, most of them on that palette.
 fn mixed() -> String {
     let actions = "{\"squeeze\": {\"on\": \"palette\", \"recipe\": {\"W\": 1}, \"x_mm\": 20, \
         \"y_mm\": 15, \"volume_mm3\": 40}},
@@ -61,7 +61,7 @@ fn what_is_done_on_the_palette_is_read_and_written() {
     let wet = Gloss { strength: 0.3, exponent: 70.0 };
     assert!(matches!(script.actions[19], Action::Gloss { wet: found, .. } if found == wet));
     let written = script.to_json().unwrap();
-    assert!(written.contains("{\"scrape\": {}}"), "the canvas is left out: {written}");
+    assert!(written.contains("{\"scrape\": {}}"), "`on` is left out for the canvas: {written}");
     assert_eq!(StrokeScript::from_json("b.json", written.as_bytes()).unwrap(), script);
 }
 
@@ -116,14 +116,14 @@ fn there_is_a_palette_only_where_it_is_described() {
     assert!(error.starts_with("mixing: at most 67108864 cells"), "{error}");
 }
 
-/// A painting of 25 x 20 cells, each a third of a tenth of a millimetre.
+/// A painting of 25 x 20 cells of 1/30 mm, which has no finite decimal.
 fn painting() -> Document {
     let text = SOUND.replace("\"cell_mm\": 0.1", "\"cell_mm\": 4");
     let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
     let (mut document, palette) = script.surfaces(&suite::oils::library(), None).unwrap();
     assert!(palette.is_none(), "none is described");
     document.cell_mm = 1.0 / 30.0;
-    // A slot that was given up in between.
+    // Slot 0 is empty: pigments need not occupy the first slots.
     document.slots.swap(0, SLOTS - 1);
     document
 }
@@ -141,7 +141,7 @@ fn a_script_goes_on_with_a_painting() {
     assert_eq!(script.start.as_deref(), Some("before/study.exr"));
     let (canvas, palette) = script.surfaces(&library, Some(painting.clone())).unwrap();
     assert_eq!((canvas, palette), (painting.clone(), None));
-    // A palette beside it has the painting's pigments in the same slots.
+    // A mixing palette has the painting's pigments in the same slots.
     let mut mixing = script.clone();
     mixing.mixing = Some(script.canvas.clone());
     let (_, palette) = mixing.surfaces(&library, Some(painting.clone())).unwrap();

@@ -1,4 +1,4 @@
-//! Cameras that move.
+//! Camera paths: interpolation of keyframes, closed paths, and invalid files.
 
 use glam::Vec3;
 use render::camera::{Camera, CameraPath, CameraPathError};
@@ -39,7 +39,7 @@ fn a_path_goes_through_its_keyframes_evenly() {
         assert!((camera.field_of_view_deg - field).abs() < 1e-3, "{frame}: {camera:?}");
     }
     assert!(cameras[4].target.distance(Vec3::Y) < 1e-5);
-    // Smooth: no step differs much from the one before.
+    // The path is smooth: consecutive steps have similar directions.
     let steps: Vec<Vec3> = cameras.windows(2).map(|pair| pair[1].eye - pair[0].eye).collect();
     assert!(steps.windows(2).all(|pair| pair[0].normalize().dot(pair[1].normalize()) > 0.6));
     for camera in &cameras {
@@ -56,7 +56,7 @@ fn a_closed_path_comes_back_and_one_keyframe_stands_still() {
     for (frame, eye) in [(0, [0.0, 0.0, 10.0]), (3, [10.0, 0.0, 0.0]), (6, [0.0, 0.0, -10.0])] {
         assert!(closed[frame].eye.distance(eye.into()) < 1e-4, "{frame}: {:?}", closed[frame]);
     }
-    // The step after the last is like the others.
+    // The step from the last frame to the first is about as long as the others.
     let last = closed[0].eye.distance(closed[8].eye);
     assert!((2.0..8.0).contains(&last), "{last}");
     let still = cameras("frames = 3\n[[keyframe]]\neye = [1, 2, 3]\ntarget = [0, 0, 0]\n");

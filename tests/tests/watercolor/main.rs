@@ -1,9 +1,9 @@
-//! Watercolor: meshes and what is seen of them, abstraction, effects, noise that
-//! stays on its object, and the verb.
+//! Watercolour: meshes, their visibility and shading, abstraction of photographs, effects, coherent
+//! noise, and the command `impasto watercolor`.
 //!
-//! Where there is no adapter the tests that need one pass and say so. If the
-//! variable `IMPASTO_GPU_TESTS` names a file, each adds a line to it: the
-//! adapter it ran on, or `none`.
+//! Without a graphics adapter the tests that need one pass, with a note on stderr. If the
+//! environment variable `IMPASTO_GPU_TESTS` names a file, each of them appends a line: the name of
+//! its adapter, or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! What of a mesh is seen.
+//! Visibility of meshes: rasterising against ray casting, and cameras that frame a mesh.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use render::surface::{
     Fragment, NO_TRIANGLE, Rasteriser, Sides, VisibilityBuffer, position_at, visible,
 };
 
-/// Triangles that share no vertex.
+/// A mesh of triangles that share no vertex.
 pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
     let corners = triangles.iter().flatten();
     let count = triangles.len() as u32;
@@ -30,7 +30,7 @@ pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
     }
 }
 
-/// Triangles about the origin, some of which the camera below stands in.
+/// Random triangles around the origin; some reach behind the camera of [`inside_them`].
 pub(crate) fn random_triangles(count: usize, seed: u64) -> Mesh {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut place = |size: f32| Vec3::from([0, 1, 2].map(|_| rng.random_range(-size..size)));
@@ -73,7 +73,8 @@ fn cross(a: Exact, b: Exact) -> Exact {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The nearest triangle on the ray through a place of the picture, in pixels.
+/// Index of the nearest triangle on the ray through `at`, a position in the picture in pixels, or
+/// [`NO_TRIANGLE`]. Computed in f64.
 fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64; 2]) -> u32 {
     let unit = |vector: Exact| sum([(vector, 1.0 / dot(vector, vector).sqrt())]);
     let minus = |a: Exact, b: Exact| sum([(a, 1.0), (b, -1.0)]);
@@ -90,7 +91,7 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
         let places = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
         let [a, b, c] = places.map(|place| minus(exact(place), eye));
         let normal = cross(minus(b, a), minus(c, a));
-        // Along the sight, as the ray goes one forward a unit.
+        // Depth along the viewing direction, in which `ray` has the component 1.
         let distance = dot(a, normal) / dot(ray, normal);
         let hit = sum([(ray, distance)]);
         let within =
@@ -145,8 +146,8 @@ fn a_pixel_tells_the_place_that_it_sees() {
             let clip = clip_from_model * position_at(&mesh, pixel).extend(1.0);
             let at = [(clip.x / clip.w + 1.0) * 48.0, (1.0 - clip.y / clip.w) * 32.0];
             let off = (at[0] - x as f32 - 0.5).hypot(at[1] - y as f32 - 0.5);
-            // Vertices move by half a 256th of a pixel, which the weights of a
-            // slim triangle feel.
+            // Vertices are rounded to 1/256 of a pixel, which changes the weights in a slim
+            // triangle.
             assert!(off < 0.05, "{x}, {y}: {off} pixels off: {pixel:?}");
             assert!((clip.z / clip.w - pixel.depth).abs() < 1e-3, "{x}, {y}: {pixel:?}");
             seen += 1;
@@ -155,7 +156,7 @@ fn a_pixel_tells_the_place_that_it_sees() {
     assert!(seen > 2000, "{seen}");
 }
 
-/// A fan about a point that is no vertex of the grid of pixels, closed by a rim.
+/// A closed fan of triangles around a point that is not at the centre of a pixel.
 fn fan(spokes: usize) -> Mesh {
     let rim = |i: usize| {
         let angle = i as f32 / spokes as f32 * std::f32::consts::TAU;
@@ -166,8 +167,8 @@ fn fan(spokes: usize) -> Mesh {
     loose(&triangles)
 }
 
-/// Squares whose corners are middles of pixels of a picture of 128 x 128, cut in two
-/// this way and that, in clip coordinates.
+/// 15 x 15 squares in clip coordinates, with corners at the centres of pixels of a picture of
+/// 128 x 128. Each is two triangles; the diagonal alternates.
 fn squares_on_middles() -> Mesh {
     let place = |x: usize, y: usize| {
         let at = |i: usize| (8 * i) as f32 / 64.0 + 4.5 / 64.0 - 1.0;
@@ -206,7 +207,7 @@ fn edges_that_are_shared_are_drawn_once_and_leave_no_hole() {
         let alone: Vec<_> = mesh.triangles.iter().map(|triangle| drawn_by(&[*triangle])).collect();
         let pixels: usize = alone.iter().map(BTreeSet::len).sum();
         assert_eq!(pixels, whole.len(), "pixels drawn twice");
-        // Every row of a disc, and of a square, is whole.
+        // Every row of a disc or a square has no gap.
         for y in 0..128 {
             let row: Vec<usize> = whole.range(y * 128..(y + 1) * 128).copied().collect();
             let [Some(first), Some(last)] = [row.first(), row.last()] else { continue };

@@ -1,4 +1,4 @@
-//! Visibility of meshes and toon shading, on the processor and on a device.
+//! Visibility of meshes and toon shading, on CPU and GPU.
 
 use glam::{Vec2, Vec3};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -15,7 +15,7 @@ use suite::adapter::device;
 
 use super::seen::{inside_them, random_triangles};
 
-/// A checked texture, uneven in width and height.
+/// A chequered texture of odd width and height, 7 x 5 texels.
 fn checks() -> Texture {
     let texel = |x: u32, y: u32| match (x / 2 + y) % 2 {
         0 => u32::from_le_bytes([240, 200, 40 * y as u8, 255]),
@@ -25,7 +25,7 @@ fn checks() -> Texture {
     Texture { width: 7, height: 5, texels }
 }
 
-/// A textured ball and a knot with colours of its own, in one mesh.
+/// One mesh of a torus knot with vertex colours and a textured ball.
 fn two() -> Mesh {
     let mut mesh = Mesh::torus_knot(3000);
     for (color, i) in mesh.colors.iter_mut().zip(0u8..=255) {
@@ -107,8 +107,8 @@ fn the_device_sees_what_the_processor_sees() {
                 differ += 1;
             } else if a.triangle != NO_TRIANGLE {
                 shown += 1;
-                // A device need not move the weights along with the vertices, which a
-                // triangle of a few pixels feels; the place is the same all the same.
+                // A GPU may compute weights from vertices that are not rounded, which changes
+                // them in triangles of a few pixels. The position agrees nevertheless.
                 let off = position_at(mesh, *a).distance(position_at(mesh, *b));
                 assert!(off < 6e-3, "{size:?}: {off} off: {a:?} {b:?}");
                 assert!((a.depth - b.depth).abs() < 5e-4, "{size:?}: {a:?} {b:?}");
@@ -161,7 +161,7 @@ fn without_strength_surfaces_keep_their_colors() {
 
 #[test]
 fn shade_is_dense_paint_and_light_is_thin() {
-    // A wall seen straight on, whose normal is turned to and from the light.
+    // A wall seen from the front; `cosine` is that of the angle between its normal and the light.
     let wall = |cosine: f32| {
         let mut mesh = Mesh::default();
         mesh.materials.push(Material::plain([0.6, 0.5, 1.0]));
@@ -185,12 +185,12 @@ fn shade_is_dense_paint_and_light_is_thin() {
         let off = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(off < 1e-3 && found[3] == 1.0, "{found:?} {wanted:?}");
     };
-    // d = 1 + 2 (0.5 - grey): 2 in the dark, which is the square; 1; 0.
+    // Density 1 + 2 (0.5 - grey): 2 (the square of the colour) in shade, 1, and 0 in light.
     near(shade(0.0, 2.0), [0.36, 0.25, 1.0]);
     near(shade(0.5, 2.0), [0.6, 0.5, 1.0]);
     near(shade(1.0, 2.0), [0.6 * 1.4, 0.5 * 1.5, 1.0]);
     near(shade(-0.7, 2.0), [0.36, 0.25, 1.0]);
-    // Never less than no paint.
+    // The density is at least 0.
     near(shade(1.0, 9.0), [0.6 * 1.4, 0.5 * 1.5, 1.0]);
 }
 
@@ -258,10 +258,10 @@ fn greys_of_a_picture_take_the_place_of_steps() {
         greens.fold([1.0f32, 0.0], |[low, high], value| [low.min(value), high.max(value)])
     };
     let [low, high] = of(&shaded(&settings));
-    assert!(high - low < 1e-6, "one step is one colour: {low} {high}");
+    assert!(high - low < 1e-6, "one step gives several colours: {low} {high}");
     settings.toon.greys = Some(path.display().to_string());
     let [low, high] = of(&shaded(&settings));
-    assert!(high - low > 0.2, "a ramp is none: {low} {high}");
+    assert!(high - low > 0.2, "a ramp gives one colour: {low} {high}");
     settings.toon.greys = Some("no/such.png".to_owned());
     let painter = ModelPainter::new(Compute::cpu(), Mesh::sphere(500), &settings, (8, 8));
     assert!(painter.unwrap_err().to_string().contains("no/such.png"));

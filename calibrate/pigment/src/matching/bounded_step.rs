@@ -155,7 +155,7 @@ fn wrongly_held(
 mod tests {
     use super::*;
 
-    /// Least value of the model over a fine grid of three shares.
+    /// Least value of the quadratic model over a fine grid of three shares.
     fn by_grid(matrix: [[f64; 3]; 3], gradient: [f64; 3], point: [f64; 3], least: f64) -> f64 {
         let value = |d: [f64; 3]| -> f64 {
             (0..3)

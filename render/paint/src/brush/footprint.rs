@@ -1,7 +1,7 @@
 //! Rasterisation of the facets near the canvas.
 
 use super::net::Point;
-use super::surface::Surface;
+use super::surface::LimitSurface;
 use crate::contact::{Contact, Touch};
 use graphics::tile::Rect;
 
@@ -58,7 +58,7 @@ impl Footprint {
     /// of `bounds`, in coordinates from the cell `origin`.
     pub(super) fn draw(
         &mut self,
-        surface: &Surface,
+        surface: &LimitSurface,
         ceiling: f32,
         origin: (i64, i64),
         bounds: Rect,
@@ -106,7 +106,7 @@ impl Footprint {
 
     /// Collects the facets that face down below the ceiling. Returns their extent: lowest x
     /// and y, highest x and y.
-    fn choose(&mut self, surface: &Surface, ceiling: f32) -> [f32; 4] {
+    fn choose(&mut self, surface: &LimitSurface, ceiling: f32) -> [f32; 4] {
         self.facets.clear();
         let (around, along) = surface.facets();
         let (cells_around, cells_along) = surface.cells_of_facet();

@@ -7,10 +7,10 @@ use super::footprint::Footprint;
 use super::grip::Grip;
 use super::mesh::HeadMesh;
 use super::net::{Net, Point, columns};
-use super::relief::{Relief, View};
+use super::relief::{Relief, ReliefView};
 use super::shape::HeadShape;
 use super::spines::{Spines, sink};
-use super::surface::Surface;
+use super::surface::LimitSurface;
 use super::vector::Vector;
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::Contact;
@@ -45,7 +45,7 @@ pub struct Head {
     cell_mm: f64,
     pub(super) spines: Spines,
     net: Net,
-    surface: Surface,
+    surface: LimitSurface,
     footprint: Footprint,
     /// Origin of coordinates while the head touches the canvas.
     origin: Option<(i64, i64)>,
@@ -76,7 +76,7 @@ impl Head {
         } else {
             2.0 * width * (1.0 + of.thickness)
         };
-        let surface = Surface::new(columns(of.spines), perimeter, spines.length());
+        let surface = LimitSurface::new(columns(of.spines), perimeter, spines.length());
         let (around, along) = cells(&surface);
         let hair = if of.gaps { tufts(&surface, of.spines) } else { Vec::new() };
         Ok(Self {
@@ -194,7 +194,7 @@ impl Head {
         self.touch(&grip, &view, bounds, out);
     }
 
-    fn touch(&mut self, grip: &Grip, view: &View<'_>, bounds: Rect, out: &mut Contact) {
+    fn touch(&mut self, grip: &Grip, view: &ReliefView<'_>, bounds: Rect, out: &mut Contact) {
         let reach = self.spines.width + grip.pressure * self.spines.length();
         let (lowest, highest) = view.range(grip.tip, reach);
         let ceiling = highest + (HIGHEST_PAINT_MM / self.cell_mm) as f32;
@@ -210,7 +210,7 @@ impl Head {
 }
 
 /// Number of paint cells of the head, around and along.
-fn cells(surface: &Surface) -> (usize, usize) {
+fn cells(surface: &LimitSurface) -> (usize, usize) {
     let (facets, cells) = (surface.facets(), surface.cells_of_facet());
     (facets.0 * cells.0, facets.1 * cells.1)
 }
@@ -258,7 +258,7 @@ fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
 
 /// Facets of a fan that have hair: all near the ferrule, tufts around its spines near the tip.
 /// A small fan, whose facets are no finer than its tufts, has tufts around pairs of spines.
-fn tufts(surface: &Surface, spines: usize) -> Vec<bool> {
+fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();
     let hair = |i: usize| {

@@ -56,9 +56,9 @@ impl Relief {
     }
 
     /// The relief in coordinates from the cell `origin`.
-    pub(super) fn seen_from(&self, origin: (i64, i64)) -> View<'_> {
+    pub(super) fn seen_from(&self, origin: (i64, i64)) -> ReliefView<'_> {
         let block = BLOCK as i64;
-        View {
+        ReliefView {
             heights: &self.heights,
             first: (origin.0.div_euclid(block), origin.1.div_euclid(block)),
             // A block's value stands at its middle.
@@ -88,13 +88,13 @@ fn crest(floor: &Field<i32>, column: usize, row: usize) -> f32 {
 
 /// A relief in coordinates of a head: cells from an origin.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct View<'a> {
+pub(super) struct ReliefView<'a> {
     heights: &'a Field<f32>,
     first: (i64, i64),
     shift: (f32, f32),
 }
 
-impl View<'_> {
+impl ReliefView<'_> {
     /// Height at `(x, y)` in cells; outside the canvas that of its edge.
     #[inline]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {

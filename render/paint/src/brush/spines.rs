@@ -7,7 +7,7 @@
 //! pose is stable.
 
 use super::grip::Grip;
-use super::relief::View;
+use super::relief::ReliefView;
 use super::shape::{NODES, Proportions};
 use super::vector::Vector;
 
@@ -116,14 +116,14 @@ impl Spines {
 
     /// Holds the head just above the canvas at `grip`, slightly bent to the side to which it
     /// will fall: behind `heading`, if that is not zero.
-    pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &View<'_>) {
+    pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &ReliefView<'_>) {
         let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
         self.hold_above(grip, fall, relief);
     }
 
     /// Holds the head just above the canvas at `grip`, straight or with its tip shifted to
     /// `fall`.
-    pub(super) fn hold_above(&mut self, grip: &Grip, fall: Vector, relief: &View<'_>) {
+    pub(super) fn hold_above(&mut self, grip: &Grip, fall: Vector, relief: &ReliefView<'_>) {
         let grip = &Grip { pressure: 0.0, ..*grip };
         let ferrule = self.ferrule(grip, relief);
         for (i, rest) in self.rest.iter().enumerate() {
@@ -136,7 +136,7 @@ impl Spines {
     }
 
     /// Presses the head from just above the canvas down to `grip` without dragging it.
-    pub(super) fn lower(&mut self, grip: &Grip, relief: &View<'_>) {
+    pub(super) fn lower(&mut self, grip: &Grip, relief: &ReliefView<'_>) {
         const STAGES: usize = 16;
         for stage in 1..=2 * STAGES {
             let share = (stage as f32 / STAGES as f32).min(1.0);
@@ -145,12 +145,12 @@ impl Spines {
     }
 
     /// Advances one sub-step, in which the handle moved to `grip`.
-    pub(super) fn advance(&mut self, grip: &Grip, relief: &View<'_>) {
+    pub(super) fn advance(&mut self, grip: &Grip, relief: &ReliefView<'_>) {
         self.settle(grip, relief, FRICTION);
     }
 
     /// Position of the ferrule. Its height follows the canvas below the tip.
-    fn ferrule(&self, grip: &Grip, relief: &View<'_>) -> Vector {
+    fn ferrule(&self, grip: &Grip, relief: &ReliefView<'_>) -> Vector {
         let third = grip.broad * (self.width / 3.0);
         let (x, y) = grip.tip;
         let ride = (relief.height(x, y)
@@ -177,7 +177,7 @@ impl Spines {
         (a * a + b * b).sqrt()
     }
 
-    fn settle(&mut self, grip: &Grip, relief: &View<'_>, friction: f32) {
+    fn settle(&mut self, grip: &Grip, relief: &ReliefView<'_>, friction: f32) {
         let ferrule = self.ferrule(grip, relief);
         if self.of.rigid {
             for (node, &rest) in self.nodes.iter_mut().zip(&self.rest) {
@@ -241,7 +241,7 @@ impl Spines {
         spine: usize,
         grip: &Grip,
         ferrule: Vector,
-        relief: &View<'_>,
+        relief: &ReliefView<'_>,
         dig: f32,
         friction: f32,
     ) {
@@ -278,7 +278,14 @@ impl Spines {
 
     /// Pulls a spine that is longer than it can be towards the ferrule, and keeps it above the
     /// canvas. It only pulls: hair that is pushed bends.
-    fn fit(&mut self, spine: usize, grip: &Grip, ferrule: Vector, relief: &View<'_>, dig: f32) {
+    fn fit(
+        &mut self,
+        spine: usize,
+        grip: &Grip,
+        ferrule: Vector,
+        relief: &ReliefView<'_>,
+        dig: f32,
+    ) {
         let range = spine * NODES..(spine + 1) * NODES;
         let rest = &self.rest[range.clone()];
         let below = &self.below[range.clone()];
@@ -297,7 +304,7 @@ impl Spines {
     }
 
     /// Updates which nodes touch the canvas, and the pressure on each level.
-    fn feel(&mut self, grip: &Grip, relief: &View<'_>, dig: f32) {
+    fn feel(&mut self, grip: &Grip, relief: &ReliefView<'_>, dig: f32) {
         let mut pressed = [0.0; NODES];
         for (i, node) in self.nodes.iter().enumerate() {
             let gap = node.z - self.below[i] - (relief.height(node.x, node.y) - dig);

@@ -44,18 +44,18 @@ pub(super) fn b_spline(t: f32) -> [f32; 4] {
 
 /// Surface of a head; vertices row by row from the ferrule.
 #[derive(Debug, Clone)]
-pub(super) struct Surface {
+pub(super) struct LimitSurface {
     around: Span,
     along: Span,
     columns: usize,
-    /// Positions and displacements of vertices; valid where [`Surface::is_near`].
+    /// Positions and displacements of vertices; valid where [`LimitSurface::is_near`].
     pub(super) vertices: Vec<Point>,
     near: Vec<bool>,
     /// The net evaluated along the head but not around it.
     line: Vec<Point>,
 }
 
-impl Surface {
+impl LimitSurface {
     /// Surface of a net of `columns` columns around a head of this perimeter and length, in
     /// cells of the canvas.
     pub(super) fn new(columns: usize, perimeter: f32, length: f32) -> Self {
@@ -183,7 +183,7 @@ mod tests {
             assert!((3..=4).contains(&span.cells) || length < 6, "{length}: {span:?}");
             assert!((0.7..1.4).contains(&cell), "{length}: {cell}");
         }
-        let large = Surface::new(8, 6000.0, 5000.0);
+        let large = LimitSurface::new(8, 6000.0, 5000.0);
         let (around, along) = (large.facets(), large.cells_of_facet());
         let cells = around.0 * along.0 * around.1 * along.1;
         assert!(cells < 1_100_000, "{cells}");

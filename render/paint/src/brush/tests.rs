@@ -1,4 +1,4 @@
-//! Tests of heads.
+//! Tests of brush heads: footprint, bending, velocity, and extreme poses.
 
 use rand::{RngExt, SeedableRng};
 
@@ -25,7 +25,7 @@ fn nothing() -> Contact {
     Contact { rect: Rect::default(), touches: Vec::new() }
 }
 
-/// Contact of a head that is set down.
+/// Contact of a new head that is set down in `pose`.
 fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     let (mut head, mut contact) = (head(shape), nothing());
     head.set_down(&pose, (0.0, 0.0), &plane());
@@ -33,7 +33,7 @@ fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     contact
 }
 
-/// Cells with their touches where the head is below a film of `mm` mm.
+/// Cells with their touches where the head is below the top of a film of `mm` mm.
 fn under(contact: &Contact, mm: f64) -> Vec<(usize, usize, Touch)> {
     let top = (mm / 0.1 * f64::from(QUANTA_PER_CELL)) as i32;
     let cells = contact.touches.iter().enumerate().filter(|(_, touch)| touch.height <= top);
@@ -95,7 +95,7 @@ fn the_tip_trails_behind_the_motion() {
     for shape in HeadShape::ALL.into_iter().filter(|&shape| shape != HeadShape::Knife) {
         for way in [1.0, -1.0] {
             let (mut head, mut contact) = (head(shape), nothing());
-            // Set down as if it went the other way.
+            // The head is set down bent for the opposite motion.
             let pose = |step: f64| Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE };
             head.set_down(&pose(0.0), (-way, 0.0), &plane());
             for step in 0..=90 {
@@ -119,7 +119,7 @@ fn the_surface_moves_with_the_handle() {
         assert!((right - 256).abs() < 8 && down.abs() < 8, "{x} {y}: {right} {down}");
         assert_eq!(touch.transfer_weight(), 256);
     }
-    // It stands still: nothing moves, nothing changes sides.
+    // At rest the head exchanges no paint.
     let rest = Pose { x: 159.0, twist_deg: 90.0, ..POSE };
     for _ in 0..100 {
         head.advance(&rest, &plane(), BOUNDS, &mut contact);
@@ -177,7 +177,7 @@ fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
         let found = under(&cut, 0.0);
         assert_eq!(found.len(), kept.len(), "{shape}");
         for (found, kept) in found.iter().zip(&kept) {
-            // Rounding of a sum that starts elsewhere, in quanta.
+            // Tolerance in quanta for the rounding of sums that start at another cell.
             assert!((found.2.height - kept.2.height).abs() < 200, "{shape}: {found:?}, {kept:?}");
         }
         head.advance(&pose, &plane(), Rect { x: 4000, ..half }, &mut cut);
@@ -250,7 +250,7 @@ fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
     let (valleys, crests) = touched(0.35);
     assert!(valleys == 0 && crests > 20, "{valleys} {crests}");
     let (valleys, crests) = touched(1.0);
-    // Not all: bristles that draw back pass over valleys so deep.
+    // Not all of them: bristles that draw back do not reach the bottom of valleys this deep.
     assert!(valleys * 10 > crests * 6, "{valleys} {crests}");
 }
 

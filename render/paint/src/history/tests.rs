@@ -1,4 +1,4 @@
-//! Tests of undo and redo over random actions on the processor.
+//! Tests of undo and redo with random actions on the CPU, and of the memory limit.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,7 +11,7 @@ use crate::motion::MotionConstants;
 use graphics::field::Field;
 use graphics::tile::Rect;
 
-/// Six tiles, those at the right and lower edge smaller.
+/// Size of the canvas in cells: six tiles, smaller ones at the right and lower edges.
 const WIDTH: usize = 150;
 const HEIGHT: usize = 100;
 const SIZE: usize = 30;
@@ -97,7 +97,7 @@ fn undo_and_redo_walk_the_same_states_to_the_bit() {
     }
     let mut at = 25;
     for step in 0..80 {
-        // All the way back, all the way on, then at random.
+        // Undoes every action, redoes every action, then either at random.
         let back = match step {
             0..25 => true,
             25..50 => false,
@@ -157,11 +157,11 @@ fn an_action_beyond_the_limit_stays_done_and_cannot_be_undone() {
     other.set_wet(&engine.wet().unwrap()).unwrap();
     other.dry(1000).unwrap();
     history.begin(1);
-    // Six tiles.
+    // Drying saves all six tiles, but the limit is five.
     history.dry(&mut engine, 1000).unwrap();
     assert_eq!(history.commit(), CommitOutcome::TooLarge);
-    assert!(engine.wet().unwrap() == other.wet().unwrap(), "dried otherwise");
-    assert!(history.undo(&mut engine, 2).unwrap().is_none(), "undone");
+    assert!(engine.wet().unwrap() == other.wet().unwrap(), "drying differs without undo");
+    assert!(history.undo(&mut engine, 2).unwrap().is_none(), "undone beyond the limit");
     assert_eq!(history.bytes(), 0);
     history.begin(2);
     history.save_tiles(&mut engine, one_tile).unwrap();

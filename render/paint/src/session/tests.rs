@@ -1,4 +1,4 @@
-//! Tests of the recording: it can always be read again.
+//! Tests of recordings: their limits, and that every recording can be read.
 
 use pigment::library::PigmentLibrary;
 
@@ -48,7 +48,7 @@ fn limit(session: &mut PaintingSession, limits: Limits) {
     session.record.as_mut().unwrap().limits = limits;
 }
 
-/// Paints until the recording holds `count` strokes and says why it ended.
+/// Asserts that the recording holds `count` strokes and stops at the next for `reason`.
 fn stops(limits: Limits, count: usize, reason: &str) {
     let mut session = recorded();
     limit(&mut session, limits);
@@ -59,14 +59,14 @@ fn stops(limits: Limits, count: usize, reason: &str) {
     }
     dab(&mut session);
     assert_eq!(session.recording_stopped(), Some(reason), "after {count}");
-    // Less would fit, but it would be out of order.
+    // Later actions would fit, but are not recorded: one before them is missing.
     limit(&mut session, Limits::default());
     session.undo().unwrap();
     dab(&mut session);
     assert_eq!(session.recording().unwrap().actions.len(), count, "{reason}");
     assert_eq!(session.history().1, count + 1, "painting goes on");
     let text = session.recording().unwrap().to_json().unwrap();
-    assert!(StrokeScript::from_json("a.json", text.as_bytes()).is_ok(), "what it holds is sound");
+    assert!(StrokeScript::from_json("a.json", text.as_bytes()).is_ok(), "cannot be read");
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn as_many_heads_are_recorded_as_a_file_may_name() {
     assert_eq!(session.recording_stopped(), None);
     let text = session.recording().unwrap().to_json().unwrap();
     let read = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
-    // Each but the last was washed when it gave its name away.
+    // Every head but the last was washed when it was replaced: 20 wipes and 19 washes.
     assert_eq!((read.brushes.len(), read.actions.len()), (20, 39));
     session.set_brush("round", &round(9.0)).unwrap();
     session.apply(&wipe).unwrap();
@@ -106,16 +106,16 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     session.undo().unwrap();
     let reason = DeviceError::NoAdapter { reason: "it burnt".to_owned() };
     let failed = session.follow_failure::<()>(Err(SessionError::Painting(reason.into())));
-    assert!(failed.is_err(), "it is told");
+    assert!(failed.is_err(), "the failure is not returned");
     assert_eq!(session.history(), (Vec::new(), 0));
-    assert!(!session.undo().unwrap() && !session.redo().unwrap(), "nothing is known of before");
+    assert!(!session.undo().unwrap() && !session.redo().unwrap(), "a step from before the failure");
     let stopped = session.recording_stopped().unwrap();
     assert!(stopped.starts_with("the backend failed: ") && stopped.contains("burnt"), "{stopped}");
     dab(&mut session);
-    assert!(session.undo().unwrap(), "what was done since");
-    assert!(!session.undo().unwrap(), "and no more");
+    assert!(session.undo().unwrap(), "no undo of the new stroke");
+    assert!(!session.undo().unwrap(), "an undo from before the failure");
     assert_eq!(session.recording().unwrap().actions.len(), 3);
-    // Anything else that is refused leaves both as they are.
+    // A refused action changes neither the history nor the recording.
     dab(&mut session);
     assert!(session.apply(&Action::Merge { layer: 7 }).is_err(), "no such layer");
     assert_eq!(session.history().1, 1);
@@ -129,6 +129,6 @@ fn a_session_without_a_header_is_not_recorded() {
     dab(&mut session);
     assert!(
         session.recording().is_none() && session.recording_stopped().is_none(),
-        "none was begun"
+        "a recording was begun"
     );
 }

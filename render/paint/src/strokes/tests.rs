@@ -1,4 +1,4 @@
-//! Rounded actions pass through a file unchanged.
+//! Tests of rounding: writing and reading leave a rounded action unchanged.
 
 use super::{
     Action, BrushSpec, Canvas, LayerRef, Load, PaletteSpec, Recipe, Squeeze, Stroke, StrokeScript,
@@ -51,7 +51,7 @@ fn odd() -> Vec<Action> {
     ]
 }
 
-/// Text that tells -0 from 0.
+/// Debug text of an action, in which -0 differs from 0.
 fn bits(action: &Action) -> String {
     format!("{action:?}")
 }

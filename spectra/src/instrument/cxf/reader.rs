@@ -246,7 +246,8 @@ fn descendants<'a>(root: &'a Element, path: [&'a str; 3]) -> Vec<&'a Element> {
 mod tests {
     use super::*;
 
-    /// A file with `objects`, and specifications s (10 nm), m0 and m1 (100 nm).
+    /// A CxF file with `objects` and the specifications `s` (steps of 10 nm), `m0` and `m1` (steps
+    /// of 100 nm).
     fn file(objects: &str) -> String {
         let illuminated = |id: &str, condition: &str| {
             format!(

@@ -9,7 +9,7 @@ fn files(text: &str) -> Vec<(&'static str, Vec<u8>)> {
     vec![(CANVAS, text.clone()), (PALETTE, text), (META, serde_json::to_vec(&meta).unwrap())]
 }
 
-/// The content of the only lost session, after its files were seen to agree.
+/// Text of the only lost session, `None` without one. Asserts that its files agree.
 fn found(sessions: &Path) -> Option<String> {
     let mut all = LostSession::all(sessions).unwrap();
     assert!(all.len() <= 1, "{all:?}");
@@ -20,8 +20,8 @@ fn found(sessions: &Path) -> Option<String> {
     Some(lost.meta.title.clone())
 }
 
-/// Keeps `text` and is killed before the change number `last` on the disk;
-/// whether it came to its end.
+/// Saves `text`, but fails after `last` changes on the disk, as a crash would. Returns whether the
+/// save was completed.
 fn keep_until(session: &mut Autosave, text: &str, last: usize) -> bool {
     let mut count = 0;
     let kept = session.keep_files(&files(text), &mut || {
@@ -100,7 +100,7 @@ fn a_session_that_ends_or_kept_nothing_leaves_nothing() {
 
 const CHILD: &str = "IMPASTO_TEST_SESSIONS";
 
-/// Run by the next test in a process of its own; alone it does nothing.
+/// Child process of the next test. Does nothing without the environment variable [`CHILD`].
 #[test]
 fn child_that_keeps_a_session_and_waits() {
     let Some(sessions) = std::env::var_os(CHILD) else { return };

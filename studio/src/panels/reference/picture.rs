@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(color.pixels[3], Color32::from_gray(shade));
         let grey = picture.on_screen(true);
         assert_eq!(grey.pixels[3], Color32::from_gray(shade));
-        // IEC 61966-2-1: Y of the primaries.
+        // Y of the sRGB primaries, IEC 61966-2-1.
         for (pixel, luminance) in grey.pixels.iter().zip([0.2126, 0.7152, 0.0722]) {
             let [wanted, ..] = Rgb([luminance; 3]).encoded().to_bytes();
             assert!(pixel.r().abs_diff(wanted) <= 1, "{pixel:?} for {wanted}");

@@ -275,7 +275,8 @@ pub(super) fn type_name(window: &mut Window, name: &str) {
     window.step();
 }
 
-/// Saves a picture of the window below `target/tmp` if there is an adapter.
+/// Saves a picture of the window below `target/tmp` if the environment variable `IMPASTO_PICTURES`
+/// is set.
 pub(super) fn picture(window: &mut Window, name: &str) {
     if std::env::var_os("IMPASTO_PICTURES").is_none() {
         return;

@@ -16,7 +16,7 @@ fn a_reopened_painting_equals_the_saved_one() {
     assert!(window.state_mut().files().has_unsaved_changes(), "it was changed");
     ask(&mut window, FileRequest::Save);
     picture(&mut window, "save");
-    assert!(shows(&window, "Save the painting"), "a painting without a file asks");
+    assert!(shows(&window, "Save the painting"), "the window asks for a file name");
     type_name(&mut window, "study");
     window.key_press(Key::Enter);
     until(&mut window, "the file", |_| path.is_file());
@@ -32,7 +32,7 @@ fn a_reopened_painting_equals_the_saved_one() {
     until(&mut window, "the second save", |window| {
         !window.state_mut().files().has_unsaved_changes()
     });
-    assert_eq!(document(&path), *changed, "saved where it was, without a question");
+    assert_eq!(document(&path), *changed, "saved in the same file without asking");
 
     ask(&mut window, FileRequest::Open(Some(path.clone())));
     until(&mut window, "the painting", |window| !window.state().commands.is_empty());
@@ -51,7 +51,7 @@ fn the_browser_works_with_keys_alone() {
     let mut window = window(folder.path(), painted("B"));
     ask(&mut window, FileRequest::Open(None));
     until(&mut window, "the folder", |window| shows(window, "study.exr"));
-    assert!(!shows(&window, "notes.txt"), "nothing that could be opened");
+    assert!(!shows(&window, "notes.txt"), "other files are not listed");
     picture(&mut window, "open");
     for key in [Key::ArrowDown, Key::Enter] {
         window.key_press(key);
@@ -70,7 +70,7 @@ fn the_browser_works_with_keys_alone() {
     window.key_press(Key::Escape);
     window.step();
     window.step();
-    assert!(!window.state_mut().files().has_dialog(), "escape leaves it");
+    assert!(!window.state_mut().files().has_dialog(), "escape closes the dialog");
 }
 
 #[test]
@@ -112,8 +112,8 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     drop(first);
 
     let mut second = window(folder.path(), painted("Another"));
-    assert!(shows(&second, "A painting was not saved"), "it is offered");
-    assert!(shows(&second, "A study"), "by its name");
+    assert!(shows(&second, "A painting was not saved"), "recovery is offered");
+    assert!(shows(&second, "A study"), "the title is shown");
     picture(&mut second, "recover");
     click(&mut second, "Recover");
     until(&mut second, "the painting", |window| !window.state().commands.is_empty());

@@ -1,4 +1,5 @@
-//! Typical working steps and their results.
+//! Typical working steps with the panels (squeezing, loading, mixing, drying, exchanging pigments)
+//! and the paint and layers that result.
 
 use super::*;
 
@@ -27,7 +28,7 @@ fn paint_is_squeezed_mixed_and_picked_up() {
     let knife = painter.wait_until_brush("knife", |knife| knife.amount_mm > 0.0);
     let both = [painter.part("knife", "Chrome Yellow"), painter.part("knife", "Ultramarine")];
     assert!(both[0] > 0.02 && both[1] > 0.02, "both are on the knife: {both:?}, {knife:?}");
-    assert!((both[0] + both[1] - 1.0).abs() < 1e-9, "and nothing else: {both:?}");
+    assert!((both[0] + both[1] - 1.0).abs() < 1e-9, "no other pigment: {both:?}");
     painter.click("Wash");
     painter.wait_until_brush("knife", |knife| knife.amount_mm == 0.0);
     assert_eq!(painter.harness.state().messages, []);
@@ -60,7 +61,7 @@ fn a_brush_is_loaded_thinned_wiped_duplicated_and_resized() {
     assert_eq!(painter.harness.state().tools.brush, "round 2");
     let twin = painter.wait_until_brush("round 2", |twin| twin.amount_mm == 0.0);
     assert_eq!(twin.spec, larger.spec);
-    assert_eq!(painter.brush("round"), wiped, "the kept one keeps its paint");
+    assert_eq!(painter.brush("round"), wiped, "the original brush keeps its paint");
     assert_eq!(painter.harness.state().messages, []);
 }
 

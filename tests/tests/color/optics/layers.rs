@@ -1,4 +1,4 @@
-//! Laws of layers.
+//! Properties of Kubelka-Munk layers: energy balance, monotonicity, limits and derivatives.
 
 use spectra::optics::{Layer, infinite_film};
 
@@ -25,7 +25,7 @@ fn reflectance_grows_with_scattering_over_any_backing() {
     for film in random_films() {
         let more = Film { scattering: film.scattering * 1.5 + 1e-3, ..film };
         let (before, after) = (film.over_backing(), more.over_backing());
-        // Over white, a film that absorbs next to nothing has no room to grow.
+        // A reflectance near 1 cannot rise further, so rounding may lower it.
         let room = if before < 0.99 { 0.0 } else { -ROUNDING };
         assert!(after - before > room, "{before} to {after}: {film:?}");
     }
@@ -36,7 +36,7 @@ fn reflectance_falls_with_absorption_over_any_backing() {
     for film in random_films() {
         let more = Film { absorption: film.absorption * 1.5 + 1e-3, ..film };
         let (before, after) = (film.over_backing(), more.over_backing());
-        // What is black already cannot fall.
+        // A reflectance of 0 cannot fall further.
         assert!(after < before || before < 1e-300, "{before} to {after}: {film:?}");
     }
 }
@@ -67,7 +67,7 @@ fn great_thickness_forgets_the_backing() {
     for film in random_films().filter(|film| film.absorption > 0.0) {
         let (k, s) = (film.absorption, film.scattering);
         let extinction = (k * (k + 2.0 * s)).sqrt();
-        // Light that goes down and up again is weakened to exp(-80), 2e-35.
+        // Light that crosses the film twice is attenuated by exp(-80), about 2e-35.
         let thick = Layer::new(k, s, 40.0 / extinction);
         let (over, hiding) = (thick.over(film.backing), infinite_film(k, s));
         let tolerance = ROUNDING * hiding + 1e-34;
@@ -89,7 +89,7 @@ fn a_film_without_scattering_lets_through_what_beer_and_lambert_say() {
         let glaze = Film { scattering: 0.0, ..film };
         let wanted = film.backing * (-2.0 * film.absorption * film.thickness).exp();
         let over = glaze.over_backing();
-        // The exponent carries its own rounding into the result.
+        // A rounding error of the exponent is a relative error of the result.
         let tolerance = ROUNDING * wanted * (1.0 + film.absorption * film.thickness);
         assert!((over - wanted).abs() <= tolerance, "{over} for {wanted}: {film:?}");
     }
@@ -102,7 +102,7 @@ fn slopes_are_the_limit_of_difference_quotients() {
         let (k, s) = (film.absorption * film.thickness, film.scattering * film.thickness);
         let [value, over_k, over_s] = Layer::over_with_slopes(k, s, g);
         assert!((value - film.over_backing()).abs() <= ROUNDING, "{value}: {film:?}");
-        // Forward, since K and S may be 0; of second order in the step.
+        // Forward difference, because K and S may be 0; of second order in the step.
         let quotient = |at: &dyn Fn(f64) -> f64, size: f64| {
             let step = 1e-5 * (1.0 + size);
             (4.0 * at(step) - at(2.0 * step) - 3.0 * at(0.0)) / (2.0 * step)
@@ -112,7 +112,7 @@ fn slopes_are_the_limit_of_difference_quotients() {
         let size = 1.0 + s.powi(2);
         assert!((over_k - by_k).abs() <= 1e-6 * size, "dR/dK {over_k} for {by_k}: {film:?}");
         assert!((over_s - by_s).abs() <= 1e-6 * size, "dR/dS {over_s} for {by_s}: {film:?}");
-        // Kubelka's equation in thickness, which scales K and S alike.
+        // Thickness scales K and S alike, so K dR/dK + S dR/dS is dR/dd of Kubelka's equation.
         let by_d = s - 2.0 * (k + s) * value + s * value * value;
         let by_ray = k * over_k + s * over_s;
         let tolerance = 64.0 * ROUNDING * (1.0 + k + s);

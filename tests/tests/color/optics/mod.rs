@@ -1,4 +1,4 @@
-//! What Kubelka-Munk films and surfaces obey, whatever the paint.
+//! Properties that Kubelka-Munk films and surfaces have with any paint.
 
 mod layers;
 mod readings;
@@ -7,8 +7,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::optics::Layer;
 
-/// A paint film over a backing. A failed law prints it with its seed, from
-/// which [`Film::random`] makes it again.
+/// A random paint film over a backing. A failed assertion prints it with its seed, from which
+/// [`Film::random`] makes it again.
 #[derive(Debug, Clone, Copy)]
 struct Film {
     #[expect(dead_code, reason = "read through Debug, when a law fails")]
@@ -20,7 +20,8 @@ struct Film {
 }
 
 impl Film {
-    /// From glazes to films that hide; some paints have no K, some no S.
+    /// A random film, from a glaze to a film that hides. K and S are each 0 in a tenth of the
+    /// films, otherwise 0.001 to 100 on a logarithmic scale.
     fn random(seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut coefficient =
@@ -34,7 +35,7 @@ impl Film {
         Layer::new(self.absorption, self.scattering, self.thickness)
     }
 
-    /// The film of the same paint that is `share` as thick.
+    /// Layer of the same paint with `share` times the thickness.
     fn share(&self, share: f64) -> Layer {
         Layer::new(self.absorption, self.scattering, self.thickness * share)
     }
@@ -48,5 +49,5 @@ fn random_films() -> impl Iterator<Item = Film> {
     (0..2000).map(Film::random)
 }
 
-/// A few roundings of numbers of size 1.
+/// Tolerance: a few rounding errors of numbers of size 1.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -1,4 +1,5 @@
-//! Laws of what is concluded from readings: K/S, S d, the surface.
+//! Properties of quantities computed from readings: K/S, scattering power S d, and the reflectance
+//! below a surface.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -19,8 +20,8 @@ fn two_backings_recover_the_ratio_of_any_film() {
         let [black, white] = over_two_backings(&film, 0.05, 0.95);
         let found = film_over_two_backings(black, white).unwrap();
         let ratio = film.absorption / film.scattering;
-        // A film of little S d shows K/S only through its small R: a rounding
-        // of the reading is that much larger in 1 + K/S.
+        // A film of small S d reflects little by itself, so that a rounding error of the reading is
+        // larger by 1 / `shown` in 1 + K/S.
         let power = film.scattering * film.thickness;
         let shown = (power / (1.0 + power)).min(1.0 / (1.0 + ratio));
         let tolerance = 64.0 * ROUNDING * (1.0 + ratio) / shown;
@@ -57,7 +58,7 @@ fn a_film_that_hides_still_tells_its_ratio_from_two_backings() {
         let hiding = infinite_film(film.absorption, film.scattering);
         let [black, white] = [0.05, 0.95].map(|backing| OverBacking { film: hiding, backing });
         let found = film_over_two_backings(black, white).unwrap();
-        // A small R is known to rounding beside the backings, and K/S is 1 / 2 R.
+        // For small R, K/S is 1 / (2 R), so an absolute rounding error of R grows by (K/S)^2.
         let tolerance = ROUNDING * (1.0 + ratio).powi(2);
         assert!((found.ratio - ratio).abs() <= tolerance, "{found:?} for {ratio}: {film:?}");
         assert_eq!(found.transparency, 0.0, "{film:?}");
@@ -81,7 +82,8 @@ fn the_ratio_of_a_film_that_hides_is_the_inverse_of_its_reflectance() {
         let from_ratio = infinite_film_from_ratio(k / s);
         let relative = ROUNDING * reflectance;
         assert!((reflectance - from_ratio).abs() <= relative, "{from_ratio}: {film:?}");
-        // A rounding of R is worth its slope in K/S, and twice that near white.
+        // A relative rounding error of R grows as K/S in dark films and as its square root near
+        // white.
         let found = absorption_over_scattering(reflectance);
         let tolerance = ROUNDING * (k / s + (k / s).sqrt() + f64::EPSILON);
         assert!((found - k / s).abs() <= tolerance, "{found} for {}: {film:?}", k / s);
@@ -100,7 +102,7 @@ fn the_slope_over_the_ratio_is_the_limit_of_difference_quotients() {
     }
 }
 
-/// Random surfaces, each with an internal reflectance, and the seed of both.
+/// Random surfaces: seed, surface, and an internal reflectance of 0.01 to 0.99.
 fn random_surfaces() -> impl Iterator<Item = (u64, Surface, f64)> {
     (0..2000).map(|seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -116,7 +118,7 @@ fn below_the_surface_and_out_again_is_the_same_reading() {
     for (seed, surface, internal) in random_surfaces() {
         let measured = surface.measured_from_internal(internal);
         let back = surface.internal_from_measured(measured).unwrap();
-        // Near black a rounding of the reading is multiplied by 1 / (1 - k2).
+        // Near black a rounding error of the reading is multiplied by 1 / (1 - k2).
         let tolerance = ROUNDING / (1.0 - surface.k2);
         assert!(
             (back - internal).abs() <= tolerance,
@@ -165,7 +167,7 @@ fn a_reading_below_the_surface_is_refused() {
         );
     }
     let excluded = Surface::new(0.04, 0.6, Specular::Excluded).unwrap();
-    assert_eq!(excluded.floor(), 0.0, "no mirror reflection to take away");
+    assert_eq!(excluded.floor(), 0.0, "without the specular component the floor is 0");
 }
 
 #[test]

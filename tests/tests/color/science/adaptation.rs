@@ -1,4 +1,4 @@
-//! Chromatic adaptation.
+//! Chromatic adaptation by Bradford and CAT16, compared with golden values.
 
 use serde::Deserialize;
 use spectra::color::{Adaptation, Xyz, adapt};

@@ -1,4 +1,4 @@
-//! Colour differences.
+//! Colour differences by every formula, compared with golden values and the published pairs.
 
 use serde::Deserialize;
 use spectra::color::{
@@ -43,7 +43,7 @@ fn differences_in_every_formula() {
     }
 }
 
-/// Sharma's `ciede2000` is good to this, its `published` to four digits.
+/// Tolerance of the computed `ciede2000` of Sharma's pairs; `published` has four decimals.
 const FULL: f64 = 1e-9;
 
 #[derive(Deserialize)]
@@ -76,10 +76,10 @@ fn ciede2000_of_the_published_pairs() {
     }
 }
 
-/// In pairs 10 and 14 the two hues lie half a turn apart, to the last bit or
-/// two. Then either way round is as short, and the mean hue can fall on either
-/// of two opposite sides; the rounding of one `atan2` decides which. The
-/// published values take the half turn as not exceeding 180 degrees.
+/// In pairs 10 and 14 the two hues differ by 180 degrees up to rounding. Both ways round the hue
+/// circle are then equally short, so the mean hue has two possible values, and the rounding of one
+/// `atan2` decides between them. The published values treat the difference as not exceeding 180
+/// degrees.
 #[test]
 fn ciede2000_where_hues_are_half_a_turn_apart() {
     let golden = published();

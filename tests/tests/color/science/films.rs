@@ -1,4 +1,4 @@
-//! Kubelka-Munk films, and their surface, from 50 digits.
+//! Kubelka-Munk films and Saunderson surfaces, compared with golden values of 50 digits.
 
 use serde::Deserialize;
 use spectra::optics::{Layer, Specular, Surface, absorption_over_scattering, infinite_film};
@@ -97,7 +97,7 @@ fn films_that_hide() {
 fn absorption_over_scattering_of_films_that_hide() {
     let golden = golden();
     for Ratio { r, ks } in golden.cases.ratio {
-        // K/S has no upper end, so its tolerance is relative.
+        // K/S is not bounded, so its tolerance is relative.
         let tolerance = golden.tolerance * ks;
         assert_near(format!("R {r}"), &[absorption_over_scattering(r)], &[ks], tolerance);
     }

@@ -1,11 +1,11 @@
-//! XYZ, xyY, Lab and LCh.
+//! Conversions between XYZ, xyY, Lab, LCh and Luv, compared with golden values.
 
 use serde::Deserialize;
 use spectra::color::{Lab, Lch, Luv, Xyz};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
-/// Below this chroma a hue says nothing.
+/// Chroma below which hues are not compared, because rounding determines them.
 const GREY: f64 = 0.01;
 
 #[derive(Deserialize)]
@@ -62,7 +62,7 @@ fn lch_from_lab_and_back() {
         let told = format!("Lab {:?}", case.lab);
         assert_near(&told, &[lightness, chroma], &case.lch[..2], golden.tolerance);
         if chroma >= GREY {
-            // Lab is itself rounded; the nearer to grey, the more that turns the hue.
+            // The golden Lab is rounded, which turns the hue the more, the smaller the chroma is.
             let turn = golden.tolerance * (1.0 + 1f64.to_degrees() / chroma);
             assert_near(&told, &[hue_degrees], &case.lch[2..], turn);
         }
@@ -79,7 +79,7 @@ fn chromaticity_from_xyz_and_back() {
         let xyz = Xyz::from(case.xyz);
         let xyy = xyz.to_xyy(white);
         let got = [xyy.x, xyy.y, xyy.luminance];
-        // Black has no chromaticity of its own and takes that of the white.
+        // Black has no chromaticity; it is given that of the white.
         let of_white = || {
             let [x, y, z] = case.white;
             [x / (x + y + z), y / (x + y + z), 0.0]

@@ -1,4 +1,4 @@
-//! Lights by their temperature.
+//! Daylights and black bodies of a colour temperature, compared with golden values.
 
 use serde::Deserialize;
 use spectra::{
@@ -24,7 +24,7 @@ struct Steps {
 }
 
 impl Steps {
-    /// The wavelengths and values of `power` in the band `from` to `to`.
+    /// Wavelengths in nm and values of `power` from `from` to `to` nm.
     fn within(&self, power: &[f64], from: f64, to: f64) -> (Vec<f64>, Vec<f64>) {
         let grid = Grid::from_nm(self.start_nm, self.step_nm, power.len()).unwrap();
         grid.wavelengths_nm()
@@ -64,8 +64,8 @@ fn tabulated_daylights_are_those_of_weights_in_three_decimals() {
     let mut nominal = Vec::new();
     for case in &golden.cases {
         let Some(name) = &case.nominal else { continue };
-        // The tables end at 780 nm. They are printed to three decimals of 100,
-        // the rows between sometimes cut rather than rounded.
+        // The tables end at 780 nm. They have three decimals at a power of about 100; some of the
+        // interpolated rows are truncated instead of rounded.
         let (nm, wanted) = golden.shared.within(&case.spd_rounded, 360.0, 780.0);
         let got = power_at(&Illuminant::named(name).unwrap(), &nm);
         assert_near(format!("{name} from 360 nm"), &got, &wanted, 1e-3 + golden.tolerance);

@@ -1,4 +1,4 @@
-//! The metamerism index.
+//! Metamerism index for a change of illuminant, compared with golden values.
 
 use std::collections::BTreeMap;
 

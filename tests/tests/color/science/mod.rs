@@ -1,4 +1,4 @@
-//! Every golden file against `spectra`, within the tolerance that the file names.
+//! Results of `spectra` compared with the golden files, each within the tolerance of its file.
 
 mod adaptation;
 mod difference;
@@ -12,7 +12,7 @@ mod spectrum;
 use serde::Deserialize;
 use spectra::{Grid, Interpolation, Observer};
 
-/// A spectrum at a constant step, as the golden files hold it.
+/// A spectrum at a constant step, in the form of the golden files.
 #[derive(Deserialize)]
 struct Regular {
     start_nm: f64,

@@ -1,4 +1,4 @@
-//! Display RGB.
+//! sRGB and Display P3: matrices, whites, colours and transfer curve, compared with golden values.
 
 use std::collections::BTreeMap;
 
@@ -65,7 +65,7 @@ fn matrices_and_white_of_each_space() {
         let white = space.white();
         let xyy = white.to_xyy(white);
         assert_near(name, &[xyy.x, xyy.y], &golden.shared.white_xy, golden.tolerance);
-        // The golden white has Y = 1, ours 100.
+        // The golden white has Y = 1, the white of `spectra` has Y = 100.
         let to_xyz = space.xyz_from_linear();
         let from_xyz = to_xyz.inverse();
         let wanted = &golden.shared.spaces[name];
@@ -84,7 +84,7 @@ fn display_colors_unclipped() {
     let golden = golden();
     for case in &golden.cases.colors {
         for ((name, space), wanted) in SPACES.into_iter().zip([&case.srgb, &case.display_p3]) {
-            // Without a transform XYZ is taken as it stands: no change of white.
+            // Without a transform the white is that of the space, so XYZ is not adapted.
             let (white, adaptation) = match &case.transform {
                 Some(name) => (Xyz::from(case.white), transform(name)),
                 None => (space.white(), Adaptation::Bradford),

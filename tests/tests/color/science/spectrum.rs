@@ -1,4 +1,4 @@
-//! From spectra to XYZ, and from one grid to another.
+//! XYZ of spectra and resampling to another grid, compared with golden values.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -86,7 +86,7 @@ fn spectra_on_another_grid() {
     let golden: Golden<Vec<Resampling>, Sources> = read("sprague");
     for case in &golden.cases {
         let source = &golden.shared.spectra[&case.spectrum];
-        // A response may have any sign, so that nothing is cut off at 0.
+        // A response may be negative, so values below 0 are not cut off.
         let spectrum = Spectrum::<Response>::new(source.grid(), source.values.clone()).unwrap();
         let to = Grid::from_nm(case.to_start_nm, case.to_step_nm, case.values.len()).unwrap();
         let method = interpolation(&case.method);

@@ -1,4 +1,4 @@
-//! Pigment maps.
+//! Export of pigment maps: scale, file names, table of volumes, refused maps.
 
 use render::export::{NamedFile, PigmentMap, pigment_maps};
 use render::field::Field;
@@ -29,7 +29,7 @@ fn maps_give_millimetres_back_by_their_scale() {
     let sidecar: serde_json::Value =
         serde_json::from_slice(file(&files, "study.maps.json")).unwrap();
     let scale = sidecar["mm_at_65535"].as_f64().unwrap();
-    // The thickest cell: 0.11 mm of white and 0.09 of blue.
+    // The scale is the thickness of the thickest cell: 0.11 mm of white and 0.09 mm of blue.
     assert_near("scale", &[scale], &[0.2], 1e-7);
     assert_eq!(sidecar["width_mm"], 0.8);
     for (index, map) in three().iter().enumerate() {
@@ -65,7 +65,7 @@ fn the_recipe_tells_volumes_and_shares() {
     let figures = |row: usize| -> Vec<f64> {
         rows[row].iter().skip(1).map(|text| text.parse().unwrap()).collect()
     };
-    // 0.66 mm of white over 12 cells of 0.04 mm2, 0.09 mm of blue on one.
+    // The heights of white sum to 0.66 mm over 12 cells of 0.04 mm2; one cell has 0.09 mm of blue.
     assert_near("white", &figures(0), &[0.0264, 0.88, 0.055, 0.11, 11.0 / 12.0], 1e-5);
     assert_near("blue", &figures(1), &[0.0036, 0.12, 0.0075, 0.09, 1.0 / 12.0], 1e-5);
     assert_near("none", &figures(2), &[0.0; 5], 0.0);

@@ -1,4 +1,4 @@
-//! Exported pictures, read back by readers that are not ours.
+//! Exported pictures, read back with independent readers.
 
 mod maps;
 mod open_exr;

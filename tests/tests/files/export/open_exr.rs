@@ -1,4 +1,4 @@
-//! OpenEXR, linear and spectral.
+//! OpenEXR export of linear RGB and of spectra.
 
 use std::io::Cursor;
 
@@ -43,7 +43,7 @@ fn linear_light_comes_back_unclipped_with_its_primaries() {
     let channel = &image.layer_data[0].channel_data.list[0];
     assert!(matches!(channel.sample_data, FlatSamples::F32(_)));
     let found = image.attributes.chromaticities.unwrap();
-    // IEC 61966-2-1.
+    // Primaries and white of sRGB, IEC 61966-2-1.
     let wanted = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)];
     for (Vec2(x, y), (wanted_x, wanted_y)) in
         [found.red, found.green, found.blue, found.white].into_iter().zip(wanted)
@@ -91,7 +91,7 @@ fn spectra_that_do_not_fit_are_refused() {
 fn infinite_light_is_refused_and_very_bright_light_is_not() {
     let mut picture = picture();
     picture[(1, 2)][2] = 1e6;
-    assert!(linear_exr(&picture, CELL_MM).is_ok(), "32 bits hold it");
+    assert!(linear_exr(&picture, CELL_MM).is_ok(), "32-bit floats hold the value");
     picture[(1, 2)][2] = f32::INFINITY;
     let error = linear_exr(&picture, CELL_MM).unwrap_err().to_string();
     assert!(error.contains("the colour at x 1, y 2"), "{error}");

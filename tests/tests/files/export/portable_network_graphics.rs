@@ -1,4 +1,4 @@
-//! PNG.
+//! PNG export: sRGB curve, chunks of colour space and size, clipping, refused pictures.
 
 use render::export::{ExportError, png8, png16};
 use render::field::Field;
@@ -12,7 +12,7 @@ fn ramp() -> Field<[f32; 4]> {
     Field::from_values(32, 8, (0..256).map(cell).collect())
 }
 
-/// The sRGB curve as IEC 61966-2-1 prints it.
+/// The sRGB transfer curve with the constants printed in IEC 61966-2-1.
 fn curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
@@ -44,7 +44,7 @@ fn pictures_follow_the_curve_of_srgb_in_both_depths() {
             .flat_map(|c| [c[0], c[1], c[2]])
             .map(|v| curve(f64::from(v)))
             .collect();
-        // The printed thresholds and the exact curve part by 1e-7.
+        // The curve with printed constants and the exact curve differ by about 1e-7.
         assert_near("sRGB", &got, &wanted, tolerance + 1e-6);
     }
 }
@@ -57,7 +57,7 @@ fn pictures_say_what_they_are_and_how_large() {
         let [x, y] = [10_000_u32; 2].map(u32::to_be_bytes);
         assert_eq!(chunk(&png.bytes, b"pHYs"), Some(&[&x[..], &y[..], &[1]].concat()[..]));
         let at = |name: &[u8]| png.bytes.windows(4).position(|window| window == name).unwrap();
-        assert!(at(b"cICP") < at(b"IDAT"), "a reader wants the colour space first");
+        assert!(at(b"cICP") < at(b"IDAT"), "the colour space must precede the pixels");
     }
 }
 
@@ -66,7 +66,7 @@ fn colors_out_of_gamut_are_cut_off_and_counted() {
     let mut picture = ramp();
     picture[(3, 0)] = [1.5, -0.25, 0.5, 1.0];
     picture[(4, 0)] = [0.0, 0.0, -0.1, 1.0];
-    // Rounding is no colour out of gamut.
+    // An excess of the size of a rounding error is not counted.
     picture[(5, 0)] = [1.000_000_1, 0.0, 0.0, 1.0];
     let png = png8(&picture, 0.1).unwrap();
     assert_eq!(png.clipped, 2);

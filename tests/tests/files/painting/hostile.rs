@@ -1,4 +1,5 @@
-//! Files that are no paintings.
+//! Faulty and damaged painting files: refused with the place, without a panic, and before memory is
+//! allocated.
 
 use std::io::Cursor;
 
@@ -25,7 +26,7 @@ fn image(bytes: &[u8]) -> FlatImage {
         .unwrap()
 }
 
-/// The error of a sound file after `change`, which must name the file.
+/// Error of reading a valid file after `change`. Asserts that the error names the file.
 fn refused(change: impl FnOnce(&mut FlatImage)) -> PaintingFileError {
     let mut image = image(&write(&small()).unwrap());
     change(&mut image);
@@ -189,11 +190,11 @@ fn a_painting_beyond_the_memory_limit_is_refused_before_it_is_read() {
     assert_eq!(error, wanted);
 }
 
-/// A header may promise any size; it costs nothing until the bytes are there.
+/// The size stated in a header allocates no memory before the file is long enough for it.
 #[test]
 fn a_short_file_cannot_promise_a_huge_canvas() {
     let mut bytes = write(&painting(5, (40, 33), 0, 0)).unwrap();
-    // The canvas in both parts, then the window and the chunks of the first, `base`.
+    // Change the canvas size in both parts, then data window and chunk count of the first, `base`.
     let mut patch = |key: &[u8], skip: usize, value: i32, times: usize| {
         let places: Vec<_> =
             (0..bytes.len() - key.len()).filter(|&at| bytes[at..].starts_with(key)).collect();
@@ -235,7 +236,7 @@ fn fuzz() -> ProptestConfig {
 proptest! {
     #![proptest_config(fuzz())]
 
-    /// A damaged file is refused or read as another painting, never a panic.
+    /// Reading a damaged file gives an error or another painting, never a panic.
     #[test]
     fn damage_never_panics(
         flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
@@ -243,7 +244,7 @@ proptest! {
     ) {
         let mut bytes = sound().to_vec();
         for (index, byte) in flips {
-            // Half of the damage goes where the structure is told.
+            // Half of the cases damage only the first bytes, which hold the headers.
             let at = if early { index.index(1200) } else { index.index(bytes.len()) };
             bytes[at] = byte;
         }
@@ -258,8 +259,8 @@ proptest! {
     }
 }
 
-/// A sound file, made once. Its library is far longer than the rest, so that
-/// damage would rarely meet anything else: it is cut down to two pigments.
+/// A valid file, made once. Its library has only two pigments: a whole library is far longer than
+/// the rest of the file, and damage would rarely hit anything else.
 fn sound() -> &'static [u8] {
     static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
     BYTES.get_or_init(|| {
@@ -276,7 +277,7 @@ fn sound() -> &'static [u8] {
         fewer(&mut document.slots);
         document.dry.iter_mut().for_each(|layer| fewer(&mut layer.slots));
         let bytes = write(&document).unwrap();
-        // Packed blocks must be among what is damaged.
+        // The file must contain compressed blocks, so that damage hits them too.
         let image = image(&bytes);
         let layers = image.layer_data.iter();
         let raw: usize = layers.map(|l| l.size.area() * 4 * l.channel_data.list.len()).sum();

@@ -1,4 +1,4 @@
-//! Paintings of random amounts.
+//! Documents of paintings with random amounts of paint.
 
 use calibrate::PigmentId;
 use rand::{RngExt, SeedableRng};
@@ -10,8 +10,8 @@ use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
 use render::paint::ground::Ground;
 pub(crate) use suite::oils::library;
 
-/// Paint on about a third of the cells within a rectangle, up to `highest`
-/// quanta of each pigment.
+/// A layer with paint on about a third of the cells in a random rectangle: 0 to `highest` quanta of
+/// each pigment and of vehicle.
 fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), slots: &Slots, highest: u32) -> Layer {
     let mut layer = Layer::empty(size.0, size.1);
     let left = rng.random_range(0..size.0);
@@ -33,8 +33,8 @@ fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), slots: &Slots, highest: u32
     layer
 }
 
-/// A painting of `width` x `height` cells with `dry` dry layers; `highest` is
-/// the most of each pigment, in quanta.
+/// A painting of `width` x `height` cells with `dry` dry layers. `highest` is the largest amount of
+/// a pigment in a cell, in quanta.
 pub(crate) fn painting(
     seed: u64,
     (width, height): (usize, usize),
@@ -77,7 +77,7 @@ pub(crate) fn painting(
     }
 }
 
-/// A thin painting of the size that most tests want.
+/// A painting of 40 x 33 cells with two dry layers and at most 2^20 quanta of a pigment in a cell.
 pub(crate) fn small() -> Document {
     let document = painting(5, (40, 33), 2, 1 << 20);
     assert!(document.slots.iter().filter(|slot| slot.is_some()).count() <= SLOTS, "a palette");

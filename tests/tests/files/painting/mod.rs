@@ -1,5 +1,4 @@
-//! Paintings as files: nothing is lost, and nothing that is not a painting is
-//! taken for one.
+//! Painting files: a painting is read back unchanged, and any other file is refused.
 
 mod hostile;
 mod made_up;

@@ -1,10 +1,11 @@
-//! Instruments' files that are no readings of paint, or faulty: refused with place and way out.
+//! Instrument files with faults or with other quantities than reflectance: refused with the place
+//! and a hint.
 
 use suite::program::{Run, impasto};
 
 use super::fixture;
 
-/// Runs `color` on a fixture with `from` changed to `to`.
+/// Runs `color` on a fixture in which the first `from` is replaced by `to`.
 fn color(name: &str, from: &str, to: &str) -> Run {
     let bytes = std::fs::read(fixture(name)).unwrap();
     let text = String::from_utf8(bytes).unwrap();

@@ -1,4 +1,5 @@
-//! Every format in: the values of the made-up files, from the library and through `color`.
+//! Formats of instruments: every fixture is recognized and gives the known values, with the reader
+//! and with `impasto color`.
 
 use spectra::instrument::{Format, MeasuredQuantity, MeasuredSpectrum, Role, Unit, read};
 use suite::near::assert_near;
@@ -10,7 +11,7 @@ const NM: [f64; 7] = [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0];
 const MADDER: [f64; 7] = [20.0, 10.5, 12.0, 15.25, 60.0, 70.0, 75.0];
 const SLATE: [f64; 7] = [50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.5];
 
-/// File, format, names of its spectra, and what a perfect white reads.
+/// File, format, names of its spectra, and the reading of a perfect white.
 const FILES: [(&str, Format, &[&str], f64); 14] = [
     ("two.cgats", Format::Cgats, &["Madder", "Slate"], 1.0),
     ("two.ti3", Format::Cgats, &["Madder", "Slate"], 100.0),
@@ -35,7 +36,7 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
         let bytes = &all.iter().find(|(name, _)| name == file).unwrap().1;
         let found = read(file, bytes, None).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.format, format, "{file}");
-        assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: told or found");
+        assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: format given");
         let is_main = |record: &&MeasuredSpectrum| record.role == Role::Main;
         let mains: Vec<&MeasuredSpectrum> = found.spectra.iter().filter(is_main).collect();
         let found_names: Vec<&str> = mains.iter().map(|record| record.name.as_str()).collect();
@@ -83,7 +84,7 @@ fn every_file_gives_the_same_colors() {
     for (file, format, names, _) in FILES {
         let run = impasto(&["color", &fixture(file), "--json"]);
         assert_eq!(run.status, 0, "{file}: {}", run.err);
-        assert!(run.err.contains(format.title()), "the format is said: {}", run.err);
+        assert!(run.err.contains(format.title()), "the format is not named: {}", run.err);
         let found = run.json();
         for (index, name) in names.iter().enumerate() {
             assert_eq!(found[index]["sample"], *name, "{file}");
@@ -112,7 +113,7 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     assert!(run.err.contains(said), "{}", run.err);
     let run = color(&[691.0]);
     assert!(run.status == 1 && run.err.contains("column `691 nm`"), "{}", run.err);
-    // Without the middle there is nothing whose ends could be cut.
+    // A file without wavelengths in the middle of the visible band has no ends to cut off.
     std::fs::write(&file, "340,0.5\n360,-0.1\n380,0.5\n").unwrap();
     let run = impasto(&["color", file.to_str().unwrap()]);
     assert!(run.status == 1 && run.err.contains("column `360 nm`"), "{}", run.err);
@@ -160,7 +161,7 @@ fn a_jaz_file_holds_its_own_white_and_dark() {
     let counts = impasto(&["color", &jaz, "--white", &white, "--dark", &dark, "--json"]);
     assert_eq!(counts.json()[0]["sample"], "madder (S)");
     assert_near("S against R and D", &lab(&counts), &lab(&processed), 1e-9);
-    // Where a file tells no roles, its white is known by its name.
+    // In a file that states no roles, the name in `--white` finds the white.
     let columns = fixture("columns.txt");
     let slate = format!("{columns}#Slate");
     let run =

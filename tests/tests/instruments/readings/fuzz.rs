@@ -1,4 +1,4 @@
-//! No bytes make a reader panic, and every error names its file.
+//! Arbitrary and damaged bytes: no reader of text formats panics, and every error names the file.
 
 use proptest::prelude::*;
 use spectra::instrument::{Format, read};
@@ -7,7 +7,7 @@ use super::fixtures;
 
 const FILE: &str = "some/file.txt";
 
-/// Reads with every format told, and with the one found.
+/// Reads the bytes in every format and with the detected format; checks the spectra or the error.
 fn read_every_way(bytes: &[u8]) {
     let told = Format::ALL.into_iter().map(Some).chain([None]);
     for format in told {
@@ -28,7 +28,7 @@ fn read_every_way(bytes: &[u8]) {
     }
 }
 
-/// How a file is spoilt: where (as a share of its length), and what stands there then.
+/// Damage to a file: places, as fractions of its length, and the bytes that replace the content.
 fn edits() -> impl Strategy<Value = Vec<(f64, Vec<u8>)>> {
     let piece = prop_oneof![
         proptest::collection::vec(any::<u8>(), 0..4),
@@ -39,7 +39,7 @@ fn edits() -> impl Strategy<Value = Vec<(f64, Vec<u8>)>> {
 }
 
 fn cases() -> u32 {
-    // More by PROPTEST_CASES.
+    // The environment variable PROPTEST_CASES sets another number.
     std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(300)
 }
 

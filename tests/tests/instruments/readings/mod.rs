@@ -1,4 +1,4 @@
-//! Instruments' files, from bytes to the program.
+//! Text formats of instruments, read by the library and by the program.
 
 mod bad_files;
 mod formats;
@@ -7,12 +7,12 @@ mod recipes;
 
 use std::path::PathBuf;
 
-/// A made-up file of tests/fixtures/instruments.
+/// Path of a made-up file in tests/fixtures/instruments.
 fn fixture(name: &str) -> String {
     suite::program::repository(&format!("tests/fixtures/instruments/{name}"))
 }
 
-/// Every made-up file that an instrument might have written, with its bytes.
+/// Names and bytes of all made-up instrument files.
 fn fixtures() -> Vec<(String, Vec<u8>)> {
     let mut paths: Vec<PathBuf> =
         std::fs::read_dir(fixture("")).unwrap().map(|entry| entry.unwrap().path()).collect();

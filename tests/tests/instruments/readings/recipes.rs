@@ -1,10 +1,10 @@
-//! Recipes apart from readings: the same library as from one CSV.
+//! Recipes in a file of their own: the fit gives the same library as one CSV of both.
 
 use std::fmt::Write as _;
 
 use suite::program::{Run, impasto, repository};
 
-/// The shipped oils as a CGATS file of every reading, and a CSV of their recipes.
+/// The shipped oils as two files: a CGATS file of all readings and a CSV of their recipes.
 fn oils_apart() -> (String, String) {
     let text = std::fs::read_to_string(repository("measurements/van-gogh-oils.csv")).unwrap();
     let mut reader = csv_rows(&text);
@@ -30,7 +30,7 @@ fn oils_apart() -> (String, String) {
     (cgats, recipes)
 }
 
-/// Cells of a CSV whose quotes hold no quotes.
+/// Cells of a CSV whose quoted cells contain no quotes.
 fn csv_rows(text: &str) -> Vec<Vec<String>> {
     let row = |line: &str| {
         let mut cells = vec![String::new()];
@@ -74,7 +74,7 @@ fn recipes_apart_give_the_library_of_the_csv() {
     assert!(inputs.iter().all(|input| input["sha256"].as_str().unwrap().len() == 64), "{inputs:?}");
 }
 
-/// A white, a red and a mixture, without recipes.
+/// Readings of a white, a red, their mixture and a spare sample, without recipes.
 const READINGS: &str = "\
 sample,400,500,600
 w,90,91,92
@@ -135,7 +135,7 @@ fn faulty_recipes_are_refused_with_their_place() {
 #[test]
 fn columns_of_instruments_are_no_pigments() {
     let run = fit(READINGS, &RECIPES.replace("Red\n", "Red,L*\n").replace("90,10", "90,10,55"));
-    // Rows without that cell are short.
+    // The other rows lack a cell in the new column.
     assert_eq!(run.status, 1, "{}", run.err);
     let wide = RECIPES.lines().enumerate();
     let wide: String = wide

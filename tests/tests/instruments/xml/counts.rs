@@ -1,11 +1,11 @@
-//! Counts against a white and a dark, on the command line.
+//! Detector counts referenced to a white and a dark, on the command line.
 
 use std::path::Path;
 
 use calibrate::library::PigmentLibrary;
 use suite::program::impasto;
 
-/// A file of counts every 10 nm from 380 to 730 nm.
+/// Writes the counts `of` a wavelength, every 10 nm from 380 to 730 nm; returns the path.
 fn counts(folder: &Path, name: &str, of: impl Fn(f64) -> f64) -> String {
     let lines = (0..36).map(|i| 380.0 + 10.0 * f64::from(i));
     let lines: String = lines.map(|nm| format!("{nm}\t{}\n", of(nm))).collect();

@@ -1,4 +1,4 @@
-//! CxF3, read and written.
+//! CxF3 files: measurement conditions, encodings, and a round trip of arbitrary names and values.
 
 use proptest::prelude::*;
 use spectra::instrument::{CxfHead, Format, MeasuredQuantity, Unit, read, write_cxf};
@@ -42,7 +42,7 @@ fn utf16_is_read_like_utf8() {
     assert_eq!(records("f", &wide), records("f", &bytes));
 }
 
-/// Up to 50 names of any characters that are no white space around them, and their values.
+/// A grid of up to 39 wavelengths, and up to five paints with arbitrary names and values of 0 to 2.
 fn paints() -> impl Strategy<Value = (Grid, Vec<(String, Vec<f64>)>)> {
     let whole = (360_u32..=400, 1_u32..=50).prop_map(|(s, i)| (f64::from(s), f64::from(i)));
     let odd = (200.0..2000.0_f64, 0.01..100.0_f64);
@@ -73,7 +73,7 @@ proptest! {
                 _ => '\u{fffd}',
             };
             let name: String = name.chars().map(held).collect();
-            // An object without a name is called by its Id.
+            // An object with an empty name is read under its Id.
             let id = format!("object{number}");
             let name = if name.trim().is_empty() { &id } else { name.trim() };
             prop_assert_eq!(&record.name, name);

@@ -1,4 +1,4 @@
-//! No bytes make a reader panic, and every rejection names the file.
+//! Arbitrary and damaged bytes: no reader of XML or lamps panics, and every error names the file.
 
 use proptest::prelude::*;
 use spectra::instrument::{Format, read};
@@ -32,7 +32,7 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A fixture with bytes changed, cut out and doubled.
+/// A fixture with up to seven edits that change, remove or repeat bytes.
 fn mutated() -> impl Strategy<Value = Vec<u8>> {
     let name = prop_oneof![Just("conditions.cxf"), Just("lamp.spdx"), Just("sekonic.csv")];
     let edit = (any::<prop::sample::Index>(), 0_u8..4, any::<u8>(), 1_usize..60);
@@ -46,7 +46,7 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
             let end = bytes.len().min(at + length);
             match kind {
                 0 => bytes[at] = byte,
-                // Digits and marks do more than any byte.
+                // Digits and markup characters reach more code than arbitrary bytes.
                 1 => bytes[at] = b"0123456789.-+eE<>&;,/\"' \n"[usize::from(byte) % 25],
                 2 => drop(bytes.drain(at..end)),
                 _ => bytes.splice(at..at, bytes[at..end].to_vec()).for_each(drop),

@@ -1,4 +1,4 @@
-//! Lamps from instruments' files.
+//! Lamps read from instrument files: sampling, choice by name, hints of errors.
 
 use std::path::Path;
 

@@ -1,10 +1,11 @@
-//! Made-up counts of a grey of known reflectance, and what must come out.
+//! Reflectance from detector counts: made-up counts of a grey of known reflectance, its white and
+//! darks, with integration times, saturation and noise.
 
 use spectra::hint::Explain;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use spectra::referencing::{Dark, Referencing, ReferencingError, Tile};
 
-/// A reading of `counts(nm)` at uneven pixels from 340 to 860 nm.
+/// A reading of `counts(nm)` at unevenly spaced pixels from 340 to 860 nm.
 fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> MeasuredSpectrum {
     let wavelengths_nm: Vec<f64> =
         (0..260).map(|i| 340.0 + 2.0 * f64::from(i) + 0.3 * f64::from(i % 3)).collect();
@@ -24,12 +25,12 @@ fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Mea
 
 const TILE: f64 = 0.98;
 
-/// Counts a millisecond that a perfect white would give.
+/// Counts per millisecond of a perfect white.
 fn lamp(nm: f64) -> f64 {
     400.0 + 1.5 * (nm - 340.0)
 }
 
-/// Offset, and current for `ms`.
+/// Dark counts: offset plus dark current during `ms` milliseconds.
 fn dark(ms: f64, nm: f64) -> f64 {
     1000.0 + 0.1 * nm + 3.0 * ms
 }
@@ -38,7 +39,7 @@ fn grey(nm: f64) -> f64 {
     0.2 + 0.3 * (nm - 340.0) / 520.0
 }
 
-/// Sample, white and darks: integrated for `sample_ms` and `white_ms`.
+/// Sample, white and a dark for each of the integration times `sample_ms` and `white_ms`.
 fn measured(
     sample_ms: f64,
     white_ms: f64,
@@ -82,7 +83,7 @@ fn a_grey_comes_out_as_it_went_in() {
 fn other_pixels_are_joined_by_straight_lines() {
     let (sample, mut white, mut darks) = measured(10.0, 10.0);
     for record in std::iter::once(&mut white).chain(&mut darks) {
-        // Light and dark are straight, so that every second pixel tells them all.
+        // Light and dark are linear in the wavelength, so every second pixel determines the rest.
         let keep = |values: &[f64]| values.iter().copied().step_by(2).collect::<Vec<f64>>();
         (record.wavelengths_nm, record.values) =
             (keep(&record.wavelengths_nm), keep(&record.values));
@@ -91,7 +92,7 @@ fn other_pixels_are_joined_by_straight_lines() {
     for (&nm, &value) in found.wavelengths_nm.iter().zip(&found.values) {
         assert!((value - grey(nm)).abs() < 1e-12, "{nm} nm: {value}");
     }
-    // The sample's last pixel has no white beside it.
+    // The last pixel of the sample lies beyond the last pixel of the white.
     assert_eq!(found.values.len() + 1, sample.values.len(), "{:?}", found.remarks);
     assert!(found.remarks[0].contains("the white has no value"), "{:?}", found.remarks);
 }
@@ -136,7 +137,7 @@ fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     let found = against(&white, &darks).reflectance(&sample).unwrap();
     assert_eq!(found.values.len(), beyond, "{:?}", found.remarks);
     assert!(found.remarks[0].contains("saturated"), "{:?}", found.remarks);
-    // Not told, a ceiling of some pixels is one too.
+    // Without a given full scale, several neighbouring pixels at the maximum count as saturated.
     let flat =
         reading("grey", Some(10.0), |nm| (grey(nm) * lamp(nm) * 10.0 + dark(10.0, nm)).min(3000.0));
     let guessing = Referencing { full_scale: None, ..against(&white, &darks) };
@@ -157,7 +158,7 @@ fn too_little_light_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     assert!(error.to_string().contains("too little light at"), "{error}");
     assert!(error.hint().unwrap().to_string().contains("least_light"), "{error}");
     let faint = Referencing { least_light: 0.0, ..against(&white, &darks) };
-    assert!(faint.reflectance(&sample).is_ok(), "told that little is enough");
+    assert!(faint.reflectance(&sample).is_ok(), "with a limit of 0 little light is enough");
 }
 
 #[test]

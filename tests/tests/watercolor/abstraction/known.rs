@@ -1,4 +1,4 @@
-//! Pictures with known regions, made as `tests/golden/segmentation.py` makes them.
+//! Pictures with known regions, generated exactly as in `tests/golden/segmentation.py`.
 
 use render::field::Field;
 use serde::Deserialize;
@@ -6,7 +6,8 @@ use serde::Deserialize;
 pub(super) const WIDTH: usize = 160;
 pub(super) const HEIGHT: usize = 120;
 
-/// One shape over others.
+/// A shape with a soft outline, drawn over those before it. `across` and `down` are the changes of
+/// colour to the right and to the bottom; `texture` is the amplitude of a diagonal wave.
 #[derive(Deserialize)]
 struct Shape {
     kind: String,
@@ -19,7 +20,7 @@ struct Shape {
     soft: f64,
 }
 
-/// How well boundaries were found; by another program with some range radius.
+/// Number of regions found, with recall and precision of their boundaries.
 #[derive(Deserialize, Debug)]
 pub(super) struct Found {
     pub(super) regions: usize,
@@ -27,7 +28,7 @@ pub(super) struct Found {
     pub(super) precision: f64,
 }
 
-/// A picture as told.
+/// A picture as the golden file describes it, with OpenCV's results by range radius.
 #[derive(Deserialize)]
 pub(super) struct Told {
     pub(super) name: String,
@@ -38,7 +39,7 @@ pub(super) struct Told {
     pub(super) opencv: Vec<Found>,
 }
 
-/// A linear congruence.
+/// Linear congruential generator of numbers in 0..1.
 struct Noise(u64);
 
 impl Noise {
@@ -49,7 +50,7 @@ impl Noise {
 }
 
 impl Shape {
-    /// How far outside a place is.
+    /// Signed distance of a position from the outline in pixels, negative inside.
     fn distance(&self, x: f64, y: f64) -> f64 {
         let n = &self.numbers;
         match self.kind.as_str() {
@@ -63,7 +64,7 @@ impl Shape {
 }
 
 impl Told {
-    /// Encoded sRGB with coverage, and which shape is uppermost.
+    /// The picture in encoded sRGB with coverage, and the index of the topmost shape by pixel.
     pub(super) fn made(&self) -> (Field<[f32; 4]>, Field<u32>) {
         let mut random = Noise(self.seed);
         let mut truth = Field::filled(WIDTH, HEIGHT, 0);
@@ -97,12 +98,12 @@ impl Told {
         }
         let fnv = |sum: u32, &byte: &u8| (sum ^ u32::from(byte)).wrapping_mul(16777619);
         let found = bytes.iter().fold(2166136261, fnv);
-        assert_eq!(found, self.fnv, "{}: not the picture that OpenCV saw", self.name);
+        assert_eq!(found, self.fnv, "{}: not the picture given to OpenCV", self.name);
         (opaque(WIDTH, HEIGHT, &bytes), truth)
     }
 }
 
-/// The picture of RGB bytes.
+/// An opaque picture of RGB bytes.
 pub(super) fn opaque(width: usize, height: usize, bytes: &[u8]) -> Field<[f32; 4]> {
     let pixel = |rgb: &[u8]| [rgb[0], rgb[1], rgb[2], 255].map(|byte| f32::from(byte) / 255.0);
     Field::from_values(width, height, bytes.chunks_exact(3).map(pixel).collect())

@@ -1,4 +1,4 @@
-//! Segmentation and morphology, and the door of photographs.
+//! Segmentation, morphology, and the abstraction of photographs that uses both.
 
 mod known;
 

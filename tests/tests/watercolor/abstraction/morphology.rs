@@ -1,4 +1,4 @@
-//! Openings and closings.
+//! Openings and closings: definition, algebraic properties, and CPU against GPU.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -16,10 +16,10 @@ fn noise(width: usize, height: usize) -> Colors {
     Field::from_values(width, height, values)
 }
 
-/// An operator of morphology.
+/// A morphological operator with a radius in pixels.
 type Operator = fn(&mut Compute, &ColorImage, u32) -> Result<ColorImage, DeviceError>;
 
-/// An operator applied to a field.
+/// Applies an operator to a field: upload, compute, download.
 fn applied(compute: &mut Compute, operator: Operator, field: &Colors, radius_px: u32) -> Colors {
     let image = compute.upload(field).unwrap();
     let found = operator(compute, &image, radius_px).unwrap();
@@ -124,7 +124,7 @@ fn opening_and_closing_keep_their_laws() {
 
 #[test]
 fn what_the_element_fits_into_stays_and_smaller_details_go() {
-    // A disc of 9 px and specks, in paint on paper.
+    // Paint on bare paper: a disc of radius 9 px and a speck of 3 x 3 px.
     let mut field = Field::filled(60, 40, [1.0, 1.0, 1.0, 0.0]);
     let element = StructuringElement::round(9);
     for y in 0..40 {

@@ -1,4 +1,4 @@
-//! The abstraction of photographs.
+//! Abstraction of photographs: regions, opacity, size, and CPU against GPU.
 
 use std::io::Cursor;
 
@@ -10,7 +10,8 @@ use render::watercolor::{AbstractionError, RegionSettings, abstract_photograph};
 use spectra::hint::Explain;
 use suite::adapter::device;
 
-/// Opaque red with a grey speck, half clear blue, and nothing.
+/// Three bands: opaque red with a grey speck and one lighter pixel, half transparent blue, and
+/// full transparency.
 fn photograph() -> Photograph {
     let picture = RgbaImage::from_fn(90, 60, |x, y| match x {
         10..=11 if (30..32).contains(&y) => Rgba([90, 90, 90, 255]),
@@ -48,7 +49,7 @@ fn photographs_become_flat_with_their_opacity() {
         assert!(near(stage[(45, 5)], bytes([30, 60, 180, 128])), "{:?}", stage[(45, 5)]);
         assert_eq!(stage[(80, 5)], [1.0, 1.0, 1.0, 0.0]);
     }
-    // One texel of the red is a little lighter: flattening spreads it over its region.
+    // One pixel of the red is a little lighter; segmentation gives its region one colour.
     assert!(near(found.original[(20, 50)], bytes([203, 40, 30, 255])), "as it was read");
     assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
     assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));

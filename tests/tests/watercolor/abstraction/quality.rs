@@ -1,4 +1,4 @@
-//! Regions and boundaries against those by OpenCV's mean shift.
+//! Quality of segmentation: regions and boundaries against OpenCV's mean shift.
 
 use render::field::Field;
 use render::segmentation::{SegmentationSettings, segment};
@@ -24,7 +24,7 @@ struct Cases {
     pictures: Vec<Told>,
 }
 
-/// Pixels that differ from that to the right or below.
+/// Pixels whose label differs from that of the pixel to the right or below.
 fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     let (width, height) = (labels.width(), labels.height());
     let mut found = Vec::new();
@@ -40,14 +40,14 @@ fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     found
 }
 
-/// The share of `found` with one of `wanted` within 2 px.
+/// Share of the pixels `found` with one of `wanted` within 2 px.
 fn near(found: &[(i32, i32)], wanted: &[(i32, i32)]) -> f64 {
     let close = |a: &(i32, i32), b: &(i32, i32)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4;
     let count = found.iter().filter(|a| wanted.iter().any(|b| close(a, b))).count();
     if found.is_empty() { 0.0 } else { count as f64 / found.len() as f64 }
 }
 
-/// Sums over pictures.
+/// Sum of the results of all pictures.
 fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     let none = Found { regions: 0, recall: 0.0, precision: 0.0 };
     found.fold(none, |sum, found| Found {
@@ -57,9 +57,10 @@ fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     })
 }
 
-/// Against OpenCV's filter with the range radius that finds most of the boundaries, its
-/// result made regions in our way: on no picture fewer of them are found (but for 0.5 %),
-/// with no more regions in all; of what is found, 0.05 more may be no boundary.
+/// Compares with OpenCV's mean shift filter, whose output is divided into regions by the same
+/// rules. On each picture the recall is at most 0.005 below that of any range radius of OpenCV.
+/// Over all pictures, against the range radius with the highest recall: no lower recall, no more
+/// regions, and a mean precision at most 0.05 lower.
 #[test]
 fn boundaries_are_found_no_worse_than_by_opencv() {
     let golden: Golden<Cases, Shared> = read("segmentation");

@@ -1,4 +1,4 @@
-//! Regions of small pictures.
+//! Segmentation of small synthetic pictures: regions, connectivity, coverage and settings.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -15,7 +15,7 @@ fn settings(least_region_px: u32) -> SegmentationSettings {
     }
 }
 
-/// Dark on the left, light on the right, with noise of some 4 in L*.
+/// A step from dark to light at x = 23, with noise of about 4 in L*.
 fn step() -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut picture = Field::filled(60, 40, [1.0; 4]);
@@ -27,7 +27,7 @@ fn step() -> Field<[f32; 4]> {
     picture
 }
 
-/// Seven colours in many small squares and noise without order.
+/// Squares of 5 x 5 pixels in seven random colours, with noise.
 fn wild() -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(6);
     let tones: Vec<[f32; 3]> = (0..7).map(|_| std::array::from_fn(|_| random.random())).collect();
@@ -43,7 +43,7 @@ fn wild() -> Field<[f32; 4]> {
     picture
 }
 
-/// Pixels of each label that hang together by rows and columns with its first.
+/// Number of pixels of each label that are 4-connected to its first pixel.
 fn reached(labels: &Field<u32>, count: usize) -> Vec<usize> {
     let (width, height) = (labels.width(), labels.height());
     let mut seen = vec![false; width * height];

@@ -1,4 +1,4 @@
-//! Noise that stays on its object.
+//! Coherent noise, which stays on its object while the camera moves.
 
 mod popping;
 
@@ -19,7 +19,7 @@ use render::field::Field;
 use render::mesh::{Mesh, Triangle};
 use render::surface::visible;
 
-/// A mesh with all that noise needs of it, and what a camera sees of it.
+/// A mesh with what noise needs of it: hierarchy, features and a repeating texture.
 struct Subject {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
@@ -27,7 +27,7 @@ struct Subject {
     texture: Field<f32>,
 }
 
-/// A picture without noise.
+/// Projection and depth of a view, without noise.
 struct Bare {
     projection: Projection,
     depth: Field<f32>,
@@ -56,14 +56,14 @@ impl Subject {
     }
 }
 
-/// Features drawn on fields.
+/// Draws features over a field of depths.
 fn splats_on(compute: &mut Compute, depth: &Field<f32>, splats: &[Splat]) -> Field<f32> {
     let depth = compute.upload(depth).unwrap();
     let drawn = draw_splats(compute, &depth, splats).unwrap();
     compute.download(&drawn).unwrap()
 }
 
-/// Copies of a texture drawn on fields.
+/// Draws copies of a texture over a field of depths.
 fn anchored_on(
     compute: &mut Compute,
     depth: &Field<f32>,
@@ -79,7 +79,7 @@ fn waves(wave_px: f32) -> AnchoredNoise {
     AnchoredNoise { wave_px, ..AnchoredNoise::FLOW }
 }
 
-/// A wall of two triangles, which a picture from in front is full of.
+/// A wall of two triangles, and a camera whose picture it fills.
 fn wall() -> (Mesh, Camera) {
     let corners = [[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [5.0, 5.0, 0.0], [-5.0, 5.0, 0.0]];
     let triangles = [[0, 1, 2], [0, 2, 3]].map(|corners| Triangle { corners, material: 0 });
@@ -94,7 +94,7 @@ fn wall() -> (Mesh, Camera) {
     (mesh, from_front(10.0, 20.0))
 }
 
-/// From `distance` along z towards the origin.
+/// A camera on the z axis at `distance` that looks at the origin.
 fn from_front(distance: f32, field_of_view_deg: f32) -> Camera {
     Camera {
         eye: Vec3::Z * distance,
@@ -106,7 +106,7 @@ fn from_front(distance: f32, field_of_view_deg: f32) -> Camera {
     }
 }
 
-/// Mean and standard deviation where something is seen.
+/// Mean and standard deviation of the noise at pixels that show the object.
 fn spread(noise: &Field<f32>, depth: &Field<f32>) -> [f64; 2] {
     let pairs = noise.values().iter().zip(depth.values());
     let seen: Vec<f64> =

@@ -1,7 +1,7 @@
-//! Noise follows what it is on: against a texture that stands still.
+//! Change of coherent noise between frames, relative to noise that stands still on the picture.
 //!
 //! `IMPASTO_TURNTABLE=1 cargo test -p suite --test watercolor turntable -- --nocapture`
-//! measures the whole turn of 60 frames at 750 x 570, of 60,000 triangles.
+//! measures a full turn: 60 frames at 750 x 570 of 60,000 triangles.
 
 use std::io::Write;
 
@@ -12,18 +12,18 @@ use render::mesh::Mesh;
 
 use super::{Bare, Subject, wall};
 
-/// A turn and how large its noise is.
+/// Size of the mesh, frames of a turntable, and size of the noise.
 struct Turn {
     triangles: usize,
     width: usize,
     height: usize,
-    /// Frames that are looked at, 6 degrees apart.
+    /// Number of frames compared, 6 degrees apart.
     frames: usize,
-    /// Of the noise, by that for 570 rows.
+    /// Size of the noise relative to that for a picture of 570 rows.
     scale: f32,
 }
 
-/// RMS from frame to frame along the motion.
+/// RMS change of the noise from frame to frame at fixed points of the object.
 fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
     let shot = |i: usize| NoiseFrame {
         projection: &bare[i].projection,
@@ -36,8 +36,8 @@ fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
     all.rms()
 }
 
-/// What each way pops relative to the same noise standing still: of features, flow
-/// and dispersion; of particles, for each number of them.
+/// RMS change relative to the same noise standing still: flow and dispersion by features, then
+/// flow by particles for each of their numbers.
 fn measured(mesh: Mesh, turn: &Turn, particles: &[usize]) -> (Vec<f64>, Vec<f64>) {
     let Turn { width, height, .. } = *turn;
     let subject = Subject::new(mesh);

@@ -1,4 +1,4 @@
-//! What waves the noise is made of, and that they are as long near as far.
+//! Spectrum of coherent noise, and its independence of the distance of the camera.
 
 use std::f64::consts::TAU;
 
@@ -9,10 +9,10 @@ use render::mesh::Mesh;
 
 use super::{Subject, anchored_on, from_front, splats_on, spread, wall, waves};
 
-/// A window of pixels in the middle of the picture.
+/// Side of the square in the middle of the picture whose spectrum is computed, in pixels.
 const SIDE: usize = 128;
 
-/// Power by frequency, in cycles on the window, of the window under a Hann window.
+/// Power of the square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
 fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     let (left, top) = ((noise.width() - SIDE) / 2, (noise.height() - SIDE) / 2);
     let hann = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / SIDE as f64).cos();
@@ -23,7 +23,7 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
         .map(|angle| [angle.cos(), -angle.sin()])
         .collect();
     let wave = |i: usize| waves[i % SIDE];
-    // Rows first, then the columns of what they gave.
+    // Fourier transform of the rows, then of the columns.
     let half = SIDE / 2;
     let mut rows = vec![[0.0; 2]; SIDE * half];
     for y in 0..SIDE {
@@ -52,8 +52,8 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     power
 }
 
-/// The mean frequency in cycles on a pixel, and the share of power above `limit`
-/// cycles on a pixel.
+/// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per
+/// pixel.
 fn told(power: &[f64], limit: f64) -> [f64; 2] {
     let all: f64 = power.iter().sum();
     let at = |i: usize| i as f64 / SIDE as f64;
@@ -79,8 +79,8 @@ fn noise_of_features_has_no_wave_shorter_than_its_finest_octave() {
     }
 }
 
-/// Means, over pictures from distances that halve four times, and steps between;
-/// `noise` by zoom and seed.
+/// Mean frequency and share above `limit` (see [`told`]) at nine zooms from 1 to 16, each for the
+/// summed spectra of six seeds. `noise` makes a picture from a zoom and a seed.
 fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2]> {
     let zooms = (0..9).map(|step| 2.0f32.powf(step as f32 / 2.0));
     let of_zoom = |zoom: f32| {

@@ -1,4 +1,5 @@
-//! Processor against device, bare pixels, and features on one surface only.
+//! Coherent noise on CPU and GPU, on bare pixels, at a step in depth, and under a shift of the
+//! camera.
 
 use glam::Vec3;
 use render::camera::{Camera, Framing};
@@ -21,7 +22,7 @@ fn compare(on_cpu: &Field<f32>, on_gpu: &Field<f32>, what: &str) {
     assert!(all().all(|value| (0.0..=1.0).contains(value)), "{what}: not in 0..1");
     let pairs = on_cpu.values().iter().zip(on_gpu.values());
     let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-    // The depth of a surface is rounded to about a thousandth of the slack.
+    // Rounding of a depth is about a thousandth of the depth range of a feature.
     assert!(worst < 2e-3, "{what}: {worst}");
 }
 
@@ -79,7 +80,7 @@ fn bare_pixels_are_a_half_and_the_same_input_gives_the_same_noise() {
 
 #[test]
 fn a_feature_is_on_its_own_surface_only() {
-    // Near on the left, far on the right, nothing at the bottom.
+    // A near surface on the left, a far one on the right, nothing at the bottom.
     let depth = |i: usize| match (i % 40, i / 40) {
         (_, 30..) => 1.0,
         (..20, _) => 0.3,

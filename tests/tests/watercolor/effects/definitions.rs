@@ -1,4 +1,4 @@
-//! Each effect against its definition.
+//! Each effect on the CPU against its definition.
 
 use render::compute::Compute;
 use render::field::Field;
@@ -75,7 +75,8 @@ fn density_is_the_formula_within_its_limits() {
     }
 }
 
-/// A column of paint on bare paper whose colour there is anything.
+/// A column of opaque paint on bare paper. Bare pixels have an arbitrary colour, which must not
+/// matter.
 fn column(color: [f32; 3]) -> Field<[f32; 4]> {
     let [r, g, b] = color;
     let at = |i: usize| {
@@ -124,7 +125,7 @@ fn edges_are_the_symmetric_gradient() {
             assert!((edges[(x, y)] - sum / 3.0).abs() < 1e-6, "at {x}, {y}");
         }
     }
-    // A blur spreads the gradient of a step over as many pixels; its sum stays.
+    // A blur widens the gradient of a step by `width_px` and keeps its sum.
     let step = (0..400).map(|i| if i % 40 < 20 { [0.0, 0.0, 0.0, 1.0] } else { [1.0; 4] });
     let step = Field::from_values(40, 10, step.collect());
     for width_px in [0.0, 0.7, 2.0] {
@@ -134,7 +135,7 @@ fn edges_are_the_symmetric_gradient() {
         assert!((sum - 2.0).abs() < 1e-5, "{width_px}: {sum}");
         let around = row.iter().zip(0..).map(|(e, x)| e * (x as f32 - 19.5_f32).powi(2));
         let spread = (around.sum::<f32>() / sum).sqrt();
-        // Of the difference over two pixels alone: a half.
+        // The difference over two pixels has a spread of half a pixel itself.
         let wanted = width_px.hypot(0.5);
         assert!((spread - wanted).abs() < 0.1 * wanted, "{width_px}: {spread} for {wanted}");
     }
@@ -213,7 +214,7 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let patches = DryBrushReach { patches: 1.0, ..reach(0.6) };
     let thick =
         on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), patches, None);
-    assert_eq!(thick, paint, "a wash that is not thin");
+    assert_eq!(thick, paint, "a thick wash");
     let thin = Field::filled(200, 100, 0.1);
     let all =
         on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &thin), patches, None);
@@ -249,7 +250,7 @@ fn a_sheet_shows_its_color_where_bare_and_its_slopes_in_the_light() {
     let picture = column([0.5, 0.4, 0.3]);
     let shading = PaperShading { color: [0.9, 0.8, 0.7], relief: 0.5 };
     let found = on_fields::shade_paper(&mut Compute::Cpu, &picture, &heights, shading);
-    // Two pixels rise by 0.04.
+    // The heights rise by 0.04 over two pixels; the relief is 0.5.
     let light = 1.02;
     for (x, own) in [(5, [1.0, 1.0, 1.0]), (15, [0.5, 0.4, 0.3])] {
         for i in 0..3 {

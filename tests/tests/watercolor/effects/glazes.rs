@@ -1,4 +1,4 @@
-//! Glazes of calibrated pigments over measured paper.
+//! Glazes of calibrated pigments over paper of known reflectance.
 
 use calibrate::PigmentId;
 use render::compute::Compute;
@@ -15,10 +15,10 @@ use spectra::hint::Explain;
 use super::any_picture;
 use super::on_fields::wobble;
 
-/// Linear light that whole quanta of thin glazes may be off.
+/// Tolerance in linear RGB for thin glazes rounded to whole quanta.
 const NEAR: f32 = 2e-3;
 
-/// Paper of the suite's own: white, somewhat warm.
+/// Reflectance of a slightly warm white paper at `count` wavelengths.
 fn paper(count: usize) -> Vec<f64> {
     (0..count).map(|i| 0.86 + 0.05 * i as f64 / count as f64).collect()
 }
@@ -29,7 +29,7 @@ struct Made {
     sheet: PaperTexture,
 }
 
-/// Six oils as glazes: made once for all tests.
+/// Glazes of six oils, computed once for all tests.
 fn made() -> &'static Made {
     static MADE: std::sync::OnceLock<Made> = std::sync::OnceLock::new();
     MADE.get_or_init(|| {
@@ -43,7 +43,7 @@ fn made() -> &'static Made {
     })
 }
 
-/// As flat as an instrument sees it.
+/// Default light without relief.
 fn level() -> Lighting {
     Lighting { relief: 0.0, ..Lighting::default() }
 }
@@ -158,7 +158,7 @@ fn a_palette_is_chosen_and_comes_near_to_colors_that_watercolor_has() {
     let glazes = Glazes::new(&library, &slots, paper.clone(), light).unwrap();
     let film = glazes.film();
     let white = film.rgb(&[0.0; 8]);
-    // Blacks are raised to what paint reaches; its surface alone takes this.
+    // Black is raised to the reflectance of the surface, the lowest that paint reaches.
     let black = library.saunderson.floor() as f32;
     for color in colors {
         let linear = spectra::color::Rgb([color[0], color[1], color[2]].map(f64::from)).linear();

@@ -1,4 +1,4 @@
-//! Effects, textures and settings, on the processor and on a device.
+//! Effects, textures and settings of watercolour, on CPU and GPU.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -22,7 +22,7 @@ mod whole;
 
 mod glazes;
 
-/// A picture of patches with bare, thin and full coverage.
+/// A random picture of small patches whose coverage is 0, 1 or between.
 fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let patches: Vec<[f32; 4]> = (0..64)

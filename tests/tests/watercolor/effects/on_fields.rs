@@ -1,4 +1,4 @@
-//! The effects on fields: uploaded, computed, downloaded.
+//! Helpers that apply an effect to fields: upload, compute, download.
 
 use render::compute::{Compute, GreyImage, Image};
 use render::field::Field;

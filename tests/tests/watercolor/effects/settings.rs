@@ -1,12 +1,12 @@
-//! Presets and files of settings.
+//! Settings of watercolour: presets, TOML files and their errors, scaling to a picture.
 
 use std::collections::BTreeSet;
 
 use render::watercolor::{Preset, Settings, SettingsError};
 use spectra::hint::Explain;
 
-/// `group.key` of every value, and whether a comment stands right above it. Keys
-/// that are shown without a value count too.
+/// `group.key` of every key, and whether a comment is on the line above it. Includes keys that
+/// are commented out.
 fn keys(text: &str) -> Vec<(String, bool)> {
     let mut group = String::new();
     let mut found = Vec::new();
@@ -28,7 +28,7 @@ fn keys(text: &str) -> Vec<(String, bool)> {
 
 #[test]
 fn presets_are_read_and_tell_of_every_key() {
-    // All keys there are, those without a usual value among them.
+    // All keys, including those without a default value.
     let mut settings = Settings::default();
     settings.paper.scan = Some("x".to_owned());
     settings.toon.greys = Some("x".to_owned());
@@ -39,11 +39,11 @@ fn presets_are_read_and_tell_of_every_key() {
     let mut seen = vec![Settings::default()];
     for preset in Preset::ALL {
         let settings = preset.settings();
-        assert!(!seen.contains(&settings), "{preset:?} is another's");
+        assert!(!seen.contains(&settings), "{preset:?} equals another preset");
         seen.push(settings);
         let found = keys(preset.text());
         for (key, documented) in &found {
-            assert!(documented, "{preset:?}: nothing stands above {key}");
+            assert!(documented, "{preset:?}: no comment above {key}");
         }
         let found: BTreeSet<String> = found.into_iter().map(|(key, _)| key).collect();
         assert_eq!(found, all, "{preset:?}");

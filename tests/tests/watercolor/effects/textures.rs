@@ -1,4 +1,4 @@
-//! Textures: their mean, spread and spectrum.
+//! Textures of flow, dispersion and paper: mean, spread, spectrum and seed.
 
 use render::field::Field;
 use render::paint::ground::PaperFinish;
@@ -18,11 +18,11 @@ fn moments(field: &Field<f32>) -> (f64, f64) {
     (mean, (squares / count).sqrt())
 }
 
-/// Pixels a side of the part whose spectrum is told.
+/// Side of the square whose spectrum is computed, in pixels.
 const PART: usize = 256;
 
-/// Power by waves over `PART`, all directions together, of the upper left part; under a Hann
-/// window against what its borders would add.
+/// Power of the upper left square by radial frequency, in waves per [`PART`] pixels. A Hann window
+/// suppresses leakage from its borders.
 fn spectrum(field: &Field<f32>) -> Vec<f64> {
     let turn = std::f64::consts::TAU / PART as f64;
     let window = |i: usize| 0.5 - 0.5 * (turn * i as f64).cos();
@@ -52,7 +52,7 @@ fn spectrum(field: &Field<f32>) -> Vec<f64> {
     power
 }
 
-/// The share of power in waves from `low` to `high`, in waves over the width.
+/// Share of the power at frequencies from `low` to `high`, in waves per [`PART`] pixels.
 fn share(power: &[f64], low: f64, high: f64) -> f64 {
     let all: f64 = power.iter().sum();
     let some = power.iter().enumerate().filter(|(i, _)| (low..=high).contains(&(*i as f64)));
@@ -83,7 +83,7 @@ fn grains_are_no_finer_than_their_finest() {
         let grains = dispersion(SIZE, SIZE, &settings);
         let (mean, spread) = moments(&grains);
         assert!((mean - 0.5).abs() < 0.01 && (spread - 0.2).abs() < 0.01, "{mean} {spread}");
-        // Power of a wave of this many px falls to exp(-4 pi^2) of its own.
+        // At this frequency the finest blur keeps exp(-4) of the power, at twice of it exp(-16).
         let cut = PART as f64 / (std::f64::consts::PI * f64::from(finest_px));
         if cut < 100.0 {
             let beyond = share(&spectrum(&grains), 2.0 * cut, PART as f64);
@@ -104,7 +104,7 @@ fn textures_follow_their_seed_alone() {
     assert_ne!(flow(3), flow(4));
     assert_eq!(grains(60, 3), grains(60, 3));
     assert_ne!(grains(60, 3), grains(60, 4));
-    // A larger picture has the same clouds where both are.
+    // A larger picture has the same values where the two overlap.
     let large = turbulent_flow(90, 70, &FlowSettings { seed: 3, ..FlowSettings::default() });
     assert_eq!(large.row(20, 0, 60), flow(3).row(20, 0, 60));
 }
@@ -118,7 +118,7 @@ fn rough_paper_is_deeper_and_wider_than_cold_pressed_and_that_than_hot_pressed()
     let papers = [PaperFinish::Rough, PaperFinish::ColdPressed, PaperFinish::HotPressed].map(of);
     let spreads = papers.each_ref().map(|paper| moments(&paper.heights));
     for ((mean, spread), wanted) in spreads.iter().zip([0.18 * 0.13 / 0.08, 0.18, 0.045]) {
-        // What is cut off takes a little.
+        // Clipping to 0..1 reduces the spread a little.
         assert!((mean - 0.5).abs() < 0.02 && (spread - wanted).abs() < 0.03, "{mean} {spread}");
     }
     let long = papers.each_ref().map(|paper| share(&spectrum(&paper.heights), 0.0, 20.0));
@@ -130,7 +130,7 @@ fn rough_paper_is_deeper_and_wider_than_cold_pressed_and_that_than_hot_pressed()
             let found = below as f32 / (SIZE * SIZE) as f32;
             assert!((found - part).abs() < 2e-3, "{part}: {found}");
         }
-        // Displacements of a stated length.
+        // Gradients times `per_slope(1.7)` have an RMS length of 1.7.
         let per_slope = paper.per_slope(1.7);
         let mut squares = 0.0;
         for y in 0..SIZE {
@@ -164,7 +164,7 @@ fn a_scan_goes_on_mirrored_and_a_missing_one_is_named() {
             assert_eq!(heights[other].to_bits(), own.to_bits(), "{x}, {y} and {other:?}");
         }
     }
-    // Lighter is higher.
+    // Lighter pixels of the scan are higher.
     let order = [5, 90, 130].map(|i| (pixels[i], heights[(i % 20, i / 20)]));
     for pair in [[order[0], order[1]], [order[1], order[2]], [order[0], order[2]]] {
         assert_eq!(pair[0].0 < pair[1].0, pair[0].1 < pair[1].1, "{pair:?}");

@@ -1,4 +1,4 @@
-//! Every kernel against its form on the processor.
+//! Every effect on the GPU against its CPU implementation.
 
 use render::compute::Compute;
 use render::field::Field;
@@ -12,13 +12,13 @@ use super::on_fields::{
 };
 use super::{any_grey, any_picture, greys, numbers};
 
-/// Error of f32 where only one of two forms uses fused multiply-add.
+/// Tolerance for f32 where only one of the two backends uses fused multiply-add.
 const NEAR: f64 = 2e-6;
 
-/// Sizes on both sides of those of a work group and of a band of rows.
+/// Sizes of pictures, below and above those of a workgroup and of a band of rows.
 const SIZES: [(usize, usize); 6] = [(1, 1), (1, 9), (7, 5), (8, 8), (67, 33), (30, 71)];
 
-/// A picture of one size, and the two forms of compute.
+/// Both backends, and a picture of one of the [`SIZES`].
 struct Both {
     cpu: Compute,
     gpu: Compute,
@@ -42,7 +42,7 @@ impl Both {
         any_grey(self.size.0, self.size.1, seed)
     }
 
-    /// Compares the pictures that both forms compute.
+    /// Asserts that both backends compute the same picture within `near`.
     fn compare(
         &mut self,
         case: &str,
@@ -54,7 +54,7 @@ impl Both {
         assert_near(format!("{case}, {:?}", self.size), &numbers(&found), &numbers(&wanted), near);
     }
 
-    /// Compares the numbers that both forms compute.
+    /// Asserts that both backends compute the same grey values within `near`.
     fn compare_greys(
         &mut self,
         case: &str,
@@ -104,8 +104,8 @@ fn wobble_agrees() {
     Both::for_each(|both| {
         let heights = both.grey(11);
         for px in [0.0_f32, 0.01, 0.8, -3.0, 500.0] {
-            // Where little paint is mixed in, its colour is a quotient of small numbers; the
-            // error of a position grows with the displacement.
+            // At low coverage the colour is a quotient of small numbers; the error of a position
+            // grows with the displacement.
             let near = NEAR * (10.0 + 10.0 * f64::from(px.abs()));
             both.compare(&format!("{px} px"), near, |compute, picture| {
                 wobble(compute, picture, &heights, px)
@@ -124,7 +124,7 @@ fn dry_brush_agrees() {
             {
                 let reach = DryBrushReach { threshold, softness, patches };
                 let mask = masked.then_some(&mask);
-                // Rounding errors grow with the inverse of the band's width.
+                // Rounding errors grow with the inverse of the softness.
                 let near = NEAR / f64::from(softness);
                 both.compare(&format!("{reach:?}"), near, |compute, picture| {
                     apply_dry_brush(compute, picture, (&heights, &flow), reach, mask)
@@ -141,7 +141,7 @@ fn color_mask_agrees() {
         for (color, tolerance) in [("#ffffff", 30.0), ("#4060a0", 1.0), ("#000000", 200.0)] {
             for mask in [None, Some(&mask)] {
                 let range = ColorRange::around(Rgb::from_hex(color).unwrap(), tolerance);
-                // WGSL's pow is loose; the tolerance scales errors in CIELAB.
+                // `pow` of WGSL is inexact; the mask divides errors in CIELAB by its tolerance.
                 let near = 1e-3 / f64::from(tolerance);
                 both.compare_greys(&format!("{color} {tolerance}"), near, |compute, picture| {
                     color_mask(compute, picture, range, mask)

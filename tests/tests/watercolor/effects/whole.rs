@@ -1,4 +1,4 @@
-//! All effects together.
+//! The pipeline of all effects: its stages, their observer, and CPU against GPU.
 
 use render::compute::Compute;
 use render::field::Field;

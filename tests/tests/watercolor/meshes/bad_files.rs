@@ -1,4 +1,4 @@
-//! Files that are refused: each with its place and reason, and a way out.
+//! Invalid mesh files: errors with the location, the reason and a hint.
 
 use render::mesh::{Mesh, MeshError};
 use serde_json::json;
@@ -6,7 +6,8 @@ use spectra::hint::Explain;
 
 use super::{gltf, opened, square_bytes, square_document};
 
-/// Refused with a message that names the file and has all of `wanted`.
+/// Asserts that the first file is refused with a hint and a message of one line that names the file
+/// and contains all of `wanted`.
 #[track_caller]
 fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
     let error = opened(files).unwrap_err();

@@ -1,11 +1,11 @@
-//! What the files of each format become.
+//! Reading meshes from OBJ, PLY and glTF: geometry, materials, textures and transforms.
 
 use render::mesh::{Material, Mesh};
 use serde_json::json;
 
 use super::{SQUARE, gltf, opened, square_bytes, square_document, two_texels};
 
-/// The places of the corners of all triangles.
+/// Positions of the corners of every triangle.
 fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
     let place = |corner: u32| mesh.positions[corner as usize];
     mesh.triangles.iter().map(|triangle| triangle.corners.map(place)).collect()
@@ -49,7 +49,7 @@ f -4 -3 -2
     let texture = mesh.materials[0].texture.as_ref().unwrap();
     assert_eq!((texture.width, texture.height), (2, 1));
     assert_eq!(texture.texels.map_bytes(), [[255, 0, 0, 255], [0, 0, 255, 255]]);
-    // Upwards in the file, downwards here.
+    // The vertical texture coordinate runs upwards in the file and downwards in `Mesh`.
     assert_eq!(mesh.texture_coordinates[..3], [[0.25, 0.0], [0.75, 1.0], [1.0, 0.5]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
 }
@@ -71,7 +71,7 @@ fn obj_with_colors_of_vertices_and_nothing_else() {
     assert_eq!(mesh.colors, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 3]);
     assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
-    // A place may be divided by a fourth number.
+    // A fourth coordinate divides the position.
     let mesh = opened(&[("a.obj", b"v 0 0 0\nv 2 0 0 2\nv 0 1 0\nf 1 2 3\n")]).unwrap();
     assert_eq!(mesh.positions[1], [1.0, 0.0, 0.0]);
 }
@@ -113,7 +113,7 @@ fn ply_as_text_and_in_both_binaries() {
 #[test]
 fn gltf_with_transforms_materials_and_textures() {
     let mut document = square_document();
-    // The parent moves, the child mirrors and stretches.
+    // The parent translates; the child mirrors and stretches along x.
     document["nodes"] = json!([
         { "translation": [10, 0, 0], "children": [1] },
         { "mesh": 0, "scale": [-2, 1, 1] },
@@ -133,7 +133,7 @@ fn gltf_with_transforms_materials_and_textures() {
     let mesh = opened(&files).unwrap();
     let place = |[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z];
     let [a, b, c, d] = SQUARE.map(place);
-    // A mirror turns what runs clockwise.
+    // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
     let Material { color: [r, g, b], texture } = &mesh.materials[0];
@@ -160,7 +160,7 @@ fn binary_gltf_and_strips_and_fans() {
         glb.extend(b"BIN\0");
         glb.extend(&buffer);
         let mesh = opened(&[("a.glb", &glb)]).unwrap();
-        // The corners 0 1 2 0 2 3.
+        // Of the indices 0 1 2 0 2 3; a strip and a fan of them have four triangles.
         assert_eq!(mesh.triangles.len(), wanted, "mode {mode}");
         assert_eq!(corners(&mesh)[0], square()[0], "mode {mode}");
         if mode == 4 {

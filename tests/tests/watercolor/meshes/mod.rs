@@ -1,4 +1,4 @@
-//! Meshes and their files.
+//! Meshes: reading their files, normals, and checks.
 
 mod files;
 
@@ -8,7 +8,7 @@ mod normals;
 
 use render::mesh::{Mesh, MeshError};
 
-/// The mesh in files of these names and contents, the first of which is opened.
+/// Writes files of these names and contents, opens the first as a mesh and checks the mesh.
 fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     for (name, content) in files {
@@ -31,24 +31,24 @@ fn two_texels() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A glTF document about `buffer`, the rest of which is given as JSON.
+/// The glTF document `rest` with its version and with `buffer` declared as `data.bin`.
 fn gltf(buffer: &[u8], mut rest: serde_json::Value) -> Vec<u8> {
     rest["asset"] = serde_json::json!({ "version": "2.0" });
     rest["buffers"] = serde_json::json!([{ "uri": "data.bin", "byteLength": buffer.len() }]);
     rest.to_string().into_bytes()
 }
 
-/// A square in the plane z = 0, as the values of four vertices.
+/// Positions of the corners of a square in the plane z = 0.
 const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Its places and corners (as 16 bits), for glTF; 48 bytes and 12.
+/// The buffer of [`SQUARE`] for glTF: positions (48 bytes) and indices as u16 (12 bytes).
 fn square_bytes() -> Vec<u8> {
     let corners: [u16; 6] = [0, 1, 2, 0, 2, 3];
     let places = SQUARE.iter().flatten().flat_map(|value| value.to_le_bytes());
     places.chain(corners.iter().flat_map(|corner| corner.to_le_bytes())).collect()
 }
 
-/// A document with that square, once.
+/// A glTF document with one node of [`SQUARE`].
 fn square_document() -> serde_json::Value {
     serde_json::json!({
         "bufferViews": [

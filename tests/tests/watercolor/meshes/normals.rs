@@ -1,10 +1,10 @@
-//! Normals, closedness, and shapes made here.
+//! Normals, closed surfaces, faults of meshes, and the sample models.
 
 use glam::Vec3;
 use render::mesh::{GridSize, Mesh, MeshFault, SampleModel, Texture};
 use spectra::hint::Explain;
 
-/// The greatest angle between the normals of a ball and its radii, in degrees.
+/// Largest angle between `normals` and the radii of a ball, in degrees.
 fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {
     let angles = mesh.positions.iter().zip(normals).map(|(&place, &normal)| {
         Vec3::from(place).normalize().dot(normal.into()).clamp(-1.0, 1.0).acos().to_degrees()
@@ -25,10 +25,10 @@ fn a_ball_has_its_radii_as_normals() {
 fn smoothing_keeps_a_ball_and_evens_bumps() {
     let mut ball = Mesh::sphere(5000);
     let kept = ball.smoothed_normals(20);
-    // Around the poles triangles are uneven, and so are the means.
+    // Around the poles triangles are uneven, so averaged normals deviate.
     assert!(worst(&ball, &kept) < 4.0, "{}", worst(&ball, &kept));
     let smooth = ball.normals.clone();
-    // Every place leans its own way, alike on both sides of the seam.
+    // Perturbs each normal by its position, equally on both sides of the seam.
     for (normal, place) in ball.normals.iter_mut().zip(&ball.positions) {
         let [x, y, z] = place.map(|at| (at * 977.0).sin() * 0.4);
         *normal = (Vec3::from(*normal) + Vec3::new(x, y, z)).normalize().into();
@@ -41,7 +41,7 @@ fn smoothing_keeps_a_ball_and_evens_bumps() {
     });
     assert!(rounds.is_sorted_by(|a, b| b < a) && rounds[3] < rounds[0] / 8.0, "{rounds:?}");
     assert_eq!(ball.smoothed_normals(0), bumpy);
-    // Vertices of one place stay of one mind.
+    // Vertices at the same position keep equal normals.
     let normals = ball.smoothed_normals(3);
     let GridSize { columns, rows } = GridSize::for_triangles(5000, 2.0);
     let width = columns + 1;
@@ -110,7 +110,7 @@ fn shapes_are_whole_and_as_fine_as_asked() {
             assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
             let colors = mesh.colors.iter().flatten();
             assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
-            // Normals are on the side from which corners run counter-clockwise.
+            // Normals point to the side from which corners run counter-clockwise.
             let agree = mesh.triangles.iter().filter(|triangle| {
                 let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));
                 let normal: Vec3 =

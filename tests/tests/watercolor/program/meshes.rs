@@ -1,4 +1,4 @@
-//! Meshes become pictures.
+//! `impasto watercolor` of meshes: file formats, shapes, cameras, stages, and the GPU.
 
 use image::{Rgb, RgbImage};
 
@@ -63,7 +63,7 @@ fn glb() -> Vec<u8> {
     glb
 }
 
-/// How many pixels are far from the paper's colour.
+/// Number of painted pixels: those with a channel below 200.
 fn covered(picture: &RgbImage) -> usize {
     let far = |pixel: &&Rgb<u8>| pixel.0.iter().any(|value| *value < 200);
     picture.pixels().filter(far).count()
@@ -91,7 +91,7 @@ fn shapes_that_come_with_the_program_are_painted() {
     for name in ["still-life", "village", "torus-knot", "sphere"] {
         let made = decoded(&picture(&folder, &format!("shape:{name}"), &SMALL));
         assert!(covered(&made) > 200, "{name}: {} pixels painted", covered(&made));
-        assert!(all.iter().all(|other| difference(other, &made).0 > 3.0), "{name} is as another");
+        assert!(all.iter().all(|other| difference(other, &made).0 > 3.0), "{name}: same picture");
         all.push(made);
     }
 }
@@ -110,9 +110,9 @@ fn cameras_are_numbers_or_a_file() {
     assert_eq!(usual, from("30,20"));
     assert_eq!(usual, from(" 30, 20 ,30"));
     for other in ["-60,20", "30,-40", "30,20,90"] {
-        assert!(difference(&usual, &from(other)).0 > 1.0, "{other} is as the usual camera");
+        assert!(difference(&usual, &from(other)).0 > 1.0, "{other} equals the default camera");
     }
-    // From straight above: symmetric, so that its middle is the tip.
+    // From straight above, the tip is in the middle of the picture.
     let above = from("0,90");
     let [r, g, b] = above.get_pixel(32, 24).0;
     assert!(g < r && g < b, "the tip is purple, found {r} {g} {b}");
@@ -121,11 +121,11 @@ fn cameras_are_numbers_or_a_file() {
                 [[keyframe]]\neye = [8.0, 1.0, 0.0]\ntarget = [0.0, 1.0, 0.0]\n";
     let there = folder.write("path.toml", path);
     let back = folder.write("back.toml", path.replace("8.0, 1.0, 0.0]", "-8.0, 1.0, 0.0]"));
-    // A single picture is the first of a path.
+    // A single picture is the first frame of a path.
     assert_eq!(from(&there), from(&back));
     let away = folder
         .write("away.toml", path.replace("target = [0.0, 1.0, 0.0]", "target = [0.0, 1.0, 99.0]"));
-    assert_eq!(covered(&from(&away)), 0, "bare paper where nothing is seen");
+    assert_eq!(covered(&from(&away)), 0, "paint without a visible mesh");
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn stages_of_a_mesh_begin_with_its_surface() {
     ];
     assert_eq!(folder.names("stages"), names);
     let [surface, wash] = [0, 1].map(|i| opened(format!("{stages}/{}", names[i])));
-    assert!(difference(&surface, &wash).0 > 1.0, "no light on it");
+    assert!(difference(&surface, &wash).0 > 1.0, "no shading");
     let (_, most) = difference(&opened(format!("{stages}/09-sheet.png")), &opened(&out));
     assert!(most <= 1, "{most}");
 }
@@ -168,7 +168,7 @@ fn a_device_paints_the_same_mesh() {
         let pairs = on_cpu.pixels().zip(made.pixels());
         let far = |(a, b): &(&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2);
         let far = pairs.filter(far).count();
-        // On the edge of two triangles each may take the other one.
+        // At an edge between two triangles CPU and GPU may choose different ones.
         assert!(far <= 19 && mean < 0.02, "{mesh}: {far} pixels, {mean} in the mean");
     }
 }

@@ -1,14 +1,14 @@
-//! `impasto watercolor`.
+//! The command `impasto watercolor`.
 
 mod refusals;
 
 mod photographs;
 
-mod looks;
+mod style;
 
 mod meshes;
 
-mod moving;
+mod animation;
 
 mod pigments;
 
@@ -20,7 +20,7 @@ use render::field::Field;
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A folder, gone when dropped.
+/// A temporary folder, deleted when dropped.
 struct Folder(TempDir);
 
 impl Folder {
@@ -28,7 +28,7 @@ impl Folder {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// The path of a file in it, there or not.
+    /// The path of a file in the folder, which need not exist.
     fn file(&self, name: &str) -> String {
         self.0.path().join(name).display().to_string()
     }
@@ -38,7 +38,7 @@ impl Folder {
         self.file(name)
     }
 
-    /// The names in the folder `inside` it, sorted; none where there is no such folder.
+    /// The names in the subfolder `inside`, sorted; empty if there is no such folder.
     fn names(&self, inside: &str) -> Vec<String> {
         let Ok(entries) = std::fs::read_dir(self.0.path().join(inside)) else { return Vec::new() };
         let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
@@ -64,14 +64,14 @@ impl Folder {
         self.write("photo.png", png8(&picture, 1.0).unwrap().bytes)
     }
 
-    /// A picture of as many pixels, white on the left and black on the right.
+    /// A mask of 160 x 120 pixels, white on the left and black on the right.
     fn mask(&self) -> String {
         let grey = |i: usize| [if i % 160 < 80 { 1.0 } else { 0.0 }; 4];
         let picture = Field::from_values(160, 120, (0..160 * 120).map(grey).collect());
         self.write("mask.png", png8(&picture, 1.0).unwrap().bytes)
     }
 
-    /// A pyramid on a square, each corner of another colour.
+    /// An OBJ file of a pyramid on a square, with a colour for each corner.
     fn pyramid(&self) -> String {
         let corner =
             |([x, y, z], [r, g, b]): ([i8; 3], [u8; 3])| format!("v {x} {y} {z} {r} {g} {b}\n");
@@ -83,7 +83,7 @@ impl Folder {
     }
 }
 
-/// Places and colours of the corners of a pyramid.
+/// Positions and colours of the corners of a pyramid.
 const CORNERS: [([i8; 3], [u8; 3]); 5] = [
     ([-1, 0, 1], [1, 0, 0]),
     ([1, 0, 1], [0, 1, 0]),
@@ -91,14 +91,14 @@ const CORNERS: [([i8; 3], [u8; 3]); 5] = [
     ([-1, 0, -1], [1, 1, 0]),
     ([0, 2, 0], [1, 0, 1]),
 ];
-/// Its triangles.
+/// Triangles of the pyramid, as indices of [`CORNERS`].
 const SIDES: [[u16; 3]; 6] = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]];
 
 fn watercolor(subject: &str, options: &[&str]) -> Run {
     impasto(&[&["watercolor", subject], options].concat())
 }
 
-/// The same with the processor, whatever is there; it must work.
+/// Runs `impasto watercolor` on the CPU and asserts success.
 #[track_caller]
 fn painted(subject: &str, options: &[&str]) -> Run {
     let run = watercolor(subject, &[&["--backend", "cpu"], options].concat());
@@ -106,7 +106,7 @@ fn painted(subject: &str, options: &[&str]) -> Run {
     run
 }
 
-/// The bytes of the picture that `options` give of `subject`.
+/// Paints `subject` with `options` on the CPU. Returns the bytes of the PNG.
 #[track_caller]
 fn picture(folder: &Folder, subject: &str, options: &[&str]) -> Vec<u8> {
     let out = folder.file("picture.png");
@@ -122,7 +122,7 @@ fn opened(path: impl AsRef<Path>) -> RgbImage {
     decoded(&std::fs::read(path).unwrap())
 }
 
-/// The mean difference of two pictures of one size, in levels of 255, and the largest.
+/// Mean and largest difference of two pictures of equal size, in levels of 8 bits.
 #[track_caller]
 fn difference(one: &RgbImage, other: &RgbImage) -> (f64, u8) {
     assert_eq!(one.dimensions(), other.dimensions(), "sizes");

@@ -1,4 +1,4 @@
-//! Photographs become pictures.
+//! `impasto watercolor` of photographs: colours, formats, stages, masks, and the GPU.
 
 use super::{Folder, decoded, difference, mean, opened, painted, picture, watercolor};
 
@@ -71,13 +71,13 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
     ];
     assert_eq!(folder.names("stages"), names);
     let all = names.map(|name| opened(format!("{stages}/{name}")));
-    assert_eq!(all[0], opened(&photo), "the photograph as it is");
+    assert_eq!(all[0], opened(&photo), "the photograph is unchanged");
     for (pair, names) in all.windows(2).zip(names.windows(2)) {
         assert!(difference(&pair[0], &pair[1]).1 > 0, "{names:?} are alike");
     }
     let (_, most) = difference(&all[9], &opened(&out));
     assert!(most <= 1, "{most}");
-    // Stages alone are enough to ask for.
+    // `--stages` alone is enough output.
     let alone = folder.file("alone");
     painted(&photo, &["--stages", &alone, "--preset", "sketch"]);
     assert_eq!(folder.names("alone"), names);

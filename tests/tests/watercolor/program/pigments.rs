@@ -1,4 +1,4 @@
-//! Calibrated pigments instead of the paper's colour model.
+//! `impasto watercolor --pigments`: glazes of calibrated pigments instead of RGB densities.
 
 use suite::program::{Run, impasto, repository};
 
@@ -85,8 +85,8 @@ fn pigments_are_chosen_and_paper_and_light_are_given() {
     let lamp = with(&[palette, &["--over", "0.95", "--illuminant", "A"]].concat()).0;
     assert!(difference(&white, &lamp).0 > 1.0, "a lamp changes nothing");
     let plain = decoded(&picture(&folder, &photo, &["--width", "48"]));
-    assert!(difference(&plain, &chosen).0 > 1.0, "pigments are of no account");
-    assert!(difference(&plain, &chosen).0 < 60.0, "pigments give another picture");
+    assert!(difference(&plain, &chosen).0 > 1.0, "pigments change nothing");
+    assert!(difference(&plain, &chosen).0 < 60.0, "pigments change too much");
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_mesh_turns_in_the_pigments_of_its_first_frame() {
     let again = turn();
     assert_eq!((&again["frames_found"], &again["pigments"]), (&2.into(), &first["pigments"]));
     assert!([1, 2, 3].map(frame) == before, "the frame that was missing has other pigments");
-    assert_eq!(turn()["pigments"], first["pigments"], "pigments of frames that are all there");
+    assert_eq!(turn()["pigments"], first["pigments"], "pigments of complete frames");
 
     let still = folder.file("still.exr");
     painted(&mesh, &[&options[..4], &["--output", &still, "--palette", PALETTE]].concat());

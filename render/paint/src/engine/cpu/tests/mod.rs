@@ -1,4 +1,4 @@
-//! Tests of the paint engine on the processor.
+//! Tests of the paint engine on the CPU.
 
 mod motion;
 
@@ -9,7 +9,7 @@ use crate::engine::View;
 use crate::layer::Layer;
 use graphics::field::Field;
 
-/// The operations over the whole canvas, as the paint engine offers them.
+/// Operations on the whole canvas, as [`crate::engine::PaintEngine`] has them.
 impl CpuPaint {
     fn wet(&self) -> Layer {
         self.wet_in(self.bounds())

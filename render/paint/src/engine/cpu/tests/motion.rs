@@ -1,4 +1,5 @@
-//! What a sub-step keeps, over random contacts.
+//! Sub-steps with random contacts: conservation of paint, limits of columns, agreement with the
+//! reference, and independence of threads.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -33,12 +34,12 @@ fn random_layer(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u
     layer
 }
 
-/// An engine with paint up to four cells high on it and on its brush.
+/// An engine with random paint up to four cells high on its canvas and on its brush.
 fn painted(random: &mut ChaCha8Rng, canvas: (usize, usize), brush: (usize, usize)) -> CpuPaint {
     painted_to(4 * QUANTA_PER_CELL, random, canvas, brush)
 }
 
-/// The same, the paint on the canvas up to `highest` high.
+/// An engine like [`painted`], but with paint on the canvas up to `highest` quanta high.
 fn painted_to(
     highest: u32,
     random: &mut ChaCha8Rng,
@@ -55,8 +56,8 @@ fn painted_to(
     engine
 }
 
-/// A head with holes at random heights, `coarse` cells of the canvas under each
-/// of its own, in x and in y; at `speed` of 256.
+/// A random contact of a head with holes. Each head cell covers up to 3 x 3 canvas cells. `speed`,
+/// in parts of 256, is random if `None`.
 fn random_contact(
     random: &mut ChaCha8Rng,
     canvas: (usize, usize),
@@ -214,7 +215,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     }
 }
 
-/// A contact that covers the canvas with random ones, enough for many threads.
+/// A contact that repeats a random one over the whole canvas, large enough for many threads.
 fn whole_contact(
     random: &mut ChaCha8Rng,
     canvas: (usize, usize),

@@ -1,4 +1,4 @@
-//! What drying, tiles and light keep.
+//! Drying, dry layers, undo tiles, and rendering of changed tiles.
 
 use crate::engine::cpu::CpuPaint;
 use crate::engine::{UndoSlot, View};
@@ -10,7 +10,7 @@ use graphics::tile::{Rect, Tile, TileSet};
 const WIDTH: usize = 150;
 const HEIGHT: usize = 100;
 
-/// Paint in the cells of `rect` alone, unlike from cell to cell.
+/// Paint in the cells of `rect` only, with different amounts in each cell.
 fn paint_in(rect: Rect) -> Layer {
     let mut layer = Layer::empty(WIDTH, HEIGHT);
     for y in rect.y..rect.y + rect.height {
@@ -22,7 +22,7 @@ fn paint_in(rect: Rect) -> Layer {
     layer
 }
 
-/// Paint that spreads over four tiles of six.
+/// A rectangle that overlaps four of the six tiles.
 const SPOT: Rect = Rect { x: 50, y: 40, width: 40, height: 40 };
 
 fn engine() -> CpuPaint {
@@ -46,10 +46,10 @@ fn drying_parts_the_paint_and_raises_the_floor_by_what_dried() {
         let rise = risen.values()[index] - floor.values()[index];
         assert_eq!(rise, dried.cell(index).volume() as i32, "cell {index}");
     }
-    assert!(engine.pop_dry_layer() == dried, "popped what was pushed");
-    assert!(engine.floor() == floor, "the floor fell back");
+    assert!(engine.pop_dry_layer() == dried, "the popped layer differs");
+    assert!(engine.floor() == floor, "floor without the layer");
     engine.push_dry_layer(&dried);
-    assert!(engine.floor() == risen, "the floor rose again");
+    assert!(engine.floor() == risen, "floor with the layer");
     engine.dry(65_536);
     assert_eq!(engine.wet().totals(), [0; SLOTS + 1]);
 }
@@ -116,7 +116,7 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
     let none = TileSet::default();
     engine.render(View::First, &scene(1), &all, &none);
     let first = engine.picture();
-    // A wet stroke within one tile and its neighbours' shadow, then drying.
+    // Replaces the wet paint of `SPOT` by paint in one of its four tiles, and later dries it.
     let stroke = Rect { x: 70, y: 70, width: 20, height: 20 };
     engine.set_wet(&paint_in(stroke));
     let mut spot = TileSet::default();
@@ -145,7 +145,7 @@ fn bare_ground_shows_what_an_instrument_would_read_of_it() {
     let all = TileSet::all(engine.bounds());
     engine.render(View::First, &scene(0), &all, &all);
     let seen = engine.picture()[(7, 5)][0];
-    // 0.8 below a surface of k1 = 0.03 and k2 = 0.5, at eight wavelengths of 1/8.
+    // Internal reflectance 0.8, k1 = 0.03, k2 = 0.5; the weights of eight nodes sum to 1.
     let measured = 0.97 * 0.5 * 0.8 / (1.0 - 0.5 * 0.8);
     assert!((seen - measured).abs() < 1e-6, "{seen} {measured}");
 }

@@ -1,4 +1,4 @@
-//! Presets, files of settings, single settings.
+//! `impasto watercolor` with presets, files of settings, and single settings.
 
 use suite::program::impasto;
 
@@ -16,14 +16,14 @@ fn presets_differ_and_each_is_its_own_file() {
         let preset = picture(&folder, &photo, &["--preset", name]);
         assert!(
             preset == picture(&folder, &photo, &["--settings", &file]),
-            "{name} is not its file"
+            "{name} differs from its file"
         );
-        // What the file says counts more than the preset.
+        // Settings in the file override the preset.
         let both = picture(&folder, &photo, &["--preset", "sketch", "--settings", &file]);
-        assert!(preset == both, "{name} gives way to a preset");
+        assert!(preset == both, "the preset overrides {name}");
         let preset = decoded(&preset);
         for other in &all {
-            assert!(difference(other, &preset).0 > 2.0, "{name} is as another");
+            assert!(difference(other, &preset).0 > 2.0, "{name} looks like another preset");
         }
         all.push(preset);
     }
@@ -37,13 +37,13 @@ fn a_file_changes_what_it_names_and_an_option_changes_the_file() {
     let made = |options: &[&str]| picture(&folder, &photo, options);
     let own = made(&["--preset", "sketch", "--settings", &file]);
     let same = ["--preset", "sketch", "--set", "wash.density=2", "--set", "flow.seed=9"];
-    assert!(own == made(&same), "a file is not what it says");
+    assert!(own == made(&same), "the file differs from the options");
     let thinner = ["--preset", "sketch", "--settings", &file, "--set", "wash.density=0.5"];
     let back = ["--preset", "sketch", "--set", "flow.seed=9"];
     assert!(made(&thinner) == made(&back), "the preset's density is 0.5");
-    // The last of two counts.
+    // Of two values for a key the last applies.
     let twice = ["--preset", "sketch", "--set", "wash.density=3", "--set", "wash.density=.50"];
-    assert!(made(&twice) == made(&["--preset", "sketch"]), "the first of two counts");
+    assert!(made(&twice) == made(&["--preset", "sketch"]), "the first of two applies");
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn numbers_words_and_colors_are_set() {
     assert!(sum(&thin) > sum(&usual) + 60.0 && sum(&usual) > sum(&thick) + 60.0);
     let word = with("paper.kind=rough");
     assert!(difference(&usual, &word).0 > 0.2, "a word changes nothing");
-    assert_eq!(word, with("paper.kind=\"rough\""), "quotes are of no account");
+    assert_eq!(word, with("paper.kind=\"rough\""), "quotes change the value");
     let [r, g, b] = mean(&with("paper.colour=#8080ff"), 0, 160);
     let [usual_r, usual_g, usual_b] = mean(&usual, 0, 160);
     assert!(r < 0.7 * usual_r && g < 0.7 * usual_g && b > 0.9 * usual_b, "{r} {g} {b}");
@@ -76,7 +76,7 @@ fn a_scan_of_paper_lies_beside_the_file_that_names_it() {
     let by_file = picture(&folder, &photo, &["--settings", &file]);
     let scan = format!("paper.scan={}", folder.file("mask.png"));
     let by_option = picture(&folder, &photo, &["--set", &scan, "--set", "paper.scan_scale=6.25"]);
-    assert!(by_file == by_option, "two papers");
+    assert!(by_file == by_option, "file and option differ");
     let usual = picture(&folder, &photo, &[]);
     assert!(difference(&decoded(&usual), &decoded(&by_file)).0 > 2.0, "the scan does nothing");
 }

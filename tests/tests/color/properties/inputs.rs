@@ -1,4 +1,4 @@
-//! What is refused, and how that is said.
+//! Inputs of spectra, grids, lamps and lights: which are refused, and with which error.
 
 use spectra::hint::Explain;
 use spectra::{
@@ -17,7 +17,7 @@ fn assert_refused<Q: Quantity>(value: f64) {
     values[2] = value;
     match Spectrum::<Q>::new(grid(), values) {
         Err(SpectrumError::Value { nm, quantity, .. }) => {
-            assert_eq!((nm, quantity), (420.0, Q::NAME), "where {value} stands");
+            assert_eq!((nm, quantity), (420.0, Q::NAME), "wavelength of the value {value}");
         }
         other => panic!("{value}: {other:?}"),
     }
@@ -34,7 +34,7 @@ fn impossible_values_are_refused_with_their_wavelength() {
         assert_refused::<Scattering>(value);
     }
     assert_refused::<Response>(f64::NAN);
-    assert!(Spectrum::<Response>::new(grid(), vec![-1.0; 6]).is_ok(), "a response has any sign");
+    assert!(Spectrum::<Response>::new(grid(), vec![-1.0; 6]).is_ok(), "a response may be negative");
     assert_eq!(
         Spectrum::<Power>::new(grid(), vec![1.0; 5]),
         Err(SpectrumError::Count { expected: 6, found: 5 }),
@@ -64,14 +64,14 @@ fn a_grid_refuses_bad_numbers() {
     }
     assert_eq!(Grid::from_nm(400.0, 10.0, 0), Err(GridError::Empty), "no wavelength");
     let file = r#"{"start_nm": 400, "step_nm": -1, "count": 3}"#;
-    assert!(serde_json::from_str::<Grid>(file).is_err(), "a file is checked as well");
+    assert!(serde_json::from_str::<Grid>(file).is_err(), "a grid in a file is checked too");
 }
 
 #[test]
 fn a_grid_goes_through_regular_wavelengths_only() {
     let regular: Vec<f64> = grid().wavelengths_nm().collect();
     assert_eq!(Grid::through(&regular), Some(grid()), "{regular:?}");
-    assert_eq!(Grid::through(&[400.0, 410.0, 421.0]), None, "a step of its own");
+    assert_eq!(Grid::through(&[400.0, 410.0, 421.0]), None, "the second step differs");
     assert_eq!(Grid::through(&[410.0, 400.0]), None, "falling");
     assert_eq!(Grid::through(&[]), None, "nothing");
 }
@@ -113,7 +113,7 @@ fn outside_the_band_is_refused_or_held() {
         let refused = spectrum.at(nm, linear, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "at {nm}: {refused:?}");
     }
-    // No end lies nearer to what is no number.
+    // NaN is nearer to neither end, so no end value can be held.
     assert!(samples.at_linear(f64::NAN, Extrapolation::Hold).is_err(), "held at NaN");
     assert!(spectrum.at(f64::NAN, linear, Extrapolation::Hold).is_err(), "held at NaN");
 }

@@ -1,4 +1,4 @@
-//! Frames of a camera that moves, and files of them all.
+//! `impasto watercolor` with a moving camera: frames, GIF and APNG, and resumed runs.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -13,7 +13,7 @@ use super::{Folder, difference, opened, painted, watercolor};
 
 const TURN: [&str; 4] = ["--width", "48", "--turntable", "4"];
 
-/// Turns the pyramid of `folder` into `into`.
+/// Paints a turntable of four frames of the pyramid, with `into` as further options.
 #[track_caller]
 fn turned(folder: &Folder, into: &[&str]) -> Run {
     painted(&folder.pyramid(), &[&TURN[..], into, &["--json"]].concat())
@@ -42,7 +42,7 @@ fn a_gif_and_an_apng_hold_every_frame() {
         assert!(difference(&pair[0], &pair[1]).0 > 1.0, "two frames are alike");
     }
 
-    // Of the same folder: another format and rate need no new frame.
+    // Both animations use one folder of frames: another format and rate need no new frame.
     let told = turned(&folder, &["--animation", &apng]).json();
     assert_eq!(told["frames_found"], 4);
     let decoder = GifDecoder::new(BufReader::new(File::open(&gif).unwrap())).unwrap();
@@ -72,7 +72,7 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
         (1..=4).map(|n| std::fs::read(frame(folder, "frames", n)).unwrap()).collect()
     };
     let (first, animation) = (all(&folder), std::fs::read(&gif).unwrap());
-    // One is gone, one was cut off, one is of other software.
+    // One frame is missing, one is truncated, one is a picture of other software.
     std::fs::remove_file(frame(&folder, "frames", 2)).unwrap();
     std::fs::write(frame(&folder, "frames", 3), &first[2][..first[2].len() - 9]).unwrap();
     RgbImage::new(5, 5).save(frame(&folder, "frames", 4)).unwrap();
@@ -80,7 +80,7 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     assert_eq!(found(wish), Some(1));
     assert!(all(&folder) == first, "other frames than before");
     assert!(std::fs::read(&gif).unwrap() == animation, "another animation");
-    // Frames that are there are not made again.
+    // Frames that exist are not painted again.
     let painted_over = RgbImage::new(48, 36);
     painted_over.save(frame(&folder, "frames", 1)).unwrap();
     assert_eq!(found(wish), Some(4));
@@ -88,7 +88,7 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     let words = painted(&folder.pyramid(), &[&TURN[..], wish].concat());
     assert_eq!(words.out, "48 x 36 pixels on cpu, 4 frames (4 of them existed already)\n");
 
-    // Another wish makes all anew, whatever differs.
+    // With any other option, all frames are painted again.
     for more in [
         &["--set", "flow.seed=2"][..],
         &["--camera", "31,20"],
@@ -96,11 +96,11 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
         &["--preset", "sketch"],
     ] {
         assert_eq!(found(&[wish, more].concat()), Some(0), "{more:?}");
-        assert!(all(&folder) != first, "{more:?}: frames of before");
+        assert!(all(&folder) != first, "{more:?}: old frames");
     }
     assert_eq!(found(wish), Some(0));
-    assert!(all(&folder) == first, "the first wish again");
-    assert_eq!(folder.names("frames").len(), 5, "nothing half written");
+    assert!(all(&folder) == first, "the first options again");
+    assert_eq!(folder.names("frames").len(), 5, "a partial file remains");
 }
 
 #[test]
@@ -115,17 +115,17 @@ fn other_content_of_an_input_is_another_wish() {
     };
     assert_eq!((found(), found()), (Some(0), Some(4)));
     RgbImage::from_fn(40, 40, |x, y| image::Rgb([(6 * (x ^ y)) as u8; 3])).save(&scan).unwrap();
-    assert_eq!(found(), Some(0), "frames on the paper of before");
+    assert_eq!(found(), Some(0), "frames with the old paper");
     std::fs::write(&mesh, std::fs::read_to_string(&mesh).unwrap().replace("v 0 2 0", "v 0 3 0"))
         .unwrap();
-    assert_eq!(found(), Some(0), "frames of the mesh of before");
+    assert_eq!(found(), Some(0), "frames of the old mesh");
 }
 
 #[test]
 fn noise_follows_the_mesh_unless_it_is_static() {
     let folder = Folder::new();
-    // A ball of one colour, lit from the camera, looks the same from all sides; what
-    // changes between two frames is noise.
+    // A ball of one colour, lit from the camera, looks the same from all sides; only noise
+    // changes between two frames.
     let look = ["--width", "64", "--turntable", "8", "--set", "flow.strength=3"];
     let mut first_frames = Vec::new();
     for (method, moves) in [("static", false), ("particles", true), ("features", true)] {
@@ -138,7 +138,7 @@ fn noise_follows_the_mesh_unless_it_is_static() {
         first_frames.push(one);
     }
     let (mean, _) = difference(&first_frames[1], &first_frames[2]);
-    assert!(mean > 1.0, "both methods are one");
+    assert!(mean > 1.0, "both methods give the same noise");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Laws of colours.
+//! Properties of colour differences, CIELAB, chromatic adaptation, display RGB and metamerism.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,7 +11,7 @@ use suite::near::assert_near;
 
 use super::{ROUNDING, random_pairs};
 
-/// Whites of D65, A and F11, far apart.
+/// XYZ of the whites of D65, A and F11, which differ strongly.
 const WHITES: [[f64; 3]; 3] =
     [[95.04, 100.0, 108.88], [109.85, 100.0, 35.58], [100.96, 100.0, 64.37]];
 
@@ -43,7 +43,7 @@ fn ciede2000_is_symmetric() {
 #[test]
 fn the_metric_of_ciede2000_is_its_difference_nearby() {
     for (seed, center, _) in random_pairs() {
-        // At grey the hue turns over, and no linear map follows it.
+        // Near grey the hue changes too fast for a linear approximation.
         if center.a.hypot(center.b) < 5.0 {
             continue;
         }
@@ -61,7 +61,7 @@ fn lab_leads_to_xyz_and_back() {
     for (seed, lab, _) in random_pairs() {
         let white = Xyz::from(WHITES[0]);
         let back = Lab::from_xyz(lab.to_xyz(white), white);
-        // Lab is up to 500 times its own share of XYZ.
+        // CIELAB multiplies a rounding error of a normalized X, Y or Z by up to 500.
         assert_near(format!("seed {seed}"), &back.to_array(), &lab.to_array(), 50.0 * ROUNDING);
     }
 }
@@ -140,7 +140,7 @@ fn a_pair_that_matches_under_both_lights_is_no_metamer() {
 #[test]
 fn correction_of_a_matching_pair_changes_nothing() {
     let (test, reference) = (Xyz::from([25.0, 28.0, 10.0]), Xyz::from([20.0, 30.0, 40.0]));
-    assert_eq!(corrected_to_match(test, reference, reference), Ok(test), "matched already");
+    assert_eq!(corrected_to_match(test, reference, reference), Ok(test), "already matched");
     let black = Xyz::default();
     let refused = corrected_to_match(test, reference, black).unwrap_err();
     assert_eq!(refused.xyz, [0.0; 3], "black cannot be corrected");

@@ -1,4 +1,4 @@
-//! The verb `plan`, and its empty file on the way through `fit`.
+//! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file.
 
 use calibrate::PigmentId;
 use calibrate::fit::ExpectedNoise;
@@ -39,7 +39,7 @@ fn a_plan_names_recipes_that_can_be_weighed() {
         let told = json["totals_g"][&name].as_f64().unwrap();
         assert!((told - total).abs() < 1e-6, "{name}: {told} for {total}");
     }
-    // 5 masstones, 2 tints of 4 paints, 3 shades and a ring of 3.
+    // 5 masstones, 2 tints each of 4 paints, 3 shades, and 3 mixtures of two colours.
     assert_eq!(swatches.len(), 5 + 8 + 3 + 3);
     let table = plan(&[]).out;
     for word in ["01 Zinc White masstone", "Cobalt Blue tint 1:4", "0.5 g", "Paint for all"] {
@@ -135,7 +135,7 @@ fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     let pigments: Vec<PigmentId> = paints.names.iter().map(|n| truth.find(n).unwrap()).collect();
     let pool = candidates(&paints, 0.05);
     let design = usual(&paints, &pool, 19).unwrap();
-    // Two readings over each card.
+    // The mean of two readings over each card has noise sd / sqrt(2).
     let noise = ExpectedNoise { constant: sd / 2f64.sqrt(), even: 0.0 };
     let deviations = Information::new(&truth, &pigments, &pool, noise).log_deviations(&design);
     let mut pulls = Vec::new();
@@ -177,7 +177,7 @@ fn a_prior_gives_a_better_plan_and_says_by_how_much() {
     };
     let (own, usual) = (sum("relative_deviations"), sum("usual_relative_deviations"));
     assert!(own < usual, "{own} for {usual}");
-    // Twice the noise, about twice the deviation.
+    // Doubling the noise about doubles the predicted deviation.
     let at = |noise: &str| {
         let run = plan(&["--prior", &prior, "--noise", noise, "--swatches", "19", "--json"]).json();
         run["prior"]["usual_relative_deviations"]["Viridian"]["scattering"].as_f64().unwrap()

@@ -1,4 +1,4 @@
-//! What colours, lights and spectra obey, whatever the values.
+//! Properties of colours, lights and spectra that hold for any values.
 
 mod colors;
 mod inputs;
@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::Lab;
 
-/// A few roundings of numbers of size 100, as XYZ and Lab are.
+/// Tolerance: a few rounding errors of numbers of size 100, the range of XYZ and Lab.
 const ROUNDING: f64 = 1600.0 * f64::EPSILON;
 
 /// Random pairs of colours, each with its seed.

@@ -1,4 +1,4 @@
-//! Laws of the sums from spectrum to XYZ.
+//! Properties of the weighted sums that give XYZ from a spectrum.
 
 use spectra::{
     Grid, Illuminant, Interpolation, Observer, TristimulusWeights, black_body, daylight,
@@ -13,7 +13,8 @@ fn grids() -> [Grid; 4] {
         .map(|(start, step, count)| Grid::from_nm(start, step, count).unwrap())
 }
 
-/// Every light of the tables, and two of a temperature, with every observer.
+/// Weights of every tabulated illuminant and of a black body and a daylight of 5600 K, for every
+/// observer (each on another grid), with both interpolations.
 fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
     let by_temperature = [black_body(5600.0).unwrap(), daylight(5600.0).unwrap()];
     let lights = Illuminant::names().map(|name| Illuminant::named(name).unwrap());

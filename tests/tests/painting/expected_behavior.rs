@@ -1,4 +1,5 @@
-//! What any painter would expect of paint.
+//! Expected behaviour of paint: wet mixing, contact with the weave, pick-up by a clean brush, and
+//! limits of brushes and columns.
 
 use render::amount::{MAX_COLUMN, QUANTA_PER_CELL};
 use render::layer::Layer;
@@ -16,7 +17,8 @@ fn bare_cells(wet: &Layer) -> usize {
     (0..wet.vehicle.values().len()).filter(|&cell| wet.cell(cell).volume() == 0).count()
 }
 
-/// The colours and shares of blue of all cells that hide the panel below.
+/// Colour and blue share of yellow plus blue, in every cell whose paint of the two is higher than
+/// a tenth of the cell width.
 fn mixed(strokes: impl Fn(&mut Painting)) -> Vec<(Lab, f64)> {
     let mut painting = on_cpu(bare_on(r#"{"kind": "panel", "seed": 1}"#, 160, 60));
     strokes(&mut painting);
@@ -49,7 +51,7 @@ fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
         lay(painting, YELLOW, 0.6);
         lay(painting, BLUE, 0.02);
     });
-    // Added light would lie between the two ends, never beyond.
+    // Additive mixing would give an a* between those of the two pigments, never below both.
     let green = both
         .iter()
         .filter(|(lab, share)| (0.005..0.5).contains(share) && lab.a < ends - 10.0 && lab.b > 0.0);
@@ -81,8 +83,8 @@ fn a_brush_that_does_not_move_takes_no_substeps_after_its_dab() {
     let dab = painting.stroke(brush, &[still]).unwrap();
     let long: Vec<Sample> = (0..100).map(|i| Sample { seconds: f64::from(i), ..still }).collect();
     assert_eq!(other.stroke(same, &long).unwrap(), dab);
-    assert!(painting.document().unwrap() == other.document().unwrap(), "held for longer");
-    assert!(dab.substeps > 0 && bare_cells(&painting.wet().unwrap()) < 6400, "a dab is a dab");
+    assert!(painting.document().unwrap() == other.document().unwrap(), "a longer rest differs");
+    assert!(dab.substeps > 0 && bare_cells(&painting.wet().unwrap()) < 6400, "no paint");
 }
 
 fn whole(painting: &mut Painting, brush: BrushId) -> (Layer, Layer) {
@@ -96,7 +98,7 @@ fn a_light_touch_leaves_more_of_the_weave_bare_than_a_heavy_one() {
         let mut painting = on_cpu(bare_on(ground, 120, 60));
         let brush = loaded(&mut painting, HeadShape::Flat, 6.0, YELLOW, 0.3);
         painting.stroke(brush, &along(&[(4.0, 6.0), (20.0, 6.0)], pressure)).unwrap();
-        // Where the middle of the head went.
+        // Cells along the path of the middle of the head.
         let wet = painting.wet().unwrap();
         let cells = (20..40).flat_map(|y| (30..90).map(move |x| y * 120 + x));
         let painted = cells.filter(|&cell| wet.cell(cell).volume() > 0).count();
@@ -116,7 +118,7 @@ fn a_clean_brush_takes_up_wet_paint_and_no_dry() {
         let before = painting.wet().unwrap().totals()[YELLOW];
         painting.stroke(clean, &along(&[(3.0, 6.0), (20.0, 6.0)], 0.6)).unwrap();
         let taken = painting.brush_paint(clean).unwrap().totals()[YELLOW];
-        assert!(taken > 0, "nothing clings");
+        assert!(taken > 0, "the brush took no wet paint");
         assert_eq!(painting.wet().unwrap().totals()[YELLOW], before - taken);
         painting.dry(1.0).unwrap();
         painting.wash(clean).unwrap();
@@ -150,7 +152,7 @@ fn a_brush_takes_what_it_can_hold_and_refuses_more() {
     ] {
         assert!(painting.load(brush, &recipe, vehicle, amount_mm).is_err(), "{recipe:?}");
     }
-    assert_eq!(painting.brush_paint(brush).unwrap().totals(), clear, "what was refused");
+    assert_eq!(painting.brush_paint(brush).unwrap().totals(), clear, "a refused load changed it");
 }
 
 #[test]
