@@ -38,7 +38,10 @@ pub fn run(start: Start) -> Result<(), Problem> {
             let mut files = Files::new(context, start.home, start.preferences);
             files.pace = start.pace;
             start.problems.into_iter().for_each(|problem| files.report(problem));
-            let pen = Pen::for_window(creation, PenSettings::default());
+            let mut pen = Pen::for_window(creation, PenSettings::default());
+            if let Some(text) = pen.take_notice() {
+                files.report(Problem { text, hint: None });
+            }
             let parts = Parts { worker, pen, files, open: start.file, log: start.figures };
             Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
         }),

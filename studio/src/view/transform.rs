@@ -195,14 +195,6 @@ impl Placement {
         Vec2::new((a * x + b * y) as f32, (c * x + d * y) as f32)
     }
 
-    /// Converts a direction on the screen to the surface, keeping its length.
-    #[must_use]
-    pub fn surface_direction(&self, direction: [f64; 2]) -> [f64; 2] {
-        let [[a, b], [c, d]] = self.matrix;
-        let [x, y] = direction.map(|along| along * self.scale() / (a * d - b * c));
-        [d * x - b * y, a * y - c * x]
-    }
-
     /// Like [`cell`](Self::cell), without the shift that aligns cells with pixels.
     fn unsnapped(&self, point: Pos2) -> [f64; 2] {
         let offset = [0, 1].map(|axis: usize| self.offset[axis] + self.unsnapped[axis]);
@@ -318,14 +310,5 @@ mod tests {
             assert!((first - first.round()).length() < 1e-3, "{first}");
             assert!((next - first - vec2(1.0, 1.0)).length() < 1e-3, "{first} {next}");
         }
-    }
-
-    #[test]
-    fn directions_survive_the_round_trip_with_their_length() {
-        let placement = general_view().placement(RECT, 2.0);
-        let on_surface = placement.surface_direction([0.6, 0.8]);
-        assert!((on_surface[0].hypot(on_surface[1]) - 1.0).abs() < 1e-12, "{on_surface:?}");
-        let back = placement.direction(on_surface) / placement.scale() as f32;
-        assert!((back - vec2(0.6, 0.8)).length() < 1e-6, "{back}");
     }
 }

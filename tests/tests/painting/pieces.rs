@@ -3,7 +3,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::layer::{Cell, Layer};
+use render::layer::Layer;
 use render::paint::brush::{HeadMesh, HeadShape};
 use render::paint::engine::BrushId;
 use render::paint::painting::{Painting, PaintingError};
@@ -140,31 +140,6 @@ fn a_stroke_without_samples_is_no_action() {
         assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0, "no dab before the end");
         assert!(stroke.finish(&mut painting).unwrap().substeps > 3, "a dab");
         assert!(painting.undo().unwrap(), "no undo of a dab");
-    }
-}
-
-#[test]
-fn a_brush_that_comes_with_paint_gets_back_what_it_held_here() {
-    for mut painting in on_both(&bare(130, 100)) {
-        let brush = loaded(&mut painting, HeadShape::Flat, 5.0, WHITE, 0.4);
-        let held = painting.brush_paint(brush).unwrap();
-        let mut other = Layer::empty(held.width(), held.height());
-        for index in 0..held.width() * held.height() {
-            let pigments = std::array::from_fn(|slot| if slot == BLUE { 700_000 } else { 0 });
-            other.set_cell(index, Cell { pigments, vehicle: 90_000 });
-        }
-        let mut stroke = painting.begin_stroke_with(brush, &other).unwrap();
-        assert!(painting.brush_paint(brush).unwrap() == other, "paint at the start of the stroke");
-        stroke.extend(&along(&[(3.0, 4.0), (20.0, 9.0)], 0.6)).unwrap();
-        stroke.finish(&mut painting).unwrap();
-        let totals = painting.wet().unwrap().totals();
-        assert!(totals[BLUE] > 0 && totals[WHITE] == 0, "{totals:?}");
-        let after = painting.brush_paint(brush).unwrap();
-        assert!(after.totals()[BLUE] < other.totals()[BLUE], "no paint left the brush");
-        assert!(painting.undo().unwrap(), "no undo");
-        assert!(painting.brush_paint(brush).unwrap() == held, "paint after undo");
-        assert!(painting.redo().unwrap(), "no redo");
-        assert!(painting.brush_paint(brush).unwrap() == after, "paint after redo");
     }
 }
 

@@ -117,13 +117,6 @@ impl Projection {
         self.model_from_clip
     }
 
-    /// Where a position of the model lies in the picture, as (x, y, depth) with x and y in
-    /// pixels from the upper left corner. `None` if it is nearer than the near plane.
-    #[must_use]
-    pub fn pixel_of(&self, position: Vec3) -> Option<Vec3> {
-        self.project(position).map(|at| Vec3::new(at.x, at.y, at.depth))
-    }
-
     /// `near far / (far - near)`. Depth is a constant minus this over distance.
     pub(super) fn depth_scale(&self) -> f32 {
         let Camera { near, far, .. } = self.camera;

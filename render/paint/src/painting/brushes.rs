@@ -174,8 +174,7 @@ impl Painting {
         }
     }
 
-    /// Removes the paint of a brush and returns it, for the brush of another painting (see
-    /// [`Painting::begin_stroke_with`]). An action of the history: an undo puts it back.
+    /// Removes the paint of a brush and returns it, for the brush of another painting. An action of the history: an undo puts it back.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

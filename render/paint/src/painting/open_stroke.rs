@@ -320,25 +320,6 @@ impl Painting {
         Ok(stroke)
     }
 
-    /// Begins a stroke with a brush that comes from another painting with `paint` on it.
-    /// An undo restores the paint that the brush held here before.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, a stroke is open, or `paint` does not have the cells of
-    /// the head.
-    pub fn begin_stroke_with(
-        &mut self,
-        brush: BrushId,
-        paint: &Layer,
-    ) -> Result<OpenStroke, PaintingError> {
-        let mut stroke = OpenStroke::new(self.cell_mm)?;
-        stroke.open(self, brush, Some(paint))?;
-        Ok(stroke)
-    }
-
     /// Whether a stroke is open.
     #[must_use]
     pub fn stroke_open(&self) -> bool {

@@ -76,22 +76,6 @@ impl Settings {
         own
     }
 
-    /// Switches off all effects, on smooth white paper: the pipeline then returns the wash
-    /// unchanged.
-    #[must_use]
-    pub fn without_effects(mut self) -> Self {
-        self.wash.density = 1.0;
-        self.wobble.amount_px = 0.0;
-        self.edges.strength = 0.0;
-        self.flow.strength = 0.0;
-        self.dispersion.strength = 0.0;
-        self.paper.strength = 0.0;
-        self.paper.relief = 0.0;
-        "#ffffff".clone_into(&mut self.paper.color);
-        self.dry_brush.amount = 0.0;
-        self
-    }
-
     pub(super) fn figures(&self) -> Vec<Figure> {
         let own = vec![Figure::new("reference_px", self.reference_px, [16.0, 65536.0])];
         [

@@ -12,8 +12,8 @@ use render::watercolor::{
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::hint::Explain;
 
-use super::any_picture;
 use super::on_fields::wobble;
+use super::{any_picture, without_effects};
 
 /// Tolerance in linear RGB for thin glazes rounded to whole quanta.
 const NEAR: f32 = 2e-3;
@@ -101,7 +101,7 @@ fn a_density_of_2_is_two_glazes() {
 #[test]
 fn thickness_is_the_product_of_all_densities() {
     let color = Field::filled(32, 24, [0.4, 0.5, 0.6, 1.0]);
-    let mut settings = Settings::default().for_size(32, 24).without_effects();
+    let mut settings = without_effects(Settings::default().for_size(32, 24));
     let textures = Textures::new(32, 24, &settings).unwrap();
     let none = Controls::default();
     let flat = thickness(&color, &none, &textures, &settings);

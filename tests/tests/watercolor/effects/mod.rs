@@ -6,6 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::compute::Compute;
 use render::field::Field;
+use render::watercolor::Settings;
 use suite::adapter::device;
 
 mod on_fields;
@@ -34,6 +35,20 @@ fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
         .collect();
     let at = |i: usize| patches[(i % width / 5 + i / width / 4 * 7) % 64];
     Field::from_values(width, height, (0..width * height).map(at).collect())
+}
+
+/// `settings` with all effects switched off, on smooth white paper.
+fn without_effects(mut settings: Settings) -> Settings {
+    settings.wash.density = 1.0;
+    settings.wobble.amount_px = 0.0;
+    settings.edges.strength = 0.0;
+    settings.flow.strength = 0.0;
+    settings.dispersion.strength = 0.0;
+    settings.paper.strength = 0.0;
+    settings.paper.relief = 0.0;
+    "#ffffff".clone_into(&mut settings.paper.color);
+    settings.dry_brush.amount = 0.0;
+    settings
 }
 
 fn any_grey(width: usize, height: usize, seed: u64) -> Field<f32> {

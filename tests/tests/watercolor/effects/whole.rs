@@ -8,7 +8,7 @@ use render::watercolor::{
 use suite::adapter::device;
 use suite::near::assert_near;
 
-use super::{any_grey, any_picture, numbers};
+use super::{any_grey, any_picture, numbers, without_effects};
 
 /// The picture after each stage.
 type Stages = Vec<(Stage, Field<[f32; 4]>)>;
@@ -40,7 +40,7 @@ fn wash(width: usize, height: usize) -> Wash {
 
 #[test]
 fn without_effects_the_picture_stays() {
-    let settings = Settings::default().for_size(48, 40).without_effects();
+    let settings = without_effects(Settings::default().for_size(48, 40));
     for color in [[0.3, 0.6, 0.9, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4], [0.123_456_7; 4]] {
         let mut color = color;
         color[3] = 1.0;
