@@ -16,7 +16,7 @@
 //! let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
 //! println!("{} L* {:.1}", color.hex(), color.lab.lightness);
 //!
-//! let options = MatchOptions { at_most: 2, ..MatchOptions::default() };
+//! let options = MatchOptions { at_most: 3, ..MatchOptions::default() };
 //! let found = oils.recipes_for(&"#4a7d8c".parse()?, &options)?;
 //! println!("nearest: {:.2} CIEDE2000", found.nearest());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
