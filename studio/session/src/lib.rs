@@ -4,6 +4,42 @@
 //! reads its [`Event`]s. [`Autosave`] keeps the paintings on the disk, and [`LostSession`]
 //! finds the autosaves of programs that were killed.
 //!
+//! ```text
+//! front end -- Command --> Worker: inbox -> dispatch -> PaintingSession -> paint engine
+//!     ^                                                                        |
+//!     +------- Event (state, tiles, snapshots, messages) <---------------------+
+//! ```
+//!
+//! ```
+//! use std::{sync::mpsc::channel, time::Instant};
+//!
+//! use pigment::PigmentLibrary;
+//! use render::paint::{pose::Sample, strokes::{SampleDecimals, SurfaceId}};
+//! use session::{Command, Event, PenSample, Worker, WorkerOptions, blank_canvas};
+//!
+//! let (wake, woken) = channel();
+//! let worker = Worker::start(WorkerOptions::default(), move || wake.send(()).unwrap_or(()));
+//! worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 20.0, 15.0, 0.2)));
+//! let (surface, decimals) = (SurfaceId::Canvas, SampleDecimals::PEN);
+//! worker.ask(Command::PenDown { surface, brush: "round".to_owned(), decimals });
+//! let sample = Sample::upright(0.0, 10.0, 8.0, 0.5);
+//! worker.ask(Command::PenMove(vec![PenSample { sample, arrived: Instant::now() }]));
+//! worker.ask(Command::PenUp);
+//! worker.ask(Command::Snapshot(1));
+//! let painted = loop {
+//!     woken.recv()?;
+//!     let snapshot = worker.events().find_map(|event| match event {
+//!         Event::Snapshot(snapshot) => Some(snapshot),
+//!         _ => None,
+//!     });
+//!     if let Some(snapshot) = snapshot {
+//!         break snapshot;
+//!     }
+//! };
+//! assert_eq!(painted.canvas.wet.width(), 100);
+//! # Ok::<(), std::sync::mpsc::RecvError>(())
+//! ```
+//!
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
 
 mod state;
