@@ -1,4 +1,4 @@
-//! Calibration from absolute amounts: ladders and glazes of watercolor on one known backing.
+//! Calibration from absolute amounts: series of amounts and glazes of watercolour on one known backing.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -65,8 +65,8 @@ pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
 /// Fits K and S per unit of amount by [`fit_finite`].
 ///
 /// # Errors
-/// [`CalibrationError`] if readings cannot be used or the fit fails. A reading below the surface's own
-/// reflection is treated as for shares.
+/// [`CalibrationError`] if readings cannot be used or the fit fails. Readings below the surface's own
+/// reflection are treated as `settings` say.
 pub fn calibrate_absolute(
     set: &SwatchSet,
     film: UnevenFilm,
@@ -131,11 +131,12 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 
 /// Chooses the film model that predicts unseen films best.
 ///
-/// Candidates are the share k2 of light that the surface turns back (0, 0.3, 0.6; k1 as given), then the
-/// unevenness of the films (0, 0.25, 0.5). Each is scored by five-fold cross-validation over seeded
-/// folds, as mean CIEDE2000. A model is replaced by another one only for a gain of 3 %. With fewer than
-/// 20 films the plain model (0 and 0) is returned without a test. Such a k2 serves prediction; it is no
-/// measurement of the surface, whose effect unevenness imitates.
+/// First k2, the share of diffuse light that the surface reflects back inside, is chosen from 0, 0.3 and 0.6
+/// (k1 stays as given), then the unevenness of the films from 0, 0.25 and 0.5. The score of a model is its
+/// mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the current one
+/// only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0 and 0) is
+/// returned without a test. The chosen k2 serves prediction only. It does not measure the surface, because
+/// unevenness has a similar effect.
 ///
 /// # Errors
 /// [`FitError`] from any fit.
@@ -146,7 +147,7 @@ pub fn chosen_film(
 ) -> Result<UnevenFilm, FitError> {
     let plain = UnevenFilm { surface: Surface { k2: 0.0, ..surface }, unevenness: 0.0 };
     if problem.films.len() < 4 * FOLDS {
-        // Too few films to hold any back.
+        // There are too few films to leave any out.
         return Ok(plain);
     }
     let weights = Viewing::default().weights(problem.grid).expect("the method fits the grid");
@@ -192,7 +193,7 @@ pub fn chosen_film(
 pub const CHOICE_FITS: usize = 5 * FOLDS;
 /// Number of folds of the cross-validation.
 const FOLDS: usize = 5;
-/// A model is replaced by one whose score is below this fraction of its own; chosen by eye.
+/// A model is replaced by another one whose score is below this fraction of its own; chosen by eye.
 const LEAST_GAIN: f64 = 0.97;
 /// Fraction of information on S from the films below which S is called undetermined; chosen by eye.
 const HALF_KNOWN: f64 = 0.5;

@@ -33,10 +33,11 @@ pub struct Calibration {
 
 /// Fits K and S of every pigment of `set`, with S relative to that of `reference`.
 ///
-/// Colour errors in the evidence are CIEDE2000 under `viewing`, between each swatch's K/S as a film that
-/// hides and the fitted mixture. Samples of pigments that the data do not identify are used neither for
-/// the fit nor for its errors. A pigment known only from a masstone gets its K/S with S = 1, marked as
-/// not identified; one without a masstone is left out.
+/// Colour errors in the evidence are CIEDE2000 under `viewing`, between the colour that each swatch's K/S has
+/// in a film that hides and that of the fitted mixture. Samples with a pigment that the data do not identify
+/// are used neither for the fit nor for its errors. A pigment known only from a masstone gets its K/S with
+/// S = 1, marked as not identified; one without a masstone is left out.
+///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
 pub fn calibrate(

@@ -1,4 +1,4 @@
-//! From readings to a library: options, guesses that are reported, and the fit.
+//! From readings to a library: options, default choices (reported as remarks) and the fit.
 
 use std::path::Path;
 
@@ -120,14 +120,14 @@ impl Fit {
         ErrorReport::of_evidence(title, self.evidence())
     }
 
-    /// Reservations about the data: what does not identify a pigment, or contradicts itself.
+    /// Warnings about the data: pigments that they do not identify, and contradictions.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.evidence().warnings
     }
 }
 
-/// Readings and settled options, ready to be fitted or validated.
+/// Readings with all options resolved, ready to be fitted or validated.
 #[derive(Debug, Clone)]
 pub struct PreparedFit {
     /// Swatches without those that are left out.
@@ -136,7 +136,7 @@ pub struct PreparedFit {
     pub settings: FitSettings,
     /// Film model of the fit.
     pub model: FilmModel,
-    /// Choices that were made, and reservations about the wavelengths.
+    /// Choices that were made, and warnings about the wavelengths.
     pub remarks: Vec<Remark>,
     viewing: Viewing,
     inputs: Vec<Input>,
@@ -164,8 +164,8 @@ impl PreparedFit {
     /// amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Settles the options: selects samples, finds the reference white and the surface. `progress` is
-    /// called after each fit by which the film model of absolute amounts is chosen, from any thread.
+    /// Resolves the options: selects samples, finds the reference white and the surface. `progress` is
+    /// called, from any thread, after each fit made to choose the film model of absolute amounts.
     ///
     /// # Errors
     /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
@@ -267,7 +267,7 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
     let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
     let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
     let whites: Vec<usize> = (0..set.pigments.len()).filter(called_white).collect();
-    // The first of equals, so that the order of columns decides.
+    // Of several in equally many samples, the first column is chosen.
     let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
     commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
         first: set.pigments.first().cloned().unwrap_or_default(),
@@ -297,7 +297,8 @@ fn film_model(
     Ok(film)
 }
 
-/// How the films hid, how far repeated readings spread, and how well the equations are conditioned.
+/// Remarks on how well the films hid, how far repeated readings differ, and how well the equations are
+/// conditioned.
 fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let open = films.iter().filter(|o| o.hiding.hides() == Some(false)).count();

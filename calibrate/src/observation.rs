@@ -23,15 +23,15 @@ const SAME_THICKNESS: f64 = 0.05;
 /// Internal reflectance above which a reading is refused rather than read as white; chosen by eye.
 const ABOVE_WHITE: f64 = 1.05;
 
-/// The way in which the backing was separated from a swatch's K/S.
+/// Whether K/S of a swatch was computed from two backings, or the film was assumed to hide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hiding {
-    /// Read over two backings: the largest difference of the two readings over wavelength, in measured
-    /// reflectance.
+    /// K/S was computed from readings over two backings. The value is the largest difference of the two over
+    /// wavelength, in measured reflectance.
     Difference(f64),
-    /// Assumed to hide, for want of films of one thickness on two backings of different reflectance that
-    /// were each read bare. The largest difference of readings over different backings, if there are
-    /// several.
+    /// The film was assumed to hide, because there are no two films of one thickness on backings of different
+    /// reflectance that were also read bare. The value is the largest difference of readings over different
+    /// backings; `None` if there is only one.
     Assumed(Option<f64>),
 }
 
@@ -46,7 +46,7 @@ pub struct Observation {
     pub ratio: Vec<f64>,
     /// Measured reflectance of a film that hides, surface included.
     pub reflectance: Vec<f64>,
-    /// Evidence that the film hides its backing.
+    /// How K/S was computed, and how far readings over different backings differ.
     pub hiding: Hiding,
     /// Standard deviation of repeated readings; `None` if none were repeated.
     pub spread: Option<f64>,
@@ -69,10 +69,10 @@ impl Hiding {
 
 /// Computes the observations of all swatches.
 ///
-/// Readings are first converted to reflectances below the surface. Films over two backings of known
-/// reflectance give K/S by [`film_over_two_backings`]: of several such pairs of one thickness (to 5 %)
-/// the thickest, and of these the one with the greatest contrast. Any other swatch is assumed to hide,
-/// and its thickest film is used.
+/// Readings are first converted to reflectances below the surface. If a swatch has films of one thickness (to
+/// 5 %) over two backings of known reflectance, K/S follows from [`film_over_two_backings`]. Of several such
+/// pairs the thickest is used, and of these the one with the greatest contrast. Any other swatch is assumed
+/// to hide, and its thickest film is used.
 ///
 /// # Errors
 /// [`MeasurementError::BelowSurface`] or `AboveWhite`, with sample and wavelength.

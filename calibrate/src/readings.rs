@@ -55,7 +55,8 @@ pub struct ReadingOptions {
     /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
     /// mode over a white tile. Counts and powers of lamps never do.
     pub transmittance_is_reflectance: bool,
-    /// White, dark and tile by which counts become reflectances. Default: the files hold reflectances.
+    /// White, dark and tile with which counts are converted to reflectances. Default: the files hold
+    /// reflectances.
     pub references: Option<ReferenceFiles>,
 }
 
@@ -74,7 +75,7 @@ pub struct Readings {
     pub table: MeasurementTable,
     /// Files that were read, with their hashes: measurements, then references, then recipes.
     pub inputs: Vec<Input>,
-    /// Contents of each file in short, and reservations about them.
+    /// Summary of the contents of each file, and warnings about them.
     pub remarks: Vec<Remark>,
 }
 
@@ -186,8 +187,8 @@ impl References {
     }
 }
 
-/// The instrument's file in `bytes`; `None` for the measurement CSV, and for an unknown content, of
-/// which the CSV's reader names the first fault.
+/// The instrument's file in `bytes`. `None` for the measurement CSV, and for unknown content, so that the
+/// CSV's reader reports the first fault.
 fn instrument_file(
     file: &str,
     bytes: &[u8],

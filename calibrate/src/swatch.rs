@@ -79,7 +79,7 @@ impl SwatchSet {
             return Err(MeasurementError::NoFilms);
         }
         let all = Self { grid: table.grid, pigments: table.pigments.clone(), swatches };
-        // A column without any amount is no pigment of these swatches.
+        // Drops the columns without any amount.
         Ok(all.retaining(|_| true))
     }
 
@@ -106,8 +106,8 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in percent. Empty where the file
-    /// counts parts instead.
+    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in percent. Empty if most mixtures
+    /// have other sums: the file then states parts.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
         // A masstone may be written as 1 where mixtures are counted in parts.

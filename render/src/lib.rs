@@ -31,7 +31,7 @@
 //!
 //! Techniques never use each other. They share the crates `graphics` (pictures, devices,
 //! meshes) and `paint` (paint, brushes, paintings), which are re-exported here, so that a
-//! program depends on `render` alone. `examples/` has a program for each door.
+//! program depends on `render` alone. `examples/` has a program for each entry point.
 
 pub use graphics::kernels as graphics_kernels;
 pub use graphics::{

@@ -57,8 +57,8 @@ impl Axis {
         Self::linear(quantity, unit, low, high, count)
     }
 
-    /// A logarithmic axis of whole decades that includes `low` to `high`, limited to the upper
-    /// `decades`. Smaller values, also 0, are drawn at the low end.
+    /// A logarithmic axis of whole decades that includes `low` to `high`, but of these at most the
+    /// uppermost `decades`. Values below the axis, including 0, are drawn at its low end.
     #[must_use]
     pub fn log(quantity: &str, unit: &str, low: f64, high: f64, decades: i32) -> Self {
         let top = if high > 0.0 { (high.log10() - 1e-9).ceil() as i32 } else { 0 };

@@ -1,8 +1,8 @@
 //! Charts drawn as SVG. The only file that uses the crate plotters.
 //!
 //! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is
-//! ten times as large, and the view box of the document scales it down. Labels are place_labels here,
-//! since plotters without a font can only guess their size.
+//! ten times as large, and the view box of the document scales it down. Labels are placed by this
+//! crate (`names`), because plotters without a font can only guess their size.
 
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;

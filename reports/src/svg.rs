@@ -115,8 +115,8 @@ pub fn opening(width: u32, height: u32, fine: u32) -> String {
     )
 }
 
-/// Approximate width of `text` in px at font size `size`, for a wide sans-serif font. The font
-/// that a page will find is not known.
+/// Approximate width of `text` in px at font size `size`, in px, for a wide sans-serif font. It is
+/// an estimate, because the reader's font is not known.
 #[must_use]
 pub fn estimated_width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {

@@ -10,7 +10,7 @@ use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::split_file_and_name;
 use crate::lamp::{LampError, lamp_from_bytes};
 
-/// The light that `text` stands for.
+/// Returns the light that `text` names.
 ///
 /// | text | light |
 /// |---|---|

@@ -164,7 +164,7 @@ impl Axes {
     }
 }
 
-/// Formats a number in at max five characters.
+/// Formats a number with three decimals below 0.1, two below 1, one below 10, else none.
 fn short(value: f64) -> String {
     let digits = match value.abs() {
         0.0 => 0,

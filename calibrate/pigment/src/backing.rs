@@ -91,7 +91,7 @@ impl FromStr for Backing {
 /// A backing that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BackingError {
-    /// The reflectance is no number from 0 to 1.
+    /// The reflectance is not a number from 0 to 1.
     #[error("the ground's reflectance is 0 to 1, white or black, found `{text}`")]
     Reflectance {
         /// Text or number that was given.

@@ -1,4 +1,4 @@
-//! The colour of a mixture: from names and parts to a spectrum and its colour.
+//! Predicts the spectrum and colour of a mixture given by pigment names and parts.
 
 use spectra::color::{Lab, Rgb, Xyz};
 use spectra::hint::{Explain, Fault, Hint};
@@ -12,7 +12,7 @@ use crate::recipe::Recipe;
 use crate::remark::Remark;
 use crate::visible_band::{BandError, check_visible_band};
 
-/// Greatest thickness of a film; beyond, it hides at any K and S above 1e-7.
+/// Greatest thickness of a film. A film of this thickness hides its ground if K and S exceed 1e-7.
 const THICKEST: f64 = 1e9;
 
 /// A film of given thickness over a ground.
@@ -46,8 +46,8 @@ pub struct MixtureColor {
     /// Encoded sRGB, adapted from the light to the display (Bradford); outside 0..1 where sRGB cannot
     /// show the colour.
     pub srgb: Rgb,
-    /// Reservations: pigments that were guessed or whose S is unknown, a ground or a library that
-    /// covers only part of the band.
+    /// Warnings: pigments that were guessed or whose S is unknown, and a ground or a library that covers only
+    /// part of the visible band.
     pub remarks: Vec<Remark>,
 }
 
@@ -60,8 +60,9 @@ impl MixtureColor {
 }
 
 impl PigmentLibrary {
-    /// Predicts the colour of a mixture, given as pigments by name with their parts. The film hides its
-    /// ground; a library of absolute amounts lays the recipe's amounts over a perfect white.
+    /// Predicts the colour of a mixture, given as pigments by name with their parts. In a library of relative
+    /// amounts the film hides its ground. In one of absolute amounts the parts are the amounts on the
+    /// library's area, over a perfect white.
     ///
     /// ```
     /// use pigment::{PigmentLibrary, Viewing};

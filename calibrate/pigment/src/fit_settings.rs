@@ -1,4 +1,4 @@
-//! Settings of a fit. They live here because a library keeps those of its own fit in its file.
+//! Settings of a fit. They are in this crate because a library's file contains the settings of its fit.
 
 use serde::{Deserialize, Serialize};
 
@@ -36,7 +36,7 @@ pub enum BelowSurface {
     /// Return an error that names sample and wavelength: k1 is too high for this paint.
     #[default]
     Refuse,
-    /// Read it as an internal reflectance of 0.001, which stands for black.
+    /// Replace it with an internal reflectance of 0.001, which stands for black.
     Floor,
 }
 

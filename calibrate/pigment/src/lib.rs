@@ -22,8 +22,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Measuring and fitting are in the crate `calibrate`, instruments' files in `spectra`. Files stand in an
-//! order of dependence: each uses only files above it.
+//! Measuring and fitting are in the crate `calibrate`, instruments' files in `spectra`. Modules are ordered
+//! by dependence: each uses only modules declared above it.
 
 pub mod digits;
 

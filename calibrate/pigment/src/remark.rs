@@ -9,7 +9,7 @@ use spectra::hint::Hint;
 pub enum RemarkKind {
     /// A choice that was made for the caller, or progress.
     Note,
-    /// A reservation about the result.
+    /// A warning about the result.
     Warning,
 }
 
@@ -31,7 +31,7 @@ impl Remark {
         Self { kind: RemarkKind::Note, text: text.into(), hint: None }
     }
 
-    /// A warning: a reservation about the result.
+    /// A warning about the result.
     #[must_use]
     pub fn warning(text: impl Into<String>) -> Self {
         Self { kind: RemarkKind::Warning, text: text.into(), hint: None }

@@ -1,10 +1,10 @@
 //! The smoothest reflectance that has a given colour.
 //!
-//! S. A. Burns, "Numerical methods for smoothest reflectance reconstruction", Color Research and
-//! Application 45 (2020), the method of least hyperbolic tangent slope squared: R = (1 + tanh z) / 2
-//! stays within 0..1, and the sum of squared steps of z over wavelength is the least of all z with
-//! that colour. R is the reflectance below the surface, so that the result is one a paint under
-//! this surface can have. Lagrange's conditions are solved by Newton's method.
+//! The method is least hyperbolic tangent slope squared (S. A. Burns, "Numerical methods for smoothest
+//! reflectance reconstruction", Color Research and Application 45, 2020). R = (1 + tanh z) / 2 stays within
+//! 0..1. Of all z with the given colour, the one with the smallest sum of squared steps over wavelength is
+//! found. R is the reflectance below the surface, so that a paint under this surface can have it. Lagrange's
+//! conditions are solved by Newton's method.
 
 use nalgebra::{DMatrix, DVector};
 use spectra::TristimulusWeights;
@@ -145,8 +145,8 @@ impl Problem<'_> {
         (residual, matrix)
     }
 
-    /// Reflectance whose colour is near the nearest possible one by CIEDE2000 (in its local metric
-    /// at the requested colour), kept smooth by a small weight.
+    /// Reflectance whose colour comes near the requested one, by least squares in the local metric of
+    /// CIEDE2000 at the requested colour. A small weight keeps it smooth.
     fn nearest(&self, start: DVector<f64>) -> DVector<f64> {
         /// Weight of the squared steps of z; chosen by eye, small against one CIEDE2000.
         const SMOOTH: f64 = 1e-5;

@@ -20,7 +20,7 @@ pub struct Condition {
     pub nm: f64,
 }
 
-/// Eigenvalues of the normal matrix below this fraction of the largest are rounding errors.
+/// Eigenvalues of the normal matrix below this fraction of the largest are attributed to rounding.
 const ROUNDING: f64 = 1e-13;
 
 /// Computes rank and condition of the derivatives of measured reflectance over log K and log S, with

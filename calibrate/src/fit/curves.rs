@@ -28,7 +28,7 @@ impl CurveTable {
     }
 }
 
-/// Least K and S that are assumed where a solution may hold 0 and logarithms are needed.
+/// Lower limits of K and S, applied to a solution that may contain 0 before logarithms are taken.
 pub(crate) const OFF_ZERO: [f64; 2] = [1e-4, 1e-3];
 
 /// Bounds of log K and log S: from 1e-5, below which a pigment does not show, to 1e4.

@@ -104,7 +104,8 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
         let pairs = linear.values.iter().zip(&problem.reflectance);
         let squares: f64 = pairs.map(|(value, read)| (value[at] - read[at]).powi(2)).sum();
         let variance = squares / freedom;
-        // In logarithms, so that a deviation of 1 means that nothing is known.
+        // The unknowns are logarithms. This term limits their deviations to 1, the deviation of a value that
+        // no mixture determines.
         for i in 0..unknowns {
             normal[(i, i)] += variance.max(f64::MIN_POSITIVE);
         }

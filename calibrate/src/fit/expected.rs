@@ -1,4 +1,4 @@
-//! Information that mixtures which nobody has made yet would give on K and S.
+//! Information on K and S that planned mixtures are expected to give.
 
 use spectra::optics::Surface;
 

@@ -14,11 +14,12 @@ const STARTS: i32 = 44;
 const LEAST_START: f64 = 0.012;
 /// Ratio of the greatest to the least of these values.
 const START_RANGE: f64 = 1000.0;
-/// Range of K of the start; chosen by eye.
+/// Range of K in the starting point of a fit; chosen by eye.
 const START_K: [f64; 2] = [4e-4, 120.0];
 /// Values of K in the coarse grid of the first wavelength; chosen by eye.
 const COARSE_STEPS: i32 = 25;
-/// Knee of the robust loss of a start, in cube roots of reflectance: 2 of 100 on a scale like lightness.
+/// Residual at which the robust loss of a start turns linear, as a cube root of reflectance (0 to 1): 0.02,
+/// about 2 units of lightness.
 const START_KNEE: f64 = 0.02;
 /// Most Gauss-Newton steps of a start; chosen by eye.
 const START_STEPS: usize = 12;
@@ -86,7 +87,7 @@ pub fn fit_finite(
     if problem.films.is_empty() {
         return Err(FitError::Empty);
     }
-    // Bounds and starts are set for amounts near 1, whatever the unit of the user.
+    // Bounds and starts suit amounts near 1, so amounts are divided by their median total.
     let totals: Vec<f64> = problem.films.iter().map(|film| film.recipe.total()).collect();
     let unit = pigment::evaluate::percentile(&totals, 50.0);
     let in_unit = |film: &MeasuredFilm| -> Vec<(usize, f64)> {
@@ -127,9 +128,9 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// K by wavelength and one S: the best of 44 values of S from 0.012 to 12. No prior on S is used,
-    /// since it would outweigh the weak evidence that a ladder gives. A pigment without films of its
-    /// own starts at 1.
+    /// K by wavelength, and the one of 44 values of S from 0.012 to 12 that fits best. No prior on S is used,
+    /// since it would outweigh the weak information of a series of amounts. Without films of this pigment
+    /// alone, K and S start at 1.
     fn of(&self, pigment: usize, wavelengths: usize) -> (Vec<f64>, f64) {
         let own: Vec<(usize, f64)> = self
             .recipes

@@ -1,4 +1,4 @@
-//! The two optical models through which a fit sees its films.
+//! The two optical models that predict films in a fit: films that hide, and films over a known backing.
 
 use nalgebra::DMatrix;
 use spectra::optics::{Surface, UnevenFilm, infinite_film, infinite_film_slope};
@@ -33,7 +33,7 @@ impl Forward for Hiding {
     }
 }
 
-/// Model of films of unit thickness over known backings; the amounts carry the thickness.
+/// Model of films of unit thickness over known backings. The thickness is contained in the amounts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finite<'a> {
     pub(super) film: UnevenFilm,
@@ -51,7 +51,7 @@ impl Forward for Finite<'_> {
     }
 }
 
-/// Measured samples, seen through an optical model.
+/// Measured samples with the optical model that predicts them.
 #[derive(Debug)]
 pub(super) struct Data<'a, F> {
     pub(super) layout: Layout,
@@ -75,7 +75,7 @@ pub(super) struct Linear {
 }
 
 impl<'a> Data<'a, Hiding> {
-    /// The mixtures of a problem, seen as films that hide.
+    /// The mixtures of a problem, modelled as films that hide.
     pub(super) fn hiding(problem: &'a Problem) -> Self {
         let layout = Layout {
             pigments: problem.pigments,

@@ -25,7 +25,7 @@ pub struct Unidentified {
     pub samples: Vec<usize>,
 }
 
-/// Sum of differences of shares below which two recipes are equal.
+/// Two recipes whose shares differ by less than this, summed over pigments, are equal.
 const SAME_RECIPE: f64 = 1e-9;
 
 /// Finds the pigments that the mixtures do not identify, given the `reference` whose S is 1. `shares` are

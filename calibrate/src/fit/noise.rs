@@ -34,8 +34,8 @@ pub(super) struct Noise<'a> {
     /// By sample and wavelength: that weight for a residual in reflectance itself.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
-    /// Least standard deviation of a residual: that of repeated readings. Few samples may be fitted
-    /// more closely than that, but they are not known more closely.
+    /// Least standard deviation of a residual, derived from repeated readings. With few samples a fit may
+    /// come nearer to the readings than this, which would make them look too precise.
     least_sd: f64,
 }
 
@@ -48,8 +48,8 @@ impl<'a> Noise<'a> {
                 *value /= root_slope(r);
             }
         }
-        // Only the differences among samples count. No wavelength outweighs another here, since the dim
-        // ends of the band would not be fitted at all otherwise.
+        // Weights are divided by their mean at each wavelength, so that they differ only among samples.
+        // Otherwise the ends of the band, where the eye is least sensitive, would hardly be fitted.
         for at in 0..even[0].len() {
             let mean = even.iter().map(|row| row[at]).sum::<f64>() / even.len() as f64;
             for row in &mut even {

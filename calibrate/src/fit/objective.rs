@@ -5,8 +5,8 @@ use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
 use super::forward::{Data, Forward};
 
-/// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of
-/// 10, which only keeps unknowns that no sample determines from running away.
+/// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
+/// It only keeps unknowns that no sample determines from diverging.
 pub(super) const RIDGE: f64 = 0.01;
 /// First damping of a descent; chosen by eye.
 const FIRST_DAMPING: f64 = 1e-2;

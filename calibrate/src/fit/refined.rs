@@ -42,8 +42,8 @@ const SCALE_ROUNDS: usize = 20;
 const LEAST_SCALE_ROUNDS: usize = 3;
 /// Relative change of the scale below which it has settled; chosen by eye.
 const SETTLED_SCALE: f64 = 0.1;
-/// Greatest fall of the scale in one round, as a factor: a scale that fell at once would fix early errors
-/// as outliers. Chosen by eye.
+/// Largest factor by which the scale may fall in one round. If it fell faster, samples that are still fitted
+/// badly in early rounds would be treated as outliers for good. Chosen by eye.
 const SCALE_FALL: f64 = 3.0;
 /// Steps of a round before and after the scale has settled; chosen by eye.
 const SCALE_STEPS: [usize; 2] = [5, 60];
@@ -112,8 +112,7 @@ impl Refinement {
 /// `how.state` instead, if given.
 ///
 /// # Errors
-/// [`FitError`] from the weighted program, from which the refinement starts.
-/// As [`super::fit_weighted`], which it starts from.
+/// [`FitError`] from [`super::fit_weighted`], from which the refinement starts.
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
@@ -155,7 +154,7 @@ pub(super) fn refine<F: Forward>(
         knee: KNEE,
         smoothness: state.smoothness,
         start: &origin,
-        // One backing says little about S, which then stays near the pigment's mean.
+        // Films over a single backing contain little information on S, so S is kept near its start.
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
     };

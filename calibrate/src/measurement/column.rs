@@ -14,7 +14,7 @@ pub(super) enum Column {
     Replicate,
     /// In a file of recipes: the name of the reading in the measurement file.
     Reading,
-    /// Notes of an instrument or its user, which are no pigment.
+    /// Notes of an instrument or its user; not a pigment.
     Ignored,
     Pigment(String),
     Wavelength(f64),

@@ -30,15 +30,15 @@ const LARGEST_REFLECTANCE: f64 = 2.0;
 pub struct RecordChoice {
     /// Percent or fraction; by default what the file states, else what its largest value suggests.
     pub scale: ScaleChoice,
-    /// Whether transmittance counts as reflectance, for programs that were not told that the
-    /// spectrometer looks at a surface over a white tile.
+    /// Whether transmittance counts as reflectance. Some programs state transmittance although the
+    /// spectrometer measured a surface against a white tile.
     pub transmittance_is_reflectance: bool,
 }
 
 impl MeasurementTable {
-    /// Reads `records`, the spectra of `file`, as readings of paint. Used are spectra of reflectance and
-    /// those of which the file does not state the quantity. The name of a record is the sample; records
-    /// of one name are repeated readings. The table has no pigments and no backings.
+    /// Reads `records`, the spectra of `file`, as readings of paint. Only spectra of reflectance, or of a
+    /// quantity that the file does not state, are used. The name of a record is the sample; records of one
+    /// name are repeated readings. The table has no pigments and no backings.
     ///
     /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
     /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
@@ -99,7 +99,7 @@ fn name(raw: &str) -> String {
     if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
 }
 
-/// A record on its way to becoming a reading.
+/// A record that is being converted to a reading.
 struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,

@@ -33,7 +33,7 @@ pub enum PlanError {
         /// Number of swatches that was requested.
         swatches: usize,
     },
-    /// A tint cannot be weighed with so little paint, or so coarse a balance.
+    /// The mass of a swatch is too small for the balance: a tint of 1 to 4 cannot be weighed.
     #[error(
         "a tint of 1 to 4 needs {needed} g a swatch on a balance that shows {resolution} g, found `{grams}`"
     )]

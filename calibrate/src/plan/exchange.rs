@@ -87,7 +87,7 @@ impl<'a> State<'a> {
         self.covariances.iter().enumerate().map(at_wavelength).sum()
     }
 
-    /// Recipe outside `design` with the greatest gain, and that gain; the first of equals.
+    /// Recipe outside `design` with the greatest gain, and that gain. Of equal ones, the first.
     fn best(&self, design: &[usize]) -> Option<(usize, f64)> {
         let pool = self.information.slopes.places.len();
         let gains: Vec<Option<f64>> = (0..pool)

@@ -80,8 +80,8 @@ impl Information {
         sum / (wavelengths * self.slopes.unknowns()) as f64
     }
 
-    /// D-efficiency of `design` against `other`: the fraction of its readings with which `other` would
-    /// give the same information, if both could be repeated in part.
+    /// D-efficiency of `design` against `other`. A value of 0.8 means that 80 % as many readings of `other`
+    /// would give the same information.
     #[must_use]
     pub fn efficiency(&self, design: &[usize], other: &[usize]) -> f64 {
         (self.log_determinant(design) - self.log_determinant(other)).exp()

@@ -17,7 +17,7 @@ use pigment::{PigmentId, PigmentLibrary, Recipe};
 const INSTRUMENT_ERROR: f64 = 0.002;
 /// Expected error of weighing, mixing and film for a prior without evidence; chosen by eye.
 const MIXING_ERROR: f64 = 0.01;
-/// Least error of that kind, however well the prior's fit reproduces its samples; chosen by eye.
+/// Lower limit of that error, for a prior whose fit reproduces its samples almost exactly; chosen by eye.
 const LEAST_MIXING_ERROR: f64 = 1e-4;
 
 /// Options of [`plan`].
@@ -25,18 +25,18 @@ const LEAST_MIXING_ERROR: f64 = 1e-4;
 pub struct PlanOptions {
     /// Name of a black for shades. Default: no shades.
     pub black: Option<String>,
-    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then
-    /// be cut short. Default: the usual design.
+    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then be
+    /// abbreviated to their start. Default: none, which gives the usual design.
     pub prior: Option<PigmentLibrary>,
-    /// Number of swatches. Default: masstones, two tints each, a shade each with a black, and one cross
-    /// each.
+    /// Number of swatches. Default: enough for each paint's masstone, two tints of each paint but the white
+    /// and, for each colour, a shade (if there is a black) and a mixture with a neighbour.
     pub swatches: Option<usize>,
     /// Mass of paint in one swatch, in grams. Default: 10.
     pub grams: f64,
     /// Step of the balance in grams; no part is smaller than fifty steps. Default: 0.01.
     pub balance: f64,
-    /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument, and
-    /// the error that the prior's own fit left, else 0.01, for weighing and mixing.
+    /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument; for
+    /// weighing and mixing, the rms error of the prior's own fit, or 0.01 if the prior has no evidence.
     pub noise: Option<ExpectedNoise>,
 }
 
@@ -79,7 +79,7 @@ pub struct Plan {
     pub swatches: Vec<PlannedSwatch>,
     /// Predictions of the prior library; `None` without one.
     pub forecast: Option<Forecast>,
-    /// Reservations about the prior library.
+    /// Warnings about the prior library.
     pub remarks: Vec<Remark>,
 }
 
@@ -189,7 +189,7 @@ fn best_design(
     let left = left.map_or(MIXING_ERROR, |evidence| evidence.rms.max(LEAST_MIXING_ERROR));
     let noise = noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left });
     let information = Information::new(prior, ids, pool, noise);
-    // The first of the usual design is the white by itself, which is always measured.
+    // The first swatch of the usual design is the white alone, which every plan must contain.
     let design = optimal(&information, usual, 1);
     let forecast = Forecast {
         usual_efficiency: information.efficiency(usual, &design),

@@ -1,21 +1,21 @@
-//! The design for paints of which nothing is known.
+//! The design for paints whose K and S are unknown.
 
 use super::error::PlanError;
 use super::paints::PaintSet;
 use super::swatch_recipe::{Purpose, SwatchRecipe};
 use pigment::PigmentId;
 
-/// Parts in all of the first tint, 1:4.
+/// Total parts of the first tint, 1:4.
 const FIRST_TINT: u32 = 5;
-/// Most parts in all of the second tint, 1:19.
+/// Greatest total of parts of the second tint, 1:19.
 const SECOND_TINT: u32 = 20;
-/// Most parts of the colour to one of black in the shade.
+/// Most parts of the colour to one part of black in a shade.
 const SHADE: u32 = 9;
 
-/// Selects `swatches` recipes of `pool`, the one of [`super::candidates`], as indices into it, the most
-/// informative first: masstones, a tint of every paint at 1:4, one at 1:19 (or the weakest that can be
-/// weighed), a shade with black at 9:1, each colour with its neighbour 1:1, then the rest of the pool
-/// from the strong tints on.
+/// Selects `swatches` recipes of `pool`, which comes from [`super::candidates`], as indices into it. The
+/// order is: masstones; a tint of every paint at 1:4; one at 1:19 (or the weakest that can be weighed); a
+/// shade of every colour with black at 9:1; each colour mixed 1:1 with the next; then the rest of the pool in
+/// its order, the strongest tints first.
 ///
 /// The ratios were measured on the Van Gogh oils. Of two tints of one pigment with zinc white, the optimal
 /// design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With masstones
@@ -58,7 +58,7 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
     let shades = pool.iter().filter(|r| r.purpose == Purpose::Shade && shade(r) <= SHADE);
     let strongest_shade = shades.map(shade).max();
     let colors: Vec<PigmentId> = paints.colors().collect();
-    // A ring of two would contain one pair twice.
+    // With two colours, a closed ring would contain their pair twice.
     let links = if colors.len() > 2 { colors.len() } else { colors.len().saturating_sub(1) };
     let ring: Vec<[PigmentId; 2]> = (0..links)
         .map(|i| {

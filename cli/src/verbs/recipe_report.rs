@@ -9,8 +9,8 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::input::srgb;
 
-/// Largest CIEDE2000 at which a target counts as reached; larger differences are plain to see side
-/// by side. Chosen by eye.
+/// Largest CIEDE2000 difference at which a target counts as reached. Larger differences are clearly
+/// visible side by side. Chosen by eye.
 const REACHED: f64 = 1.0;
 
 /// Library and settings that all recipes of a run share.

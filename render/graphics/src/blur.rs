@@ -1,12 +1,12 @@
-//! Gaussian blur by three running means (Gwosdek, Grewenig, Bruhn and Weickert
-//! 2011: boxes whose ends count in part, so that any width can be had).
+//! Gaussian blur by three passes of a box filter (Gwosdek, Grewenig, Bruhn and Weickert
+//! 2011). The end cells of a box have a fractional weight, so that its width is continuous.
 
 use rayon::prelude::*;
 
 use crate::field::Field;
 
-/// `field` blurred by a Gaussian of standard deviation `sigma` cells; the edge
-/// values go on beyond the edges.
+/// Blurs `field` by a Gaussian of standard deviation `sigma`, in cells; 0 or less gives a
+/// copy. Cells outside the field have the value of the nearest cell inside it.
 pub fn blurred<const N: usize>(field: &Field<[f32; N]>, sigma: f64) -> Field<[f32; N]> {
     if sigma <= 0.0 {
         return field.clone();
@@ -42,7 +42,8 @@ fn transposed<const N: usize>(field: &Field<[f32; N]>) -> Field<[f32; N]> {
 
 const PASSES: usize = 3;
 
-/// The mean of `2 radius + 1` cells and of a part of one more at each end.
+/// A box filter: the mean of `2 radius + 1` cells of weight 1 and of one more cell of weight
+/// `part` at each end.
 struct RunningMean {
     radius: usize,
     part: f64,

@@ -1,4 +1,4 @@
-//! Colour pictures between linear light and encoded sRGB (IEC 61966-2-1).
+//! Conversion of colour pictures between linear light and encoded sRGB (IEC 61966-2-1).
 
 use rayon::prelude::*;
 use spectra::color::Rgb;
@@ -25,7 +25,8 @@ pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     })
 }
 
-/// A picture with coverage composited on white, without linearising it; covered everywhere.
+/// Composites a picture with coverage on white, without linearising it. The coverage of the
+/// result is 1 everywhere.
 #[must_use]
 pub fn over_white(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, |[r, g, b, covered]| {

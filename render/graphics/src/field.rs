@@ -54,7 +54,7 @@ impl<T> Field<T> {
         &self.values
     }
 
-    /// The values for changing them, row by row.
+    /// The values row by row, to be changed.
     pub fn values_mut(&mut self) -> &mut [T] {
         &mut self.values
     }
@@ -72,10 +72,10 @@ impl<T> Field<T> {
 }
 
 impl<T: Copy> Field<T> {
-    /// The part in `rect`.
+    /// A copy of the cells in `rect`.
     ///
     /// # Panics
-    /// If it has cells that the field has not.
+    /// If `rect` reaches beyond the field.
     #[must_use]
     pub fn part(&self, rect: Rect) -> Self {
         assert_eq!(rect.intersection(self.bounds()), rect, "a part of {:?}", self.bounds());
@@ -85,10 +85,10 @@ impl<T: Copy> Field<T> {
         Self::from_values(rect.width, rect.height, values)
     }
 
-    /// Puts `part` in the place of what begins at column `x` of row `y`.
+    /// Overwrites the cells of a rectangle with `part`. Its upper left cell is (`x`, `y`).
     ///
     /// # Panics
-    /// If it reaches beyond the field.
+    /// If the rectangle reaches beyond the field.
     pub fn put(&mut self, (x, y): (usize, usize), part: &Self) {
         let rect = Rect { x, y, width: part.width, height: part.height };
         assert_eq!(rect.intersection(self.bounds()), rect, "a part of {:?}", self.bounds());

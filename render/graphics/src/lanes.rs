@@ -1,31 +1,31 @@
-//! Arithmetic in f32 that the compiler turns into vectors.
+//! Arithmetic in f32 that the compiler vectorises.
 //!
-//! Everything here is inlined into a closure that [`pulp::Arch`] runs with the
-//! widest instructions of the machine, which the parameter `S` stands for.
+//! All functions are inlined into a closure that [`pulp::Arch`] runs with the widest vector
+//! instructions of the machine. The type parameter `S` stands for these instructions.
 
 use pulp::Simd;
 
-/// `a * b + c`, rounded once where the machine can, which is where `S` has
-/// vectors: without such an instruction it would be a slow call.
+/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once; else two
+/// operations, because a fused one would be a slow library call.
 #[inline(always)]
 pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     if const { size_of::<S::f32s>() > size_of::<f32>() } { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The greater of two; one instruction, unlike [`f32::max`] with its care for NaN.
+/// The greater of two numbers; `b` if one is NaN. One instruction, unlike [`f32::max`].
 #[inline(always)]
 pub fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The lesser of two.
+/// The lesser of two numbers; `b` if one is NaN.
 #[inline(always)]
 pub fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// (2^r - 1) / r for r in -1/2..=1/2, by rising powers: minimax, relative error
-/// 2.2e-8 with the coefficients in f32.
+/// Coefficients of a minimax polynomial for (2^r - 1) / r, r in -1/2..=1/2, by rising powers
+/// of r. The relative error is 2.2e-8 with the coefficients in f32.
 const EXP2_MINUS_1: [f32; 6] = [
     std::f32::consts::LN_2,
     0.240_226_5,
@@ -35,13 +35,13 @@ const EXP2_MINUS_1: [f32; 6] = [
     0.000_154_035_12,
 ];
 
-/// `(exp(-x), 1 - exp(-x))` for `x` of 0 and up; to a relative error of 5e-7 and 2e-7
-/// while exp(-x) is above 1e-3, beyond to an absolute one below 1e-7.
+/// `(exp(-x), 1 - exp(-x))` for `x` of 0 and up. Where exp(-x) is above 1e-3, the relative
+/// errors are below 5e-7 and 2e-7; elsewhere the absolute errors are below 1e-7.
 #[inline(always)]
 pub fn decay<S: Simd>(x: f32) -> (f32, f32) {
-    // exp(-x) = 2^n 2^r. Below 2^-126 is as good as 0.
+    // exp(-x) = 2^n 2^r. Results below 2^-126 are negligible, so the exponent ends there.
     let exponent = greater(x * -std::f32::consts::LOG2_E, -126.0);
-    // Adding 1.5 * 2^23 rounds to a whole number, which then stands in the low bits.
+    // Adding 1.5 * 2^23 rounds to a whole number, which the low bits then hold.
     const ROUND: f32 = 12_582_912.0;
     let rounded = exponent + ROUND;
     let r = exponent - (rounded - ROUND);
@@ -61,7 +61,8 @@ pub fn decay<S: Simd>(x: f32) -> (f32, f32) {
 mod tests {
     use super::*;
 
-    /// The worst errors of both, relative while exp(-x) is above 1e-3.
+    /// Largest errors of both results: relative where exp(-x) is above 1e-3, elsewhere twice
+    /// the absolute error.
     fn errors<S: Simd>() -> [f64; 2] {
         let mut worst = [0.0f64; 2];
         for i in 0..=200_000 {

@@ -28,7 +28,7 @@
 //! Out of scope: pigments and paint (crate `paint`), and painting techniques (crate
 //! `render`).
 //!
-//! Files stand in an order of dependence; each uses only what stands above it.
+//! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod noise;
 

@@ -4,16 +4,16 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Cells of the lattice before it repeats.
+/// Period of the lattice along both axes, in cells.
 const PERIOD: usize = 1024;
 
-/// Of the slopes at its corners; brings the spread to about a third.
+/// Slope of the surface at the corners of the lattice, in height per cell. It brings the
+/// standard deviation of the heights to about 1/3.
 const STEEPNESS: f64 = 1.6;
 
-/// A surface of hills and hollows about one unit wide, of mean 0 and mostly
-/// within -1..1, the same for the same seed.
-///
-/// Gradient noise with a quintic blend (Perlin 2002).
+/// A random surface of hills and hollows about one unit wide: gradient noise with a quintic
+/// blend (Perlin 2002). Heights have mean 0 and lie mostly within -1..1. The same seed gives
+/// the same surface.
 #[derive(Debug, Clone)]
 pub struct Hills {
     order: Vec<u16>,
@@ -21,12 +21,12 @@ pub struct Hills {
 }
 
 impl Hills {
-    /// The mean square of all heights: four corners, each a slope of `STEEPNESS` along
-    /// any way times the blend, whose square integrates to 181/462 and times the
-    /// squared distance to 535/18018.
+    /// Variance of the heights. Each of four corners adds a slope of `STEEPNESS` in a random
+    /// direction, times the blend along x and y. The squared blend integrates to 181/462;
+    /// multiplied by the squared distance, to 535/18018.
     pub const VARIANCE: f64 = 4.0 * STEEPNESS * STEEPNESS * (181.0 / 462.0) * (535.0 / 18018.0);
 
-    /// Noise with slopes drawn from `random`.
+    /// Creates a surface. The directions of its slopes are drawn from `random`.
     pub fn new(random: &mut ChaCha8Rng) -> Self {
         let mut order: Vec<u16> = (0..PERIOD as u16).collect();
         order.shuffle(random);
@@ -57,7 +57,7 @@ impl Hills {
     }
 }
 
-/// The random numbers of a seed, apart from those of other kinds of it.
+/// Random numbers for `seed`; each `kind` gives an independent stream.
 pub fn random(seed: u64, kind: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(kind);

@@ -1,7 +1,7 @@
 //! Orientation field of a picture: the direction along edges, extended into flat regions.
 //!
-//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed, and its minor
-//! eigenvector followed, as in Kyprianidis and Kang 2011. Litwinowicz 1997 interpolates
+//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed; its minor
+//! eigenvector is the direction (Kyprianidis and Kang 2011). Litwinowicz 1997 interpolates
 //! directions from strong gradients into flat regions; here the tensor itself is spread
 //! by Gaussians of doubling width and falling weight, which together decay like a power
 //! of the distance, so that stronger and nearer edges dominate.
@@ -21,7 +21,8 @@ pub struct OrientationField {
 }
 
 impl OrientationField {
-    /// Computes the field of a CIELAB picture, smoothed by a Gaussian of `sigma` cells.
+    /// Computes the field of a CIELAB picture. The tensor is smoothed by a Gaussian of standard
+    /// deviation `sigma`, in cells.
     #[must_use]
     pub fn from_lab(lab: &Field<[f32; 3]>, sigma: f64) -> Self {
         let (width, height) = (lab.width(), lab.height());
@@ -59,7 +60,7 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
         for (x, cell) in row.iter_mut().enumerate() {
             let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
             for channel in 0..3 {
-                // Scharr's weights, whose direction errs least (Jaehne 1999).
+                // Scharr's weights have the least error in direction (Jaehne 1999).
                 let slope = |a: [(usize, usize); 3], b: [(usize, usize); 3]| {
                     let side = |at: [(usize, usize); 3]| {
                         3.0 * (lab[at[0]][channel] + lab[at[2]][channel])

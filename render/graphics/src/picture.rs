@@ -235,7 +235,7 @@ pub enum PhotographError {
         /// Reason given by the decoder.
         reason: String,
     },
-    /// The picture has more pixels than are read.
+    /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
     TooLarge {
         /// Path of the file.

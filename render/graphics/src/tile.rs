@@ -1,4 +1,4 @@
-//! Rectangles of cells, and the tiles of 64 x 64 by which a canvas is saved and
+//! Rectangles of cells, and the tiles of 64 x 64 cells in which a canvas is saved and
 //! relit.
 
 use std::collections::BTreeSet;
@@ -20,13 +20,13 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Whether it holds no cell.
+    /// Whether the rectangle has no cell.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.width == 0 || self.height == 0
     }
 
-    /// This rectangle with `margin` more cells on every side, within `bounds`.
+    /// This rectangle with `margin` more cells on every side, clipped to `bounds`.
     #[must_use]
     pub fn grown(&self, margin: usize, bounds: Self) -> Self {
         let x = self.x.saturating_sub(margin).max(bounds.x);
@@ -36,25 +36,25 @@ impl Rect {
         Self { x, y, width: right.saturating_sub(x), height: bottom.saturating_sub(y) }
     }
 
-    /// The cells that both have.
+    /// The cells that lie in both rectangles.
     #[must_use]
     pub fn intersection(&self, other: Self) -> Self {
         self.grown(0, other)
     }
 }
 
-/// One tile, by column and row of tiles.
+/// A tile, given by its row and column in the grid of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Tile {
-    /// Row of tiles.
+    /// Row of the tile, from 0.
     pub row: usize,
-    /// Column of tiles.
+    /// Column of the tile, from 0.
     pub column: usize,
 }
 
 impl Tile {
-    /// Its cells on a canvas of `bounds`; those at the right and lower edge may
-    /// be smaller.
+    /// The cells of the tile on a canvas of `bounds`. Tiles at the right and lower edge may be
+    /// smaller.
     #[must_use]
     pub fn rect(&self, bounds: Rect) -> Rect {
         let whole = Rect { x: self.column * TILE, y: self.row * TILE, width: TILE, height: TILE };
@@ -77,8 +77,8 @@ impl TileSet {
         set
     }
 
-    /// The tiles of a canvas of `bounds` with a cell that `has`, which is asked
-    /// by index, row by row.
+    /// The tiles of a canvas of `bounds` that contain a cell for which `has` is true. `has`
+    /// gets the index of a cell, counted row by row.
     #[must_use]
     pub fn with(bounds: Rect, has: impl Fn(usize) -> bool) -> Self {
         let any = |tile: &Tile| {
@@ -101,7 +101,7 @@ impl TileSet {
         }
     }
 
-    /// Adds one tile; whether it was new.
+    /// Adds one tile. Returns whether it was new.
     pub fn insert_tile(&mut self, tile: Tile) -> bool {
         self.tiles.insert(tile)
     }
@@ -111,7 +111,8 @@ impl TileSet {
         self.tiles.iter().copied()
     }
 
-    /// The smallest rectangle of a canvas of `bounds` that holds them.
+    /// The smallest rectangle that contains all tiles, clipped to a canvas of `bounds`. Empty
+    /// if there is no tile.
     #[must_use]
     pub fn extent(&self, bounds: Rect) -> Rect {
         let tiles = self.tiles.iter().map(|tile| tile.rect(bounds));
@@ -124,19 +125,19 @@ impl TileSet {
         whole.unwrap_or_default()
     }
 
-    /// How many there are.
+    /// Number of tiles.
     #[must_use]
     pub fn len(&self) -> usize {
         self.tiles.len()
     }
 
-    /// Whether there is none.
+    /// Whether the set has no tile.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.tiles.is_empty()
     }
 
-    /// Takes all tiles out.
+    /// Removes all tiles and returns them.
     pub fn take(&mut self) -> Self {
         std::mem::take(self)
     }

@@ -11,8 +11,8 @@ pub const QUANTA_PER_CELL: u32 = 1 << 21;
 /// Maximum height in quanta of the column over a cell: 512 cell widths.
 pub const MAX_COLUMN: u32 = 1 << 30;
 
-/// Computes `amount * share / 256`, rounded down, for a `share` of 0 to 256. Splits the
-/// product, which would not fit the 32 bits that shaders have.
+/// Computes `amount * share / 256`, rounded down, for a `share` of 0 to 256. Splits
+/// `amount`, as the whole product may exceed the 32 bits of integers in shaders.
 #[inline(always)]
 #[must_use]
 pub const fn share_of_256(amount: u32, share: u32) -> u32 {

@@ -54,7 +54,7 @@ impl Canvas {
 
 /// Number of cells that cover a side, at least one.
 pub(crate) fn covering_cells(side_mm: f64, cell_mm: f64) -> usize {
-    // A remainder from rounding is not a cell of its own.
+    // A remainder below 1e-6 of a cell is a rounding error and adds no cell.
     ((side_mm / cell_mm - 1e-6).ceil() as usize).max(1)
 }
 

@@ -17,13 +17,14 @@ use crate::layer::SLOTS;
 use crate::optics::{LayerOptics, NODES};
 use graphics::lanes::{decay, greater, lesser, multiply_add};
 
-/// Composites a layer over a row of cells, in place: `pigments` holds the amounts in
-/// quanta by slot, `backing` the internal reflectance below, then that of the result.
-/// Vehicle is transparent.
+/// Composites a layer over a row of cells, in place. `pigments` holds the amounts in quanta
+/// by slot. `backing` holds the internal reflectance below the layer and receives that of
+/// the result. Vehicle is transparent.
 ///
 /// Agrees within 5e-7 with f64 arithmetic for K d and S d of 0 to 1e4 and backings of 0
-/// to 1; results lie in 0 to 1. Cells without paint keep their bits. Slots that are empty
-/// over the whole row are skipped, which changes no result: rows may be split anywhere.
+/// to 1; results lie in 0 to 1. Cells without paint keep their backing bit for bit.
+/// Slots that are empty over the whole row are skipped, which does not change the result, so
+/// rows may be split anywhere.
 ///
 /// # Panics
 /// If `pigments` and `backing` differ in length.

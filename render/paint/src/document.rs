@@ -51,7 +51,7 @@ impl Default for Lighting {
     }
 }
 
-/// The binder: how strongly a film of given height colours, and its gloss.
+/// The binder: the optical thickness of a film per mm of height, and its gloss.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {

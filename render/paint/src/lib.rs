@@ -25,7 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`PaintingSession`] is the front door: pigments and brushes by name, undo, a recording.
+//! [`PaintingSession`] is the main entry point: it takes pigments and brushes by name, undoes
+//! actions and records them.
 //! [`OpenStroke`] paints a stroke whose samples arrive one by one; [`StrokeScript`] is a
 //! file of strokes, and [`document::Document`] a painting at rest.
 //!
@@ -37,7 +38,7 @@
 //! Out of scope: meshes, painting techniques (crate `render`), fitting pigments
 //! (crate `calibrate`).
 //!
-//! Files stand in an order of dependence; each uses only what stands above it.
+//! Modules are listed in order of dependence: each uses only modules above it.
 
 pub mod amount;
 

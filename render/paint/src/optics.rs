@@ -56,8 +56,8 @@ pub struct Scene {
     pub wet: LayerOptics,
     /// The surface between paint and air.
     pub surface: SceneSurface,
-    /// Linear sRGB of a reflectance of 1 at each wavelength alone; they sum to (1, 1, 1)
-    /// for the perfect diffuser.
+    /// Linear sRGB of a reflectance of 1 at one wavelength and 0 at the others, by
+    /// wavelength. The sum, for the perfect diffuser, is (1, 1, 1).
     pub rgb_from_nodes: [[f32; 3]; NODES],
     /// Direction of the light, relief and gloss.
     pub lamp: Lamp,

@@ -120,7 +120,7 @@ struct SlopeShading {
     /// The unit vector h halfway between lamp and viewer.
     halfway: [f32; 3],
     ambient: f32,
-    /// Slope that a height difference of one quantum over two cells stands for.
+    /// Slope for a height difference of one quantum over two cells, times the lamp's relief.
     slope: f32,
     /// By [`TopMaterial`]: gloss with its strength times the share of direct light, and
     /// h_z to its exponent.

@@ -7,7 +7,7 @@ struct LampParams {
     towards_lamp: vec2<f32>,
     // Share of ambient light, 0 to 1.
     ambient: f32,
-    // Slope that a height difference of one quantum over two cells stands for.
+    // Slope for a height difference of one quantum over two cells, times the lamp's relief.
     slope: f32,
     // h = (l + v) / |l + v|; the fourth component is 0.
     halfway: vec4<f32>,
@@ -15,7 +15,7 @@ struct LampParams {
     gloss: array<vec4<f32>, 3>,
 }
 
-// Saunderson's shares.
+// Shares of light reflected at the surface; twin of `SceneSurface` in optics.rs.
 struct SurfaceParams {
     k1: f32,
     k2: f32,

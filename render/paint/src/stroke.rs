@@ -29,7 +29,7 @@ use graphics::tile::Rect;
 /// round. Poses are one cell of path apart, or nearer while pressure changes by more than
 /// 1/16 or an angle by more than 3 degrees a cell. Time only orders the samples: a brush at
 /// rest makes no sub-steps. If all samples have the same position and pose, the stroke is a
-/// dab: lowered, pressed and lifted there.
+/// dab: the brush is lowered, pressed and lifted at that position.
 ///
 /// # Errors
 /// [`StrokeError`] if there is no sample, a number is not finite or out of range, time runs

@@ -20,8 +20,8 @@ use spectra::hint::{Explain, Fault, Hint};
 
 /// Brushes below this width in mm are rounds, others filberts (chosen by eye).
 const ROUND_BELOW_MM: f64 = 3.0;
-/// Pigments with a smaller share than this are left out of a recipe. Strong blues tint a
-/// white well below a thousandth.
+/// Pigments with a smaller share than this are left out of a recipe. The limit is low
+/// because strong blues tint white at shares far below 0.001.
 const LEAST_PART: f64 = 1e-6;
 /// Times that each brush compares the canvas with the target and paints the difference.
 const ROUNDS: u64 = 2;
@@ -58,7 +58,7 @@ pub struct LevelReport {
 /// Progress of a painter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaintProgress {
-    /// This many strokes have been planned beside those before.
+    /// This many more strokes have been planned.
     Planned(usize),
     /// One stroke has been painted.
     Stroke,
@@ -235,7 +235,7 @@ fn play(
 /// A photograph cannot be painted.
 #[derive(Debug, thiserror::Error)]
 pub enum PainterError {
-    /// The canvas cannot be seen, or the brush cannot be measured.
+    /// The picture of the canvas cannot be computed, or the brush cannot be measured.
     #[error("the painting could not go on")]
     Painting(#[from] PaintingError),
     /// A stroke cannot be painted.

@@ -123,7 +123,7 @@ pub enum PlanError {
         field: &'static str,
         /// Value of the field.
         value: f64,
-        /// Range of the field, for people.
+        /// Human-readable range of the field.
         wanted: &'static str,
     },
 }

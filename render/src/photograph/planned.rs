@@ -23,7 +23,7 @@ use paint::separation::Separation;
 /// Standard deviation of the blur at which pictures are compared, in brush widths (chosen by
 /// eye).
 pub(super) const BLUR_SIZES: f64 = 0.2;
-/// Times that strokes are sought between those planned before.
+/// Number of passes that look for further strokes between those already planned.
 const PASSES: usize = 3;
 /// Width that a stroke covers, relative to the width of its brush (chosen by eye).
 pub(super) const COVER: f64 = 0.8;
@@ -180,7 +180,7 @@ impl Square {
     }
 }
 
-/// Squares of a grid with jittered lines and their mean differences, the largest first.
+/// Squares of a grid with jittered lines, each with its mean difference, largest difference first.
 fn worst_first(
     difference: &Field<f32>,
     plan: &Plan,

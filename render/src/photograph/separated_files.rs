@@ -15,8 +15,8 @@ const STEM: &str = "separation";
 /// A photograph separated into pigments, as files in memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeparatedFiles {
-    /// Those of [`pigment_maps`]; `separation.rebuilt.png`, the picture that the pigments
-    /// make together; and `separation.errors.json`, its colour error.
+    /// The files of [`pigment_maps`]; `separation.rebuilt.png`, the picture that the
+    /// pigments make together; and `separation.errors.json`, its colour error.
     pub files: Vec<NamedFile>,
     /// Colour error of the rebuilt picture.
     pub error: ColorErrors,

@@ -1,4 +1,4 @@
-//! The way from a photograph to a painting in strokes, with all its set-up.
+//! Painting of a photograph in strokes, with all its set-up.
 
 use graphics::gpu::{BackendChoice, DeviceError};
 use graphics::picture::{Photograph, Picture};
@@ -61,7 +61,7 @@ pub struct StrokePainter {
 /// A photograph that has been painted in strokes.
 #[derive(Debug)]
 pub struct PaintedPhotograph {
-    /// The canvas; without undo.
+    /// The session on the painted canvas; it cannot undo.
     pub session: PaintingSession,
     /// The strokes. Played on a bare canvas, they give the same painting bit for bit.
     pub script: StrokeScript,
@@ -156,7 +156,8 @@ impl StrokePainter {
     /// [`StrokePainter::ground`]. For `progress` see [`StrokePainter::paint`].
     ///
     /// # Errors
-    /// [`StrokePainterError`] if the engine suits another ground, or its device was lost.
+    /// [`StrokePainterError`] if the engine was opened over another ground, or its device
+    /// was lost.
     pub fn paint_with(
         &self,
         engine: PaintEngine,
@@ -234,7 +235,7 @@ pub enum StrokePainterError {
     /// The device cannot be used.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The painting cannot be opened or seen.
+    /// The painting cannot be opened, or its picture cannot be computed.
     #[error(transparent)]
     Painting(#[from] PaintingError),
     /// The session cannot be set up.

@@ -9,7 +9,7 @@ use graphics::orientation::OrientationField;
 
 /// Pictures that the strokes of one level are traced on. Lengths are in cells.
 pub(super) struct TraceInput<'a> {
-    /// Target in CIELAB, blurred to the brush.
+    /// Target in CIELAB, blurred to the scale of the brush.
     pub(super) target: &'a Field<[f32; 3]>,
     /// Structure of the target.
     pub(super) flow: &'a OrientationField,

@@ -25,7 +25,7 @@ use spectra::hint::{Explain, Fault, Hint};
 /// Length of the waves in the textures that follow particles, in texels.
 const WAVE_TEXELS: usize = 32;
 
-/// Octaves of the grain, the finer of both noises of features.
+/// Octaves of the grain, the finer of the two feature noises.
 const GRAIN_OCTAVES: usize = 2;
 
 /// Samples along each side of a pixel unless told otherwise: enough for smooth silhouettes.
@@ -59,14 +59,14 @@ pub struct ModelPainter {
     height: usize,
 }
 
-/// The anchoring of the textures while the mesh moves. Pairs are flow and dispersion.
+/// How the textures follow the moving mesh. Pairs are flow and dispersion.
 #[derive(Debug)]
 enum Noise {
-    /// To the screen.
+    /// The textures are fixed to the screen.
     Static,
-    /// To particles of the mesh.
+    /// The textures follow particles of the mesh.
     Particles { particles: Particles, waves: [AnchoredNoise; 2], textures: [GreyImage; 2] },
-    /// Each feature of the noise to a point of the mesh.
+    /// Each feature of the noise follows a point of the mesh.
     Features { features: [Features; 2], noises: [FeatureNoise; 2] },
 }
 
@@ -110,8 +110,7 @@ impl ModelPainter {
         Ok(Self { compute, model, toon, settings, textures, noise, controls, width, height })
     }
 
-    /// Takes the mean of `samples` x `samples` samples for each pixel, at least 1; 2 is
-    /// usual.
+    /// Averages `samples` x `samples` samples for each pixel; at least 1, by default 2.
     #[must_use]
     pub fn with_samples(mut self, samples: usize) -> Self {
         self.toon.samples = samples.max(1);
@@ -143,7 +142,7 @@ impl ModelPainter {
         &self.textures.paper.texture
     }
 
-    /// Name of what computes: `cpu`, or that of a graphics adapter.
+    /// Name of the device that computes: `cpu`, or that of a graphics adapter.
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.compute.name()
@@ -271,7 +270,7 @@ impl Noise {
         }
     }
 
-    /// Draws flow and dispersion over what a projection sees. `None` if they do not move.
+    /// Draws flow and dispersion for one view. `None` if they do not move with the mesh.
     fn frame(
         &self,
         compute: &mut Compute,

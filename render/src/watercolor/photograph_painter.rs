@@ -98,7 +98,7 @@ impl PhotographPainter {
         (width, height_for_width(photograph, width))
     }
 
-    /// Name of what computes: `cpu`, or that of a graphics adapter.
+    /// Name of the device that computes: `cpu`, or that of a graphics adapter.
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.compute.name()

@@ -81,7 +81,7 @@ pub struct FrameTextures<'a> {
 }
 
 impl<'a> From<&'a TextureImages> for FrameTextures<'a> {
-    /// The textures of a picture that stands still.
+    /// The textures of a still picture.
     fn from(TextureImages { flow, dispersion, paper }: &'a TextureImages) -> Self {
         Self { flow, dispersion, paper }
     }

@@ -29,8 +29,8 @@ pub struct Toon {
     pub tones: ToneRamp,
     /// Density gained from grey 1 to grey 0; 0 shows colours without light.
     pub strength: f32,
-    /// Samples along each side of a pixel, 1 and up. The visibility buffer is so many times
-    /// as wide and high as the picture.
+    /// Samples along each side of a pixel, 1 and up. The visibility buffer is this many
+    /// times as wide and high as the picture.
     pub samples: usize,
 }
 

@@ -50,7 +50,8 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     })
 }
 
-/// Quadratures of three and eight wavelengths: those of the report if it has them, else new ones.
+/// Quadratures of three and eight wavelengths: those of the report if it has both, else newly
+/// computed ones.
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
     let tried = |count: usize| {
         let mut trials = subject.quadratures.iter();

@@ -78,7 +78,7 @@ pub(super) fn ordered(
         }
         repeated += usize::from(group.len() > 1);
         ordered.wavelengths_nm.push(first.nm);
-        // Scaled first: the sum of two finite values need not be finite.
+        // Each value is scaled before summing, because a sum of finite values may overflow.
         let share = 1.0 / group.len() as f64;
         ordered.values.push(values().map(|value| value * share).sum());
     }

@@ -246,7 +246,7 @@ impl Referencing {
     }
 }
 
-/// The part of a reflectance that is sound.
+/// The reflectance of a sample at the wavelengths where it can be computed.
 struct SoundBand {
     nm: Vec<f64>,
     reflectance: Vec<f64>,

@@ -53,7 +53,7 @@ fn words(color: SwatchColor) -> (u16, [u16; 4]) {
             let lightness = (lab.lightness * 100.0).round().clamp(0.0, 10000.0) as u16;
             (LAB, [lightness, hundredths(lab.a), hundredths(lab.b), 0])
         }
-        // CMYK counts down from full ink.
+        // CMYK values are inverted: 0 is full ink.
         SwatchColor::Cmyk(inks) => (CMYK, inks.map(|ink| share(1.0 - ink))),
         SwatchColor::Grey(grey) => {
             (GREY, [(grey.clamp(0.0, 1.0) * 10000.0).round() as u16, 0, 0, 0])

@@ -75,8 +75,8 @@ pub enum Command {
     PenUp,
     /// Applies an action. An open stroke is finished first.
     Apply(Action),
-    /// Applies an action of light, gloss or opacity while its slider is dragged. All of them
-    /// until [`Command::EndAdjustment`] count as one action.
+    /// Applies an action of light, gloss or opacity while its slider is dragged. All adjustments
+    /// until [`Command::EndAdjustment`] become one action of the history.
     Adjust(Action),
     /// Ends an adjustment: the slider was released.
     EndAdjustment,
@@ -122,8 +122,8 @@ pub enum Command {
         /// Height of the paint on the head, in mm.
         amount_mm: f64,
     },
-    /// Squeezes a heap of paint on the palette ([`Action::Squeeze`]) at the first of some
-    /// positions without wet paint around it; if there is none, where there is the least.
+    /// Squeezes a heap of paint on the palette ([`Action::Squeeze`]) at the first of `places` that
+    /// has no wet paint around it; if all have some, at the one with the least.
     SqueezeInFreeSpace {
         /// Parts of pigments by their names in the library.
         recipe: Recipe,

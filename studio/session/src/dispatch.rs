@@ -37,7 +37,8 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Goes on with the open stroke: adds all samples that arrived, then paints a slice.
+    /// Continues the open stroke: adds all samples that arrived, then answers a question or paints
+    /// a slice. Any other command lifts the brush first.
     fn paint(&mut self) -> Result<(), SessionError> {
         while let Some(Command::PenMove(samples)) =
             self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
@@ -125,7 +126,8 @@ impl WorkerLoop<'_> {
                     self.state_stale = true;
                 }
             }
-            // These belong to a stroke that ended before the pen was lifted.
+            // A pen command without an open stroke belongs to a stroke that another command has
+            // ended or that could not begin. The inbox handles `Cancel` and `Quit` itself.
             Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
             command if self.open.is_some() => return self.execute_on_painting(command),
             command => {

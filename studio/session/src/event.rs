@@ -56,7 +56,8 @@ pub struct Snapshot {
     pub canvas: Arc<Document>,
     /// Document of the palette.
     pub palette: Arc<Document>,
-    /// Counter of changes of the painting: two equal values mean no change in between.
+    /// Counter of changes of the painting. If two snapshots have the same value, nothing changed
+    /// between them.
     pub revision: u64,
 }
 

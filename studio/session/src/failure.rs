@@ -20,7 +20,8 @@ impl FileFailure {
         Self { what: with_causes(error), hint: error.hint() }
     }
 
-    /// A failure of the operating system: `path` cannot be `participle` (read, written).
+    /// A failure reported by the operating system: `path` cannot be read, written and so on;
+    /// `participle` is that word.
     pub fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
         let what = format!("{}: cannot be {participle}: {error}", path.display());
         Self { what, hint: error.hint() }

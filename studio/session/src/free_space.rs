@@ -3,8 +3,8 @@
 use render::paint::painting::{Painting, PaintingError};
 use render::tile::Rect;
 
-/// The first of `places`, in mm, without wet paint within `reach_mm`; if there is none, the
-/// one with the least wet paint. `None` if no place is on the surface.
+/// The first of `places`, in mm, that has no wet paint in the square of half side `reach_mm` around
+/// it; if all have some, the one with the least. `None` if no place is on the surface.
 ///
 /// # Errors
 /// [`PaintingError`] if the device was lost.
@@ -26,7 +26,8 @@ pub(super) fn freest_place(
     Ok(best.map(|(place, _)| place))
 }
 
-/// Wet paint in the square around a place, in quanta; `None` outside the surface.
+/// Wet paint in quanta within the square of half side `reach_mm` around a place; `None` if the
+/// place is outside the surface.
 fn wet_paint_around(
     painting: &mut Painting,
     [x_mm, y_mm]: [f64; 2],

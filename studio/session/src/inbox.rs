@@ -26,7 +26,8 @@ pub(super) struct Inbox {
     pub(super) confirmed: usize,
     /// Whether the replay must end.
     pub(super) cancelled: bool,
-    /// Whether the thread must end, also because the front end is gone.
+    /// Whether the thread must end: by [`Command::Quit`], or because the front end dropped its
+    /// handle.
     pub(super) quit: bool,
 }
 
@@ -134,8 +135,7 @@ pub(super) enum Wait {
     Forever,
 }
 
-/// Whether `new` makes `waiting` unnecessary: of a slider that is dragged, only the last
-/// value counts.
+/// Whether `new` replaces `waiting`: while a slider is dragged, only its last value counts.
 fn is_outdated_by(waiting: &Command, new: &Command) -> bool {
     match (waiting, new) {
         (Command::Adjust(Action::Light(_)), Command::Adjust(Action::Light(_)))

@@ -12,10 +12,10 @@ use super::thumbnail::LayerSummary;
 /// Summary of one layer.
 #[derive(Debug)]
 struct LayerEntry {
-    /// Whether the summary is of the dry paint as it is now.
+    /// Whether the summary describes the dry paint as it is now.
     current: bool,
     summary: Option<LayerSummary>,
-    /// State as last sent, and the light of its thumbnail.
+    /// State that was sent last, and the light under which its thumbnail was rendered.
     sent: Option<(LayerState, Arc<Light>)>,
 }
 
@@ -27,8 +27,8 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// Marks all summaries as outdated if dry paint of `painting` changed. They are used until
-    /// they are computed anew.
+    /// Marks all summaries as outdated if dry paint of `painting` changed. Outdated summaries are
+    /// used until [`Self::summarize_next`] replaces them.
     pub(super) fn update(&mut self, painting: &Painting) {
         let count = painting.state().dry.len();
         if painting.dry_changes() != self.changes || count != self.entries.len() {

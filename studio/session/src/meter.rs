@@ -8,8 +8,8 @@ use super::state::Performance;
 /// Time that the performance is averaged over.
 const SPAN: Duration = Duration::from_secs(1);
 
-/// Duration of a slice of painting: short enough that pictures follow and commands are
-/// received.
+/// Duration of a slice of painting. It is short, because commands are received and pictures are
+/// sent only between slices.
 const SLICE: Duration = Duration::from_millis(8);
 
 /// Measures painting speed and the latency of samples.
@@ -43,7 +43,7 @@ impl Meter {
         }
         self.slices.push_back((now, substeps, time));
         let measured = substeps as f64 / time.as_secs_f64().max(1e-6);
-        // Smoothed over a few slices, as contacts differ in cost.
+        // Smoothed over a few slices, because sub-steps differ in cost.
         self.speed += 0.3 * (measured - self.speed);
     }
 

@@ -15,14 +15,15 @@ use super::report::Reporter;
 use super::worker::{OpenPainting, WorkerLoop};
 
 impl WorkerLoop<'_> {
-    /// Opens a painting in place of the open one, which stays if that fails.
+    /// Opens a painting in place of the open one. If that fails, the error is reported and the open
+    /// painting stays.
     pub(super) fn open(&mut self, origin: Origin) {
         let prepared = prepare(origin, &mut self.backend, self.undo_bytes);
         self.replace_painting(prepared);
     }
 
-    /// Makes a prepared painting the open one, or reports why it could not be prepared.
-    /// Returns whether it is open.
+    /// Replaces the open painting by a prepared one, or reports why it could not be prepared.
+    /// Returns whether it was replaced.
     fn replace_painting(&mut self, prepared: Result<PreparedPainting, OpenError>) -> bool {
         let mut prepared = match prepared {
             Ok(prepared) => prepared,
@@ -64,7 +65,8 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Plays a moment of the recording.
+    /// Takes the next step of the replay: adds samples and paints a slice, applies an action,
+    /// waits, or ends the replay.
     pub(super) fn play(&mut self) -> Result<(), SessionError> {
         let (Some(playing), Some(open)) = (&mut self.playing, &mut self.open) else {
             return Ok(());
@@ -99,7 +101,7 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Ends a replay; the painting stays as it is then.
+    /// Ends a replay early. What was played so far stays in the painting.
     pub(super) fn cancel(&mut self) {
         if self.playing.is_some()
             && let Err(error) = self.end_replay()
@@ -111,7 +113,7 @@ impl WorkerLoop<'_> {
     fn end_replay(&mut self) -> Result<(), SessionError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
-        // The samples of its open stroke are still painted, as after any pen.
+        // The samples of the open stroke that were already added are still painted.
         self.lift()?;
         (self.send)(playing.progress_now());
         if playing.unsaved > 0 {
@@ -124,14 +126,15 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Keeps a snapshot to go on with if the device is lost.
+    /// Keeps `snapshot` for [`Self::recover`] if the paint is on a graphics device.
     pub(super) fn keep(&mut self, snapshot: &Snapshot) {
         if self.backend.is_device() {
             self.kept = Some(snapshot.clone());
         }
     }
 
-    /// Goes on with the last snapshot on the processor after the device was lost.
+    /// Opens the last snapshot on the processor after the device was lost. Without a snapshot, the
+    /// painting is lost, which is reported.
     pub(super) fn recover(&mut self) {
         (self.open, self.stroke, self.playing, self.pause) = (None, None, None, None);
         self.backend.fall_back();
@@ -168,8 +171,8 @@ mod tests {
     use super::super::inbox::Inbox;
     use super::*;
 
-    /// Paints and loses the device; returns the snapshot, if it was recovered, and the events
-    /// since. `saved`: a snapshot was sent before.
+    /// Paints and loses the device; returns the snapshot, if the painting was recovered, and the
+    /// events since. `saved` is whether a snapshot was sent before.
     fn lost(saved: bool) -> (Option<Snapshot>, Vec<Event>) {
         let events = RefCell::new(Vec::new());
         let send = |event| events.borrow_mut().push(event);

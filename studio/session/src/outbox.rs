@@ -14,8 +14,8 @@ use super::meter::Meter;
 use super::srgb::SrgbBytes;
 use super::tiles::encode;
 
-/// Maximum number of parts sent and not confirmed: a little more than two frames, so that a
-/// late front end finds the newest pictures.
+/// Maximum number of parts sent and not confirmed: a little more than two frames. Without this
+/// limit, a slow front end would receive outdated pictures first.
 const MOST_UNCONFIRMED: usize = 4;
 
 /// Maximum number of tiles in a part.
@@ -43,7 +43,7 @@ pub(super) struct Outbox {
     /// Number of parts sent and not confirmed.
     unconfirmed: usize,
     next: Instant,
-    /// Arrival times of samples that the paint has reached and that were not sent.
+    /// Arrival times of the samples that are painted and whose tiles are not all sent yet.
     arrived: VecDeque<Instant>,
 }
 
@@ -67,7 +67,7 @@ impl Outbox {
         &self.bytes
     }
 
-    /// Drops everything that was not sent, as another painting was opened.
+    /// Drops everything that was not sent. Called when another painting was opened.
     pub(super) fn clear(&mut self) {
         for view in &mut self.views {
             view.unsent = TileSet::default();

@@ -17,8 +17,8 @@ pub(super) struct Place {
     pub(super) radius_mm: f64,
 }
 
-/// Mean reflectance and paint of the cells within `place` on `painting`, which is that
-/// surface; `None` if the centre is outside.
+/// Mean reflectance and paint of the cells within `place`. `painting` must be that of
+/// `place.surface`. Returns `None` if the centre is outside the surface.
 ///
 /// # Errors
 /// [`PaintingError`] if the device was lost.
@@ -64,8 +64,8 @@ fn mean_mm(
     Ok(totals.map(|total| total as f64 / cells as f64 * mm_from_quanta(1, cell_mm)))
 }
 
-/// Cells whose centre lies within the radius, and the cell at the centre, as one rectangle a
-/// row.
+/// Cells whose centres lie within the circle, and always the cell that contains its centre: one
+/// rectangle per row. Empty if the centre is outside `bounds`.
 fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
     let [x, y, radius] = [place.x_mm, place.y_mm, place.radius_mm.max(0.0)].map(|mm| mm / cell_mm);
     if !(x >= 0.0 && y >= 0.0 && x < bounds.width as f64 && y < bounds.height as f64) {

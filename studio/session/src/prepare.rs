@@ -125,8 +125,9 @@ struct Surfaces {
 }
 
 impl Surfaces {
-    /// Makes the surfaces while another thread computes the light, which takes as long. If the
-    /// light is unknown (a lamp from a file), the default light is used.
+    /// Makes the surfaces while another thread computes the light, since both take about as long.
+    /// If the light cannot be found, such as a lamp whose file is missing, the default light is
+    /// used and a remark says so.
     fn new(
         library: &PigmentLibrary,
         lighting: &Lighting,
@@ -167,7 +168,7 @@ impl Surfaces {
             (palette, engine)
         });
         remarks.extend(reason.map(|reason| format!("{reason}; painting on the processor")));
-        // Shared, as paintings compare lights by address.
+        // Both paintings share one light, because lights are compared by address.
         let light = Arc::new(light);
         let (canvas, palette) = rayon::join(
             || Painting::open_under(canvas, Arc::clone(&light), engine, undo_bytes),

@@ -9,8 +9,8 @@ use super::command::Pace;
 use super::event::Event;
 use super::stroke_timing::{StrokeTiming, waiting_substeps};
 
-/// Maximum number of samples added ahead of the paint, so that a stroke can end soon after a
-/// cancel.
+/// Maximum number of samples added in one step of a fast replay. A cancelled replay still paints
+/// the samples that were added, so this keeps the delay short.
 const AHEAD: usize = 64;
 
 /// Minimum time between two reports of progress.
@@ -23,11 +23,11 @@ pub(super) struct Replay {
     pace: Pace,
     /// Index of the next action, or of the open stroke.
     pub(super) next: usize,
-    /// Number of samples of that stroke that were added.
+    /// Number of samples of the open stroke that were added.
     added: usize,
-    /// Time at which its first sample was due.
+    /// Time at which the first sample of the open stroke was due.
     start: Instant,
-    /// Number of actions that save a file, which are skipped.
+    /// Number of save actions so far; a replay skips them.
     pub(super) unsaved: usize,
     /// Time of the next report of progress.
     progress_due: Instant,

@@ -2,8 +2,8 @@
 
 use spectra::color::Rgb;
 
-/// Number of buckets of equal width between 0 and 1. They are narrower than the smallest
-/// distance of two thresholds (1 / 255 / 12.92), so that none contains two.
+/// Number of buckets of equal width between 0 and 1. A bucket is narrower than the smallest
+/// distance between two entries of `least` (1 / 255 / 12.92), so it contains at most one of them.
 const BUCKETS: usize = 4096;
 
 /// Tables from linear sRGB to the bytes of a PNG of the same picture
@@ -12,7 +12,7 @@ const BUCKETS: usize = 4096;
 pub(super) struct SrgbBytes {
     /// Byte at the lower end of each bucket.
     lowest: Vec<u8>,
-    /// Smallest value that gives each byte, and infinity for 256.
+    /// Smallest linear value that gives each byte; the last entry, for 256, is infinite.
     least: [f32; 257],
 }
 
@@ -24,7 +24,7 @@ impl SrgbBytes {
             *least = least_giving(byte as u8);
         }
         let bucket = |index: usize| exact(index as f32 / BUCKETS as f32);
-        // One more bucket for white itself.
+        // One more bucket, for the value 1.
         Self { lowest: (0..=BUCKETS).map(bucket).collect(), least }
     }
 
@@ -32,7 +32,8 @@ impl SrgbBytes {
     #[inline(always)]
     pub(super) fn byte(&self, linear: f32) -> u8 {
         let linear = linear.clamp(0.0, 1.0);
-        // Exact, as the number of buckets is a power of two; NaN gives 0.
+        // The product is exact, because the number of buckets is a power of two. NaN gives bucket
+        // 0.
         let lowest = self.lowest[(linear * BUCKETS as f32) as usize];
         lowest + u8::from(linear >= self.least[usize::from(lowest) + 1])
     }
@@ -49,8 +50,8 @@ fn exact(linear: f32) -> u8 {
     Rgb([f64::from(linear); 3]).encoded().to_bytes()[0]
 }
 
-/// Smallest value in 0 to 1 whose byte is at least `byte`: bisection over the bits, whose
-/// order is that of positive numbers.
+/// Smallest value from 0 to 1 whose byte is at least `byte`. Bisects the bit patterns, which have
+/// the same order as the non-negative numbers that they represent.
 fn least_giving(byte: u8) -> f32 {
     let (mut low, mut high) = (0, 1.0_f32.to_bits());
     while low < high {

@@ -88,7 +88,7 @@ pub struct PaintingState {
     pub history: Vec<String>,
     /// Number of actions of the history that are done.
     pub history_done: usize,
-    /// Memory that undo takes, and its limit, in bytes.
+    /// Memory that the undo history uses, and its limit, in bytes.
     pub undo_bytes: (u64, u64),
     /// All brushes, in the order of their names.
     pub brushes: Vec<BrushState>,
@@ -105,7 +105,7 @@ pub struct PaintingState {
 pub struct Performance {
     /// Number of sub-steps in the last second.
     pub substeps_per_second: f64,
-    /// Number of sub-steps that wait.
+    /// Number of sub-steps that wait to be painted.
     pub waiting_substeps: usize,
     /// Mean time from the arrival of a sample until its tiles are sent, in ms, over the last
     /// second.

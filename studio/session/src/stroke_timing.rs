@@ -15,9 +15,9 @@ use super::outbox::Outbox;
 /// stroke itself is in the session ([`PaintingSession::stroke_progress`]).
 #[derive(Debug, Default)]
 pub(super) struct StrokeTiming {
-    /// Arrival times of the samples that the paint has not reached.
+    /// Arrival times of the samples up to which the stroke is not painted yet.
     arrived: VecDeque<Instant>,
-    /// Number of samples that the paint has reached.
+    /// Number of samples up to which the stroke is painted.
     reached: usize,
     /// Number of sub-steps painted.
     painted: usize,
@@ -41,7 +41,8 @@ impl StrokeTiming {
         Ok(())
     }
 
-    /// Paints the open stroke for a moment. Returns whether anything was painted.
+    /// Paints one slice of the open stroke, about 8 ms of work. Returns whether anything was
+    /// painted.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -71,7 +72,7 @@ impl StrokeTiming {
     }
 }
 
-/// Number of sub-steps of the open stroke that are known and not painted.
+/// Number of sub-steps of the open stroke that follow from its samples and are not painted yet.
 pub(super) fn waiting_substeps(session: &PaintingSession) -> usize {
     session.stroke_progress().map_or(0, OpenStroke::waiting)
 }

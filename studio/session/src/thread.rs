@@ -40,15 +40,15 @@ impl Worker {
     /// Starts the thread. It has no painting until [`Command::Open`]. `wake` is called on the
     /// thread after each event, so that a window can be drawn again.
     ///
-    /// The worker sends only a few parts of pictures before they are received with
-    /// [`Worker::events`]; a front end that reads rarely gets all changes in between at once.
+    /// The worker sends at most a few parts of pictures until the front end receives them with
+    /// [`Worker::events`]. A front end that reads rarely gets the changes in between combined.
     #[must_use]
     pub fn start(options: WorkerOptions, wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();
         let (sender, events) = channel();
         thread::spawn(move || {
             let send = move |event| {
-                // Nobody receives if the front end is gone.
+                // Sending fails only if the front end has dropped the receiver.
                 let _ = sender.send(event);
                 wake();
             };

@@ -105,7 +105,8 @@ impl LayerSummary {
         let layer = DryLayer { slots, opacity, paint: self.cells.clone() };
         let document = document_of(painting, layer);
         let mut scene = scene::scene(&document, painting.light());
-        // Neighbours are apart on the canvas, so that relief has no meaning here.
+        // Neighbouring sampled cells are not neighbours on the canvas, so their slopes have no
+        // meaning.
         scene.lamp.relief = 0.0;
         let picture = scene::picture(&document, &scene);
         let (width, height) = (columns / PROBES, rows / PROBES);

@@ -39,7 +39,7 @@ pub(super) struct WorkerLoop<'a> {
     /// Timing of the open stroke, if one is open.
     pub(super) stroke: Option<StrokeTiming>,
     pub(super) playing: Option<Replay>,
-    /// Time at which a replay at the pace of the painter goes on.
+    /// Time at which a replay at the pace of the painter continues; `None` while it need not wait.
     pub(super) pause: Option<Instant>,
     /// The last snapshot sent, kept while the paint is on a device that may be lost.
     pub(super) kept: Option<Snapshot>,
@@ -120,7 +120,7 @@ impl<'a> WorkerLoop<'a> {
         }
     }
 
-    /// How long to wait for commands before there is work to do.
+    /// How long the thread may wait for commands until it has other work to do.
     fn wait_time(&self) -> Wait {
         let paints = self
             .open

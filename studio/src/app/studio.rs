@@ -47,7 +47,8 @@ pub struct Studio {
     pub(super) requests: Vec<Request>,
     pub(super) event_count: u64,
     pub(super) last_recording: Option<u64>,
-    /// Position of the last pick request (mm as bits), so that each is sent once.
+    /// Surface of the last pick request, and its x and y in mm as the bits of an `f64`. A
+    /// request for the same place is not sent again.
     pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,

@@ -1,4 +1,4 @@
-//! Opens the dialogs, shows them, and starts what they are answered with.
+//! Opens and shows the dialogs, and carries out the painter's answers.
 
 use std::path::PathBuf;
 
@@ -85,7 +85,7 @@ impl Files {
             OpenDialog::Preferences => dialogs::preferences(&ctx, &mut self.preferences),
         };
         if stays {
-            // Below the dialogs that were opened in the meantime.
+            // The answer may have opened other dialogs, which stay above this one.
             self.dialogs.insert(below, dialog);
         }
     }

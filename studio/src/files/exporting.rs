@@ -42,7 +42,8 @@ impl Export {
 /// clipped.
 ///
 /// # Errors
-/// [`JobError`]. No incomplete file is left; of pigment maps, the complete ones stay.
+/// [`JobError`] if the export failed or was cancelled. No incomplete file is left; pigment
+/// maps that were already written stay.
 pub(crate) fn export(
     export: Export,
     document: &Document,

@@ -92,7 +92,9 @@ impl Files {
                     self.autosaved_revision = Some(revision);
                 }
                 if let Some(lost) = self.recovered.take() {
-                    // This session keeps the recovered painting now; it is still unsaved.
+                    // The autosaves of this session contain the recovered painting now, so
+                    // the lost session is not needed. The painting is still not saved in a
+                    // file.
                     self.saved_revision = None;
                     lost.discard();
                 }

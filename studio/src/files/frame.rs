@@ -1,5 +1,5 @@
 //! Entry points for the window: worker events, the update and drawing of each frame,
-//! requests of menus and panels, and the end.
+//! requests of menus and panels, and the end of the session.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -51,7 +51,8 @@ impl Files {
         }
         self.path = path;
         if lost.is_some() {
-            // Not saved yet: autosaved at once, and only then is the lost session deleted.
+            // The painting is not saved yet. This makes an autosave due now; the lost
+            // session is deleted once that is written.
             self.last_autosave = Instant::now() - Duration::from_secs(3600);
             self.recovered = lost;
         } else {
@@ -73,8 +74,8 @@ impl Files {
         std::mem::take(&mut self.commands)
     }
 
-    /// Whether the window may close now. If not, the painter is asked, or a running save
-    /// ends first.
+    /// Whether the window may close now. If changes would be lost, the painter is asked,
+    /// unless the painting is already being saved.
     fn may_close(&mut self) -> bool {
         if self.closing || !self.has_unsaved_changes() {
             return true;

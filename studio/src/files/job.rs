@@ -9,7 +9,7 @@ use super::problem::Problem;
 /// The reason why a job has no result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum JobError {
-    /// It was cancelled.
+    /// The job was cancelled.
     Cancelled,
     /// The task failed with this problem.
     Failed(Problem),
@@ -21,7 +21,8 @@ impl From<Problem> for JobError {
     }
 }
 
-/// The side of a job that its work sees: reports progress and learns of cancellation.
+/// Passed to the work of a job, which reports its progress with it and ends if it was
+/// cancelled.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Progress(Arc<Shared>);
 
@@ -45,7 +46,7 @@ impl Progress {
     }
 }
 
-/// A running job, as the window sees it.
+/// Handle with which the window observes, cancels or awaits a running job.
 #[derive(Debug)]
 pub(crate) struct Job<T> {
     label: String,

@@ -19,12 +19,12 @@ pub(super) struct Notice {
 }
 
 impl Notice {
-    /// Something that was done. Disappears by itself.
+    /// A message about something that was done. It disappears after [`SHOWN`].
     pub(super) fn done(text: &str) -> Self {
         Self { text: capitalized(text), hint: None, until: Some(Instant::now() + SHOWN) }
     }
 
-    /// Something that failed. Stays until it is closed.
+    /// A message about something that failed. It stays until the painter closes it.
     pub(super) fn problem(problem: Problem) -> Self {
         Self { text: capitalized(&problem.text), hint: problem.hint, until: None }
     }

@@ -32,7 +32,8 @@ pub(super) enum OpenDialog {
 pub(super) enum FilePurpose {
     /// Opens the dialog.
     Open,
-    /// Saves the painting in it, then goes on with `next`.
+    /// Saves the painting in it, keeps a revision if `keep_revision` is set, then carries
+    /// out `next`.
     Save { next: Option<PendingAction>, keep_revision: bool },
     /// Exports to it.
     Export(Export),

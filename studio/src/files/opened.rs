@@ -176,7 +176,8 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     }
     let library = named.library;
     if let Some(start) = &mut script.start {
-        // Its pigments are those of the painting that it starts from.
+        // The script is not resolved here: its pigments are those of the painting that it
+        // starts from.
         *start = folder.join(&start).display().to_string();
     } else {
         script.resolve(&library).map_err(|error| Problem::from_error(&error))?;

@@ -103,8 +103,8 @@ impl Default for Preferences {
 }
 
 impl Preferences {
-    /// Reads the preferences in `path`; returns problems with the file too. Without a file
-    /// they are the defaults.
+    /// Reads the preferences in `path`, and returns them with the problems found in the
+    /// file. If there is no file, they are the defaults without a problem.
     #[must_use]
     pub fn read(path: &Path) -> (Self, Vec<Problem>) {
         let bytes = match std::fs::read(path) {

@@ -7,7 +7,7 @@ use session::FileFailure;
 use spectra::file::FileError;
 use spectra::hint::{Explain, Hint};
 
-/// A message about something that failed, and a way out if there is one.
+/// A message about something that failed, and a suggestion what to do, if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Names the file or the thing that failed, and the reason.
@@ -17,14 +17,14 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A problem with a way out.
+    /// A problem with a suggestion what to do.
     #[must_use]
     pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { text: text.into(), hint: Some(hint.into()) }
     }
 
-    /// The message of a library's error with all its causes, and its hint with settings
-    /// under the names that they have in this program.
+    /// The message of a library's error with all its causes, and its hint, in which
+    /// settings have the names that the window shows.
     pub fn from_error(error: &dyn Explain) -> Self {
         let hint = error.hint().as_ref().map(with_panel_names);
         Self { hint, ..Self::without_hint(error) }
@@ -41,7 +41,8 @@ impl Problem {
         Self { text, hint: None }
     }
 
-    /// A file or folder that cannot be read, written and so on: `participle` says which.
+    /// The problem that `path` cannot be read, written and so on; `participle` is that
+    /// word.
     pub(crate) fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
         let text = format!("{}: cannot be {participle}: {error}", path.display());
         Self { text, hint: error.hint().as_ref().map(with_panel_names) }
@@ -60,7 +61,7 @@ impl From<FileFailure> for Problem {
     }
 }
 
-/// The sentence of a hint, with each setting under its name in the window.
+/// Text of a hint in which each setting has the name that the window shows.
 pub(crate) fn with_panel_names(hint: &Hint) -> String {
     hint.with_settings(|name, value| match (name, value) {
         ("backend", Some("cpu")) => "Edit, Preferences, Computes: Processor".to_owned(),

@@ -65,7 +65,8 @@ pub(super) fn keep(
         .write_to(&mut png, image::ImageFormat::Png)
         .map_err(|error| Problem::without_hint(&error))?;
     let kept = folder.join(format!("{number:04}.exr"));
-    // The thumbnail is written first: a revision exists as soon as its painting does.
+    // The thumbnail is written first, because a revision counts as complete once its
+    // painting exists.
     write_whole(&kept.with_extension("png"), png.get_ref()).map_err(Problem::from)?;
     write_whole(&kept, &bytes).map_err(Problem::from)?;
     Ok(kept)
@@ -89,7 +90,7 @@ pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, Jo
     Ok(revisions)
 }
 
-/// Deletes the revision in `path`, and the folder with the last one.
+/// Deletes the revision in `path` with its thumbnail, and the folder if it is empty then.
 ///
 /// # Errors
 /// [`Problem`] if `path` is not a revision or cannot be removed.

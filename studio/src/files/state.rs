@@ -1,4 +1,4 @@
-//! Files of the painting: what is known of them, and the steps that the rest is made of.
+//! State of the files of the painting, and the basic steps on it.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -41,12 +41,13 @@ pub struct Files {
     pub(super) path: Option<PathBuf>,
     /// Content of the painting's file when it was opened.
     pub(super) start: Option<Arc<Vec<u8>>>,
-    /// The revision that was saved last, or the first one.
+    /// The worker's counter of changes when the painting was last saved or opened; `None`
+    /// before that, and once a recovered painting was autosaved.
     pub(super) saved_revision: Option<u64>,
     /// Counts opened paintings, so that the result of a job is not applied to another
     /// painting.
     pub(super) epoch: u64,
-    /// Set while the worker opens a painting.
+    /// Files of the painting that the worker is opening; `None` while it opens none.
     pub(super) opening: Option<FileOrigin>,
     pub(super) last_request: u64,
     /// Requests to the worker that it has not answered yet.

@@ -73,8 +73,9 @@ impl Files {
         });
     }
 
-    /// The light of a document. It is the worker's light if that has the same name, because
-    /// the file that it was read from may be gone.
+    /// Returns a function that finds the light of `document`. If the worker's light has the
+    /// same name, observer and library, it is used, because a lamp's file may no longer
+    /// exist.
     fn light_of(
         &self,
         document: &Arc<Document>,
@@ -145,7 +146,8 @@ impl Files {
         });
     }
 
-    /// Requests an autosave when it is due, and otherwise makes the window wake up for it.
+    /// Requests an autosave if it is due; otherwise requests a repaint at the time when it
+    /// will be.
     pub(super) fn autosave_when_due(&mut self) {
         let Some(state) = self.painting.clone() else { return };
         let busy = self.jobs.iter().any(|job| job.kind == JobKind::Autosave)
@@ -179,7 +181,8 @@ impl Files {
         });
     }
 
-    /// Starts deleting the autosaves: the painting is saved in a file, or not wanted.
+    /// Starts deleting the autosaves. They are not needed once the painting is saved in a
+    /// file or discarded.
     pub(super) fn clear_autosaves(&mut self) {
         (self.last_autosave, self.autosaved_revision) = (Instant::now(), None);
         let autosave = self.autosave.clone();
@@ -216,8 +219,9 @@ impl Files {
     }
 }
 
-/// The script as it will be saved in `path`. If it continues a painting, the painting as
-/// it was at the start is written beside it as `NAME.start.exr`.
+/// Returns the script as it will be saved in `path`. If it continues a painting, the file
+/// of that painting as it was at the start (`start`) is written beside it as
+/// `NAME.start.exr`.
 fn with_start_file(
     path: &Path,
     script: &StrokeScript,
@@ -227,7 +231,8 @@ fn with_start_file(
     let Some(named) = &script.start else { return Ok(script) };
     let bytes = match start {
         Some(bytes) => bytes,
-        // A recording that was played and is saved again names its own start.
+        // The painting comes from a recording, whose script names the file that it started
+        // from.
         None => Arc::new(spectra::file::read(Path::new(named))?),
     };
     let beside = path.with_extension("start.exr");

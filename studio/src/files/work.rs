@@ -17,8 +17,8 @@ use session::LostSession;
 /// The reason for which the worker was asked for a snapshot or a recording.
 #[derive(Debug)]
 pub(super) enum Purpose {
-    /// Saves the painting in `path`, keeps a revision if asked to, then goes on with
-    /// `next`.
+    /// Saves the painting in `path`, keeps a revision if `keep_revision` is set, then
+    /// carries out `next`.
     Save { path: PathBuf, next: Option<PendingAction>, keep_revision: bool },
     /// Keeps a revision of the painting in `path`.
     Revision { path: PathBuf },
@@ -39,7 +39,8 @@ pub(super) enum Finished {
     RevisionRead(Box<Document>, Arc<Vec<u8>>),
     /// A lost session was read.
     Recovered { canvas: Box<Document>, palette: Box<Document>, lost: LostSession },
-    /// The painting was saved; the rest as in [`Purpose::Save`].
+    /// The painting was saved. `path`, `next` and `keep_revision` are those of
+    /// [`Purpose::Save`].
     Saved {
         path: PathBuf,
         revision: u64,
@@ -55,9 +56,10 @@ pub(super) enum Finished {
     Recorded(PathBuf),
     /// The revisions of the painting were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
-    /// An autosave of this revision was written.
+    /// An autosave was written. `revision` is the painting's counter of changes at that
+    /// time.
     Autosaved { revision: u64, epoch: u64 },
-    /// Something was done that needs no answer.
+    /// The job was done, and its result changes nothing in the window.
     Quietly,
 }
 
@@ -72,9 +74,10 @@ pub(super) struct RunningJob {
 /// How visible a job is, and what waits for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JobKind {
-    /// The painter waits for it: its progress is shown, and it can be cancelled.
+    /// The painter waits for the job: its progress is shown, and it can be cancelled.
     Shown,
-    /// A painting is being saved: shown too, and the window stays open for it.
+    /// The job saves a painting: its progress is shown, and the window does not close
+    /// before it ends.
     Saving,
     /// It runs in the background without being shown.
     Background,
@@ -83,7 +86,7 @@ pub(super) enum JobKind {
 }
 
 impl RunningJob {
-    /// Waits for the job. One that is merely shown is cancelled first.
+    /// Waits for the job. A job of the kind [`JobKind::Shown`] is cancelled first.
     pub(super) fn finish(self) {
         if self.kind == JobKind::Shown {
             self.job.cancel();

@@ -53,8 +53,8 @@ pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option
     named_button(ui, name, name, tip, disabled_reason)
 }
 
-/// Adds a button whose accessible name differs from its text, for one of several equal
-/// buttons.
+/// Adds a button whose accessible name differs from its text, because several buttons have
+/// the same text. Returns whether it was clicked.
 pub(super) fn named_button(
     ui: &mut Ui,
     shown: &str,

@@ -33,7 +33,8 @@ impl Edit {
         }
     }
 
-    /// Combines two controls of one value: the first unless it is unchanged.
+    /// Combines the changes made by two controls of one value: returns `other` if `self` is
+    /// `None`.
     pub(super) fn or(self, other: Self) -> Self {
         if self == Self::None { other } else { self }
     }

@@ -35,7 +35,7 @@ pub struct Tools {
     pub vehicle: f64,
     /// Height of the paint that one load adds to the brush head, in mm.
     pub load_mm: f64,
-    /// Share of its paint that wiping leaves on the brush, 0 to 1.
+    /// Share of the brush's paint that remains after wiping, 0 to 1.
     pub wipe_keep: f64,
     /// Volume of one squeeze, in cubic mm.
     pub squeeze_mm3: f64,
@@ -47,8 +47,8 @@ pub struct Tools {
     pub picked: Option<Arc<Picked>>,
     /// Colour picked from the reference picture, linear sRGB.
     pub reference_color: Option<[f64; 3]>,
-    /// Position of the boundary between the two lights of the split view, as a share of
-    /// the canvas width.
+    /// Position of the boundary between the two lights of the split view, as a share of the
+    /// canvas width, 0 (left) to 1 (right).
     pub split: f32,
     /// Whether the performance figures are shown over the canvas.
     pub figures: bool,

@@ -16,8 +16,9 @@ use super::systems::Systems;
 use super::transform::PenTargets;
 use session::PenSample;
 
-/// After its last report a stylus counts as near for this long. The window system also
-/// sends the stylus as mouse events, which must not paint a second time.
+/// Time for which a stylus counts as near after its last report. The window system reports
+/// a stylus as a mouse too; these events are ignored while it is near, so that it does not
+/// paint twice.
 const NEAR: Duration = Duration::from_millis(300);
 
 /// An event of a stylus, mouse or finger on canvas or palette.
@@ -41,7 +42,7 @@ pub enum PenEvent {
         surface: SurfaceId,
         /// Position and attitude of the brush; pressure and seconds are 0.
         sample: Sample,
-        /// The device that hovering.
+        /// The device that hovers.
         device: Device,
     },
     /// The device is no longer over any surface.
@@ -93,7 +94,8 @@ impl Pen {
         Self { settings, systems: Systems::for_window(context), ..Self::default() }
     }
 
-    /// The reason why styluses act as mice, if they do. Returned once.
+    /// Removes and returns the reason why styluses act as mice; `None` if they do not, or
+    /// if it was returned before.
     pub fn take_notice(&mut self) -> Option<String> {
         self.systems.notice.take()
     }
@@ -115,7 +117,8 @@ impl Pen {
         self.stroke.is_some()
     }
 
-    /// Time until [`Pen::process_frame`] must be called again even without new input.
+    /// Time until [`Pen::process_frame`] must be called again even without new input;
+    /// `None` if it need not be.
     #[must_use]
     pub fn repaint_after(&self, now: Instant) -> Option<Duration> {
         let rests = self.stroke.as_ref().and_then(|stroke| stroke.next_rest_sample(now));
@@ -197,7 +200,8 @@ impl Pen {
                 None => self.hovering = Some((device, state)),
             },
             ReportKind::Pressed(state) => match &mut self.stroke {
-                // The system sent the same press as a mouse event first.
+                // The system reported this press as a mouse event before, which began the
+                // stroke.
                 Some(stroke) if !paints && device.is_pen() => {
                     stroke.device = device;
                     stroke.extend(state, arrived, &self.settings);
@@ -252,7 +256,7 @@ impl Pen {
         let from = from.map(|(_, place)| place);
         events.push(PenEvent::Down { surface: transform.surface, device });
         self.stroke = Some(PenStroke::new(device, state, at, *transform, from, &self.settings));
-        // No hover event equals this one, so the next hover is always reported.
+        // Differs from every hover event, so that the next one is reported as a change.
         self.reported_hover = Some(PenEvent::Up);
     }
 

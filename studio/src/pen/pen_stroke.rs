@@ -12,11 +12,12 @@ use super::speed::SpeedPressure;
 use super::transform::SurfaceTransform;
 use session::PenSample;
 
-/// A pen without reports for this time counts as still. The smoothed path of the brush lags
-/// one sample behind, and a sample at rest lets it catch up.
+/// Time without reports after which a pen counts as still. A sample is then added at its
+/// position, because the smoothed path of the brush lags one sample behind.
 pub(super) const STILL: Duration = Duration::from_millis(30);
 
-/// Change of pressure, 0 to 1, that makes a brush at rest send another sample.
+/// Change of pressure (full pressure is 1) above which another sample is added while the
+/// pen rests.
 const CHANGED: f64 = 0.005;
 
 /// Seconds between the samples at the end of a stroke.
@@ -27,7 +28,8 @@ const LINE_SPEED_MM_S: f64 = 100.0;
 /// Length over which the pressure of a straight line rises, in mm.
 const LINE_START_MM: f64 = 2.0;
 
-/// Path length over which a brush that follows the stroke turns across it, in points.
+/// Path length in points over which a brush that follows the stroke turns across it: the
+/// remaining angle falls by a factor of e.
 const TURNING_POINTS: f64 = 30.0;
 
 /// A stroke that has begun and not ended.
@@ -114,7 +116,7 @@ impl PenStroke {
         self.add_sample(pressure, seconds, at, settings);
     }
 
-    /// Adds a sample if the pen rests: one, and further ones only while the pressure
+    /// Adds one sample when the pen comes to rest, and further ones only while the pressure
     /// changes.
     pub(super) fn add_rest_sample(&mut self, now: Instant, settings: &PenSettings) {
         if now.saturating_duration_since(self.moved) < STILL {
@@ -129,7 +131,7 @@ impl PenStroke {
         }
     }
 
-    /// Time until [`Self::add_rest_sample`] has a sample to add.
+    /// Time until [`Self::add_rest_sample`] must be called; `None` if it would add nothing.
     pub(super) fn next_rest_sample(&self, now: Instant) -> Option<Duration> {
         let landing = self.state.pressure.is_none()
             && self.pressure_model.pressure(f64::INFINITY)
@@ -200,7 +202,7 @@ impl PenStroke {
         self.push(Sample { pressure, seconds, ..sample }, at);
     }
 
-    /// Adds a sample, with its time not before the last one.
+    /// Adds a sample. If its time is before that of the last one, it is set to that time.
     fn push(&mut self, sample: Sample, arrived: Instant) {
         let earliest = self.last.map_or(0.0, |last| last.seconds);
         let sample = Sample { seconds: sample.seconds.max(earliest), ..sample };

@@ -6,13 +6,13 @@ use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 
 use super::report::{Device, PointerState, Report, ReportKind};
 
-/// A finger paints after it has moved this far, in points. Until then a second finger can
+/// Distance after which a moving finger paints, in points. Until then a second finger can
 /// turn the touch into a gesture.
 const DECIDED_POINTS: f32 = 6.0;
-/// A finger that rests paints after this time.
+/// Time after which a finger paints even if it has not moved that far.
 const DECIDED: Duration = Duration::from_millis(70);
 
-/// Events between two frames are spread over at most this time, the duration of a slow
+/// Maximum time over which the events between two frames are spread: the duration of a slow
 /// frame.
 const FRAME: Duration = Duration::from_millis(34);
 
@@ -31,8 +31,8 @@ enum Finger {
     /// No finger is down.
     #[default]
     Up,
-    /// It may still become a gesture. Its reports are kept, so that no part of a stroke is
-    /// lost.
+    /// The touch may still become a gesture. Its reports are kept, so that the start of a
+    /// stroke is not lost if it paints.
     Undecided { from: Pos2, since: Option<Instant>, kept: Vec<Report> },
     /// The finger paints.
     Paints,
@@ -58,7 +58,7 @@ impl Pointer {
         self.decide(reports, now)
     }
 
-    /// Whether it is still open if the finger paints or makes a gesture.
+    /// Whether it is not decided yet if the finger paints or makes a gesture.
     pub(super) fn undecided(&self) -> bool {
         matches!(self.finger, Finger::Undecided { .. })
     }
@@ -90,7 +90,8 @@ impl Pointer {
                     }
                 }
             }
-            // egui moves its pointer with the finger too.
+            // While a finger is down, egui sends pointer events for it too; they are
+            // ignored.
             _ if !self.fingers.is_empty() => {}
             Event::PointerMoved(at) => {
                 report(Device::Mouse, ReportKind::Moved(PointerState::at(at)));
@@ -109,7 +110,8 @@ impl Pointer {
         }
     }
 
-    /// Withholds the reports of a finger until it is known to paint.
+    /// Withholds the reports of a finger until it is decided that it paints, and drops
+    /// those of a gesture. Reports of the mouse pass unchanged.
     fn decide(&mut self, reports: Vec<Report>, now: Instant) -> Vec<Report> {
         let mut out = Vec::new();
         for report in reports {

@@ -41,8 +41,8 @@ impl Grip {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PenSettings {
-    /// Exponent applied to the pressure of a stylus, 0.2 to 5. Above 1 the brush presses
-    /// less than the hand, below 1 more.
+    /// Exponent applied to the pressure of a stylus, 0.2 to 5. Values above 1 lower the
+    /// pressure of the brush, values below 1 raise it.
     pub gamma: f64,
     /// Attitude of a brush whose device measures none.
     pub grip: Grip,

@@ -24,10 +24,11 @@ const START_SHARE: f64 = 0.2;
 const START_POINTS: f64 = 10.0;
 /// Time over which the pressure rises to its full value, in seconds.
 const START_SECONDS: f64 = 0.06;
-/// Longest time step of the speed, in seconds: the first movement after a longer pause does
-/// not press as if the pointer had moved slowly all the time.
+/// Longest time step from which the speed is computed, in seconds. Without it, the first
+/// movement after a pause would count as slow and press too hard.
 const LONGEST_STEP_SECONDS: f64 = 0.05;
-/// Shortest time step of the speed, in seconds; shorter steps are added to the next one.
+/// Shortest time step from which the speed is computed, in seconds; shorter steps are added
+/// to the next one.
 const SHORTEST_STEP_SECONDS: f64 = 5e-4;
 
 /// Pressure of one stroke, updated with each movement.
@@ -86,8 +87,9 @@ impl SpeedPressure {
         full * (START_SHARE + (1.0 - START_SHARE) * eased)
     }
 
-    /// Pressures with which the stroke ends at its last position. A click without movement
-    /// is first pressed down fully.
+    /// Pressures, 0 to 1, of the samples that end the stroke at its last position; the last
+    /// is 0. A click with almost no movement begins with the full pressure, which it has
+    /// not reached yet.
     #[must_use]
     pub(super) fn end_pressures(&self, seconds: f64) -> Vec<f64> {
         let mut lifted = Vec::new();

@@ -11,7 +11,7 @@ use super::tablet::Tablet;
 use super::x11::X11Pens;
 
 /// Newest version of Wayland's tablet protocol that octotablet supports. Binding a newer
-/// one would end the connection and with it the program.
+/// version would break the connection to the compositor, which ends the program.
 #[cfg(target_os = "linux")]
 const TABLET_VERSION: u32 = 1;
 
@@ -97,8 +97,8 @@ impl Systems {
         all_reports
     }
 
-    /// Time after which the window must poll again although no event wakes it; `near` while
-    /// a stylus is close to the tablet.
+    /// Time after which the window must poll a tablet, whose events do not wake it; `None`
+    /// without a tablet. `near` is true while a stylus is close to the tablet.
     pub(super) fn poll_after(&self, near: bool) -> Option<Duration> {
         let connected = self.tablet.as_ref().is_some_and(Tablet::connected);
         connected.then_some(if near { Duration::ZERO } else { IDLE })

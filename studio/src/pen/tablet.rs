@@ -14,7 +14,7 @@ use super::report::{Device, PointerState, Report, ReportKind};
 
 /// Connection to the tablets of the window system.
 pub(super) struct Tablet {
-    /// `None` after it failed.
+    /// Source of the events; `None` after it failed.
     manager: Option<Manager>,
     clock: StampClock,
     frame: EventFrame,
@@ -38,8 +38,8 @@ impl Tablet {
         self.manager.as_ref().is_some_and(|manager| !manager.tablets().is_empty())
     }
 
-    /// Whether the system moves no pointer with these styluses, so that buttons of the
-    /// window would not react to them.
+    /// Whether the system does not move its pointer with the styluses. Without an emulated
+    /// pointer, buttons of the window would not react to them.
     pub(super) fn needs_pointer_emulation(&self) -> bool {
         let manager = self.manager.as_ref();
         manager.is_some_and(|m| matches!(m.backed(), Backend::WaylandTabletUnstableV2))
@@ -57,7 +57,7 @@ impl Tablet {
                 let Event::Tool { tool, event } = event else { continue };
                 let device = match tool.tool_type {
                     Some(Type::Eraser) => Device::Eraser,
-                    // These are sent as pointer events too.
+                    // The window system reports these as pointer events too.
                     Some(Type::Emulated | Type::Finger) => continue,
                     _ => Device::Pen,
                 };
@@ -83,7 +83,8 @@ impl Tablet {
     }
 }
 
-/// The events of one frame of the protocol, that is of one moment; they come in any order.
+/// The events of one frame of the tablet protocol. They belong to one moment and may come
+/// in any order.
 #[derive(Debug, Default)]
 struct EventFrame {
     state: Option<PointerState>,
@@ -123,7 +124,8 @@ impl EventFrame {
         match (std::mem::take(&mut self.down), state, self.last) {
             (true, _, Some(state)) => finish(ReportKind::Pressed(state)),
             (false, Some(state), _) => finish(ReportKind::Moved(state)),
-            // A press without a position: the position comes with the next frame.
+            // The press has no position yet, so it is reported with the next frame, which
+            // has one.
             (true, _, None) => self.down = true,
             (false, None, _) => {}
         }

@@ -56,8 +56,8 @@ impl Valuator {
         let value = self.value.clamp(lowest, highest);
         Some(match self.axis {
             Axis::Pressure => (value - lowest) / span,
-            // Drivers report degrees, within 64 of upright. A range beyond 90 is some other
-            // unit, taken to span 60 degrees.
+            // Drivers report degrees, at most 64 from upright. A range beyond 90 has
+            // another unit; its end is taken as 60 degrees.
             Axis::TiltX | Axis::TiltY => {
                 let most = lowest.abs().max(highest.abs());
                 if most <= 90.0 { value } else { value / most * 60.0 }

@@ -10,8 +10,8 @@ use eframe::egui::{Color32, ColorImage};
 use palette::{LinSrgb, Srgb};
 use render::tile::Rect;
 
-/// Entries of the table that encodes linear light; 2.5 entries fall on the smallest step of
-/// 8-bit sRGB.
+/// Number of entries of the table that encodes linear light. The smallest step of 8-bit
+/// sRGB, 1 / 255 / 12.92, spans 2.5 entries.
 const STEPS: usize = 8192;
 
 /// A level with no side longer than this is the last one, in cells.

@@ -1,5 +1,5 @@
-//! A picture on the screen, in chunks: only visible chunks are uploaded, and of those only
-//! what changed.
+//! A picture on the screen, divided into chunks. Only visible chunks are uploaded, and only
+//! the parts of them that changed.
 
 use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use render::tile::Rect;
@@ -189,7 +189,8 @@ impl Chunk {
         if !self.changed.is_empty()
             && texture.pending_cells() > self.padded.width * self.padded.height
         {
-            // More cells wait than the chunk has: uploading it whole is cheaper.
+            // More cells wait to be uploaded than the chunk has, so uploading it whole is
+            // cheaper.
             self.changed = vec![self.padded];
         }
         let mut sum = 0;

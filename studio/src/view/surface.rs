@@ -74,7 +74,8 @@ impl SurfaceView {
         }
     }
 
-    /// Starts another surface of `cells` columns and rows, shown whole.
+    /// Replaces the surface by an empty one of `cells` columns and rows, and fits it into
+    /// the view.
     pub fn open(&mut self, cells: (usize, usize)) {
         self.first = Picture::new(self.name, cells);
         self.second = None;

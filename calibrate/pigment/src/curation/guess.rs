@@ -12,8 +12,8 @@ use crate::smooth_reflectance::smoothest_reflectance;
 
 /// S of a glaze, relative to the reference white: it hides little. Chosen by eye.
 const GLAZE_SCATTERING: f64 = 0.02;
-/// A colour within this CIEDE2000 of the requested one counts as equal; the rounding of a file stays
-/// far below it.
+/// Largest CIEDE2000 between two colours that count as equal. Rounding K and S in a file changes a colour by
+/// far less.
 const SAME_COLOR: f64 = 0.05;
 
 /// Kind of paint that a guessed pigment makes.
@@ -40,7 +40,7 @@ pub struct Guess {
 /// `wanted`: K and S follow from the smoothest reflectance of that colour
 /// ([`smoothest_reflectance`]). `color` describes the colour in the pigment's notes.
 ///
-/// How such a paint mixes is unknown; only measurements can show it.
+/// A colour does not determine how a paint mixes; only measurements do.
 ///
 /// # Errors
 /// [`CurationError`] for a library of absolute amounts, and where no paint under the library's surface

@@ -62,21 +62,24 @@ impl Health {
     }
 }
 
-/// Steps of the grid in nm that are coarser than the bands of most pigments; chosen by eye.
+/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments; chosen by
+/// eye.
 const COARSE_STEP_NM: f64 = 20.0;
 /// Mean CIEDE2000 of a fit above which it is poor; chosen by eye.
 const POOR_FIT: f64 = 3.0;
-/// Rounding of the reference's S in a file of six digits, with some room.
+/// Greatest deviation of the reference's S from 1 that rounding to six digits in a file explains, with some
+/// margin.
 const UNIT_ROUNDING: f64 = 1e-5;
 /// A value above or below both its neighbours by more than this factor counts as a jump; chosen by
 /// eye.
 const JUMP: f64 = 1.5;
-/// A relative standard deviation above this leaves little more than the order of magnitude; chosen by
-/// eye.
+/// Median relative standard deviation of K or S above which little more than its order of magnitude is known;
+/// chosen by eye.
 const UNCERTAIN: f64 = 0.5;
-/// Colour difference in CIEDE2000 that nobody sees; chosen by eye.
+/// Largest colour difference in CIEDE2000 that nobody can see; chosen by eye.
 const ALIKE: f64 = 0.3;
-/// A masstone within this reflectance of the surface's own reflection counts as black; chosen by eye.
+/// A masstone whose reflectance exceeds the surface's own reflection by less than this counts as black;
+/// chosen by eye.
 const BLACK: f64 = 0.0005;
 
 /// Checks `library`; colours are computed under `viewing`.

@@ -46,9 +46,9 @@ pub struct MergeSettings {
     pub interpolation: Option<Interpolation>,
     /// Treatment of wavelengths beyond another library's band.
     pub ends: Extrapolation,
-    /// Accept pigments found under another surface as if it were the first's.
+    /// Accept K and S that were found under another surface as if it were the first library's.
     pub any_surface: bool,
-    /// Assume that absolute amounts of all libraries count one unit on one area.
+    /// Assume that the absolute amounts of all libraries have the same unit and refer to the same area.
     pub same_unit: bool,
     /// Light and observer of colour differences.
     pub viewing: Viewing,

@@ -9,9 +9,9 @@ use crate::library::{Pigment, PigmentLibrary};
 /// Resamples the library to `grid`: K and S by `method` (clipped at 0), standard deviations by straight
 /// lines. The evidence is kept, with a note that it belongs to the old grid.
 ///
-/// Loss: the Van Gogh oils, thinned to 20 nm and brought back to 10 nm, change by 0.05 CIEDE2000 on
-/// average with Sprague's polynomial and by 0.39 with straight lines (100 mixtures with white, as
-/// compared by `library diff`).
+/// Resampling loses detail: the Van Gogh oils, thinned to 20 nm and brought back to 10 nm, change by 0.05
+/// CIEDE2000 on average with Sprague's polynomial and by 0.39 with linear interpolation (100 mixtures with
+/// white, as compared by `library diff`).
 ///
 /// # Errors
 /// [`CurationError::Grid`] beyond the library's band, unless its end values are held, and for Sprague's

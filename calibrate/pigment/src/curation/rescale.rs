@@ -7,12 +7,12 @@ use crate::library::{AmountKind, Pigment, PigmentLibrary};
 /// Scales K and S to the S of `reference`, a name that [`PigmentLibrary::find`] accepts. Absolute amounts
 /// become shares.
 ///
-/// Every K and S is divided by the reference's S at that wavelength, so every mixture keeps its K/S and
-/// every film that hides keeps its colour. Films that do not hide change, because their thickness then
-/// counts from another white. Standard deviations are divided too, except that the old and the new
-/// reference exchange theirs. A pigment whose S was never known keeps its K/S with S = 1. The
-/// unevenness and the evidence of absolute amounts are dropped, since they mean nothing for films that
-/// hide.
+/// Every K and S is divided by the reference's S at that wavelength, so every mixture keeps its K/S and every
+/// film that hides keeps its colour. Films that do not hide change, because thickness 1 now refers to another
+/// white. Standard deviations are divided too, except those of S for the two references: the new one gets 0,
+/// and the old one gets the relative deviation that S of the new one had. A pigment whose S was never known
+/// keeps its K/S with S = 1. The unevenness and the evidence of absolute amounts are dropped, since they do
+/// not apply to films that hide.
 ///
 /// # Errors
 /// [`CurationError`] if there is no such pigment, or its S is unknown or 0.

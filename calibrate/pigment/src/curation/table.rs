@@ -249,7 +249,7 @@ pub enum TableError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
     Sheet(CsvTableError),
-    /// The text is no CSV.
+    /// The text is not valid CSV.
     #[error("{file}: {reason}")]
     Syntax {
         /// File name as the caller gave it.
@@ -290,7 +290,7 @@ pub enum TableError {
     /// The library cannot be scaled to the reference.
     #[error(transparent)]
     Curation(#[from] CurationError),
-    /// The values make no valid library.
+    /// The values do not make a valid library.
     #[error(transparent)]
     Library(#[from] LibraryError),
 }

@@ -50,8 +50,8 @@ impl PigmentLibrary {
     /// Reads the library from `text`, the content of `file`, which is only named in errors.
     ///
     /// # Errors
-    /// [`LibraryError`] if the text is no JSON, has another format or version, an unknown or missing
-    /// key, or values that no K and S can have.
+    /// [`LibraryError`] if the text is not JSON, has another format or version, an unknown or missing key, or
+    /// values that no K and S can have.
     pub fn from_json(file: &str, text: &str) -> Result<Self, LibraryError> {
         let text = text.trim_start_matches('\u{feff}');
         if !text.trim_start().starts_with('{') {
@@ -147,7 +147,7 @@ pub enum LibraryError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is no JSON, or its keys are not those of a library.
+    /// The text is not JSON, or its keys are not those of a library.
     #[error("{file}: {reason}")]
     Syntax {
         /// File name as the caller gave it.

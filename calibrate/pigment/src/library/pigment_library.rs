@@ -12,7 +12,7 @@ use crate::curves::Curves;
 use crate::fit_settings::FitSettings;
 use crate::recipe::{PigmentId, Recipe};
 
-/// Range of a part that can be mixed; beyond it sums lose their small terms.
+/// Allowed range of a part. Sums with larger parts lose their small terms to rounding.
 const PARTS: std::ops::RangeInclusive<f64> = 0.0..=1e12;
 /// Least sum of parts that can be normalised.
 const LEAST_TOTAL: f64 = 1e-12;
@@ -48,13 +48,13 @@ pub struct Pigment {
     /// Standard deviation of S at each wavelength; empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scattering_sd: Vec<f64>,
-    /// Whether S is known; if not, `scattering` is 1 in its place, and `notes` say so.
+    /// Whether S is known. If not, `scattering` is 1 at every wavelength, and `notes` say so.
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub identified: bool,
     /// Whether K and S were guessed from a colour rather than measured.
     #[serde(default, skip_serializing_if = "is_no")]
     pub guessed: bool,
-    /// Reservations that users of the pigment should know, in words.
+    /// Warnings about the pigment, in words for the user.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -191,8 +191,8 @@ impl PigmentLibrary {
         }
     }
 
-    /// Finds a pigment by `name`: the exact name, else without regard to case, else the only pigment
-    /// whose name starts so.
+    /// Finds a pigment by `name`. Tries, in this order, the exact name, the name in any letter case, and the
+    /// start of a name in any letter case if only one pigment has it.
     ///
     /// # Errors
     /// [`RecipeError`] if no pigment or several match.
@@ -260,8 +260,8 @@ impl PigmentLibrary {
         parts.into_iter().map(|(name, part)| Ok((self.find(name.as_ref())?, part))).collect()
     }
 
-    /// K and S of a recipe. Parts of a relative library are normalised to sum 1, so that the thickness
-    /// of its films keeps its meaning.
+    /// K and S of a recipe. Parts of a relative library are normalised to sum 1, so that a given thickness
+    /// means the same film for any total of the parts.
     ///
     /// # Errors
     /// [`RecipeError::Parts`] unless every part is 0 to 1e12 and they sum to 1e-12 or more.

@@ -129,8 +129,8 @@ fn wrongly_held(
 ) -> Option<usize> {
     let slope =
         |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
-    // Without a free share none of them can move alone: free the one whose slope differs most from
-    // the mean of the others.
+    // If no share is free, none can change alone, since their sum is fixed. The multiplier is then minus the
+    // mean slope of all shares, and the share whose slope differs most from that mean is freed.
     let shared = multiplier.unwrap_or_else(|| {
         let shares = bounds.shares.max(1);
         -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64
@@ -142,7 +142,8 @@ fn wrongly_held(
             continue;
         }
         let pull = slope(i) + if i < bounds.shares { shared } else { 0.0 };
-        // At the lower bound a falling slope points inwards, at the upper bound a rising one.
+        // Moving inwards lowers the model where the slope is negative at the lower bound, or positive at the
+        // upper bound.
         let gain = if step[i] <= down { -pull } else { pull };
         if gain > worst.0 {
             worst = (gain, Some(i));

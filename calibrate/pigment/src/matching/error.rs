@@ -57,10 +57,10 @@ pub enum MatchError {
     /// Recipes in whole parts cannot have fixed shares.
     #[error("recipes in whole parts take no fixed shares")]
     SharesInParts,
-    /// Absolute amounts make no film that hides.
+    /// A film that hides is requested from a library of absolute amounts, which needs a film over a ground.
     #[error("a library of absolute amounts makes films over a ground")]
     AbsoluteHiding,
-    /// A ground is given for a film that hides it.
+    /// A ground is given, but the film hides it.
     #[error("a film that hides shows no ground")]
     HiddenGround,
     /// No recipe lies within the limits of the request.

@@ -1,9 +1,9 @@
 //! Recipes for a colour.
 //!
-//! The question: which pigments of a library, and how much of each, come nearest to a target under
-//! one light or several? Every set of pigments is tried, from one pigment up to the requested
-//! number. The shares of each set are found by least squares in the colour difference itself,
-//! starting from the best recipe of a set with one pigment fewer.
+//! Finds which pigments of a library, and how much of each, come nearest to a target under one light or
+//! several. Every set of pigments is tried, from one pigment up to the requested number. The shares of each
+//! set are found by least squares in the colour difference itself, starting from the best recipe of a set
+//! with one pigment fewer.
 
 mod viewing_condition;
 

@@ -77,7 +77,7 @@ impl Default for MatchOptions {
 }
 
 impl MatchOptions {
-    /// Request that these options make of `library`, with remarks about what was chosen.
+    /// Converts these options to a request for `library`, with remarks about the choices that were made.
     ///
     /// # Errors
     /// [`MatchError`] if a name is unknown, or options exclude each other.

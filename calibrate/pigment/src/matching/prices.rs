@@ -123,7 +123,7 @@ pub enum PriceError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file is no CSV table.
+    /// The file is not a CSV table.
     #[error("{file}: no table of prices")]
     Table {
         /// File name as the caller gave it.
@@ -140,7 +140,7 @@ pub enum PriceError {
         /// Name of the column.
         column: &'static str,
     },
-    /// A price is no number of 0 and up.
+    /// A price is not a number of 0 and up.
     #[error("{place}: expected a price of 0 or more, found `{text}`")]
     Price {
         /// File and row, or the text that states the price.

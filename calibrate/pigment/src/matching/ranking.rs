@@ -96,8 +96,8 @@ pub fn recipes_with_control(
     Ok(Some(recipes.collect()))
 }
 
-/// Recipes in whole parts that are searched for each one returned, since some of the nearest are left out
-/// later because they add nothing. Chosen by eye.
+/// Number of recipes in whole parts searched for each one returned. More are searched because those that add
+/// pigments to a better recipe without coming nearer are left out later. Chosen by eye.
 const SPARE_RECIPES: usize = 5;
 
 /// A candidate with its whole parts, if these were asked for.
@@ -140,7 +140,7 @@ fn ranked(
     shown
 }
 
-/// Price of a candidate; 0 where no prices are known, so that they decide nothing.
+/// Price of a candidate. Without prices it is 0 for all, which leaves their order unchanged.
 fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate) -> f64 {
     let parts = candidate.pigments.iter().zip(&candidate.shares);
     let of_one: f64 =

@@ -12,7 +12,7 @@ use crate::library::PigmentLibrary;
 use crate::remark::Remark;
 use crate::visible_band::check_visible_band;
 
-/// CIEDE2000 above which the nearest recipe is also searched by CIE 1976: the formula was made for
+/// CIEDE2000 of the nearest recipe above which recipes are also searched by CIE 1976: CIEDE2000 was made for
 /// differences up to about 5 units (CIE 142:2001).
 const FAR: f64 = 5.0;
 
@@ -22,7 +22,7 @@ pub struct RecipeSearch<'a> {
     library: &'a PigmentLibrary,
     /// Limits of the recipes.
     pub request: MatchRequest,
-    /// Choices and reservations of the preparation.
+    /// Choices made in preparing the search, and warnings.
     pub remarks: Vec<Remark>,
 }
 
@@ -36,7 +36,7 @@ pub struct RecipeMatches {
     /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000;
     /// empty otherwise.
     pub by_cie1976: Vec<RecipeMatch>,
-    /// Choices and reservations of the search.
+    /// Choices made in the search, and warnings.
     pub remarks: Vec<Remark>,
 }
 

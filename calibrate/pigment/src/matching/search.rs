@@ -114,7 +114,7 @@ const ENTRY_SHARE: f64 = 0.01;
 /// Least share above its lower bound with which a pigment starts; chosen by eye.
 const LEAST_START: f64 = 1e-3;
 
-/// Mean of K + S over wavelength: how much a share of each pigment changes the colour.
+/// Mean of K + S over wavelength, by pigment: a measure of how much a share of it changes the colour.
 fn strengths(forward: &Forward<'_>) -> Vec<f64> {
     let mean = |pigment: &crate::library::Pigment| {
         let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
@@ -123,8 +123,8 @@ fn strengths(forward: &Forward<'_>) -> Vec<f64> {
     forward.library.pigments.iter().map(mean).collect()
 }
 
-/// Starts for the descent of a set: the smaller recipe with a little of the new pigment, and shares
-/// of equal strength. Empty if the bounds leave no recipe.
+/// Starting points for the descent of a set: the smaller recipe with a small share of the new pigment, and
+/// shares inversely proportional to the pigments' strengths. Empty if the bounds allow no recipe.
 fn starts(
     request: &MatchRequest,
     set: &[PigmentId],

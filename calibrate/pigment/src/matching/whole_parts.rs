@@ -12,14 +12,14 @@ use super::target::Target;
 /// the time of a search and was chosen by eye.
 const MOST_RECIPES: u64 = 4_000;
 
-/// Returns the nearest recipe in whole parts, at most `most` together, for each candidate's pigments.
-/// Candidates for which the least share allows none are dropped, and so are all that follow once
-/// the search is cancelled.
+/// Returns the nearest recipe in whole parts, at most `most` in total, for each candidate's pigments.
+/// Candidates for which the least share allows no such recipe are dropped. Once the search is cancelled, the
+/// remaining candidates are dropped too.
 ///
-/// First the shares are rounded for every total, and single parts are moved from pigment to pigment
-/// while that helps. Then all recipes of those sets are tried that could still be among the `wanted`
-/// nearest, since whole parts never come nearer than free shares; sets with more than 4000 recipes
-/// are left as rounded.
+/// First, for every total, the shares are rounded, and single parts are moved from pigment to pigment while
+/// that brings the recipe nearer. Then all recipes are tried of those sets that could still be among the
+/// `wanted` nearest. A set cannot if its recipe with free shares is already too far, since whole parts never
+/// come nearer. Sets with more than 4000 recipes keep the rounded recipe.
 pub(super) fn in_whole_parts(
     forward: &Forward<'_>,
     request: &MatchRequest,

@@ -10,11 +10,11 @@ use crate::recipe::Recipe;
 const CELL: f64 = 3.0;
 /// Height of a cell in L*; chosen by eye.
 const BAND: f64 = 10.0;
-/// Number of passes: a gap of two or three cells closes in later ones.
+/// Number of passes. A gap of two or three cells is filled by mixtures of several passes.
 const PASSES: usize = 4;
 
-/// Returns recipes for cells of CIELAB that hold no sample although both neighbours on opposite sides
-/// do: those two mixed half and half. Mixtures found in one pass serve the next.
+/// For each empty cell of CIELAB between two opposite neighbours that hold a sample, returns the mixture of
+/// these two in equal parts. Mixtures found in one pass are samples for the next.
 pub(super) fn between<'a>(
     palette: &Palette<'_>,
     samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
@@ -27,7 +27,7 @@ pub(super) fn between<'a>(
     for _ in 0..PASSES {
         let mut added: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
         for (&[band, a, b], recipe) in &cells {
-            // Half of the directions; the others are these, seen from the far side.
+            // Four of the eight directions; the cell on the other side of the gap covers the opposite ones.
             for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
                 let gap = [band, a + da, b + db];
                 let Some(other) = cells.get(&[band, a + 2 * da, b + 2 * db]) else { continue };

@@ -21,7 +21,7 @@ const FURTHEST: f64 = 150.0;
 const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
 /// Parts of black to one of a pair; chosen by eye.
 const BLACKS: [f64; 2] = [0.03, 0.2];
-/// Washes laid on one another in a library of absolute amounts; chosen by eye.
+/// Factors by which a wash is made stronger in a library of absolute amounts; chosen by eye.
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
 /// Number of random mixtures of three or four paints; every other one has white.
 const RANDOM: usize = 6000;
@@ -48,8 +48,8 @@ pub struct Gamut {
 
 /// Outline of a gamut: the outermost sample in each of many equal sectors around a centre.
 ///
-/// Gamuts of paints are not convex, so this is no convex hull. The outline lies inside the true one,
-/// by as much as mixtures that were not sampled reach beyond those that were.
+/// Gamuts of paints are not convex, so this is not a convex hull. The outline lies inside the true one,
+/// because some mixtures that were not sampled reach further out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
     /// Centre of the sectors, in the plane's coordinates.
@@ -59,10 +59,9 @@ pub struct Boundary {
     pub sectors: Vec<Option<([f64; 2], usize)>>,
 }
 
-/// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or
-/// of the darkest paint (for washes, also several on one another), 6000 seeded mixtures of three or
-/// four paints, half of them with white, and mixtures of neighbours where a cell between them is
-/// empty.
+/// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or of the
+/// darkest paint (for washes, also in larger amounts); 6000 seeded mixtures of three or four paints, half of
+/// them with white; and mixtures of two samples where a cell of CIELAB between them is empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| Recipe::single(p)).collect();

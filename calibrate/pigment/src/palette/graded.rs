@@ -1,4 +1,4 @@
-//! Mixtures of two paints from one to the other, computed in five ways.
+//! Mixtures of two paints in steps from the first paint to the second, computed in five ways.
 //!
 //! After Baxter, Wendt and Lin 2004, figure 10: measured swatches, Kubelka-Munk mixing over the whole
 //! spectrum, at eight and at three wavelengths, and mixing of linear RGB.
@@ -13,11 +13,11 @@ use crate::library::AmountKind;
 use crate::quadrature::{Quadrature, QuadratureFailure};
 use crate::recipe::{PigmentId, Recipe};
 
-/// A regular step is replaced by a measured share within this distance of it, just below half a step.
+/// A measured share replaces a regular step within this distance, which is just below half a step.
 const NEAR: f64 = 0.045;
 
-/// Two sets of wavelengths that painting could use in place of the spectrum. Both are fitted to the
-/// library (method `library`), so that they differ in their number only.
+/// Two sets of wavelengths that painting could use in place of the spectrum. Both are fitted to the library
+/// (method `library`), so that they differ only in number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PainterRules {
     /// Rule of eight wavelengths.
@@ -152,9 +152,9 @@ pub fn graded(
     GradedMixture { pair, steps: shares(pair, measured).into_iter().map(step).collect() }
 }
 
-/// Chooses the most informative pairs: the two pairs with the most measured steps, and the paint of
-/// the highest b* with that of the lowest (each as masstone or tint), whose mixtures no linear
-/// interpolation follows.
+/// Chooses up to three pairs of paints: the two pairs with the most measured steps, and the paint of the
+/// highest b* with that of the lowest (each as masstone or tint), whose mixtures linear interpolation
+/// predicts poorly.
 #[must_use]
 pub fn default_pairs(
     palette: &Palette<'_>,
@@ -164,9 +164,9 @@ pub fn default_pairs(
         |(a, b)| (steps_of((a, b), measured).filter(|(s, _)| *s > 0.0 && *s < 1.0).count(), (a, b));
     let mut pairs: Vec<(usize, (PigmentId, PigmentId))> =
         palette.pairs().map(counted).filter(|(count, _)| *count > 0).collect();
-    // A stable sort: of equals, the library's order.
+    // The sort is stable: pairs with equal counts stay in the library's order.
     pairs.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-    // The white, where it is one of the two, stands at the end.
+    // If one of the two paints is the white, it comes second.
     let ordered = |(a, b)| if palette.white() == Some(a) { (b, a) } else { (a, b) };
     let mut chosen: Vec<(PigmentId, PigmentId)> =
         pairs.iter().take(2).map(|(_, p)| ordered(*p)).collect();
@@ -214,7 +214,7 @@ fn steps_of(
     })
 }
 
-/// Tenths and measured shares in rising order. Of several samples with one share, the first counts.
+/// Tenths and measured shares in rising order. Of several samples with the same share, the first is kept.
 fn shares(
     pair: (PigmentId, PigmentId),
     measured: &[MeasuredSample],
@@ -223,7 +223,7 @@ fn shares(
         (0..=10).map(|tenth| (f64::from(tenth) / 10.0, None)).collect();
     for (share, sample) in steps_of(pair, measured) {
         let free = |(place, kept): &(f64, Option<&MeasuredSample>)| {
-            // The ends are masstones, which no mixture replaces.
+            // The ends are masstones; a mixture must not replace them.
             let end = *place == 0.0 || *place == 1.0;
             kept.is_none() && if end { share == *place } else { (place - share).abs() <= NEAR }
         };

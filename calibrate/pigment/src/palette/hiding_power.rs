@@ -6,12 +6,11 @@ use crate::recipe::PigmentId;
 /// Contrast ratio Yb / Yw from which a film is said to hide (ISO 6504-3).
 pub const HIDING_CONTRAST: f64 = 0.98;
 
-/// A film also hides if the luminance factors over both cards differ by less than this: 0.02 of
-/// Y = 100 is 0.2 of L* for a black film, which no eye sees, and there the ratio is meaningless.
+/// A film also hides if the luminance factors Y over both cards differ by at most this. For a black film the
+/// ratio is meaningless, and a difference of 0.02 (Y = 100 for white) is 0.2 of L*, which is invisible.
 const UNSEEN: f64 = 0.02;
 
-/// Value of K d + S d of the strongest paint above which a layer is no longer called a film; chosen
-/// by eye.
+/// Value of K d + S d of the strongest paint at the greatest thickness that is tried; chosen by eye.
 const THICKEST: f64 = 1e5;
 /// Number of thicknesses tried per decade.
 const STEPS: usize = 8;
@@ -54,9 +53,9 @@ impl Hides {
 /// film over the black card is at least 0.98 of that over the white card, Yb / Yw (ISO 6504-3:2019),
 /// under the palette's light and observer.
 ///
-/// A film so dark that the two differ by less than 0.02 of Y hides as well. Thicknesses are tried
-/// from the thickest down, eight per decade, and the crossing is then bisected, because the ratio
-/// may fall with thickness in a film that is clear at some wavelengths.
+/// A film so dark that Y over the two cards differs by at most 0.02 (Y = 100 for white) hides as well.
+/// Thicknesses are tried from the thickest down, eight per decade, and the crossing is then bisected, because
+/// the ratio may fall with thickness in a film that is clear at some wavelengths.
 #[must_use]
 pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
     let power = |&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) };

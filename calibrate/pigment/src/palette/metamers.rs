@@ -16,9 +16,9 @@ const WHITES: [f64; 3] = [0.0, 1.5, 6.0];
 /// Two colours that nearly match under the first light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metamers {
-    /// Name of each: a measured sample, or a recipe in words.
+    /// Names of the two: a measured sample, or a recipe in words.
     pub names: [String; 2],
-    /// Recipe of each.
+    /// Recipes of the two.
     pub recipes: [Recipe; 2],
     /// By light: the colours of the two.
     pub colors: Vec<[Appearance; 2]>,
@@ -54,8 +54,8 @@ pub fn metamers(
 ) -> Vec<Metamers> {
     let mut candidates = candidates(palette, lights, measured);
     candidates.retain(|candidate| candidate.lab.lightness >= 5.0);
-    // Sorted by lightness, each colour needs to be compared with a window of others only: CIEDE2000
-    // is at least the lightness difference divided by its largest weight.
+    // CIEDE2000 is at least the lightness difference divided by its largest weight. With candidates sorted by
+    // lightness, each is therefore compared only with those in a window.
     candidates.sort_by(|a, b| a.lab.lightness.total_cmp(&b.lab.lightness));
     let window = 1.8 * alike;
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();

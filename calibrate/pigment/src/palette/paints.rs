@@ -30,8 +30,8 @@ impl<'a> Palette<'a> {
     /// Palette of the pigments of `library` whose scattering is identified, in its order.
     ///
     /// # Errors
-    /// [`PaletteError::NothingToMix`] if there is no such pigment, [`PaletteError::Cards`] if the cards
-    /// stand on another grid.
+    /// [`PaletteError::NothingToMix`] if there is no such pigment, [`PaletteError::Cards`] if a card does not
+    /// have one reflectance for each wavelength of the library.
     pub fn new(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,
@@ -159,7 +159,7 @@ impl<'a> Palette<'a> {
         thinned
     }
 
-    /// K and S of a recipe; shares of a library of absolute amounts count washes.
+    /// K and S of a recipe. In a library of absolute amounts a share of 1 is one wash of the pigment.
     ///
     /// # Panics
     /// If a share is negative, or all are 0.
@@ -253,7 +253,7 @@ impl<'a> Palette<'a> {
 }
 
 /// Returns the value between `thin` and `thick` at which `reached` turns true, by 60 bisections of the
-/// logarithm: far below the rounding of a file.
+/// logarithm. The error is far below the rounding of values in a file.
 pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> f64 {
     let (mut below, mut above) = (thin.ln(), thick.ln());
     for _ in 0..60 {
@@ -278,7 +278,7 @@ pub enum PaletteError {
         /// Number of pigments in the library.
         pigments: usize,
     },
-    /// The cards do not stand on the library's wavelengths.
+    /// The number of reflectances of a card differs from the number of wavelengths of the library.
     #[error(
         "a card has one reflectance for each of the library's {wanted} wavelengths, found `{found}`"
     )]

@@ -1,4 +1,4 @@
-//! Tinting strength: how far a paint goes in white.
+//! Tinting strength: how strongly a paint colours white.
 
 use super::paints::Palette;
 use crate::library::AmountKind;
@@ -8,8 +8,8 @@ use crate::recipe::{PigmentId, Recipe};
 /// swatches contain.
 pub const TINT_PARTS: f64 = 9.0;
 
-/// Depth of [`TintingStrength::white_parts`]: K/S = 1 where the tint absorbs most, which is an
-/// internal reflectance of 0.27.
+/// K/S of a tint that has [`TintingStrength::white_parts`] parts of white, at the wavelength where it absorbs
+/// most: 1, which is an internal reflectance of 0.27.
 pub const TINT_DEPTH: f64 = 1.0;
 
 /// Tinting strength of one paint.
@@ -17,10 +17,11 @@ pub const TINT_DEPTH: f64 = 1.0;
 pub struct TintingStrength {
     /// Pigment of the library.
     pub paint: PigmentId,
-    /// Wavelength in nm at which the tint absorbs most beyond the white.
+    /// Wavelength in nm at which K/S of the tint exceeds that of the white most; for absolute amounts, at
+    /// which K is greatest.
     pub wavelength_nm: f64,
-    /// Increase of K/S over that of the white at that wavelength; for absolute amounts, K per unit of
-    /// amount. 0 for a paint that only lightens.
+    /// Increase of K/S over that of the white at that wavelength; for absolute amounts, K per unit of amount.
+    /// 0 if K/S rises at no wavelength.
     pub strength: f64,
     /// `strength` in percent of that of the standard paint.
     pub percent: f64,

@@ -19,7 +19,8 @@ const TRAINING_SEED: u64 = 2004;
 const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
 /// Limits of the nodes in nm: the band of the CIE's observers.
 const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
-/// Limit of every weight; white sums to about 100, so that it never binds in a good fit.
+/// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a good
+/// fit never reaches it.
 const LARGEST_WEIGHT: f64 = 1e3;
 
 impl Quadrature {
@@ -43,9 +44,10 @@ impl Quadrature {
 
 /// Returns the best of several fits.
 ///
-/// Unknown are the n nodes and, in each channel, all weights but the last, which makes the sum that of
-/// the white. The residuals are differences from the exact colours in the local metric of CIEDE2000.
-/// The starts are the nodes of `start`, these drawn together or spread, and evenly spaced nodes.
+/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum,
+/// that of the white. The residuals are differences from the exact colours in the local metric of CIEDE2000.
+/// The starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly
+/// spaced nodes.
 fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();

@@ -32,7 +32,7 @@ pub struct QuadratureError {
     pub max: f64,
 }
 
-/// Most nodes of a quadrature; a library has hardly more wavelengths. Chosen by eye.
+/// Most nodes of a quadrature, about as many as a library has wavelengths. Chosen by eye.
 const MAX_NODES: usize = 32;
 
 impl Quadrature {

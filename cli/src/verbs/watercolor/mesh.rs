@@ -14,7 +14,8 @@ use super::pigments::open_painting;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 
-/// Paints a mesh: its first camera into the picture and the stages, all cameras into the animation.
+/// Paints a mesh. The picture and the stages show it from the first camera, the animation from all
+/// cameras.
 pub(super) fn paint(
     compute: Compute,
     job: Job,

@@ -8,8 +8,8 @@ use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// Draws a texture that follows particles: 0.5 plus the blend of what its copies differ
-/// from 0.5, clamped to 0..1. Pixels whose `depth` is 1, where nothing is seen, get 0.5.
+/// Draws a texture that follows particles: 0.5 plus the blended differences of its copies
+/// from 0.5, clamped to 0..1. Pixels whose `depth` is 1 show no surface and get 0.5.
 ///
 /// The weight of a copy is `(1 - (s - s_min) / reach)^2`, where s is the squared distance of
 /// its particle from the position that the pixel shows and s_min that of the nearest one.

@@ -1,11 +1,11 @@
 //! Features of noise placed on a mesh, and the selection that a projection needs.
 //!
 //! Every patch has one feature at a uniformly distributed point. Its priority is the
-//! density (features per unit of area) from which on it is drawn. The priority lies
+//! lowest density (features per unit of area) at which it is drawn. The priority lies
 //! between the density at which the patch has one feature and the density at which the
 //! part that it lies on has one. So everywhere on the mesh, however it is divided into
 //! triangles, the features up to a priority have exactly that density. Below single faces
-//! the tree continues with halves of triangles, made on demand to any depth.
+//! the tree continues with halves of triangles, made on demand.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ const MAX_HALVINGS: u32 = 40;
 struct Feature {
     position: Vec3,
     normal: Vec3,
-    /// Density from which on the feature is drawn, in features per unit of area.
+    /// Lowest density at which the feature is drawn, in features per unit of area.
     priority: f32,
     /// 1 for a bump, -1 for a hollow.
     sign: f32,
@@ -172,7 +172,7 @@ struct Selection<'a> {
     /// Viewing direction, of length 1.
     forward: Vec3,
     octaves: Octaves,
-    /// Rank from which on features are not drawn.
+    /// Features of this rank and above are not drawn.
     end: f32,
 }
 

@@ -12,8 +12,8 @@ use glam::Vec3;
 use super::random::Seed;
 use crate::mesh::Mesh;
 
-/// Weight of the normal against the position when faces are grouped: faces that differ by
-/// a unit normal count as this many patch radii apart. Chosen by eye.
+/// Weight of the normal relative to the position when faces are grouped: a difference of 1
+/// in the normal counts as a distance of this many patch radii. Chosen by eye.
 const FACING: f32 = 0.5;
 
 /// A triangle of the mesh whose area is not 0.
@@ -45,7 +45,7 @@ pub(super) struct Patch {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
     pub(super) faces: Vec<Face>,
-    /// Summed area of all faces before each face, and of all faces at the end.
+    /// For each face the summed area of the faces before it; then the area of all faces.
     area_before: Vec<f64>,
     /// All patches, each before its parts; the first is the whole mesh.
     pub(super) patches: Vec<Patch>,

@@ -1,11 +1,11 @@
 //! The octaves of feature noise: which octave a feature belongs to, and how strong it is.
 //!
-//! Octave o has features of radius r / 2^o. A feature's rank is the number of features of
-//! higher priority per pixel at the scale it is seen at; ranks grow as the model moves
+//! Octave o has features of radius r / 2^o. A feature's rank is its priority converted to
+//! features per pixel, at the scale at which it is seen; ranks grow as the model moves
 //! away. Octave 0 takes features up to some rank, each further octave those up to four
-//! times that rank, so that every octave has the same number of features for their size.
-//! As the model moves away, features fade one after the other from each octave to the
-//! next.
+//! times the rank of the one before. So about the same number of features overlap in every
+//! octave. As the model moves away, features fade one after the other from each octave to
+//! the next.
 
 /// Width of the range of ranks, in octaves, over which a feature fades to the next octave.
 /// Wide fades pop less; narrow ones mix fewer sizes of features. Chosen by eye.
@@ -92,7 +92,7 @@ impl Octaves {
         entered * (1.0 - passed(octave as f32))
     }
 
-    /// The rank from which on features belong to no octave.
+    /// Features of this rank and above belong to no octave.
     pub(super) fn end(&self) -> f32 {
         self.first * 4.0f32.powf(self.each.len() as f32 - 1.0 + FADE / 2.0)
     }

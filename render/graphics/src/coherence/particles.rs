@@ -10,7 +10,7 @@ use super::hierarchy::Hierarchy;
 use super::projection::Projection;
 use super::random::Seed;
 
-/// Iterations of Lloyd's algorithm. Particles of the tested models rest after fewer.
+/// Iterations of Lloyd's algorithm. On the tested models, particles stop moving after fewer.
 const LLOYD_ROUNDS: usize = 20;
 
 /// Copies blend where the squared distances of two particles differ by less than this

@@ -95,7 +95,7 @@ fn noise_before(
     };
     let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
     let all_seen = corners.iter().all(|&corner| before.depth[corner] < 1.0);
-    // Depths may differ by what three pixels of a slanted surface do.
+    // Tolerance in depth: about the change over three pixels of a slanted surface.
     let slack = 3.0 * before.projection.depth_scale() / (before.projection.focal_px * at.distance);
     let same = (mix(before.depth) - at.depth).abs() < slack;
     (all_seen && same).then(|| mix(before.noise))

@@ -33,7 +33,7 @@ pub(super) struct Projected {
     pub(super) distance: f32,
 }
 
-/// A position projected as if it lay on the near plane at least.
+/// A projected position; one nearer than the near plane is projected as if it lay on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClampedProjected {
     /// Distance from the left edge in pixels.

@@ -1,4 +1,4 @@
-//! Random numbers by position in a tree: the same however often a node is visited.
+//! Random numbers for the nodes of a tree. A node has the same numbers at every visit.
 
 /// The random seed of one node of a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! A texture of smooth noise that repeats without a seam.
 //!
-//! Independent lattice values, interpolated by cubic B-splines: smooth, of one wavelength,
-//! and periodic as the lattice is. Interpolation lowers the spread between the nodes, so
-//! the texture as a whole is scaled to a standard deviation of [`SPREAD`].
+//! Cubic B-splines interpolate independent lattice values. The result is smooth, has about
+//! one wavelength and repeats with the lattice. Interpolation lowers the spread between the
+//! nodes, so the texture as a whole is scaled to a standard deviation of [`SPREAD`].
 
 use rayon::prelude::*;
 

@@ -30,15 +30,15 @@ pub struct Splat {
     pub slope_x: f32,
     /// Change of depth on its surface per pixel downwards.
     pub slope_y: f32,
-    /// 1 / tolerance in depth: pixels whose depth differs from the feature's plane by less
-    /// than the tolerance get all of it, by twice the tolerance none.
+    /// 1 / tolerance in depth. Pixels within the tolerance of the feature's plane get its
+    /// full value; the value falls to 0 at twice the tolerance.
     pub tightness: f32,
 }
 
 /// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a
 /// distance d from its centre a feature adds its amplitude times
-/// `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d / radius. Pixels whose `depth` is 1, where
-/// nothing is seen, get 0.5.
+/// `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d / radius. Pixels whose `depth` is 1 show no
+/// surface and get 0.5.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.

@@ -70,7 +70,7 @@ impl Compute {
         }
     }
 
-    /// The graphics device, if one computes.
+    /// The graphics device; `None` on the processor.
     #[must_use]
     pub fn device(&self) -> Option<&Device> {
         match self {
@@ -79,7 +79,8 @@ impl Compute {
         }
     }
 
-    /// The graphics device, if one computes, for another use. Images made on it are lost.
+    /// Returns the graphics device for another use; `None` on the processor. Images made on
+    /// it are lost.
     #[must_use]
     pub fn into_device(self) -> Option<Device> {
         match self {

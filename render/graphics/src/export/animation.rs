@@ -19,7 +19,7 @@ pub struct Gif<'a, W: Write> {
     count: usize,
     /// Palette indices shown after the last frame.
     shown: Vec<u8>,
-    /// Palette indices of the last frame as written: [`UNCHANGED`] where a pixel stayed.
+    /// Palette indices of the last frame as written: [`UNCHANGED`] where a pixel kept its colour.
     written: Vec<u8>,
 }
 

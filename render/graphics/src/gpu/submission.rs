@@ -15,7 +15,7 @@ type BindGroupKey = (&'static str, Vec<u64>);
 
 impl Device {
     /// Compiles `kernel` unless that was done before. [`Self::submit`] calls this for each
-    /// kernel; calling it earlier moves the time of compilation.
+    /// kernel; an earlier call keeps the compilation out of the first submission.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the kernel.

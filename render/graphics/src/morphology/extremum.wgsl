@@ -6,7 +6,8 @@ struct ExtremumParams {
     // Width of the margin in the plane that is read, and in the one that is written.
     margin_in: i32,
     margin_out: i32,
-    // Step from a pixel to the next of each segment, and pixels on either side of its middle.
+    // Of each segment: the step from a pixel to the next, then the number of pixels on either
+    // side of its middle.
     along: vec2<i32>,
     across: vec2<i32>,
     reach_along: i32,

@@ -1,26 +1,26 @@
-//! CIELUV of a picture, in f32, laid out for windows.
+//! Conversion of a picture to CIELUV in f32, with a margin so that windows need no clipping.
 
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
 use crate::field::Field;
 
-/// L* of cells outside the picture: farther than any radius from every colour.
+/// L* of cells outside the picture, so far from every colour that no window contains them.
 const NOWHERE: f32 = 1e6;
 
-/// L*, u* and v* under sRGB's white, each a plane with a margin around it.
+/// L*, u* and v* relative to the white of sRGB; each is a plane with a margin on all sides.
 pub(super) struct LuvPlanes {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Cells around the picture, which are in no window.
+    /// Width of the margin in cells. No window contains a cell of the margin.
     pub(super) margin: usize,
-    /// From a row to the next.
+    /// Distance from one row to the next, in cells.
     pub(super) stride: usize,
     pub(super) values: [Vec<f32>; 3],
 }
 
 impl LuvPlanes {
-    /// Those of encoded sRGB with coverage, over white.
+    /// Converts encoded sRGB with coverage, composited on white. `margin` is in cells.
     pub(super) fn new(picture: &Field<[f32; 4]>, margin: usize) -> Self {
         let (width, height) = (picture.width(), picture.height());
         let stride = width + 2 * margin;
@@ -50,14 +50,14 @@ impl LuvPlanes {
     }
 }
 
-/// Steps of the table of the transfer curve.
+/// Number of steps in the table of the sRGB transfer curve.
 const STEPS: usize = 4096;
 
-/// CIELUV of encoded sRGB, within 1e-3 of that in f64 (tested).
+/// Conversion of encoded sRGB to CIELUV, within 1e-3 of the conversion in f64 (tested).
 struct LuvOfSrgb {
-    /// Linear light at even steps of the encoded value, and the last one again.
+    /// Linear light at equal steps of the encoded value, 0 to 1; the last entry is repeated.
     linear: Vec<f32>,
-    /// X, Y, Z of linear sRGB, 1 for the Y of white.
+    /// Matrix from linear sRGB to X, Y, Z, scaled so that white has Y = 1.
     xyz: [[f32; 3]; 3],
     /// u' and v' of white.
     white: [f32; 2],
@@ -76,7 +76,7 @@ impl LuvOfSrgb {
         }
     }
 
-    /// L*, u*, v* of `rgb`, cut off at 0 and 1.
+    /// L*, u*, v* of `rgb`, which is clamped to 0..1.
     fn of(&self, rgb: [f32; 3]) -> [f32; 3] {
         let linear = rgb.map(|value| {
             let place = value.clamp(0.0, 1.0) * STEPS as f32;
@@ -86,7 +86,7 @@ impl LuvOfSrgb {
         });
         let [x, y, z] =
             self.xyz.map(|row| row[0] * linear[0] + (row[1] * linear[1] + row[2] * linear[2]));
-        // In the toe a straight line: (29/3)^3 Y.
+        // For dark colours the curve is a straight line, (29/3)^3 Y.
         let lightness =
             if y > 216.0 / 24389.0 { 116.0 * y.cbrt() - 16.0 } else { 24389.0 / 27.0 * y };
         let sum = x + 15.0 * y + 3.0 * z;

@@ -1,25 +1,26 @@
-//! Mean shift in the joint domain of place and colour.
+//! Mean shift in the joint domain of position and colour.
 //!
-//! With a flat kernel (the shadow of which is Epanechnikov's) a point moves to the mean
-//! of all pixels in its window: those within h_s of its place and h_r of its colour,
-//! Comaniciu and Meer 2002, equations 17, 20 and 35.
+//! A step moves a point to the mean of all pixels in its window: those within the distance
+//! h_s in the picture and h_r in colour. The kernel is flat, so its shadow is the
+//! Epanechnikov kernel (Comaniciu and Meer 2002, equations 17, 20 and 35).
 
 use super::luv::LuvPlanes;
 use pulp::Simd;
 
-/// How far a window reaches.
+/// Radii of the window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bandwidth {
-    /// h_s: in the picture, in pixels.
+    /// h_s: radius in the picture, in pixels.
     pub(super) spatial_px: f32,
-    /// h_r: in colour, as a difference in CIELUV.
+    /// h_r: radius in colour, as a difference in CIELUV.
     pub(super) range: f32,
 }
 
-/// The most numbers that a machine adds at a time.
+/// Largest number of f32 lanes in a vector of any machine.
 pub(super) const MOST_LANES: usize = 16;
 
-/// A point of the joint domain: of a pixel, or where it ended.
+/// A point of the joint domain, such as a pixel or a mode, or the difference of two points.
+/// `x` and `y` are in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Mode {
     pub(super) x: f32,
@@ -29,14 +30,15 @@ pub(super) struct Mode {
 }
 
 impl Mode {
-    /// A `step` further.
+    /// The point moved by `step`.
     pub(super) fn moved(self, step: Self) -> Self {
         let color = [0, 1, 2].map(|i| self.color[i] + step.color[i]);
         Self { x: self.x + step.x, y: self.y + step.y, color }
     }
 }
 
-/// From `at` to the mean of its window; `None` if no pixel is in it.
+/// The difference from `at` to the mean of the pixels in its window. `None` if the window
+/// has no pixel.
 #[inline(always)]
 pub(super) fn step<S: Simd>(
     simd: S,
@@ -44,7 +46,7 @@ pub(super) fn step<S: Simd>(
     at: Mode,
     Bandwidth { spatial_px, range }: Bandwidth,
 ) -> Option<Mode> {
-    // The numbers 0, 1, 2 .. of the lanes.
+    // Index of each lane.
     const LANES: [f32; MOST_LANES] =
         [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
     let lane = S::as_simd_f32s(&LANES).0[0];

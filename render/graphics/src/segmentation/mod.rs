@@ -1,9 +1,9 @@
-//! Photographs to flat regions by mean shift.
+//! Division of photographs into flat regions by mean shift.
 //!
 //! After Comaniciu and Meer, "Mean shift: a robust approach toward feature space
-//! analysis" (IEEE PAMI 24, 2002), section 4.2: every pixel, a point of place and
-//! colour, climbs to a mode of the density of such points; pixels whose modes are near
-//! make a region; regions too small join a neighbour.
+//! analysis" (IEEE PAMI 24, 2002), section 4.2. Every pixel is a point in the joint domain
+//! of position and colour, and is moved to a mode of the density of these points. Connected
+//! pixels with nearby modes form a region. Small regions are merged into a neighbour.
 
 mod luv;
 

@@ -96,7 +96,7 @@ mod tests {
         let row = [(4, 0.0), (1, 50.0), (2, 60.0), (4, 90.0)];
         let found = joined(&row, |graph| join_small(graph, 3));
         assert_eq!(found, [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]);
-        // Alone there is nobody to join.
+        // A single region has no neighbour to join.
         assert_eq!(joined(&[(2, 0.0)], |graph| join_small(graph, 10)), [0, 0]);
         let row = [(2, 0.0), (1, 9.0), (3, 20.0)];
         assert_eq!(joined(&row, |graph| join_small(graph, 10)), [0; 6]);

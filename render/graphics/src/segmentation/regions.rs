@@ -34,7 +34,7 @@ impl Sets {
 }
 
 /// Renumbers labels without gaps, in the order of their first appearance row by row. Returns
-/// them with their number.
+/// the number of different labels.
 pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usize {
     const NONE: u32 = u32::MAX;
     let mut numbers = vec![NONE; count];
@@ -50,9 +50,9 @@ pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usi
     found as usize
 }
 
-/// Largest distance in colour of the modes of linked neighbours, in range radii. With 1,
-/// regions are linked across the pixels of a soft edge. Regions that this value divides
-/// needlessly are merged later.
+/// Largest distance in colour of the modes of linked neighbours, in range radii. With 1, the
+/// pixels of a soft edge would link the regions on both sides. A region that this value
+/// divides needlessly is merged again later.
 const LINK: f32 = 0.5;
 
 /// Labels every pixel with its region. Returns the labels with the number of regions.

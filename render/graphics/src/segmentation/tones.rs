@@ -1,9 +1,9 @@
-//! Regions whose colour runs from one to another, cut into steps.
+//! Division of regions with a colour gradient into steps.
 //!
-//! A smooth gradient is linked from end to end, however far its ends are apart. A
-//! painter lays such a gradient in a few washes: so the modes of a region are halved
-//! through their mean, across the axis along which they spread most, until no part
-//! spreads more than a step does.
+//! A smooth gradient becomes one region, however much the colours of its ends differ. A
+//! painter lays such a gradient in a few washes. So the modes of a region are divided by
+//! the plane through their mean perpendicular to the axis of greatest variance, until no
+//! part has a greater variance than colours spread evenly over one step.
 
 use rayon::prelude::*;
 
@@ -14,9 +14,9 @@ use crate::field::Field;
 /// Rounds of the power iteration that finds an axis.
 const ROUNDS: usize = 24;
 
-/// Cuts the regions of `labels` (`count` of them) into parts that spread no more than
-/// colours do that are even over `step` in CIELUV, each part hanging together; the new
-/// labels and their number.
+/// Divides the `count` regions of `labels` until the variance of a part along any axis is at
+/// most `step`^2 / 12, that of colours spread evenly over `step` in CIELUV; then into
+/// connected parts. Returns the new labels and their number.
 pub(super) fn cut(
     labels: &Field<u32>,
     count: usize,
@@ -70,7 +70,7 @@ fn halve<'a>(pixels: &'a mut [u32], modes: &[Mode], most: f64, parts: &mut Vec<&
         parts.push(pixels);
         return;
     };
-    // In place and in order: those below the mean first.
+    // A stable sort: pixels below the plane first, each side in its former order.
     pixels.sort_by_key(|&pixel| plane.height(&modes[pixel as usize]) >= 0.0);
     let below = pixels.partition_point(|&pixel| plane.height(&modes[pixel as usize]) < 0.0);
     if below == 0 || below == pixels.len() {
@@ -82,7 +82,7 @@ fn halve<'a>(pixels: &'a mut [u32], modes: &[Mode], most: f64, parts: &mut Vec<&
     halve(high, modes, most, parts);
 }
 
-/// The plane through the mean colour across the axis of the greatest spread.
+/// The plane through the mean colour, perpendicular to the axis of greatest variance.
 struct Plane {
     mean: [f64; 3],
     axis: [f64; 3],
@@ -107,7 +107,8 @@ impl Plane {
         let covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| squares[i][j] / count - mean[i] * mean[j])
         });
-        // From the channel that spreads most the iteration cannot start across the axis.
+        // Starting from the channel of greatest variance makes a start perpendicular to the
+        // axis unlikely.
         let first = (0..3).max_by(|&a, &b| covariance[a][a].total_cmp(&covariance[b][b]))?;
         let mut axis = covariance[first];
         let mut variance = 0.0;
@@ -123,7 +124,7 @@ impl Plane {
         Some(Self { mean, axis, variance })
     }
 
-    /// Above the plane (positive) or below it.
+    /// Signed distance from the plane in arbitrary units, positive above it.
     fn height(&self, mode: &Mode) -> f64 {
         (0..3).map(|i| self.axis[i] * (f64::from(mode.color[i]) - self.mean[i])).sum()
     }

@@ -100,7 +100,7 @@ const MADE_BY_DEVICE: &str = "the processor was handed a model of a graphics dev
 
 const MADE_BY_HOST: &str = "a graphics device was handed a model in the processor's memory";
 
-/// The faces that need drawing: only front faces are seen of a closed mesh from outside.
+/// The faces to draw: only front faces if the mesh is closed and seen from outside.
 fn visible_sides(closed: bool, bounds: [glam::Vec3; 2], camera: &Camera) -> Sides {
     let [low, high] = bounds;
     // The near plane may cut the surface open for a camera just outside the bounds.
@@ -114,7 +114,7 @@ fn visible_sides(closed: bool, bounds: [glam::Vec3; 2], camera: &Camera) -> Side
 pub struct HostModel {
     mesh: PackedMesh,
     rasteriser: Rasteriser,
-    /// The last picture, drawn over once nobody else holds it.
+    /// The last picture. Its memory is reused once no image shares it.
     last: Arc<VisibilityBuffer>,
 }
 

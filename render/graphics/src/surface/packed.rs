@@ -1,4 +1,4 @@
-//! A mesh in the layout that is drawn, the same bytes on the processor and on a device.
+//! A mesh in the memory layout for drawing, the same bytes on the processor and on a device.
 
 use glam::Vec3;
 
@@ -68,7 +68,7 @@ impl PackedMaterial {
     pub const LAYOUT: Layout = layout!(PackedMaterial { color, first, width, height, spare });
 }
 
-/// A mesh in the layout that is drawn.
+/// A mesh in the memory layout for drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PackedMesh {
     /// The vertices, in the order of the mesh.

@@ -1,10 +1,10 @@
 //! Rasterises triangles on the processor.
 //!
-//! Follows the rules of graphics devices, so that both agree but for rounding: vertices
-//! are rounded to the 256th of a pixel; a pixel belongs to the triangle that its centre is
-//! in, on an edge to the triangle below or to the right of it; the nearest triangle is
-//! seen, at equal depth the one of the lowest index. Triangles are clipped at the near and
-//! far plane.
+//! Follows the rules of graphics devices, so that both agree up to rounding. Vertices are
+//! rounded to the 256th of a pixel. A pixel belongs to the triangle that contains its
+//! centre; a centre on an edge belongs to the triangle below or to the right of the edge.
+//! The nearest triangle is seen; at equal depth, the one with the lowest index. Triangles
+//! are clipped at the near and far plane.
 
 use glam::Mat4;
 use rayon::prelude::*;

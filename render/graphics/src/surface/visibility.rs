@@ -6,8 +6,8 @@ use crate::gpu::{Layout, layout};
 /// [`Fragment::triangle`] of a pixel that shows no triangle.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 
-/// The nearest triangle at the centre of a pixel, and where on it that is. Its 16 bytes
-/// are the same on the processor and on a graphics device.
+/// The nearest triangle at the centre of a pixel, and the position on that triangle. The 16
+/// bytes are the same on the processor and on a graphics device.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Fragment {

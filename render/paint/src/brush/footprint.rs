@@ -5,11 +5,13 @@ use super::surface::LimitSurface;
 use crate::contact::{Contact, Touch};
 use graphics::tile::Rect;
 
-/// Number of fractional bits of values that are interpolated along a row.
+/// The number 1 in fixed point with 16 fractional bits, the format of values interpolated
+/// along a row.
 const ONE: f32 = 65536.0;
 
-/// Values interpolated over a facet, in the order of the last six of [`Point`]. All but the
-/// height are in units of 1/65536.
+/// Indices of the values interpolated over a facet: height in quanta, velocity along x and y in
+/// 1/256 cell per sub-step, speed weight, and paint cells around and along from the facet's
+/// first. All but the height are times 65536.
 const HEIGHT: usize = 0;
 const X: usize = 1;
 const Y: usize = 2;
@@ -24,7 +26,8 @@ const ALONG: usize = 5;
 pub(super) struct Footprint {
     /// Whether each facet has hair; empty if all have.
     hair: Vec<bool>,
-    /// Distance by which the bristles of each column of paint cells draw back, in quanta.
+    /// Recess of the bristles in each column of paint cells, in quanta, which is added to the
+    /// height of the surface.
     bristles: Vec<i32>,
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
@@ -104,8 +107,8 @@ impl Footprint {
         self.count(&mut out.touches);
     }
 
-    /// Collects the facets that face down below the ceiling. Returns their extent: lowest x
-    /// and y, highest x and y.
+    /// Collects the facets that face the canvas and reach below `ceiling`. Returns their extent
+    /// in cells: lowest x and y, highest x and y.
     fn choose(&mut self, surface: &LimitSurface, ceiling: f32) -> [f32; 4] {
         self.facets.clear();
         let (around, along) = surface.facets();
@@ -200,14 +203,15 @@ struct Canvas<'a> {
     /// First paint cell of the facet, and number of paint cells in a row.
     cell: u32,
     row: u32,
-    /// Last paint cell of the facet, around and along.
+    /// Index of the facet's last paint cell, around and along.
     most: (i32, i32),
-    /// Distances of the bristles from the first column of the facet on.
+    /// Recesses of the bristles in quanta, from the first column of the facet on.
     bristles: &'a [i32],
 }
 
 impl Canvas<'_> {
-    /// Rasterises a triangle whose corners turn from x to y. A cell centre on an edge belongs
+    /// Rasterises a triangle whose corners follow each other in the direction from the x axis
+    /// to the y axis; others are skipped. A cell centre on an edge belongs
     /// to the triangle right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
@@ -225,7 +229,7 @@ impl Canvas<'_> {
         let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
-        // Slopes of a sliver are hardly known; its heights are.
+        // The slopes of a sliver are inaccurate, so heights are clamped to those of its corners.
         let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
         let lowest = min(min(heights[0], heights[1]), heights[2]);
         let highest = max(max(heights[0], heights[1]), heights[2]);
@@ -267,7 +271,7 @@ impl Canvas<'_> {
     }
 }
 
-/// Change of the values by one cell in x, and in y.
+/// Change of the values per cell along x and along y.
 #[inline(always)]
 fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Point, Point) {
     let (mut right, mut down) = ([0.0; 8], [0.0; 8]);
@@ -279,7 +283,7 @@ fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Po
     (right, down)
 }
 
-/// Line through two corners, with the same bits for either order.
+/// Line through two corners, the same to the bit for either order of the corners.
 struct Edge {
     x: f32,
     y: f32,
@@ -293,7 +297,7 @@ impl Edge {
     fn new(from: &Corner, to: &Corner) -> Self {
         let side = to.y - from.y;
         let (upper, lower) = if side > 0.0 { (from, to) } else { (to, from) };
-        // Level edges bound no row; their slope is never used.
+        // Horizontal edges bound no row; their slope is never used.
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         Self { x: upper.x, y: upper.y, slope, side }
     }
@@ -309,7 +313,7 @@ fn first_middle(place: f32, end: usize) -> usize {
 
 #[inline(always)]
 fn whole(values: &Point) -> [i32; 8] {
-    // A loop: `map` is not always seen through.
+    // A loop, since the closure of `map` is not always inlined.
     let mut wholes = [0; 8];
     for i in 0..8 {
         wholes[i] = nearest(values[i]);
@@ -317,11 +321,11 @@ fn whole(values: &Point) -> [i32; 8] {
     wholes
 }
 
-/// Nearest whole number, of which 32 bits are kept. The range checks of `as` take longer than
-/// the rest of a row.
+/// Low 32 bits of the nearest whole number. Avoids the range checks of `as`, which take longer
+/// than the rest of a row.
 #[inline(always)]
 fn nearest(value: f32) -> i32 {
-    /// In f64 one unit of the last place is 1 here.
+    /// 1.5 * 2^52: near this number, neighbouring f64 values are 1 apart.
     const UNIT: f64 = 6_755_399_441_055_744.0;
     (f64::from(value) + UNIT).to_bits() as i32
 }

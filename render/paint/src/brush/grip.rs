@@ -3,12 +3,12 @@
 use super::vector::Vector;
 use crate::pose::Pose;
 
-/// Largest angle of a handle from upright, in degrees. Beyond it the ferrule would be on the
-/// canvas.
+/// Largest angle of a handle from upright, in degrees. Beyond it the ferrule would touch
+/// the canvas.
 const FARTHEST_LEAN_DEG: f64 = 80.0;
 
-/// Largest angle of the handle of a knife from upright, in degrees. A knife leans only so that
-/// its edge stays level, as a lean along the edge would put it on a corner.
+/// Largest angle of the handle of a knife from upright, in degrees. Only the lean
+/// across the edge counts, as a lean along it would put the knife on a corner.
 const FARTHEST_LEAN_OF_BLADE_DEG: f64 = 45.0;
 
 /// Angle in degrees between the blade of a knife and the canvas with an upright handle, at
@@ -25,9 +25,9 @@ const FARTHEST: f64 = 1e9;
 /// Axes of a head at a pose. Lengths are in cells from `origin`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grip {
-    /// A cell near the tip: the origin of all coordinates of the head.
+    /// The cell that contains the pose's position: origin of all coordinates of the head.
     pub(super) origin: (i64, i64),
-    /// Position where the tip would touch, within the cell `origin`.
+    /// The pose's position within the cell `origin`, 0 to 1 along x and y.
     pub(super) tip: (f32, f32),
     /// Unit vector from the tip to the ferrule.
     pub(super) axis: Vector,
@@ -40,7 +40,7 @@ pub(super) struct Grip {
 }
 
 impl Grip {
-    /// Axes of `pose`; `None` if a number is not finite or the pressure is 0. `blade` is
+    /// Axes of `pose`; `None` if a number is not finite or the pressure is 0. `blade`:
     /// whether the head is a knife.
     pub(super) fn new(pose: &Pose, blade: bool) -> Option<Self> {
         if !pose.is_finite() || pose.pressure <= 0.0 {
@@ -73,8 +73,8 @@ impl Grip {
         })
     }
 
-    /// Default direction in which hair bends: away from a leaning handle, over the thin side
-    /// of an upright one.
+    /// Direction in which hair bends by default: opposite to the lean of the handle, or along
+    /// the thin side if the handle is upright.
     pub(super) fn falls_to(&self) -> Vector {
         let away = Vector::new(-self.axis.x, -self.axis.y, 0.0);
         let over = Vector::new(self.thin.x, self.thin.y, 0.0);
@@ -93,8 +93,8 @@ fn whole_and_part(cells: f64) -> (i64, f32) {
 fn handle(tilt_x_deg: f64, tilt_y_deg: f64, farthest_deg: f64) -> Vector {
     let (sin_x, cos_x) = tilt_x_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
     let (sin_y, cos_y) = tilt_y_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
-    // (tan x, tan y, 1), finite where a tangent is not; both at 90 degrees lie
-    // between x and y.
+    // Proportional to (tan x, tan y, 1), but finite at 90 degrees. If both tilts are 90
+    // degrees, the handle lies between the x and y axes.
     let (mut x, mut y) = (sin_x * cos_y, sin_y * cos_x);
     let z = cos_x * cos_y;
     if x.hypot(y) + z < 1e-9 {

@@ -29,11 +29,11 @@ const WIDEST: f64 = 2048.0;
 const NARROWEST: f32 = 1.5;
 
 /// Height above the highest relief nearby up to which the surface of the head is drawn, in mm.
-/// Thicker wet paint is not touched higher.
+/// Wet paint above that height is not touched.
 const HIGHEST_PAINT_MM: f64 = 2.0;
 
-/// Distance in cells that the handle moves at most in a sub-step; after a longer one it is set
-/// down anew.
+/// Maximum distance in cells along x or y that a head is dragged in a sub-step; after a longer
+/// move it is set down anew.
 const FARTHEST_DRAG: i64 = 64;
 
 /// The head of one brush. Its paint is a grid of cells in the engine; the head computes the
@@ -57,7 +57,8 @@ impl Head {
     /// A head of `size_mm` mm width, for cells of `cell_mm` mm.
     ///
     /// # Errors
-    /// [`BrushError`] if the size is not 0.2 to 100 mm, or more than 2048 cells.
+    /// [`BrushError`] if the size is not 0.2 to 100 mm or exceeds 2048 cells, or if `cell_mm` is
+    /// not above 0.
     pub fn new(shape: HeadShape, size_mm: f64, cell_mm: f64) -> Result<Self, BrushError> {
         if !SIZES_MM.contains(&size_mm) {
             return Err(BrushError::Size { size_mm });
@@ -111,7 +112,8 @@ impl Head {
     }
 
     /// Number of paint cells around the head (x of their grid) and from the ferrule to the
-    /// tip. About one for each cell of the canvas, but at most about a million.
+    /// tip. Paint cells are about as large as cells of the canvas, or larger where a head would
+    /// have more than about a million.
     #[must_use]
     pub fn paint_grid(&self) -> (usize, usize) {
         cells(&self.surface)
@@ -141,8 +143,8 @@ impl Head {
         Some(HeadMesh::of(&self.net, origin))
     }
 
-    /// Sets the head down at `pose`, bent by its pressure, without dragging it. Its tip falls
-    /// behind `heading`, the direction of the stroke, if that is not (0, 0). At pressure 0 it
+    /// Sets the head down at `pose`, bent by its pressure, without dragging it. Its tip bends
+    /// opposite to `heading`, the direction of the stroke, unless that is (0, 0). At pressure 0 it
     /// stays lifted.
     pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
         self.lift();
@@ -158,11 +160,11 @@ impl Head {
 
     /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
     /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are
-    /// not finite. From pressure 0 the head comes down from above; from more than 64 cells
-    /// away it is set down.
+    /// not finite. A lifted head comes down from just above the canvas; a head that is more
+    /// than 64 cells away is set down anew.
     ///
-    /// The speed that governs transfer is that of the surface in space, so that a head that is
-    /// pressed down leaves paint too.
+    /// The speed that governs transfer includes the surface's vertical motion, so that a head
+    /// that is pressed straight down leaves paint too.
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
@@ -215,8 +217,9 @@ fn cells(surface: &LimitSurface) -> (usize, usize) {
     (facets.0 * cells.0, facets.1 * cells.1)
 }
 
-/// A vertex of the footprint: position, height in quanta, velocity and speed. Where the
-/// surface would be below the relief it is pressed up, to less than `sink` cells below.
+/// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
+/// 0.2 cells per sub-step, full from 0.3). Where the surface would be below the relief, it is
+/// raised to less than `sink` cells below it.
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
@@ -237,12 +240,12 @@ fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
     ]
 }
 
-/// Distance in quanta by which the bristles of each column of cells draw back: at most `most`
-/// cells, few of them far. They cling together in locks about 0.5 mm wide (chosen by eye).
-/// Heads of one size are equal.
+/// Recess of the bristles in each column of paint cells, in quanta: at most `most` cells, for
+/// most bristles much less. Bristles cling together in locks about 0.5 mm wide (chosen by eye).
+/// Random numbers are seeded with the size, so that heads of one size are equal.
 fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
     let mut random = ChaCha8Rng::seed_from_u64(size_mm.to_bits());
-    // Around the head is a little more than twice its width.
+    // The perimeter of the head is a little more than twice its width.
     let locks = ((4.0 * size_mm) as usize).max(4);
     let lock: Vec<f32> = (0..locks).map(|_| random.random::<f32>()).collect();
     let bristle = |column: usize| {
@@ -256,14 +259,15 @@ fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
     (0..columns).map(bristle).collect()
 }
 
-/// Facets of a fan that have hair: all near the ferrule, tufts around its spines near the tip.
+/// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines
+/// near the tip.
 /// A small fan, whose facets are no finer than its tufts, has tufts around pairs of spines.
 fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();
     let hair = |i: usize| {
         let (column, down) = (i % around, (i / around) as f32 / along as f32);
-        // Columns of the net stand on spines: a gap is between two of them.
+        // Columns of the net lie on spines, so a gap is between two columns.
         let span = column / in_span;
         if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {
             return true;

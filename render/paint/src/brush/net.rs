@@ -1,4 +1,5 @@
-//! Control net around the spines: closed around, open along the head, closed at the tip.
+//! Control net around the spines: closed around the head, open at the ferrule, closed at the
+//! tip.
 
 use super::grip::Grip;
 use super::shape::NODES;
@@ -6,7 +7,7 @@ use super::spines::{FLATTENED, Spines};
 use super::vector::Vector;
 
 /// Number of rows of the net: one for each level of the spines, and one beyond either end so
-/// that the surface starts and ends at theirs.
+/// that the surface starts and ends where the spines do.
 pub(super) const ROWS: usize = NODES + 2;
 
 /// Number of columns around a head with a single spine.
@@ -80,9 +81,9 @@ impl Net {
                 Vector::new(p[0], p[1], p[2])
             };
             let first = at(1, column) * 2.0 - at(2, column);
-            // The row beyond the tip is the one before it, seen from the other
-            // side: so the end is closed and blunt. That draws the end inwards,
-            // from where it is put back.
+            // The row beyond the tip is the row before it with opposite columns
+            // exchanged, which closes the end bluntly. That would draw the end
+            // inwards; `last` moves it back to `ends`.
             let (here, there) = (at(tip - 1, column), at(tip - 1, self.opposite(column)));
             let last = self.ends[column] * 1.5 - (here + there) * 0.25;
             self.set(0, column, first);
@@ -163,7 +164,7 @@ impl Ring {
             let (cos, sin) = circle[column];
             self.broad * (0.5 * width * spines.width * cos) + self.thin * (half * sin)
         } else {
-            // From the right edge over the upper side to the left edge, and back.
+            // From the right edge over the upper side to the left edge, and back below.
             let (spine, side, beyond) = match column {
                 0 => (count - 1, 0.0, 1.0),
                 c if c <= count => (count - c, 1.0, 0.0),

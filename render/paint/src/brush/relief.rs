@@ -61,7 +61,7 @@ impl Relief {
         ReliefView {
             heights: &self.heights,
             first: (origin.0.div_euclid(block), origin.1.div_euclid(block)),
-            // A block's value stands at its middle.
+            // The value of a block applies at its centre.
             shift: (
                 origin.0.rem_euclid(block) as f32 / block as f32 - 0.5,
                 origin.1.rem_euclid(block) as f32 / block as f32 - 0.5,

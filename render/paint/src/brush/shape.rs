@@ -31,7 +31,7 @@ pub enum HeadShape {
 }
 
 impl HeadShape {
-    /// All shapes, in the order of this list.
+    /// All shapes, in the order of declaration.
     pub const ALL: [Self; 8] = [
         Self::Round,
         Self::Flat,
@@ -145,7 +145,7 @@ pub(super) struct Proportions {
     pub(super) gaps: bool,
     /// Whether the head is rigid.
     pub(super) rigid: bool,
-    /// Largest distance by which bristles draw back from the surface, in cells.
+    /// Largest recess of bristles from the surface, in cells of the canvas.
     pub(super) bristles: f32,
 }
 

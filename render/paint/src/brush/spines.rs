@@ -1,8 +1,8 @@
 //! Spines of a head: chains of masses and springs, bent by the canvas.
 //!
-//! Hair is light and paint is thick, so that a head is nearly at rest in every sub-step. The
-//! springs are solved by position based dynamics (Mueller et al. 2007): each constraint in
-//! turn moves its nodes to where it holds, for a few iterations. The error that remains is
+//! Hair is light and paint is thick, so that a head is nearly in equilibrium in every sub-step.
+//! The springs are solved by position based dynamics (Mueller et al. 2007): in each of a few
+//! iterations, every constraint in turn moves its nodes to satisfy it. The remaining error is
 //! corrected in the next sub-step, which acts as damping. No step can overshoot, so that any
 //! pose is stable.
 
@@ -24,14 +24,15 @@ const FRICTION: f32 = 1.0;
 /// Fraction of its thickness that a head loses under full pressure (chosen by eye).
 pub(super) const FLATTENED: f32 = 0.5;
 
-/// Distance between the lowest hair and the canvas where pressure starts, in cells.
+/// Distance between the lowest hair and the canvas at pressure 0, in cells.
 const CLEARANCE: f32 = 0.5;
 
 /// Minimum thickness of a wide head, in cells. A thinner head can pass between cell centres
 /// and touch none.
 const THINNEST: f32 = 2.0;
 
-/// Minimum distance by which full pressure lowers a head, and a knife, in cells.
+/// Minimum distance by which full pressure lowers a head, in cells; a knife is lowered by just
+/// this distance.
 const LEAST_DEPTH: f32 = 6.0;
 
 /// Distance by which hair is pressed below the crests of the relief at `pressure`, in cells:
@@ -45,7 +46,7 @@ pub(super) fn sink(pressure: f32) -> f32 {
 pub(super) struct Spines {
     pub(super) of: &'static Proportions,
     pub(super) width: f32,
-    /// Rest position of each node: distance from the ferrule, and across.
+    /// Rest position of each node: distances from the ferrule along the axis and across it.
     rest: Vec<(f32, f32)>,
     /// Half the thickness at each level.
     pub(super) half_thickness: [f32; NODES],
@@ -57,7 +58,7 @@ pub(super) struct Spines {
     pub(super) load: [f32; NODES],
     touching: Vec<bool>,
     before: Vec<Vector>,
-    /// Distance by which the hair around each node reaches down.
+    /// Distance by which the hair around each node reaches below it.
     below: Vec<f32>,
 }
 
@@ -114,15 +115,15 @@ impl Spines {
         }
     }
 
-    /// Holds the head just above the canvas at `grip`, slightly bent to the side to which it
-    /// will fall: behind `heading`, if that is not zero.
+    /// Holds the head just above the canvas at `grip`, slightly bent to the side on which
+    /// it will lie: opposite to `heading`, unless that is zero.
     pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &ReliefView<'_>) {
         let fall = (-heading).unit_or(grip.falls_to()) * (0.03 * self.length());
         self.hold_above(grip, fall, relief);
     }
 
-    /// Holds the head just above the canvas at `grip`, straight or with its tip shifted to
-    /// `fall`.
+    /// Holds the head just above the canvas at `grip`, with its tip shifted by `fall`
+    /// (zero leaves it straight).
     pub(super) fn hold_above(&mut self, grip: &Grip, fall: Vector, relief: &ReliefView<'_>) {
         let grip = &Grip { pressure: 0.0, ..*grip };
         let ferrule = self.ferrule(grip, relief);
@@ -216,7 +217,7 @@ impl Spines {
         self.nodes[first] = root;
     }
 
-    /// Updates the distance by which the hair around each node reaches down.
+    /// Updates the distance by which the hair around each node reaches below it.
     fn measure(&mut self, grip: &Grip) {
         for i in 0..self.nodes.len() {
             let level = i % NODES;
@@ -276,8 +277,8 @@ impl Spines {
         }
     }
 
-    /// Pulls a spine that is longer than it can be towards the ferrule, and keeps it above the
-    /// canvas. It only pulls: hair that is pushed bends.
+    /// Shortens the overlong segments of a spine, from the ferrule on, and keeps its hair at most
+    /// `dig` cells below the relief. Short segments stay: hair that is pushed bends.
     fn fit(
         &mut self,
         spine: usize,
@@ -322,7 +323,7 @@ impl Spines {
     }
 }
 
-/// Profile smoothed as the surface smooths it.
+/// Profiles smoothed as the B-spline surface smooths them.
 fn rounded(breadth: [f32; NODES], thickness: [f32; NODES]) -> [(f32, f32); NODES] {
     let at = |of: &[f32; NODES], i: usize| match i {
         0 => of[0],
@@ -337,8 +338,9 @@ fn placed(grip: &Grip, ferrule: Vector, (along, across): (f32, f32)) -> Vector {
     ferrule - grip.axis * along + grip.broad * across
 }
 
-/// Applies the bending springs: three nodes in a row are straight, or as they are at rest; the
-/// ferrule holds the first. Hair thins out, so that tips bend more than roots.
+/// Applies the bending springs: they pull each three nodes in a row towards their shape at rest,
+/// and the first segment towards the direction of the ferrule. Stiffness falls towards the tip,
+/// where the hair is thinner.
 fn bend(
     nodes: &mut [Vector],
     rest: &[(f32, f32)],
@@ -374,7 +376,8 @@ fn stretch(nodes: &mut [Vector], segment: f32) {
     }
 }
 
-/// Undoes the sliding of a node over the canvas, by at most `most`: friction.
+/// Applies friction: moves a node back along the canvas towards its position `before`, by at
+/// most `most` cells.
 fn drag(node: &mut Vector, before: Vector, most: f32) {
     let slid = Vector::new(node.x - before.x, node.y - before.y, 0.0);
     let length = slid.length();

@@ -21,7 +21,7 @@ struct Span {
     facets: usize,
     /// Number of paint cells of each facet.
     cells: usize,
-    /// Weights of the four control points at the start of each facet, and at the end.
+    /// Weights of the four control points at the start of each facet and at the end of the span.
     weights: Vec<[f32; 4]>,
 }
 
@@ -89,7 +89,8 @@ impl LimitSurface {
         self.near[row / self.along.facets * self.columns + column / self.around.facets]
     }
 
-    /// Number of facets of each span around the head: they are near or not near together.
+    /// Number of facets of each span around the head. [`LimitSurface::is_near`] is the same for
+    /// all facets of a span.
     pub(super) fn facets_of_span(&self) -> usize {
         self.around.facets
     }
@@ -136,7 +137,7 @@ impl LimitSurface {
 
     fn find_near(&mut self, net: &Net, ceiling: f32) {
         for span in 0..SPANS {
-            // The lowest of four points along; then of four of these around.
+            // The lowest of four control points along, then the lowest of four of these around.
             for column in 0..self.columns {
                 let lowest = (0..4).map(|i| net.points[(span + i) * self.columns + column][2]);
                 self.line[column][2] = lowest.fold(f32::INFINITY, f32::min);

@@ -34,7 +34,7 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// This direction with length 1; `otherwise` if its length is 0.
+    /// This direction with length 1; `otherwise` if its length is at most 1e-4.
     pub(super) fn unit_or(self, otherwise: Self) -> Self {
         let length = self.length();
         if length > 1e-4 { self * (1.0 / length) } else { otherwise }

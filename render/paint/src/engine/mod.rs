@@ -8,9 +8,8 @@
 //! ```
 //!
 //! Amounts of paint are integers, so both backends hold the same bits after the same
-//! calls; pictures are f32 and agree to rounding. Whatever has to be decided (where
-//! the brush is, which tiles an undo needs, which light shines) is decided by the
-//! caller.
+//! calls; pictures are f32 and agree to rounding. The caller decides where the brush
+//! is, which tiles an undo needs and which light is used.
 
 mod ids;
 

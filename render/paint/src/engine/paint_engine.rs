@@ -77,7 +77,7 @@ impl PaintEngine {
         }
     }
 
-    /// The processor or device that computes, in words for people.
+    /// Name of the processor or device that computes, for display.
     #[must_use]
     pub fn name(&self) -> String {
         match self {
@@ -96,7 +96,7 @@ impl PaintEngine {
     }
 
     /// Waits until the device has done everything asked of it so far. Only needed for
-    /// timing: whatever is read is up to date.
+    /// timing: reads always return the current state.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -224,8 +224,8 @@ impl PaintEngine {
         }
     }
 
-    /// Dries a share of all wet paint, in parts of 65536, which becomes a new dry layer
-    /// on top. The floor rises by it.
+    /// Dries a share of all wet paint, 0 to 65536 in parts of 65536. It becomes a new dry
+    /// layer on top, and the floor rises by its height.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -268,7 +268,7 @@ impl PaintEngine {
         }
     }
 
-    /// Adds a dry layer on top; the floor rises by it.
+    /// Adds a dry layer on top; the floor rises by its height.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -282,7 +282,7 @@ impl PaintEngine {
         }
     }
 
-    /// Removes the topmost dry layer and returns it; the floor falls by it.
+    /// Removes the topmost dry layer and returns it; the floor falls by its height.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -365,8 +365,9 @@ impl PaintEngine {
         self.picture_in(View::First, self.bounds())
     }
 
-    /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1;
-    /// black where nothing was rendered. Time is proportional to the area of `rect`.
+    /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1 as
+    /// the fourth component; black where nothing was rendered. Time is proportional to the
+    /// area of `rect`.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.

@@ -1,7 +1,7 @@
 //! Exports of a painting for other programs: pictures, spectral OpenEXR and pigment maps.
 //!
-//! [`PaintingExports`] writes the files of a painting at work. The other functions encode a
-//! document in memory; the same document always gives the same bytes.
+//! [`PaintingExports`] writes the files of a painting in progress. The other functions
+//! encode a document in memory; the same document always gives the same bytes.
 
 mod pigment_maps;
 

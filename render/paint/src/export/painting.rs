@@ -48,8 +48,8 @@ pub fn spectral_file(
     spectral_exr(picture, &wavelengths_nm, &planes, document.cell_mm).map(Some)
 }
 
-/// Height of each pigment's paint, summed over all layers, with the vehicle last. Pigments
-/// that no layer contains are left out.
+/// Makes a map of each pigment: the height of its paint in mm, summed over all layers. The
+/// vehicle comes last. Pigments in no slot of any layer are left out.
 #[must_use]
 pub fn painting_maps(document: &Document) -> Vec<PigmentMap> {
     let (width, height) = (document.wet.width(), document.wet.height());

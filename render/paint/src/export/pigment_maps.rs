@@ -29,9 +29,9 @@ pub struct NamedFile {
 /// `STEM.thickness.png`, the scale in `STEM.maps.json`, and a table of each pigment's
 /// total in `STEM.recipe.csv`.
 ///
-/// All PNGs have one scale, so that they can be compared: 65535 is the height of the
-/// thickest cell of all paint together, in mm (`mm_at_65535`). Cells are `cell_mm` wide;
-/// the PNGs store that in `pHYs`.
+/// All PNGs have one scale, so that they can be compared: the value 65535 is the greatest
+/// height in mm of all paint together in one cell (`mm_at_65535`). Cells are `cell_mm`
+/// wide; the PNGs store that in `pHYs`.
 ///
 /// # Errors
 /// [`ExportError`] for maps of different sizes or without cells, a cell size out of

@@ -1,4 +1,4 @@
-//! Exports of a painting at work, written to files in one call.
+//! Exports of a painting in progress, written to files in one call.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -50,8 +50,8 @@ pub fn spectral_exr(
         channels.push((name, FlatSamples::F32(plane.values().to_vec())));
     }
     let mut attributes = LayerAttributes::default();
-    // At most one attribute beyond the standard's, because the encoder does not keep their
-    // order.
+    // Add at most one custom attribute: the encoder does not keep the order of several, so
+    // the bytes of the file would vary.
     let version = AttributeValue::Text("1.0".into());
     attributes.other.insert(Text::from("spectralLayoutVersion"), version);
     exr_file((width, height), cell_mm, channels, attributes)

@@ -16,7 +16,7 @@ pub(super) const ATTRIBUTE: &str = "impasto";
 const FORMAT: &str = "impasto-painting";
 const VERSION: u64 = 1;
 
-/// Cell widths in mm for which heights in mm as floats represent quanta.
+/// Cell widths allowed, in mm. Within this range 32-bit floats in mm can represent quanta.
 const CELL_MM: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
 /// Content of the attribute.
@@ -53,7 +53,7 @@ pub(super) struct LayerHeader {
     pub(super) pigments: Vec<PigmentHeader>,
 }
 
-/// A slot in use.
+/// A slot that holds a pigment, with the names of the pigment and of its channel.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PigmentHeader {
@@ -95,7 +95,8 @@ impl FileHeader {
             layers: layers.collect::<Result<_, _>>()?,
             library: library.map_err(|error| unwritable(error.to_string()))?,
         };
-        // JSON cannot hold numbers that are not finite: reading it back finds them.
+        // JSON has no notation for NaN and infinity. Such numbers are found by parsing the
+        // text again.
         match Self::from_json("", &header.to_json()?) {
             Ok((back, library)) if back == header && library == document.library => Ok(header),
             Ok(_) => Err(unwritable("its header does not come back as it was".to_owned())),

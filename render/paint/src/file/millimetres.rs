@@ -2,8 +2,8 @@
 
 use crate::amount::QUANTA_PER_CELL;
 
-/// Least amount at which a float in mm no longer distinguishes neighbouring quanta: its
-/// rounding, 2^-24 of the value, reaches half a quantum.
+/// Least amount, in quanta, at which a float in mm no longer distinguishes neighbouring
+/// quanta: its rounding, 2^-24 of the value, reaches half a quantum.
 pub(super) const INEXACT_FROM: u32 = 1 << 23;
 
 /// Conversion for cells of one size.
@@ -61,8 +61,8 @@ mod tests {
     #[test]
     fn a_float_alone_would_lose_quanta_of_thick_paint() {
         let scale = Millimetres::new(0.1);
-        // With cells of 0.1 mm a float is coarser than a quantum from 0.5 mm on; with other cells
-        // already from `INEXACT_FROM` on.
+        // With cells of 0.1 mm, floats become coarser than a quantum at 0.5 mm; with other
+        // cells this may already happen at `INEXACT_FROM`.
         let thick = 3 * INEXACT_FROM / 2;
         let lost =
             (thick..thick + 1000).map(f64::from).filter(|&q| scale.quanta(scale.mm(q), 0.0) != q);

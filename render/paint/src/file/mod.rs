@@ -1,11 +1,11 @@
-//! Painting files: OpenEXR, format `impasto-painting`, version 1. The usual door is
+//! Painting files: OpenEXR, format `impasto-painting`, version 1. Callers usually use
 //! [`Document::open`](crate::document::Document::open) and
 //! [`Document::save`](crate::document::Document::save).
 //!
 //! One file has a part per layer, with scan lines of 32-bit float channels, so that any
-//! program that reads OpenEXR can show and edit them. Compression is lossless: PIZ, which
-//! writes wet paint in half of ZIP's time and two thirds of its bytes. Files with ZIP or
-//! without compression are read too.
+//! program that reads OpenEXR can show and edit them. Compression is PIZ, which is
+//! lossless; it encodes wet paint in half the time of ZIP and to two thirds of the bytes.
+//! Files with ZIP or without compression are read too.
 //!
 //! | part | channels, in mm |
 //! | --- | --- |

@@ -24,7 +24,7 @@ use graphics::field::Field;
 /// with 28 layers (a layer takes 36 bytes per cell, the ground 4).
 pub const MEMORY_LIMIT: u64 = 16 << 30;
 
-/// Blocks that are read before they are decompressed in parallel.
+/// Number of blocks that are read as a batch and then decompressed in parallel.
 const BATCH: usize = 64;
 
 /// Decodes a painting from `bytes`, the content of `file`. The name is used in errors
@@ -120,7 +120,8 @@ fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
     }
 }
 
-/// Some rows of a part. The ground's height is stored bit by bit as the cells' vehicle.
+/// Consecutive rows of a part. In rows of the ground, the vehicle of a cell holds the bits
+/// of the height, an i32.
 struct Rows {
     part: usize,
     /// First row, counted from the top of the part's window.
@@ -215,7 +216,7 @@ impl PartRow<'_> {
         Ok(())
     }
 
-    /// Checks that no cell holds more paint than a cell can.
+    /// Checks that no cell holds more than 512 cell widths of paint in total.
     fn check_volumes(&self, cells: &[Cell]) -> Result<(), PaintingFileError> {
         for (x, cell) in cells.iter().enumerate() {
             let volume: u64 =

@@ -20,7 +20,7 @@ use crate::amount::MAX_COLUMN;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
 
-/// Blocks that are compressed in parallel.
+/// Number of blocks that are compressed in parallel.
 const BATCH: usize = 64;
 
 /// Encodes a painting as a file. The same document always gives the same bytes.
@@ -67,8 +67,8 @@ fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Heade
     let mut own = LayerAttributes::named(part.name.as_str());
     own.layer_position = Vec2(window.x as i32, window.y as i32);
     own.horizontal_density = Some((25.4 / header.cell_mm) as f32);
-    // At most one attribute beyond the standard's, because the encoder does not keep their
-    // order.
+    // Add at most one custom attribute: the encoder does not keep the order of several, so
+    // the bytes of the file would vary.
     own.other.extend(json.map(|json| (Text::from(ATTRIBUTE), AttributeValue::Text(json.into()))));
     let canvas = IntegerBounds::new((0, 0), (header.width, header.height));
     Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())

@@ -6,7 +6,7 @@ use graphics::field::Field;
 /// Surface of a canvas or palette before any paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    /// Description for people, for example `linen, seed 1`.
+    /// Human-readable description, for example `linen, seed 1`.
     pub name: String,
     /// Height of each cell above the plane of the canvas, in quanta.
     pub height: Field<i32>,

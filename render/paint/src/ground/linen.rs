@@ -31,8 +31,8 @@ impl Default for Linen {
     }
 }
 
-/// Up and down of a thread in the weave, as a share of the relief; the rest is its round
-/// profile (chosen by eye).
+/// Vertical deflection of a thread in the weave, as a share of the relief (chosen by eye).
+/// The round profile of the thread takes up the rest.
 const SWING: f32 = 0.45;
 
 /// Depth up to which the priming fills the gaps, as a share of the relief (chosen by eye).
@@ -92,7 +92,7 @@ struct Thread {
 
 impl Threads {
     fn new(across: usize, along: usize, pitch: f64, random: &mut ChaCha8Rng) -> Self {
-        // Two threads more at both edges, as neighbours of the outermost visible ones.
+        // Two more threads beyond each edge, as neighbours of the outermost visible ones.
         let mut middles = vec![-2.0 * pitch * random.random_range(0.8..1.0)];
         while middles[middles.len() - 1] < across as f64 + 2.0 * pitch {
             let step = pitch * random.random_range(0.82..1.18);

@@ -1,4 +1,4 @@
-//! Grounds: what is painted on. The relief is generated from a seed or taken from a
+//! Grounds to paint on. The relief is generated from a seed or taken from a
 //! picture; the colour is that of the priming.
 //!
 //! Heights count from the lowest point of the ground, in mm. The same description always

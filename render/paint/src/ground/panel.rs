@@ -7,8 +7,8 @@ use super::relief::{self, Stream};
 use graphics::field::Field;
 use graphics::noise::Hills;
 
-/// Settings of a smooth panel, nearly flat: faint marks along x of the brush that primed
-/// it, sanded down.
+/// Settings of a smooth, nearly flat panel: the brush that primed it left faint marks along
+/// x, which were sanded down.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Panel {

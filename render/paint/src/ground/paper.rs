@@ -123,7 +123,7 @@ impl Paper {
                 .iter()
                 .map(|(hills, share, [c, s])| share * hills.at(x * c - y * s, x * s + y * c))
                 .sum();
-            // Pressing limits heights softly, and hollows less so.
+            // Pressing flattens bumps strongly and hollows slightly: a soft limit for each.
             let pressed = if sum > 0.0 { sum / (1.0 + 1.5 * sum) } else { sum / (1.0 - 0.3 * sum) };
             relief * (0.65 + 1.3 * pressed)
         }))

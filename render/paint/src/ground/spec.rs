@@ -1,4 +1,4 @@
-//! Descriptions of grounds: what a script of strokes stores, and grounds by name.
+//! Descriptions of grounds as scripts of strokes store them, and the kinds of ground by name.
 
 use std::str::FromStr;
 
@@ -100,7 +100,7 @@ impl GroundKind {
     }
 }
 
-/// The name is not one of a kind of ground.
+/// A name is not that of a kind of ground.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("a ground is linen, paper, panel or wood, found `{0}`")]
 pub struct ParseGroundKindError(pub String);
@@ -177,7 +177,7 @@ impl GroundSpec {
 }
 
 impl GroundRelief {
-    /// Name for people, and heights in mm.
+    /// Human-readable name of the ground, and its heights in mm.
     fn heights_mm(
         &self,
         width: usize,
@@ -204,7 +204,7 @@ impl GroundRelief {
     }
 }
 
-/// Heights in mm to whole quanta.
+/// Rounds heights in mm to whole quanta; [`GroundError::TooHigh`] above [`HIGHEST_CELLS`].
 fn quanta(heights_mm: &Field<f32>, cell_mm: f64) -> Result<Vec<i32>, GroundError> {
     let highest_mm = HIGHEST_CELLS * cell_mm;
     let quanta_per_mm = f64::from(QUANTA_PER_CELL) / cell_mm;

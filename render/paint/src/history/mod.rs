@@ -6,7 +6,7 @@
 //! more, and both are exact to the bit.
 //!
 //! Memory: [`TILE_BYTES`] per tile, 36 bytes per cell of brushes and dry layers. All of it
-//! is counted and exceeds the limit at most during one call.
+//! counts towards the limit, which is exceeded at most during one call.
 
 mod action;
 

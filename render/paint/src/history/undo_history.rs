@@ -83,7 +83,7 @@ impl<T> History<T> {
     }
 
     /// Saves the wet paint of the tiles that `rect` overlaps; call it before they change.
-    /// Tiles that this action saved already cost nothing.
+    /// Tiles that this action has saved before are skipped.
     ///
     /// # Errors
     /// [`DeviceError`] if the engine has no memory left.

@@ -13,9 +13,9 @@ use graphics::lanes::{greater, lesser, multiply_add};
 /// precomputed, so that a mixture costs eight square roots and eight divisions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixer {
-    /// K of the first paint, and the difference to the second.
+    /// K of the first paint, then K of the second minus that of the first.
     absorption: [[f32; NODES]; 2],
-    /// S of the first paint, and the difference to the second.
+    /// S of the first paint, then S of the second minus that of the first.
     scattering: [[f32; NODES]; 2],
     surface: SceneSurface,
     rgb_from_nodes: [[f32; 3]; NODES],

@@ -66,7 +66,7 @@ pub enum PaintLightError {
     /// The name of the observer is unknown.
     #[error(transparent)]
     Observer(#[from] ObserverError),
-    /// The light has too few wavelengths, like a laser.
+    /// The light has too few usable wavelengths, for example that of a laser.
     #[error(transparent)]
     Quadrature(#[from] QuadratureFailure),
 }

@@ -24,7 +24,7 @@ pub struct MotionConstants {
 
 impl Default for MotionConstants {
     /// From the paper: the maximum transfer of 0.001 and the cutoff of 1/30 of its unit of
-    /// height. Ours, chosen by eye: c = 1/4 and an adhesion of 1/500 of a cell.
+    /// height. Chosen by eye: c = 1/4 and an adhesion of 1/500 of a cell.
     fn default() -> Self {
         Self {
             push_quanta: (QUANTA_PER_CELL / 32) as i32,

@@ -1,10 +1,10 @@
 //! Transfer of paint between a cell of the canvas and the cell of the head above it.
 //!
-//! Baxter, Wendt and Lin 2004, algorithm 1: paint moves from the side that has more, a
-//! tenth of what it has, less where both have nearly the same or where the head is slow,
-//! and never more than a fixed amount. Of the canvas only the part that the head has
-//! penetrated counts. Where several cells of the canvas lie under one of the head, each
-//! may draw on an equal share of it.
+//! Baxter, Wendt and Lin 2004, algorithm 1: the side that has more paint gives a tenth of
+//! it to the other; less where both have nearly the same or where the head is slow, and
+//! never more than a fixed amount. Of the paint on the canvas, only the height that the
+//! head has penetrated counts. Where several cells of the canvas lie under one cell of the
+//! head, each may take an equal share of the head's paint.
 
 use super::constants::MotionConstants;
 use crate::amount::share_of_256;

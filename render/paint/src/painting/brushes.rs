@@ -8,8 +8,8 @@ use crate::engine::BrushId;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::pose::Sample;
 
-/// Maximum paint in a cell of a head, in quanta: 64 cell widths, far more than clings to
-/// bristles, and little enough that no pile reaches [`MAX_COLUMN`].
+/// Maximum paint in a cell of a head after loading, in quanta: 32 cell widths, far more than
+/// clings to bristles, and little enough that no pile reaches [`MAX_COLUMN`].
 const CAPACITY: u32 = MAX_COLUMN / 16;
 
 impl Painting {
@@ -174,7 +174,8 @@ impl Painting {
         }
     }
 
-    /// Removes the paint of a brush and returns it, for the brush of another painting. An action of the history: an undo puts it back.
+    /// Removes the paint of a brush and returns it, for the brush of another painting. An
+    /// action of the history: an undo puts it back.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

@@ -124,7 +124,7 @@ pub enum PaintingError {
         value: f64,
     },
     /// Ground and dry paint are as high as the arithmetic allows.
-    #[error("the paint is piled as high as it can be, 512 cell widths, at column {x}, row `{y}`")]
+    #[error("the paint is piled as high as it can be, 256 cell widths, at column {x}, row `{y}`")]
     TooHigh {
         /// Column of the cell, from 0.
         x: usize,

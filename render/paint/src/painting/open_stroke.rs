@@ -20,7 +20,7 @@ const BATCH: usize = 32;
 pub struct StrokeReport {
     /// Sub-steps in which the head was over the canvas.
     pub substeps: u64,
-    /// Cells of the rectangles of all these sub-steps.
+    /// Total number of cells in the contact rectangles of these sub-steps.
     pub cells: u64,
     /// Whether the memory for undo can hold the stroke.
     pub undoable: bool,
@@ -47,7 +47,7 @@ pub struct OpenStroke {
     batch: Batch,
     /// Number of contacts of `batch` that are painted.
     painted: usize,
-    /// Contacts that the head bends through meanwhile.
+    /// Contacts that the head bends through while `batch` is painted.
     next: Batch,
     reached: usize,
     waiting: usize,
@@ -101,7 +101,7 @@ impl OpenStroke {
     }
 
     /// Opens the stroke as an action of `painting`. With `paint`, the brush comes from
-    /// another painting with this paint on it.
+    /// another painting and starts with this paint.
     pub(crate) fn open(
         &mut self,
         painting: &mut Painting,
@@ -129,7 +129,7 @@ impl OpenStroke {
     }
 
     /// Adds samples; [`OpenStroke::advance`] paints them. If one is refused, those before
-    /// it count, and the stroke can go on with others.
+    /// it are kept, and the stroke can continue with others.
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample (its index counts from the first of the
@@ -177,11 +177,11 @@ impl OpenStroke {
     /// nothing can be painted before samples come or the brush is lifted. With
     /// `most_substeps` 0 it only counts.
     ///
-    /// The paint lags one sample behind, as the path to a sample bends with the one after
-    /// it; a dab is painted when the brush is lifted.
+    /// The paint lags one sample behind, as the path to a sample depends on the one after
+    /// it; a dab is painted once the brush is lifted.
     ///
     /// While the backend moves the paint of 32 sub-steps, the head bends through the next
-    /// 32 on another thread; multiples of 32 cost least.
+    /// 32 on another thread, so multiples of 32 are fastest.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

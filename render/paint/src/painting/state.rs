@@ -78,7 +78,7 @@ pub struct Painting {
     pub(super) state: State,
     pub(super) light: Arc<Light>,
     pub(super) relief: Relief,
-    /// Number of times that `relief` was computed.
+    /// Number of times that `relief` was recomputed after dry paint changed.
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<UndoState>,
@@ -91,7 +91,7 @@ pub struct Painting {
 }
 
 /// Maximum height of ground and dry paint together, and of wet paint on them, in quanta:
-/// 512 cell widths, so that no sum overflows 32 bits.
+/// 256 cell widths each, so that no sum overflows 32 bits.
 pub(super) const HIGHEST: u32 = MAX_COLUMN / 2;
 
 /// Default of the memory for undo, in bytes: 512 MiB.
@@ -156,7 +156,7 @@ impl Painting {
         })
     }
 
-    /// The painting with all its paint, as a file keeps it.
+    /// The painting with all its paint, as a file stores it.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

@@ -45,9 +45,9 @@ impl Painting {
         }
     }
 
-    /// Begins an adjustment, for example of a slider that is dragged. All actions until
-    /// [`Painting::end_adjusting`] count as one action, each is shown at once; without any,
-    /// there is no action.
+    /// Begins an adjustment, for example when a slider is dragged. All actions until
+    /// [`Painting::end_adjusting`] count as one action in the history, but each takes effect at
+    /// once. Without any, the history stays unchanged.
     ///
     /// # Panics
     /// If a stroke or an adjustment is open.

@@ -9,7 +9,7 @@ use graphics::tile::{Rect, Tile, TileSet};
 /// Tiles of one picture that are out of date or were not reported.
 #[derive(Debug, Default)]
 pub(super) struct PendingTiles {
-    /// Tiles whose dry paint must be rendered under the light.
+    /// Tiles whose ground and dry paint must be baked again.
     pub(super) dry: TileSet,
     /// Tiles whose wet paint must be rendered.
     pub(super) wet: TileSet,

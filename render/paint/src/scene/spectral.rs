@@ -126,8 +126,7 @@ impl<'a> SpectralDocument<'a> {
 
     /// Measured reflectance of all cells as 32-bit planes, one per wavelength. Rows are
     /// computed on all CPU cores. After each row `go_on` is called with the number of rows
-    /// done; if it returns `false`, the
-    /// result is `None`.
+    /// done; if it returns `false`, the result is `None`.
     pub fn planes(&self, mut go_on: impl FnMut(usize) -> bool) -> Option<Vec<Field<f32>>> {
         let (width, height) = (self.document.wet.width(), self.document.wet.height());
         let mut planes = vec![Field::filled(width, height, 0.0); self.count()];

@@ -50,7 +50,8 @@ impl ColorErrors {
             .map(|(&target, &painted)| {
                 let labs = (film.lab_from_rgb(target), film.lab_from_rgb(painted));
                 let error = delta_e_ciede2000(labs.0, labs.1);
-                // A colour that was painted that closely is within reach.
+                // A colour painted within `OUT_OF_GAMUT` is in gamut, which saves the
+                // slower check.
                 (error, error > OUT_OF_GAMUT && separation.is_out_of_gamut(target))
             })
             .collect();

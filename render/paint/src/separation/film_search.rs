@@ -2,10 +2,11 @@
 //! pigments.
 //!
 //! Colours have three dimensions and palettes up to eight, so many films match. The cost
-//! therefore also prefers pigments near the colour (sum over shares of the squared
-//! distance of their masstones; with linear mixing this selects the corners of the
-//! Delaunay tetrahedron that contains the colour, so at most four pigments that change
-//! continuously), films that hide the ground, and thin films.
+//! therefore has further terms. One prefers pigments near the colour: the sum over pigments
+//! of the share times the squared distance of the masstone from the colour. With linear
+//! mixing it selects the corners of the Delaunay tetrahedron that contains the colour, so
+//! at most four pigments are used, and their shares change continuously. The other terms
+//! prefer films that hide the ground, and thin films.
 
 use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use spectra::color::{Lab, delta_e_cie76};

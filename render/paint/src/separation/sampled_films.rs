@@ -52,7 +52,7 @@ impl SampledFilms {
         Self { films }
     }
 
-    /// The films with least cost of `count` different sets of pigments, best first.
+    /// The film of least cost for each of the `count` best sets of pigments, best first.
     pub(super) fn nearest_to(&self, target: &TargetColor, count: usize) -> Vec<FilmMix> {
         let mut best: Vec<(f64, &SampledFilm)> = Vec::with_capacity(count + 1);
         for film in &self.films {

@@ -26,8 +26,9 @@ const STEPS: usize = 10;
 /// A palette chosen for a photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenPalette {
-    /// The pigments: first the one that does best alone, then each that helped most beside
-    /// those before it.
+    /// The pigments in the order of choice: first the one with the least error alone, then
+    /// each that reduced the error most together with those before it. A pigment that was
+    /// exchanged later leaves its slot to its replacement.
     pub slots: Slots,
     /// Mean CIEDE2000 over the photograph's colours, weighted by the square root of their
     /// area so that small coloured things count. If paint is to hide, each error includes the
@@ -63,7 +64,7 @@ pub fn choose_palette(
         let slots = slots_of(chosen);
         mean_error(&film(FilmMaterials { slots: &slots, ..materials }), settings, &colors)
     };
-    // Pigment that does best at one place of the palette.
+    // Pigment of `open` with the least error at index `place` of the palette.
     let best = |chosen: &[PigmentId], place: usize, open: &[PigmentId]| {
         let tried: Vec<(f64, PigmentId)> = open
             .par_iter()

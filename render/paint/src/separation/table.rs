@@ -210,7 +210,7 @@ fn clamped(rgb: [f32; 3]) -> [f32; 3] {
     rgb.map(|value| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) })
 }
 
-/// Colour of a lattice point.
+/// CIELAB of the colour of a lattice point.
 fn color(search: &FilmSearch, count: usize, index: usize) -> Lab {
     let place = [index / (count * count), index / count % count, index % count];
     let rgb = place.map(|at| (at as f32 / (count - 1) as f32).powi(2));
@@ -225,7 +225,8 @@ fn smoothed(search: &FilmSearch, count: usize, films: &[FilmMix], index: usize) 
     let mut sum = [0.0; SLOTS];
     let mut neighbours = 0.0;
     for (at, stride) in place.into_iter().zip(strides) {
-        // Only opposite pairs of neighbours: a linear change along an axis is smooth.
+        // Neighbours count in opposite pairs only, so that heights linear along an axis
+        // stay as they are.
         if at > 0 && at < count - 1 {
             for other in [index - stride, index + stride] {
                 let heights = films[other].heights_mm();

@@ -15,7 +15,7 @@ use crate::strokes::{
     SurfaceId, check_brush,
 };
 
-/// The canvas alone.
+/// The action changes the canvas only.
 const CANVAS: PerSurface<bool> = PerSurface { canvas: true, palette: false };
 
 /// No surface: the action changes a brush only.
@@ -213,7 +213,7 @@ impl PaintingSession {
         Ok(changed?)
     }
 
-    /// Washes heads whose name now belongs to another. They were washed when they were
+    /// Washes heads whose name now belongs to another head. They were washed when they were
     /// replaced, but an undo may have restored paint on them.
     fn wash_replaced_brushes(&mut self) -> Result<(), SessionError> {
         for tool in self.brushes.replaced() {
@@ -303,7 +303,7 @@ pub(super) fn nothing_unless(done: bool) -> Outcome {
     if done { Outcome::Done } else { Outcome::Nothing }
 }
 
-/// Parts by slot of the palette as it is now.
+/// Parts of a recipe by slot of the current palette.
 fn recipe(painting: &Painting, parts: &[(PigmentId, f64)]) -> Result<[f64; SLOTS], PaintingError> {
     let mut recipe = [0.0; SLOTS];
     for &(pigment, part) in parts {

@@ -113,7 +113,7 @@ mod tests {
     fn a_used_head_keeps_its_recorded_name_and_others_get_their_own() {
         let mut brushes = Brushes::default();
         assert_eq!(brushes.add("round", &spec(6.0)), Added::Ready);
-        // Not used yet: replaced in its place.
+        // The brush is not used yet, so its entry is replaced.
         brushes.add("round", &spec(7.0));
         assert_eq!((now(&brushes, "round"), brushes.tools.len()), ((0, "round".to_owned()), 1));
         brushes.tools[0].ids[SurfaceId::Canvas] = Some(BrushId(0));

@@ -1,4 +1,4 @@
-//! The short way to paint: a session on a bare canvas, pigments and brushes by name.
+//! Short interface for programs: a session on a bare canvas, pigments and brushes by name.
 
 use std::path::Path;
 
@@ -15,9 +15,9 @@ use crate::strokes::{
 };
 
 impl PaintingSession {
-    /// Starts a session on a bare canvas, painted on the processor and recorded, with the
-    /// reference white of `library` on the palette. [`PaintingSession::load`] adds other
-    /// pigments as they are needed.
+    /// Starts a session on a bare canvas, painted on the processor and recorded. The
+    /// palette holds the reference white of `library` or, if there is none, another of its
+    /// pigments. [`PaintingSession::load`] adds pigments as they are needed.
     ///
     /// The documentation of the crate has an example.
     ///
@@ -35,9 +35,9 @@ impl PaintingSession {
         Self::recorded(painting, None, &script)
     }
 
-    /// Adds paint to a brush: `amount_mm` mm on every cell of its head of the mixture of
-    /// `recipe`, parts by names of the library. Pigments that are not on the palette are
-    /// added to it.
+    /// Adds paint to a brush, `amount_mm` mm high on every cell of its head. `recipe` lists
+    /// pigments by their names in the library, with their parts by volume. Pigments that
+    /// are not on the palette are added to it.
     ///
     /// # Errors
     /// [`SessionError`] for an unknown brush or pigment, for more than eight pigments on the

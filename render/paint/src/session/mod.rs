@@ -1,8 +1,8 @@
 //! A painting session: a canvas, a palette to mix on, and brushes that are used on both.
 //!
-//! A [`PaintingSession`] applies [`Action`](crate::strokes::Action)s. They come from a hand, a
-//! script or a recording that is played. Numbers are rounded to the digits of a script before
-//! anything is painted, so that a recording replays to the bit.
+//! A [`PaintingSession`] applies [`Action`](crate::strokes::Action)s of a user, a script or
+//! a recording. Numbers are rounded to the digits of a script before anything is painted,
+//! so that a recording replays bit for bit.
 //!
 //! **Brushes** have names. The paint on a brush is on the surface where it was last used; a
 //! stroke on the other surface moves it there as part of the stroke, and an undo moves it

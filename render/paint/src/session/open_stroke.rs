@@ -71,7 +71,7 @@ impl PaintingSession {
             check_sample(&at, &sample, before, far_mm)?;
             open.stroke.extend(&[sample]).map_err(PaintingError::from)?;
             open.samples.push(sample);
-            // A stroke is no action before its first sample.
+            // A stroke becomes an action with its first sample.
             if open.from.is_none() {
                 let opened = self.open_in_painting();
                 self.follow_failure(opened)?;
@@ -98,9 +98,9 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Paints at most `most_substeps` sub-steps of the open stroke, and returns how many more
-    /// are known. The paint lags one sample behind until the brush is lifted. With
-    /// `most_substeps` 0 it only counts.
+    /// Paints at most `most_substeps` sub-steps of the open stroke, and returns the number
+    /// of known sub-steps that remain. The paint lags one sample behind until the brush is
+    /// lifted. With `most_substeps` 0 it only counts.
     ///
     /// # Errors
     /// [`SessionError`] if no stroke is open, or if the device was lost.

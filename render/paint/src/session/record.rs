@@ -8,7 +8,7 @@ use crate::strokes::{
 /// Bytes of a file that are reserved for everything but its actions.
 const HEADER_BYTES: usize = 1 << 20;
 
-/// Maximum size of a recording: as much as can be read again.
+/// Maximum size of a recording, within the limits of scripts that can be read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     pub(super) actions: usize,

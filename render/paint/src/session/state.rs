@@ -55,7 +55,7 @@ pub struct PaintingSession {
     pub(super) canvas: Painting,
     pub(super) palette: Option<Painting>,
     pub(super) brushes: Brushes,
-    /// Pigments that names mean after the actions so far.
+    /// Meaning of pigment names after the actions so far.
     pub(super) scope: PigmentNames,
     pub(super) history: SharedHistory,
     pub(super) record: Option<Record>,
@@ -158,8 +158,8 @@ impl PaintingSession {
         }
     }
 
-    /// Painting of a surface, for reading its pictures and paint. Changes must go through the
-    /// session: its history would not know of others.
+    /// Painting of a surface, for reading its pictures and paint. Change it only through
+    /// the session, whose history does not know of other changes.
     pub fn painting_mut(&mut self, surface: SurfaceId) -> Option<&mut Painting> {
         match surface {
             SurfaceId::Canvas => Some(&mut self.canvas),

@@ -22,8 +22,8 @@ impl SampleDecimals {
     /// tenth of a micrometre.
     pub const RECORDING: Self = Self { seconds: 4, place: 4, pressure: 4, angle: 4 };
 
-    /// Decimals that a pen can hold still: 0.1 ms, 0.001 mm, 0.0001 of full pressure and
-    /// 0.01 degrees.
+    /// Decimals as fine as a hand can hold a pen still: 0.1 ms, 0.001 mm, 0.0001 of full
+    /// pressure and 0.01 degrees.
     pub const PEN: Self = Self { seconds: 4, place: 3, pressure: 4, angle: 2 };
 
     /// The sample with each number rounded, halves away from 0. No number is -0, which a

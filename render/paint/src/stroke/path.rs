@@ -11,13 +11,14 @@ use crate::pose::{Pose, Sample};
 /// same to the bit as those of [`substeps`](super::substeps) for all samples at once.
 ///
 /// The curve to a sample depends on the one after it, so poses lag one sample behind until
-/// the path is finished. A dab (all samples at one position and pose) has none before.
+/// the path is finished. A dab (all samples at one position and pose) has no poses until
+/// then.
 #[derive(Debug, Clone)]
 pub struct Path {
     cell_mm: f64,
     samples: usize,
     seconds: f64,
-    /// Poses of the last three samples, the newest last: enough to bend a piece.
+    /// Poses of the last three samples, the newest last: the curve of the next piece needs them.
     recent: [Option<Pose>; 3],
     /// Pieces whose curve is known and that are not yet walked to their end.
     pieces: VecDeque<Piece>,
@@ -29,7 +30,7 @@ pub struct Path {
     ended: usize,
     /// Number of pieces walked to their end.
     walked: usize,
-    /// Position in the first piece, in looks.
+    /// Number of steps walked in the first of `pieces`; see `Piece::looks`.
     look: u64,
     /// Fraction of a sub-step from the last pose returned to `look`.
     since: f64,
@@ -41,7 +42,7 @@ impl Path {
     /// A path without samples over cells of `cell_mm`.
     ///
     /// # Errors
-    /// [`StrokeError::Cell`] for cells without width.
+    /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.
     pub fn new(cell_mm: f64) -> Result<Self, StrokeError> {
         if !(cell_mm.is_finite() && cell_mm > 0.0) {
             return Err(StrokeError::Cell { cell_mm });
@@ -63,8 +64,8 @@ impl Path {
         })
     }
 
-    /// Appends samples. If one is refused, the path ends at the one before it, and others
-    /// can be appended there.
+    /// Appends samples. If one is refused, the path keeps those before it, and others can be
+    /// appended after them.
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample, and for a path of more than
@@ -126,7 +127,7 @@ impl Path {
         }
     }
 
-    /// Upper bound of the number of poses that can be computed now; 0 exactly if there is
+    /// Upper bound of the number of poses that can be computed now; 0 if and only if there is
     /// none.
     pub fn waiting(&mut self) -> usize {
         if self.peek().is_none() {
@@ -152,8 +153,8 @@ impl Path {
     }
 
     /// Removes and returns the first pose together with a copy of the second, once both are
-    /// known: a head is set down at the first in the direction of the second. To be called
-    /// before any pose was removed.
+    /// known: a head is set down at the first in the direction of the second. Call it
+    /// before any pose is removed.
     pub fn set_out(&mut self) -> Option<(Pose, Pose)> {
         let first = self.next()?;
         let second = self.peek().copied();

@@ -18,7 +18,7 @@ pub(super) struct Piece {
     to: Pose,
     /// Bezier points of the curve, in cells.
     points: [(f64, f64); 4],
-    /// Number of equal parts of the parameter in which the curve is walked.
+    /// Number of equal steps of the curve's parameter in which it is walked.
     pub(super) looks: u64,
 }
 
@@ -46,7 +46,7 @@ impl Piece {
         fastest.max(turned(&self.from, &self.to))
     }
 
-    /// Pose after `look` of its parts.
+    /// Pose after `look` of its `looks` steps.
     pub(super) fn pose(&self, look: u64) -> Pose {
         let t = look as f64 / self.looks as f64;
         let s = 1.0 - t;

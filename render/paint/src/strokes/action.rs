@@ -1,4 +1,4 @@
-//! Actions: what is done to a painting, one by one.
+//! Actions of a script: single steps of work on a painting.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Ranges of the numbers of an action, of a script or by hand.
+//! Ranges of the numbers in an action, for scripts and for actions of a user.
 
 use spectra::hint::{Explain, Hint};
 use spectra::{Observer, light_from_text};
@@ -19,7 +19,7 @@ use crate::pose::Sample;
 /// surface's longer side.
 const REACH: f64 = 1000.0;
 
-/// Limits of actions, from the surfaces that there are.
+/// Limits of actions, which depend on the sizes of the surfaces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ActionLimits {
     /// Longer side of the canvas in mm.
@@ -98,8 +98,8 @@ impl ActionLimits {
     }
 }
 
-/// Checks a sample that follows one at `before` seconds. Places may be `reach_mm` from the
-/// corner of the surface.
+/// Checks a sample that follows one at `before` seconds. It may lie up to `reach_mm` from
+/// the corner of the surface.
 pub(crate) fn check_sample(
     at: &CheckContext,
     sample: &Sample,

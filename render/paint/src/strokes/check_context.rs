@@ -1,4 +1,4 @@
-//! The place that a check looks at, which makes its errors.
+//! Location of a value that is checked, and errors about it.
 
 use spectra::hint::Hint;
 
@@ -51,7 +51,7 @@ impl CheckContext {
         if (lowest..=highest).contains(&value) {
             return Ok(());
         }
-        // In full, 1e300 would be 301 digits.
+        // Large numbers have an exponent: written out, 1e300 would take 301 digits.
         let found = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
         Err(self.invalid(field, &format!("{lowest} to {highest}"), &found, None))
     }

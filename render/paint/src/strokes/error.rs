@@ -37,7 +37,7 @@ pub struct InvalidValue {
     pub wanted: String,
     /// The value as text.
     pub found: String,
-    /// The way out, where there is one to name.
+    /// Advice for correcting the value, if there is any.
     pub hint: Option<Hint>,
 }
 

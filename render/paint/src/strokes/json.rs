@@ -81,7 +81,7 @@ pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> 
     Ok(text)
 }
 
-/// The error of a parser, or that of another format or version where this is the cause.
+/// Converts an error of the parser; if the cause is another format or version, names that.
 fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     #[derive(Deserialize)]
     struct Kind {
@@ -102,7 +102,7 @@ fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
             return ScriptError::Version { file, found: version.to_string(), newest };
         }
     }
-    // The parser's message ends with the place, which this error names by itself.
+    // The parser's message ends with line and column, which this error states separately.
     let reason = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let reason = reason.strip_suffix(&place).unwrap_or(&reason).to_owned();

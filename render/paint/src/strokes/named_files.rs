@@ -18,8 +18,8 @@ pub struct ScriptLibrary {
 }
 
 impl StrokeScript {
-    /// Opens the library of the script: the shipped oils if it names none or their title,
-    /// else a file relative to `folder`, the script's own.
+    /// Opens the library of the script: the shipped oils if it names no library or gives
+    /// their title, else a file relative to `folder`, the folder of the script.
     ///
     /// # Errors
     /// [`LibraryError`] if the file exists and is not a valid library.
@@ -35,8 +35,7 @@ impl StrokeScript {
         Ok(ScriptLibrary { library: shipped, missing: Some(name.clone()) })
     }
 
-    /// Makes the paths of ground pictures, which are relative to `folder`, complete, and
-    /// returns them.
+    /// Joins `folder` and the relative paths of ground pictures, and returns the complete paths.
     pub fn complete_picture_paths(&mut self, folder: &Path) -> Vec<PathBuf> {
         let mut paths = Vec::new();
         for surface in std::iter::once(&mut self.canvas).chain(&mut self.mixing) {

@@ -1,8 +1,8 @@
 //! Paths that a script may save to: only below the folder chosen by its player.
 
-/// Describes the paths that are allowed, if `path` is not one of them. It must be
-/// relative, without `..`, hidden names and names of Windows devices, and end in `.exr` or
-/// `.png`.
+/// `None` if a script may save to `path`, else a description of the paths allowed. A path
+/// is relative, at most 255 bytes long, without `..`, hidden names, names of Windows
+/// devices and characters that Windows forbids, and ends in `.exr` or `.png`.
 pub(super) fn violation(path: &str) -> Option<&'static str> {
     if path.len() > 255 {
         return Some("a path of at most 255 bytes");

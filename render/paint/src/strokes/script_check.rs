@@ -92,7 +92,7 @@ impl StrokeScript {
         Ok(())
     }
 
-    /// Limits of its actions.
+    /// Limits of the script's actions.
     pub(crate) fn limits(&self) -> ActionLimits {
         ActionLimits {
             canvas_mm: self.canvas.longer_side_mm(),
@@ -118,8 +118,8 @@ fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
     Ok(())
 }
 
-/// Checks the path of the painting that a script continues. It may lie anywhere, as that
-/// of a library.
+/// Checks the path of the painting that a script continues. Like the path of a library, it
+/// may lead to any folder.
 fn check_start(path: &str) -> Checked {
     let fits = (1..=1024).contains(&path.len())
         && !path.contains(char::is_control)

@@ -146,7 +146,7 @@ impl StrokeScript {
     pub fn continue_from(start: &str, painting: &Document) -> Self {
         let cell_mm = rounded(painting.cell_mm);
         let side_mm = |cells: usize| {
-            // A side that was rounded up could have one cell more.
+            // A side length that was rounded up could cover one cell more.
             let exact = rounded(cells as f64 * cell_mm);
             let shorter = rounded((cells as f64 - 0.5) * cell_mm);
             if covering_cells(exact, cell_mm) == cells { exact } else { shorter }

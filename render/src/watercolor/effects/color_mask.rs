@@ -130,7 +130,7 @@ fn color_mask_on_gpu(
         masked: u32::from(mask.is_some()),
         spare: 0,
     };
-    // A binding that is not read needs a buffer all the same.
+    // The binding needs a buffer even if the kernel does not read it.
     let mask = mask.map_or(color.buffer(), Plane::buffer);
     let buffers = [color.buffer(), mask, result.buffer()];
     gpu.dispatch(&COLOR_MASK, &params, &buffers, (width, height));

@@ -97,7 +97,7 @@ fn apply_density_on_cpu(
     color
 }
 
-/// A row of pixels that changes by one density.
+/// A row of pixels whose density changes by the same amount.
 struct EvenRow<'a> {
     colors: &'a mut [[f32; 4]],
     excess: f32,
@@ -222,7 +222,7 @@ fn apply_density_on_gpu(
             spare: 0,
             more: [0; 2],
         };
-        // Bindings that are not read need a buffer all the same.
+        // All bindings need a buffer, even those that the kernel does not read.
         let texture =
             |i: usize| layers.get(i).map_or(color.buffer(), |layer| layer.texture.plane().buffer());
         let result = gpu.plane(width, height)?;

@@ -142,7 +142,7 @@ fn apply_dry_brush_on_gpu(
         thin: THIN_FLOW,
         thin_fade: THIN_FADE,
     };
-    // A binding that is not read needs a buffer all the same.
+    // The binding needs a buffer even if the kernel does not read it.
     let mask = mask.unwrap_or(heights);
     let buffers =
         [color.buffer(), heights.buffer(), flow.buffer(), mask.buffer(), brushed.buffer()];

@@ -3,9 +3,9 @@
 //! Bousseau et al. 2006, section 3.2: the symmetric gradient
 //! `|p(x-1) - p(x+1)| + |p(y-1) - p(y+1)|` of the picture over white paper, averaged over
 //! red, green and blue. The picture may be blurred before, which widens edges. At the
-//! border of paint and bare paper pigment gathers however pale it is: there the gradient of
-//! the coverage counts if it is greater. Values are 0 to 2; beyond its borders the picture
-//! continues with its outermost pixels.
+//! border between paint and bare paper even pale pigment gathers, so the gradient of the
+//! coverage replaces that of the colour where it is greater. Values are 0 to 2. Outside the
+//! picture, its outermost pixels are repeated.
 
 use pulp::Simd;
 use rayon::prelude::*;

@@ -127,7 +127,7 @@ fn mixed<S: Simd>(colors: [[f32; 4]; 4], shares: [f32; 4]) -> [f32; 4] {
     let by = if covered > 0.0 { 1.0 / covered } else { 0.0 };
     let by = [by, by, by, 1.0];
     for i in 0..4 {
-        // Rounding must not carry a white beyond 1.
+        // Rounding must not raise white above 1.
         sum[i] = lesser(sum[i] * by[i], 1.0);
     }
     sum

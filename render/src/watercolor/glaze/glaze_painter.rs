@@ -23,8 +23,9 @@ pub struct GlazePainter {
 }
 
 impl GlazePainter {
-    /// A painter on paper that measures `paper`, a reflectance on the library's grid. Colours
-    /// are matched under `light`, which paintings call by the names of `lighting`.
+    /// Makes a painter for paper with the measured reflectance `paper` on the library's
+    /// grid. Colours are matched under `light`. Paintings store `lighting`, which should
+    /// name that light.
     #[must_use]
     pub fn new(library: PigmentLibrary, paper: Vec<f64>, light: Light, lighting: Lighting) -> Self {
         Self { library, palette: None, paper, light, lighting, glazes: None }

@@ -22,21 +22,20 @@ use paint::separation::{
     FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings, choose_palette,
 };
 
-/// Heights of glazes: from next to nothing, the lightest tint, to what a heavy wash leaves
-/// when dry.
+/// Heights of dry glazes in mm, from the lightest tint to a heavy wash.
 const HEIGHTS: SeparationSettings = SeparationSettings {
     lattice: 25,
     least_mm: 0.0002,
     most_mm: 0.1,
     hides: false,
-    // A wash has few colours, and its effects exceed the error of the table.
+    // A wash has few colours, and effects change them by more than the error of the table.
     refined: false,
 };
 
-/// Watercolor does not shine.
+/// Gloss of watercolor, which does not shine.
 const MATT: Gloss = Gloss { strength: 0.0, exponent: 10.0 };
 
-/// The binder of watercolor: the heights of the library, without gloss.
+/// The binder of watercolor: the default medium without gloss.
 fn medium() -> Medium {
     Medium { wet: MATT, dry: MATT, ..Medium::default() }
 }

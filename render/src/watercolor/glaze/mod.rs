@@ -1,8 +1,8 @@
 //! Watercolor of calibrated pigments: each colour a glaze over measured paper.
 //!
-//! Density does not change colours here but the thickness of a glaze, so that granulation,
-//! dark edges and overlaid washes follow Kubelka and Munk. The result is a painting that
-//! can be relit.
+//! Here density changes the thickness of a glaze instead of its colour, so that
+//! granulation, dark edges and overlaid washes follow Kubelka and Munk. The result is a
+//! painting that can be relit.
 
 mod thickness;
 

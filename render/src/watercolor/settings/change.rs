@@ -20,7 +20,7 @@ impl Settings {
     /// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its
     /// range.
     pub fn changed(&self, name: &str, text: &str) -> Result<Self, SettingsError> {
-        // Parsed by itself first, so that errors name the line.
+        // The text is parsed alone first, so that errors give its line numbers.
         Self::from_toml(name, text)?;
         let broken =
             |reason: String| SettingsError::Line { name: name.to_owned(), line: 1, reason };

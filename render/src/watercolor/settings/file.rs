@@ -67,7 +67,7 @@ impl Settings {
                 key: figure.key,
                 least: figure.least,
                 most: figure.most,
-                // As f32, which prints the number as the file has it.
+                // As f32 the number prints as it is written in the file.
                 value: figure.value as f32,
             });
         }

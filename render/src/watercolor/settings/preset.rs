@@ -12,7 +12,7 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All presets, in the order of lists.
+    /// All presets, in the order in which programs list them.
     pub const ALL: [Self; 3] = [Self::Portrait, Self::Landscape, Self::Sketch];
 
     /// The name in lower case, which `parse` accepts.

@@ -10,7 +10,7 @@ use super::figures::Figure;
 pub struct AbstractionSettings {
     /// Radius of the window in the picture in px, 1..=128: smaller details merge.
     pub spatial_px: f32,
-    /// Radius of the window in CIELUV, 1..=100: colours less apart merge.
+    /// Radius of the window in CIELUV, 1..=100: colours that differ by less merge.
     pub range_luv: f32,
     /// Step in CIELUV by which gradients are divided into tones, 0..=200; 0 divides nothing.
     pub tone_luv: f32,

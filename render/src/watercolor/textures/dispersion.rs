@@ -23,7 +23,7 @@ pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) ->
     for octave in 0..settings.scales {
         let sigma = f64::from(settings.finest_px) * 2.0_f64.powi(octave as i32);
         let half = half_gaussian(sigma);
-        // The sum of squares of the kernel in one direction; in both it is the square of this.
+        // Sum of squares of the kernel in one direction; that of the 2D kernel is its square.
         let kept = half[0] * half[0] + 2.0 * half[1..].iter().map(|w| w * w).sum::<f64>();
         let weights: Vec<f32> = half.iter().map(|weight| (weight / kept.sqrt()) as f32).collect();
         let seed = settings.seed.wrapping_mul(64).wrapping_add(u64::from(octave));

@@ -184,7 +184,7 @@ pub enum PaperTextureError {
     /// The scan cannot be read.
     #[error("scan of paper: {0}")]
     Scan(#[from] PhotographError),
-    /// A figure of the paper is out of its range.
+    /// A setting of the paper is out of its range.
     #[error(transparent)]
     Ground(#[from] GroundError),
 }

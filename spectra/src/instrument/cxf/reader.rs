@@ -49,7 +49,8 @@ pub(in crate::instrument) fn read(
     let fraction = |record: &MeasuredSpectrum| record.unit == Unit::Fraction;
     let above =
         |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
-    // Some writers use percent; one sample shows it for all.
+    // Some writers use percent. One value of 3 or more shows that all fractions of the file are
+    // percent.
     if records.iter().any(|record| fraction(record) && above(record)) {
         for record in records.iter_mut().filter(|record| fraction(record)) {
             record.unit = Unit::Percent;

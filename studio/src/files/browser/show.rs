@@ -19,7 +19,8 @@ const HEIGHT: f32 = 380.0;
 const PLACES_WIDTH: f32 = 160.0;
 
 impl Browser {
-    /// Shows the dialog above everything. An answer closes it.
+    /// Shows the dialog above everything else. Returns the painter's answer, after which
+    /// the caller closes the dialog.
     pub(crate) fn show(&mut self, ctx: &Context) -> Option<Answer> {
         self.update();
         let mut answer = None;
@@ -219,7 +220,8 @@ impl Browser {
         ui.horizontal(|ui| {
             ui.label(format!("{} already exists.", name.unwrap_or_default()));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                // The harmless button stands at the place of `Save`.
+                // The button that changes nothing is where `Save` was, so that a second
+                // click replaces no file.
                 let keep = ui.button("Keep");
                 if keep.on_hover_text("Keeps the file; choose another name").clicked() {
                     self.replacing = None;
@@ -251,7 +253,7 @@ impl Browser {
         if pressed(Key::Backspace) {
             self.up();
         }
-        // A key that repeats does not answer.
+        // Enter counts only when it is pressed anew, not when a held key repeats.
         let held = ctx.input(|input| {
             let again = |event: &Event| matches!(event, Event::Key { repeat: true, .. });
             input.events.iter().any(again)

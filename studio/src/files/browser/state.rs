@@ -13,7 +13,7 @@ pub(crate) struct BrowserOptions {
     pub(crate) title: &'static str,
     /// Whether the file is to be written rather than read.
     pub(crate) saving: bool,
-    /// Selectable filters; the first is active at first.
+    /// Filters that the painter can choose from; the first is active when the dialog opens.
     pub(crate) filters: &'static [Filter],
     /// Extension that is added to the name of a new file; `None` for no extension.
     pub(crate) ending: Option<&'static str>,

@@ -63,7 +63,7 @@ impl SearchPanel {
             limits.allowed.dedup();
         }
         limits.whole_parts = Some(self.parts);
-        // A single part must be allowed whatever the total.
+        // The minimum share must not exclude a pigment of a single part.
         limits.least_share = limits.least_share.min(1.0 / f64::from(self.parts));
         limits.count = BEST;
         SearchRequest { library: Arc::clone(library), target, limits }

@@ -20,7 +20,7 @@ pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     response
 }
 
-/// Curve of the lower lid for `side` 1, of the upper one for -1.
+/// Curve of the lower eyelid if `side` is 1, of the upper eyelid if it is -1.
 fn lid(lens: Rect, side: f32) -> Vec<Pos2> {
     let at = |step: i16| {
         let along = f32::from(step) / 12.0;

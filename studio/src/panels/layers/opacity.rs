@@ -18,7 +18,7 @@ const TIMEOUT_SECONDS: f64 = 1.0;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Opacity {
     pending: Option<PendingOpacity>,
-    /// Opacities of hidden layers before hiding, by layer index.
+    /// Opacity that each hidden layer had before it was hidden, by layer index.
     opacities_before_hiding: BTreeMap<usize, f64>,
 }
 

@@ -140,7 +140,8 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
     let mut mesh = Mesh::default();
     mesh.colored_vertex(centre, grey(0.0, 0.0));
     for ring in 1..=RINGS {
-        // Equal steps of slope, so that the rim is as smooth as the pole.
+        // Equal angles between the rings, so that the shading is as smooth at the rim as at
+        // the pole.
         let out = (FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
         for spoke in 0..SPOKES {
             let (sin, cos) = (TAU * spoke as f64 / SPOKES as f64).sin_cos();

@@ -64,7 +64,7 @@ fn gloss_at(pad: Rect, place: Pos2) -> Gloss {
     let up = remap_clamp(place.y, pad.y_range(), 1.0..=0.0);
     let exponent = lerp(EXPONENTS.0.ln()..=EXPONENTS.1.ln(), along).exp();
     let strength = STRONGEST * up;
-    // Rounded to differences that are visible.
+    // Rounded, because smaller differences are not visible.
     let digits = if exponent < 10.0 { 10.0 } else { 1.0 };
     Gloss {
         strength: (strength * 100.0).round() / 100.0,
@@ -85,7 +85,8 @@ fn highlight(rect: Rect, gloss: Gloss) -> Shape {
     for row in 0..=CELLS {
         for column in 0..=CELLS {
             let (u, v) = (column as f32 / CELLS as f32, row as f32 / CELLS as f32);
-            // 90 degrees from the upper to the lower edge.
+            // The surface turns by 90 degrees from the upper to the lower edge: 0.785 is 45
+            // degrees in radians.
             let across = (2.0 * u - 1.0) * rect.width() / rect.height();
             let away = vec2(across, 2.0 * v - 1.0).length().min(2.0);
             let shine = gloss.strength * (away * 0.785).cos().powf(gloss.exponent);

@@ -264,7 +264,7 @@ fn adjust<T: Clone>(
 
 fn same_lighting(a: &Lighting, b: &Lighting) -> bool {
     let numbers = |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief];
-    // The record rounds to six digits.
+    // Recorded lighting is rounded to six digits, so it may differ slightly.
     let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-3;
     a.illuminant == b.illuminant
         && a.observer == b.observer

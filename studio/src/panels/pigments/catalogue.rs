@@ -41,7 +41,8 @@ pub(in crate::panels) struct Catalogue {
     pub(in crate::panels) library: Arc<PigmentLibrary>,
     light: Arc<Light>,
     colors: Vec<PigmentColors>,
-    /// Computed on first use, because they take longer than the colours.
+    /// Strengths in the order of the library. Computed on first use, because this takes
+    /// longer than the colours.
     strengths: OnceLock<Vec<PaintStrength>>,
 }
 
@@ -71,7 +72,8 @@ impl Catalogue {
         self.strengths.get_or_init(|| strengths(&self.library, &self.light))[pigment.index()]
     }
 
-    /// Text of the film height from which a pigment hides.
+    /// Formats the smallest height, in mm, at which a film of the pigment hides its ground;
+    /// `never` or `not known` where there is none.
     pub(in crate::panels) fn hiding(&self, pigment: PigmentId, scattering_per_mm: f64) -> String {
         match self.strength(pigment).hides {
             Some(Hides::From(thickness)) => {

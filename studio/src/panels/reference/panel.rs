@@ -166,7 +166,8 @@ impl Reference {
         });
     }
 
-    /// Pans with the center or secondary button or the space bar, zooms with the wheel.
+    /// Pans with the middle or secondary button, or while the space bar is held; zooms with
+    /// the wheel or by pinching.
     fn navigate(&mut self, ui: &Ui, response: &Response) {
         let Some(size) = self.size() else { return };
         let panel = response.rect;

@@ -12,7 +12,7 @@ use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, POSITIONS, check
 use super::part::{PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
-/// Reads a `.gltf` or `.glb` file; the content tells which it is.
+/// Reads a `.gltf` or `.glb` file. The content decides which format it is.
 pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let document = gltf::Gltf::from_slice(bytes)
         .map_err(|error| malformed(name, "the document", error.to_string()))?;

@@ -6,7 +6,7 @@ use image::{ImageReader, Limits};
 
 use crate::mesh::model::Texture;
 
-/// Longest side of a texture that is read, in texels: what graphics devices hold at most.
+/// Longest side of an accepted texture, in texels: the usual limit of graphics devices.
 const LONGEST: u32 = 16_384;
 
 impl Texture {

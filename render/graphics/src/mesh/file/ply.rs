@@ -22,7 +22,7 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
     let failed = |place: &str, text: bool, error: ParseError| match error.line() {
         Some(line) if text => {
             let message = error.to_string();
-            // The message itself starts with the line too.
+            // The message also starts with the line number.
             let reason = message.strip_prefix(&format!("Line {line}: ")).unwrap_or(&message);
             malformed(&format!("line {line}"), reason)
         }

@@ -7,9 +7,9 @@ use crate::mesh::model::{Mesh, Triangle};
 /// Resolution of a grid; each cell becomes two triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridSize {
-    /// GridSize along u.
+    /// Number of cells along u.
     pub columns: usize,
-    /// GridSize along v.
+    /// Number of cells along v.
     pub rows: usize,
 }
 
@@ -27,8 +27,8 @@ impl GridSize {
 impl Mesh {
     /// Appends the parametric surface `position(u, v)` for u and v in 0..1 (evaluated
     /// slightly beyond for the normals), white and with one material. Texture coordinates are
-    /// (u, v). The outside is where u runs right and v down. Edges that coincide are joined;
-    /// an edge that collapses to a point becomes a pole.
+    /// (u, v). Seen from outside, u increases to the right and v downwards. Edges that
+    /// coincide are joined; an edge that collapses to a point becomes a pole.
     pub fn add_grid(&mut self, cells: GridSize, material: u32, position: impl Fn(Vec2) -> Vec3) {
         let GridSize { columns, rows } = cells;
         let first = self.positions.len();

@@ -1,5 +1,5 @@
-//! Paint with the volume of every cell stored beside it, so that computing how deep
-//! the head is pressed in does not add up pigments.
+//! Paint with the volume of every cell stored beside it, so that computing the
+//! penetration of the head need not sum the pigments.
 
 use crate::layer::{Cell, Layer, SLOTS};
 

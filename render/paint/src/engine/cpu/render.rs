@@ -30,7 +30,7 @@ pub(super) struct PaintLayers<'a> {
 pub(super) struct RenderedView {
     /// Internal reflectance of ground and dry layers.
     baked: Field<[f32; NODES]>,
-    /// Linear sRGB and 1.
+    /// Linear sRGB, with 1 as the fourth component.
     picture: Field<[f32; 4]>,
 }
 

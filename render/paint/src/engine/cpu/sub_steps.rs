@@ -1,4 +1,4 @@
-//! Runs sub-steps in order, each on as many threads as its contact is worth.
+//! Runs sub-steps in order, each on a number of threads that suits its contact's size.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -118,8 +118,8 @@ fn on_each_band(
     );
 }
 
-// The work that pulp compiles once per instruction set. Closures will not do: their
-// shims are not inlined, and only inlined code is compiled anew.
+// The work that pulp compiles once per instruction set. It is not in closures, as their
+// shims are not inlined, and only inlined code is compiled for each instruction set.
 
 struct MeasurePenetration<'a> {
     penetration: &'a mut PenetrationMap,

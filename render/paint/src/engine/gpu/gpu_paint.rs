@@ -15,7 +15,7 @@ use graphics::gpu::{Adapter, Buffer, Device, DeviceError, Kernel, Recording, Row
 use graphics::tile::{Rect, TILE, Tile, TileSet};
 
 /// A recording is submitted when it holds this many bytes or commands: often enough
-/// to keep the device busy and to bound the memory of what waits.
+/// to keep the device busy and to bound the memory of waiting commands.
 const SUBMIT_BYTES: usize = 16 << 20;
 const SUBMIT_COMMANDS: usize = 512;
 
@@ -269,7 +269,7 @@ impl GpuPaint {
         let region = contact.rect.grown(2, self.bounds);
         let cells = region.width * region.height;
         if self.sub_step.cells < cells {
-            // Half as much again, so that a growing contact seldom reallocates.
+            // 1.5 times what is needed, so that a growing contact seldom reallocates.
             let cells = (cells * 3 / 2).max(MIN_SUB_STEP_CELLS);
             self.sub_step = SubStepBuffers::new(&self.device, cells)?;
         }

@@ -162,7 +162,7 @@ pub(super) struct ViewBuffers {
     baked: Buffer,
     /// Material below the wet paint: 1 dry paint, 2 bare ground.
     material: Buffer,
-    /// Linear sRGB and 1.
+    /// Linear sRGB, with 1 as the fourth component.
     pub(super) picture: Buffer,
 }
 

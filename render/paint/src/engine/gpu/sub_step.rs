@@ -1,6 +1,6 @@
 //! A sub-step on the device: four kernels over the contact grown by 2 cells.
 //!
-//! Their functions are the twins of [`crate::motion`], bit for bit.
+//! The kernels compute the same as [`crate::motion`], bit for bit.
 
 use crate::contact::Touch;
 use crate::motion::MotionConstants;

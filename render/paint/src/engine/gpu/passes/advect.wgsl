@@ -4,7 +4,7 @@
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> vehicle: array<u32>;
-// x: velocity, packed as in `Touch`; y: mobile share of 65536.
+// x: velocity, packed as in `Touch`; y: mobile share in parts of 65536.
 @group(0) @binding(3) var<storage, read> flow: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read_write> moved: array<Cell>;
 
@@ -27,14 +27,16 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     for (var i = 0; i < 9; i++) {
         let direction = vec2(i % 3, i / 3) - vec2(1);
-        // To the left of and above the region this wraps and so lies outside it.
+        // Left of or above the region the difference wraps to a large number, which lies
+        // outside as well.
         let source = id.xy - vec2<u32>(direction);
         if i == 4 || any(source >= params.region.zw) {
             continue;
         }
         let at = source.y * width + source.x;
         let speed = halves(flow[at].x);
-        // Paint flows here only if it moves this way along both axes that matter.
+        // Paint flows here only if its velocity has the sign of each component of
+        // `direction` that is not 0.
         if any((direction != vec2(0)) & (sign(speed) != direction)) {
             continue;
         }

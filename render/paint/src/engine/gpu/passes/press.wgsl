@@ -4,7 +4,8 @@
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
 // x: penetration; y: volume.
 @group(0) @binding(2) var<storage, read> depths: array<vec2<i32>>;
-// x: velocity, packed as in `Touch`; y: mobile share of 65536. Both 0 or neither.
+// x: velocity, packed as in `Touch`; y: mobile share in parts of 65536. Either both are 0
+// or neither is.
 @group(0) @binding(3) var<storage, read_write> flow: array<vec2<u32>>;
 
 // Penetration for slopes: 0 where there is no contact and beyond the region.
@@ -51,7 +52,8 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if here.x != NO_CONTACT {
         touch.velocity = touches[touch_index(id.xy)].velocity;
     }
-    // Cells left of and above the region wrap and so lie outside it.
+    // Left of or above the region the differences wrap to large numbers, which lie outside
+    // as well.
     let slopes = vec2(
         pressed(id.xy + vec2(1u, 0u)) - pressed(id.xy - vec2(1u, 0u)),
         pressed(id.xy + vec2(0u, 1u)) - pressed(id.xy - vec2(0u, 1u)),
