@@ -1,22 +1,23 @@
 //! The option `--grid`: regular wavelengths as `FIRST,LAST,STEP`.
 
-use spectra::Grid;
+use spectra::{Grid, GridError};
 
 use crate::failure::{Failure, Result};
 
 /// Parses a grid `FIRST,LAST,STEP` in nm.
 pub(crate) fn grid(text: &str) -> Result<Grid> {
-    let parsed = match numbers(text) {
-        Some([first, last, step]) => Grid::from_range(first, last, step).ok(),
-        None => None,
-    };
-    parsed.ok_or_else(|| {
+    let invalid = || {
         Failure::usage(
             format!(
                 "--grid takes FIRST,LAST,STEP in nm, LAST a whole number of steps from FIRST, found `{text}`"
             ),
             "try --grid 400,700,10",
         )
+    };
+    let [first, last, step] = numbers(text).ok_or_else(invalid)?;
+    Grid::from_range(first, last, step).map_err(|error| match error {
+        GridError::Range { .. } => invalid(),
+        error => Failure::usage(format!("--grid {text}: {error}"), "try --grid 400,700,10"),
     })
 }
 

@@ -135,17 +135,23 @@ impl Plan {
     }
 
     fn grid(&self) -> Result<Grid> {
-        let grid = grid(&self.grid)?;
-        if grid.start_nm() >= 200.0 && grid.end_nm() <= 2500.0 && grid.count() <= MAX_WAVELENGTHS {
-            return Ok(grid);
+        let out_of_range = || {
+            let limits = format!("up to {MAX_WAVELENGTHS} wavelengths from 200 to 2500 nm");
+            Failure::usage(
+                format!("--grid takes {limits}, found `{}`", self.grid),
+                "try --grid 400,700,10",
+            )
+        };
+        if let Some([first, last, _]) = numbers(&self.grid)
+            && !(first >= 200.0 && last <= 2500.0)
+        {
+            return Err(out_of_range());
         }
-        Err(Failure::usage(
-            format!(
-                "--grid takes up to {MAX_WAVELENGTHS} wavelengths from 200 to 2500 nm, found `{}`",
-                self.grid
-            ),
-            "try --grid 400,700,10",
-        ))
+        let grid = grid(&self.grid)?;
+        if grid.count() > MAX_WAVELENGTHS {
+            return Err(out_of_range());
+        }
+        Ok(grid)
     }
 
     fn noise(&self) -> Result<Option<ExpectedNoise>> {

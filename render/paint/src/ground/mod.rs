@@ -1,8 +1,8 @@
 //! Grounds to paint on. The relief is generated from a seed or taken from a
 //! picture; the colour is that of the priming.
 //!
-//! Heights count from the lowest point of the ground, in mm. The same description always
-//! gives the same ground.
+//! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always
+//! give equal grounds.
 
 mod error;
 
