@@ -7,3 +7,5 @@ pub mod program;
 
 pub mod oils;
 pub mod watercolors;
+
+pub mod stroke_bench;

@@ -1,0 +1,315 @@
+//! Setting up a canvas, brushes and hands for the strokes of the bench.
+
+use std::ops::Range;
+
+use calibrate::library::PigmentLibrary;
+use image::RgbImage;
+use render::amount::{mm_from_quanta, quanta_from_mm};
+use render::encoding::encoded_from_linear;
+use render::field::Field;
+use render::layer::{Cell, Layer, SLOTS};
+use render::paint::document::{Document, Lighting, Medium, Slots};
+use render::paint::ground::GroundKind;
+use render::paint::painting::Painting;
+use render::paint::{BrushId, PaintEngine};
+use render::{HeadShape, Sample};
+use spectra::color::{Lab, RgbSpace};
+
+use super::figure::{Curve, Panel};
+use super::heights::Heights;
+
+/// Pigments of the bench by slot.
+const PIGMENTS: [&str; 3] = ["Ultramarine", "Chrome Yellow", "Zinc White"];
+/// Slot of the blue.
+pub const BLUE_SLOT: usize = 0;
+/// Recipe of pure blue paint.
+pub const BLUE: [f64; SLOTS] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+/// Recipe of pure yellow paint.
+pub const YELLOW: [f64; SLOTS] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+/// Recipe of a light, hiding blue, in which relief shows.
+pub const BODY: [f64; SLOTS] = [1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+
+/// Pressure at which most strokes are painted.
+pub const PRESSURE: f64 = 0.475;
+/// Distance in mm from the left edge of a canvas to the start of a stroke.
+pub const START_MM: f64 = 10.0;
+/// Speed of the hand in mm/s.
+const SPEED: f64 = 60.0;
+/// Bytes for undo; the bench takes nothing back.
+const UNDO_BYTES: u64 = 1 << 20;
+
+/// Settings of a run.
+#[derive(Debug)]
+pub struct Bench {
+    /// Pigments of the bench.
+    pub library: PigmentLibrary,
+    /// Width of a cell in mm where a case does not choose its own.
+    pub cell_mm: f64,
+    /// Whether only the main strokes of each case are painted.
+    pub small: bool,
+}
+
+impl Bench {
+    /// Settings of a full run with cells of 0.1 mm, or of a small one with cells of 0.2 mm.
+    #[must_use]
+    pub fn new(small: bool) -> Self {
+        let cell_mm = if small { 0.2 } else { 0.1 };
+        Self { library: PigmentLibrary::van_gogh_oils(), cell_mm, small }
+    }
+
+    /// A bare panel of `width_mm` x `height_mm`.
+    #[must_use]
+    pub fn panel(&self, size_mm: (f64, f64)) -> Easel {
+        Easel::new(self, self.cell_mm, size_mm, GroundKind::Panel, |_, _| None)
+    }
+}
+
+/// A canvas on the easel.
+#[derive(Debug)]
+pub struct Easel {
+    /// The painting.
+    pub painting: Painting,
+}
+
+/// Attitude of the hand.
+#[derive(Debug, Clone, Copy)]
+pub struct Hand {
+    /// Pressure, 0 to 1.
+    pub pressure: f64,
+    /// Tilt of the handle to the right and towards the lower edge, in degrees.
+    pub tilt_deg: (f64, f64),
+    /// Rotation about the handle in degrees.
+    pub twist_deg: f64,
+}
+
+impl Hand {
+    /// An upright brush whose broad side lies across strokes along x.
+    #[must_use]
+    pub fn across(pressure: f64) -> Self {
+        Self { pressure, tilt_deg: (0.0, 0.0), twist_deg: 90.0 }
+    }
+
+    /// Samples of a pen that moves evenly through `points` (in mm), one every mm.
+    #[must_use]
+    pub fn along(self, points: &[(f64, f64)]) -> Vec<Sample> {
+        let mut samples = vec![self.at(0.0, points[0])];
+        let mut seconds = 0.0;
+        for pair in points.windows(2) {
+            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+            let length = (x1 - x0).hypot(y1 - y0);
+            let steps = length.ceil().max(1.0) as usize;
+            for step in 1..=steps {
+                let share = step as f64 / steps as f64;
+                let place = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
+                samples.push(self.at(seconds + share * length / SPEED, place));
+            }
+            seconds += length / SPEED;
+        }
+        samples
+    }
+
+    fn at(self, seconds: f64, (x_mm, y_mm): (f64, f64)) -> Sample {
+        let Self { pressure, tilt_deg: (tilt_x_deg, tilt_y_deg), twist_deg } = self;
+        Sample { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg }
+    }
+}
+
+/// Turns the broad side of the brush across the path of `samples`.
+#[must_use]
+pub fn turning(mut samples: Vec<Sample>) -> Vec<Sample> {
+    let places: Vec<(f64, f64)> = samples.iter().map(|s| (s.x_mm, s.y_mm)).collect();
+    let last = places.len() - 1;
+    let mut before = 0.0;
+    for (index, sample) in samples.iter_mut().enumerate() {
+        let ((x0, y0), (x1, y1)) = (places[index.saturating_sub(1)], places[(index + 1).min(last)]);
+        let heading = (y1 - y0).atan2(x1 - x0).to_degrees() + 90.0;
+        // The nearest equal angle, so that the handle never spins.
+        before = heading + 360.0 * ((before - heading) / 360.0).round();
+        sample.twist_deg = before;
+    }
+    samples
+}
+
+impl Easel {
+    /// A canvas with wet paint: `paint` tells the slot and the height in mm of the paint at a
+    /// place in mm.
+    ///
+    /// # Panics
+    /// If the canvas cannot be made.
+    #[must_use]
+    pub fn new(
+        bench: &Bench,
+        cell_mm: f64,
+        (width_mm, height_mm): (f64, f64),
+        ground: GroundKind,
+        paint: impl Fn(f64, f64) -> Option<(usize, f64)>,
+    ) -> Self {
+        let library = bench.library.clone();
+        let [width, height] = [width_mm, height_mm].map(|mm| (mm / cell_mm).round() as usize);
+        let ground = ground.spec(1).build(width, height, cell_mm, &library).expect("a ground");
+        let find = |name: &&str| library.find(name).expect("a pigment of the bench");
+        let slots: Slots = std::array::from_fn(|slot| PIGMENTS.get(slot).map(find));
+        let engine = PaintEngine::on_cpu(ground.height.clone());
+        let (medium, lighting) = (Medium::default(), Lighting::default());
+        let mut document =
+            Document::bare("strokes", cell_mm, ground, library.clone(), medium, slots, lighting);
+        for index in 0..width * height {
+            let [x, y] = [index % width, index / width].map(|at| (at as f64 + 0.5) * cell_mm);
+            if let Some((slot, mm)) = paint(x, y) {
+                let mut cell = Cell::default();
+                cell.pigments[slot] = quanta_from_mm(mm, cell_mm);
+                document.wet.set_cell(index, cell);
+            }
+        }
+        let painting = Painting::open(document, engine, UNDO_BYTES).expect("a painting");
+        Self { painting }
+    }
+
+    /// Adds a clean brush.
+    ///
+    /// # Panics
+    /// If the size is out of range.
+    pub fn brush(&mut self, shape: HeadShape, size_mm: f64) -> BrushId {
+        self.painting.add_brush(shape, size_mm).expect("a brush")
+    }
+
+    /// Washes a brush and loads it with `mm` of `recipe` without vehicle.
+    ///
+    /// # Panics
+    /// If the brush cannot hold that much.
+    pub fn load(&mut self, brush: BrushId, recipe: &[f64; SLOTS], mm: f64) {
+        self.painting.wash(brush).expect("a clean brush");
+        self.painting.load(brush, recipe, 0.0, mm).expect("a loaded brush");
+    }
+
+    /// Paints a stroke.
+    ///
+    /// # Panics
+    /// If a sample is impossible.
+    pub fn stroke(&mut self, brush: BrushId, samples: &[Sample]) {
+        self.painting.stroke(brush, samples).expect("a stroke");
+    }
+
+    /// Wet paint on the canvas.
+    ///
+    /// # Panics
+    /// Never on the processor.
+    #[must_use]
+    pub fn wet(&mut self) -> Layer {
+        self.painting.wet().expect("the wet paint")
+    }
+
+    /// Paint on a brush.
+    ///
+    /// # Panics
+    /// Never on the processor.
+    #[must_use]
+    pub fn on_brush(&mut self, brush: BrushId) -> Layer {
+        self.painting.brush_paint(brush).expect("the paint of a brush")
+    }
+
+    /// Quanta of each slot, and last of vehicle, on the canvas and on `brushes`.
+    #[must_use]
+    pub fn quanta(&mut self, brushes: &[BrushId]) -> [i64; SLOTS + 1] {
+        let mut layers = vec![self.wet()];
+        layers.extend(brushes.iter().map(|&brush| self.on_brush(brush)));
+        let totals = layers.iter().map(Layer::totals);
+        totals.fold([0; SLOTS + 1], |sum, one| std::array::from_fn(|i| sum[i] + one[i] as i64))
+    }
+
+    /// Heights of the wet paint.
+    #[must_use]
+    pub fn heights(&mut self) -> Heights {
+        let (wet, cell_mm) = (self.wet(), self.painting.cell_mm());
+        let cells = 0..wet.width() * wet.height();
+        let mm = cells.map(|index| mm_from_quanta(wet.cell(index).volume(), cell_mm)).collect();
+        Heights::new(cell_mm, wet.width(), mm)
+    }
+
+    /// Heights of the bare ground.
+    #[must_use]
+    pub fn ground(&self) -> Heights {
+        let (height, cell_mm) = (&self.painting.ground().height, self.painting.cell_mm());
+        let mm = |&quanta: &i32| f64::from(quanta) * mm_from_quanta(1, cell_mm);
+        Heights::new(cell_mm, height.width(), height.values().iter().map(mm).collect())
+    }
+
+    /// Mean height in mm of the paint over all cells of a head.
+    #[must_use]
+    pub fn load_mm(&mut self, brush: BrushId) -> f64 {
+        let (paint, cell_mm) = (self.on_brush(brush), self.painting.cell_mm());
+        let cells = paint.width() * paint.height();
+        let sum: f64 =
+            (0..cells).map(|index| mm_from_quanta(paint.cell(index).volume(), cell_mm)).sum();
+        sum / cells as f64
+    }
+
+    /// Colours of all cells, row by row, without relief and gloss.
+    ///
+    /// # Panics
+    /// Never on the processor.
+    #[must_use]
+    pub fn colors(&mut self) -> Vec<Lab> {
+        let matrix = RgbSpace::Srgb.xyz_from_linear();
+        let picture = self.painting.flat_picture().expect("a picture");
+        let lab = |rgb: &[f32; 4]| {
+            let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
+            Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
+        };
+        picture.values().iter().map(lab).collect()
+    }
+
+    /// Pictures of a part of the canvas (ranges in mm) in the default light and in a raking one,
+    /// 20 degrees above the canvas.
+    ///
+    /// # Panics
+    /// If the part is empty.
+    #[must_use]
+    pub fn show(
+        &mut self,
+        caption: impl Into<String>,
+        x_mm: Range<f64>,
+        y_mm: Range<f64>,
+    ) -> Panel {
+        let heights = self.heights();
+        let (columns, rows) = (heights.columns_in(x_mm), heights.rows_in(y_mm));
+        let mut pictures = Vec::new();
+        for elevation_deg in [Lighting::default().elevation_deg, 20.0] {
+            let lighting = Lighting { elevation_deg, ..Lighting::default() };
+            self.painting.relight(lighting).expect("a light that has a name");
+            let picture = encoded_from_linear(&self.painting.picture().expect("a picture"));
+            pictures.push(cut(&picture, columns.clone(), rows.clone()));
+        }
+        self.painting.relight(Lighting::default()).expect("a light that has a name");
+        let mm = |cells: usize| cells as f64 * heights.cell_mm();
+        let size_mm = (mm(columns.len()), mm(rows.len()));
+        let middle = (columns.start + columns.end) / 2;
+        let part = |profile: Vec<f64>, cells: &Range<usize>| profile[cells.clone()].to_vec();
+        let quarter = columns.len() / 4;
+        let across = [middle..middle + 1, middle - quarter..middle + quarter];
+        let row = (rows.start + rows.end) / 2;
+        let along = [row..row + 1, row.saturating_sub(rows.len() / 6)..row + rows.len() / 6 + 1];
+        let curves = vec![
+            Curve {
+                caption: "across: at the middle, mean of the half around it".to_owned(),
+                step_mm: heights.cell_mm(),
+                lines: across.map(|columns| part(heights.across(columns), &rows)).into(),
+            },
+            Curve {
+                caption: "along: at the middle, mean of the third around it".to_owned(),
+                step_mm: heights.cell_mm(),
+                lines: along.map(|rows| part(heights.along(rows), &columns)).into(),
+            },
+        ];
+        Panel { caption: caption.into(), size_mm, pictures, curves }
+    }
+}
+
+fn cut(picture: &Field<[f32; 4]>, columns: Range<usize>, rows: Range<usize>) -> RgbImage {
+    let (left, top) = (columns.start, rows.start);
+    RgbImage::from_fn(columns.len() as u32, rows.len() as u32, |x, y| {
+        let at = (top + y as usize) * picture.width() + left + x as usize;
+        let [r, g, b, _] = picture.values()[at].map(|value| (255.0 * value).round() as u8);
+        image::Rgb([r, g, b])
+    })
+}
