@@ -17,6 +17,7 @@ use spectra::color::{Lab, RgbSpace};
 
 use super::figure::{Curve, Panel};
 use super::heights::Heights;
+use super::measure::mark::extent_mm;
 
 /// Pigments of the bench by slot.
 const PIGMENTS: [&str; 3] = ["Ultramarine", "Chrome Yellow", "Zinc White"];
@@ -173,6 +174,14 @@ impl Easel {
         self.painting.add_brush(shape, size_mm).expect("a brush")
     }
 
+    /// Squeezes a heap of `mm3` of `recipe` out of a tube at a place in mm.
+    ///
+    /// # Panics
+    /// If the place is off the canvas.
+    pub fn squeeze(&mut self, recipe: &[f64; SLOTS], mm3: f64, (x_mm, y_mm): (f64, f64)) {
+        self.painting.squeeze(recipe, 0.0, x_mm, y_mm, mm3).expect("a heap");
+    }
+
     /// Washes a brush and loads it with `mm` of `recipe` without vehicle.
     ///
     /// # Panics
@@ -283,26 +292,30 @@ impl Easel {
         self.painting.relight(Lighting::default()).expect("a light that has a name");
         let mm = |cells: usize| cells as f64 * heights.cell_mm();
         let size_mm = (mm(columns.len()), mm(rows.len()));
-        let middle = (columns.start + columns.end) / 2;
-        let part = |profile: Vec<f64>, cells: &Range<usize>| profile[cells.clone()].to_vec();
-        let quarter = columns.len() / 4;
-        let across = [middle..middle + 1, middle - quarter..middle + quarter];
-        let row = (rows.start + rows.end) / 2;
-        let along = [row..row + 1, row.saturating_sub(rows.len() / 6)..row + rows.len() / 6 + 1];
-        let curves = vec![
-            Curve {
-                caption: "across: at the middle, mean of the half around it".to_owned(),
-                step_mm: heights.cell_mm(),
-                lines: across.map(|columns| part(heights.across(columns), &rows)).into(),
-            },
-            Curve {
-                caption: "along: at the middle, mean of the third around it".to_owned(),
-                step_mm: heights.cell_mm(),
-                lines: along.map(|rows| part(heights.along(rows), &columns)).into(),
-            },
-        ];
+        let curves = sections(&heights, &columns, &rows);
         Panel { caption: caption.into(), size_mm, pictures, curves }
     }
+}
+
+/// Sections through the paint in `columns` and `rows`: across and along, each at the middle and as
+/// a mean.
+fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> Vec<Curve> {
+    let step_mm = heights.cell_mm();
+    let middle = (columns.start + columns.end) / 2;
+    let quarter = columns.len() / 4;
+    let across = [middle..middle + 1, middle - quarter..middle + quarter]
+        .map(|columns| heights.across(columns)[rows.clone()].to_vec());
+    // Along the middle 60 % of the mark, or of the picture where there is none.
+    let (top, bottom) =
+        extent_mm(&across[1], step_mm).unwrap_or((0.0, rows.len() as f64 * step_mm));
+    let row = |share: f64| {
+        let row = (top + share * (bottom - top)) / step_mm;
+        (rows.start + row as usize).min(rows.end - 1)
+    };
+    let along = [row(0.5)..row(0.5) + 1, row(0.2)..row(0.8) + 1]
+        .map(|rows| heights.along(rows)[columns.clone()].to_vec());
+    let curve = |caption, lines: [Vec<f64>; 2]| Curve { caption, step_mm, lines: lines.into() };
+    vec![curve("across", across), curve("along", along)]
 }
 
 fn cut(picture: &Field<[f32; 4]>, columns: Range<usize>, rows: Range<usize>) -> RgbImage {

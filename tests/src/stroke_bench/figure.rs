@@ -59,11 +59,11 @@ impl Figure {
 /// A section through the paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Direction and place of the section, in words.
-    pub caption: String,
+    /// Direction of the section: `across` or `along`.
+    pub caption: &'static str,
     /// Distance of two heights in mm.
     pub step_mm: f64,
-    /// Lines of heights in mm; the first is drawn faintly.
+    /// Lines of heights in mm: at one place, and the mean over several.
     pub lines: Vec<Vec<f64>>,
 }
 

@@ -82,7 +82,7 @@ impl Drawing {
         let highest = curve.lines.iter().flatten().fold(1e-9, |a: f64, &b| a.max(b));
         let count = curve.lines.iter().map(Vec::len).max().unwrap_or(0).max(2);
         let length = curve.step_mm * count as f64;
-        let told = format!("{}; {length:.0} mm, up to {} mm high", curve.caption, number(highest));
+        let told = format!("{} {length:.0} mm, up to {} mm high", curve.caption, number(highest));
         self.text((x, y + LINE - 3.0), 7.5, "start", FAINT, &told);
         let (top, bottom) = (y + LINE, y + LINE + CURVE);
         for level in [top, bottom] {
@@ -132,6 +132,9 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let _ = writeln!(drawing.0, r#"<rect width="{width}" height="{height:.0}" fill="{paper}"/>"#);
     drawing.line(&[(0.0, 2.0), (WIDTH, 2.0)], 1.0, GRID);
     drawing.text((MARGIN, 21.0), 13.0, "start", INK, report.title);
+    let legend =
+        "from above, light at 50 and 20 degrees; sections: orange in the middle, blue mean";
+    drawing.text((WIDTH - MARGIN, 20.0), TEXT, "end", FAINT, legend);
     drawing.figures(report);
     let mut pictures = Vec::new();
     for (panel, &(x, y)) in report.panels.iter().zip(&places) {
@@ -182,7 +185,7 @@ mod tests {
     fn pictures_lie_where_the_sheet_shows_them_and_lines_of_panels_do_not_overlap() {
         let red = RgbImage::from_pixel(200, 100, Rgb([200, 0, 0]));
         let line = vec![vec![0.1; 20], vec![0.2; 20]];
-        let curve = Curve { caption: "across".to_owned(), step_mm: 0.1, lines: line };
+        let curve = Curve { caption: "across", step_mm: 0.1, lines: line };
         let panel = Panel {
             caption: "a stroke".to_owned(),
             size_mm: (80.0, 20.0),

@@ -150,7 +150,7 @@ mod tests {
         assert_near("film", &[mark.film_mm, mark.film_in(&heights, 0.5..50.0)], &[0.2; 2], 1e-9);
         assert_near("lips", &mark.side_lips(&heights), &[1.8, 1.8], 1e-9);
         assert_near("end", &[mark.end_lip(&heights)], &[1.4], 1e-9);
-        assert_near("width", &[mark.width_mm()], &[10.0], 0.06);
+        assert_near("width", &[mark.width_mm()], &[10.0], 0.1);
     }
 
     #[test]

@@ -2,6 +2,22 @@
 
 mod film;
 
+mod relief;
+
+mod thick;
+
+mod exchange;
+
+mod palette;
+
+mod knife;
+
+mod outline;
+
+mod edge;
+
+mod ground;
+
 use super::canvas::Bench;
 use super::figure::CaseReport;
 
@@ -9,4 +25,20 @@ use super::figure::CaseReport;
 pub type Case = (&'static str, fn(&Bench) -> CaseReport);
 
 /// All cases, in the order of the table.
-pub const CASES: &[Case] = &[("film", film::film), ("cell", film::cell)];
+pub const CASES: &[Case] = &[
+    ("film", film::film),
+    ("cell", film::cell),
+    ("furrows", relief::furrows),
+    ("stamp", relief::stamp),
+    ("lips", thick::lips),
+    ("saw-tooth", thick::saw_tooth),
+    ("pick-up", exchange::pick_up),
+    ("wet-in-wet", exchange::wet_in_wet),
+    ("palette", palette::palette),
+    ("knife", knife::knife),
+    ("outline", outline::outline),
+    ("lag", outline::lag),
+    ("edge", edge::edge),
+    ("weave", ground::weave),
+    ("fill", ground::fill),
+];
