@@ -1,6 +1,7 @@
 //! Setting up a canvas, brushes and hands for the strokes of the bench.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use calibrate::library::PigmentLibrary;
 use image::RgbImage;
@@ -8,6 +9,7 @@ use render::amount::{mm_from_quanta, quanta_from_mm};
 use render::encoding::encoded_from_linear;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
+use render::light::Light;
 use render::paint::document::{Document, Lighting, Medium, Slots};
 use render::paint::ground::GroundKind;
 use render::paint::painting::Painting;
@@ -48,14 +50,21 @@ pub struct Bench {
     pub cell_mm: f64,
     /// Whether only the main strokes of each case are painted.
     pub small: bool,
+    light: Arc<Light>,
 }
 
 impl Bench {
     /// Settings of a full run with cells of 0.1 mm, or of a small one with cells of 0.2 mm.
+    ///
+    /// # Panics
+    /// Never: the library that ships has the default light.
     #[must_use]
     pub fn new(small: bool) -> Self {
+        let library = PigmentLibrary::van_gogh_oils();
+        let Lighting { illuminant, observer, .. } = Lighting::default();
+        let light = Light::named(&library, &illuminant, &observer).expect("the default light");
         let cell_mm = if small { 0.2 } else { 0.1 };
-        Self { library: PigmentLibrary::van_gogh_oils(), cell_mm, small }
+        Self { library, cell_mm, small, light: Arc::new(light) }
     }
 
     /// A bare panel of `width_mm` x `height_mm`.
@@ -162,7 +171,8 @@ impl Easel {
                 document.wet.set_cell(index, cell);
             }
         }
-        let painting = Painting::open(document, engine, UNDO_BYTES).expect("a painting");
+        let painting = Painting::open_under(document, Arc::clone(&bench.light), engine, UNDO_BYTES)
+            .expect("a painting");
         Self { painting }
     }
 
@@ -293,7 +303,16 @@ impl Easel {
         let mm = |cells: usize| cells as f64 * heights.cell_mm();
         let size_mm = (mm(columns.len()), mm(rows.len()));
         let curves = sections(&heights, &columns, &rows);
-        Panel { caption: caption.into(), size_mm, pictures, curves }
+        Panel { caption: caption.into(), size_mm, zoom: 1.0, pictures, curves }
+    }
+
+    /// Pictures like those of [`Easel::show`], so large that single cells can be seen.
+    ///
+    /// # Panics
+    /// If the part is empty.
+    #[must_use]
+    pub fn enlarge(&mut self, caption: &str, x_mm: Range<f64>, y_mm: Range<f64>) -> Panel {
+        Panel { zoom: 5.0, ..self.show(format!("{caption}, enlarged"), x_mm, y_mm) }
     }
 }
 
@@ -305,9 +324,9 @@ fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> V
     let quarter = columns.len() / 4;
     let across = [middle..middle + 1, middle - quarter..middle + quarter]
         .map(|columns| heights.across(columns)[rows.clone()].to_vec());
-    // Along the middle 60 % of the mark, or of the picture where there is none.
+    // Along the middle 60 % of the first mark, or of the picture where there is none.
     let (top, bottom) =
-        extent_mm(&across[1], step_mm).unwrap_or((0.0, rows.len() as f64 * step_mm));
+        first_mark_mm(&across[1], step_mm).unwrap_or((0.0, rows.len() as f64 * step_mm));
     let row = |share: f64| {
         let row = (top + share * (bottom - top)) / step_mm;
         (rows.start + row as usize).min(rows.end - 1)
@@ -316,6 +335,16 @@ fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> V
         .map(|rows| heights.along(rows)[columns.clone()].to_vec());
     let curve = |caption, lines: [Vec<f64>; 2]| Curve { caption, step_mm, lines: lines.into() };
     vec![curve("across", across), curve("along", along)]
+}
+
+/// Both edges in mm of the first mark of a profile. Gaps below 1 mm belong to it.
+fn first_mark_mm(profile: &[f64], step_mm: f64) -> Option<(f64, f64)> {
+    let (top, bottom) = extent_mm(profile, step_mm)?;
+    let level = 0.05 * profile.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let gap = (1.0 / step_mm).ceil() as usize;
+    let first = (top / step_mm) as usize;
+    let bare = profile[first + 1..].windows(gap).position(|part| part.iter().all(|&mm| mm < level));
+    Some((top, bare.map_or(bottom, |cells| (first + 1 + cells) as f64 * step_mm)))
 }
 
 fn cut(picture: &Field<[f32; 4]>, columns: Range<usize>, rows: Range<usize>) -> RgbImage {

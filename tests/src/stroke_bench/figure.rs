@@ -75,6 +75,8 @@ pub struct Panel {
     pub caption: String,
     /// Width and height of the part in mm.
     pub size_mm: (f64, f64),
+    /// Magnification on the sheet; 1 for whole strokes.
+    pub zoom: f64,
     /// Pictures from above, one pixel a cell.
     pub pictures: Vec<RgbImage>,
     /// Sections through the paint.

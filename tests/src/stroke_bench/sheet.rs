@@ -15,7 +15,7 @@ use super::report::{bounds, number, verdict};
 /// Width of the sheet in units; the PNG has two pixels a unit.
 const WIDTH: f64 = 1180.0;
 const SCALE: f64 = 2.0;
-/// Units per mm of canvas: six pixels of the PNG.
+/// Units per mm of canvas where nothing is magnified: six pixels of the PNG.
 const PER_MM: f64 = 3.0;
 const MARGIN: f64 = 14.0;
 const GAP: f64 = 16.0;
@@ -29,11 +29,16 @@ const NARROWEST: f64 = 170.0;
 
 impl Panel {
     fn width(&self) -> f64 {
-        (PER_MM * self.size_mm.0).max(NARROWEST)
+        (self.per_mm() * self.size_mm.0).max(NARROWEST)
+    }
+
+    /// Units per mm.
+    fn per_mm(&self) -> f64 {
+        PER_MM * self.zoom
     }
 
     fn height(&self) -> f64 {
-        let pictures = self.pictures.len() as f64 * (PER_MM * self.size_mm.1 + 3.0);
+        let pictures = self.pictures.len() as f64 * (self.per_mm() * self.size_mm.1 + 3.0);
         LINE + 4.0 + pictures + self.curves.len() as f64 * (CURVE + LINE + 4.0)
     }
 }
@@ -141,8 +146,8 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
         drawing.text((x, y + LINE - 2.0), TEXT, "start", INK, &panel.caption);
         let mut below = y + LINE + 4.0;
         for picture in &panel.pictures {
-            pictures.push((picture, (x, below), panel.size_mm));
-            below += PER_MM * panel.size_mm.1 + 3.0;
+            pictures.push((picture, (x, below), panel));
+            below += panel.per_mm() * panel.size_mm.1 + 3.0;
         }
         for curve in &panel.curves {
             drawing.curve(curve, (x, below), panel.width());
@@ -152,9 +157,13 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     drawing.0.push_str("</svg>\n");
     let text = image::load_from_memory(&png(&drawing.0)?).expect("a PNG of the drawing");
     let mut sheet = text.to_rgb8();
-    for (picture, (x, y), (width_mm, height_mm)) in pictures {
-        let [width, height] = [width_mm, height_mm].map(|mm| (SCALE * PER_MM * mm).round() as u32);
-        let scaled = resize(picture, width, height, FilterType::Triangle);
+    for (picture, (x, y), panel) in pictures {
+        let pixels = |mm: f64| (SCALE * panel.per_mm() * mm).round() as u32;
+        let (width, height) = (pixels(panel.size_mm.0), pixels(panel.size_mm.1));
+        // Single cells stay squares where they are larger than a pixel.
+        let larger = width > 2 * picture.width();
+        let filter = if larger { FilterType::Nearest } else { FilterType::Triangle };
+        let scaled = resize(picture, width, height, filter);
         overlay(&mut sheet, &scaled, (SCALE * x) as i64, (SCALE * y) as i64);
     }
     Ok(sheet)
@@ -189,6 +198,7 @@ mod tests {
         let panel = Panel {
             caption: "a stroke".to_owned(),
             size_mm: (80.0, 20.0),
+            zoom: 1.0,
             pictures: vec![red],
             curves: vec![curve],
         };

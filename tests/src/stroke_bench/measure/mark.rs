@@ -5,8 +5,11 @@ use std::ops::Range;
 use super::super::heights::Heights;
 use super::series::{mean, quantile};
 
-/// Distance in mm from the start of a stroke, and from its end, to its steady part.
+/// Distance in mm from the start of a mark, and from its end, to its steady part.
 const SETTLED_MM: (f64, f64) = (10.0, 5.0);
+
+/// Shortest steady part in mm.
+const SHORTEST_MM: f64 = 5.0;
 
 /// Distance in mm from an edge of a mark within which its lip is searched.
 const LIP_MM: f64 = 1.5;
@@ -22,7 +25,8 @@ pub struct Mark {
     pub middle: Range<usize>,
     /// Mean height of the wet paint there, over the steady part.
     pub film_mm: f64,
-    start_mm: f64,
+    /// Place along x where it begins.
+    pub start_mm: f64,
 }
 
 /// Distance in mm at which `profile` first reaches `level`, between the centres of two cells.
@@ -45,9 +49,14 @@ pub fn last_crossing(profile: &[f64], step_mm: f64, level: f64) -> Option<f64> {
 /// Both outermost places in mm at which a profile crosses half of its covered cells' median.
 #[must_use]
 pub fn extent_mm(profile: &[f64], step_mm: f64) -> Option<(f64, f64)> {
+    extent_at_mm(profile, step_mm, 0.5)
+}
+
+/// Both outermost places in mm at which a profile crosses a share of its covered cells' median.
+fn extent_at_mm(profile: &[f64], step_mm: f64, share: f64) -> Option<(f64, f64)> {
     let highest = profile.iter().fold(0.0, |a: f64, &b| a.max(b));
     let covered: Vec<f64> = profile.iter().copied().filter(|&mm| mm > 0.05 * highest).collect();
-    let level = 0.5 * quantile(&covered, 0.5);
+    let level = share * quantile(&covered, 0.5);
     if level.is_nan() || level <= 0.0 {
         return None;
     }
@@ -55,17 +64,31 @@ pub fn extent_mm(profile: &[f64], step_mm: f64) -> Option<(f64, f64)> {
 }
 
 impl Mark {
-    /// The mark in `heights` of a stroke of the pen from `from_mm` to `to_mm` along x. `None`
-    /// without paint in its steady part.
+    /// The only mark in `heights`. `None` without paint, or with less than 20 mm of it.
     #[must_use]
-    pub fn along_x(heights: &Heights, from_mm: f64, to_mm: f64) -> Option<Self> {
-        let steady = heights.columns_in(from_mm + SETTLED_MM.0..to_mm - SETTLED_MM.1);
+    pub fn along_x(heights: &Heights) -> Option<Self> {
+        Self::within(heights, 0.0..heights.columns() as f64 * heights.cell_mm())
+    }
+
+    /// The mark between two distances in mm from the left edge. It begins and ends where the mean
+    /// of a column crosses a tenth of the median of all covered columns.
+    #[must_use]
+    pub fn within(heights: &Heights, x_mm: Range<f64>) -> Option<Self> {
+        let (cell_mm, part) = (heights.cell_mm(), heights.columns_in(x_mm));
+        let columns = &heights.along(0..heights.rows())[part.clone()];
+        let (from, to) = extent_at_mm(columns, cell_mm, 0.1)?;
+        let left_mm = part.start as f64 * cell_mm;
+        let (start_mm, end_mm) = (left_mm + from, left_mm + to);
+        if end_mm - start_mm < SETTLED_MM.0 + SETTLED_MM.1 + SHORTEST_MM {
+            return None;
+        }
+        let steady = heights.columns_in(start_mm + SETTLED_MM.0..end_mm - SETTLED_MM.1);
         let profile = heights.across(steady.clone());
-        let (top, bottom) = extent_mm(&profile, heights.cell_mm())?;
+        let (top, bottom) = extent_mm(&profile, cell_mm)?;
         let narrow = 0.2 * (bottom - top);
         let middle = heights.rows_in(top + narrow..bottom - narrow);
         let film_mm = mean(&profile[middle.clone()]);
-        Some(Self { steady, edges_mm: (top, bottom), middle, film_mm, start_mm: from_mm })
+        Some(Self { steady, edges_mm: (top, bottom), middle, film_mm, start_mm })
     }
 
     /// Width in mm.
@@ -74,7 +97,7 @@ impl Mark {
         self.edges_mm.1 - self.edges_mm.0
     }
 
-    /// Mean film in mm between two distances in mm from the start of the stroke.
+    /// Mean film in mm between two distances in mm from the start of the mark.
     #[must_use]
     pub fn film_in(&self, heights: &Heights, mm: Range<f64>) -> f64 {
         let columns = heights.columns_in(self.start_mm + mm.start..self.start_mm + mm.end);
@@ -145,7 +168,7 @@ mod tests {
     #[test]
     fn width_film_and_lips_of_a_known_mark() {
         let heights = stroke(|_| 0.2, 1.8, 1.4);
-        let mark = Mark::along_x(&heights, 8.0, 60.0).unwrap();
+        let mark = Mark::along_x(&heights).unwrap();
         assert_near("edges", &[mark.edges_mm.0, mark.edges_mm.1], &[5.03, 15.03], 0.05);
         assert_near("film", &[mark.film_mm, mark.film_in(&heights, 0.5..50.0)], &[0.2; 2], 1e-9);
         assert_near("lips", &mark.side_lips(&heights), &[1.8, 1.8], 1e-9);
@@ -157,17 +180,26 @@ mod tests {
     fn ends_are_found_where_half_of_the_near_film_is_left() {
         let falling = |x: f64| 0.4 - 0.005 * x;
         let heights = stroke(falling, 1.0, 1.0);
-        let mark = Mark::along_x(&heights, 8.0, 60.0).unwrap();
+        let mark = Mark::along_x(&heights).unwrap();
         let (from, to) = mark.ends_mm(&heights).unwrap();
         assert_near("ends", &[from, to], &[8.0, 62.3], 0.05);
         let (first, last) = (mark.film_in(&heights, 9.0..11.0), mark.film_in(&heights, 49.0..51.0));
-        assert_near("film falls", &[first, last], &[falling(18.0), falling(58.0)], 1e-9);
+        assert_near("film falls", &[first, last], &[falling(18.0), falling(58.0)], 1e-3);
+    }
+
+    #[test]
+    fn a_mark_is_found_beside_others_and_a_short_one_is_none() {
+        let heights = stroke(|x| if x < 25.0 { 2.0 } else { 0.1 }, 1.0, 1.0);
+        let mark = Mark::within(&heights, 30.0..80.0).unwrap();
+        assert_near("film", &[mark.film_mm, mark.start_mm], &[0.1, 30.0], 0.01);
+        assert_eq!((mark.steady.start, mark.steady.end), (400, 573));
+        assert_eq!(Mark::within(&heights, 50.0..80.0), None);
     }
 
     #[test]
     fn no_paint_leaves_no_mark() {
         let bare = Heights::from_places(0.1, (80.0, 20.0), |_, _| 0.0);
-        assert_eq!(Mark::along_x(&bare, 10.0, 60.0), None);
+        assert_eq!(Mark::along_x(&bare), None);
         assert_eq!(extent_mm(&[], 0.1), None);
     }
 }

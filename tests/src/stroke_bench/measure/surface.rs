@@ -7,19 +7,23 @@ use spectra::color::{Lab, delta_e_ciede2000};
 use super::super::heights::Heights;
 use super::series::{mean, quantile, rms};
 
-/// Root of the mean squared second difference between neighbouring cells, along x and along y, in
+/// Root of the mean squared second difference between neighbouring cells along x and along y, in
 /// mm: 4 a for a chequerboard of amplitude a, 0 for a plane.
 #[must_use]
-pub fn second_difference_mm(heights: &Heights, columns: Range<usize>, rows: Range<usize>) -> f64 {
-    let mut all = Vec::new();
+pub fn second_differences_mm(
+    heights: &Heights,
+    columns: Range<usize>,
+    rows: Range<usize>,
+) -> [f64; 2] {
+    let (mut along, mut across) = (Vec::new(), Vec::new());
     for y in rows.start.max(1)..rows.end.min(heights.rows().saturating_sub(1)) {
         for x in columns.start.max(1)..columns.end.min(heights.columns() - 1) {
             let twice = 2.0 * heights.at(x, y);
-            all.push(heights.at(x - 1, y) + heights.at(x + 1, y) - twice);
-            all.push(heights.at(x, y - 1) + heights.at(x, y + 1) - twice);
+            along.push(heights.at(x - 1, y) + heights.at(x + 1, y) - twice);
+            across.push(heights.at(x, y - 1) + heights.at(x, y + 1) - twice);
         }
     }
-    rms(&all)
+    [rms(&along), rms(&across)]
 }
 
 /// Share of the cells chosen by `inside` (column, row) that are lower than a fifth of the median
@@ -62,8 +66,12 @@ mod tests {
         let board =
             Heights::new(0.1, 20, (0..400).map(|i| 0.01 * f64::from((i / 20 + i) % 2)).collect());
         let plane = Heights::from_places(0.1, (2.0, 2.0), |x, y| 0.3 * x + 0.1 * y);
-        let of = |heights: &Heights| second_difference_mm(heights, 0..20, 0..20);
-        assert_near("board and plane", &[of(&board), of(&plane)], &[4.0 * 0.005, 0.0], 1e-12);
+        let of = |heights: &Heights| second_differences_mm(heights, 0..20, 0..20);
+        assert_near("board", &of(&board), &[4.0 * 0.005; 2], 1e-12);
+        assert_near("plane", &of(&plane), &[0.0; 2], 1e-12);
+        let ribs =
+            Heights::from_places(0.1, (2.0, 2.0), |_, y| 0.01 * ((y / 0.1) as usize % 2) as f64);
+        assert_near("ribs along x", &of(&ribs), &[0.0, 0.02], 1e-12);
     }
 
     #[test]

@@ -22,8 +22,8 @@ pub(super) fn edge(bench: &Bench) -> CaseReport {
         easel.stroke(brush, &Hand::across(PRESSURE).along(&points));
         let heights = easel.heights();
         let along = points[0].1 == height_mm;
-        // The film beside the edge: in the middle of the mark, away from its ends.
-        let film = Mark::along_x(&heights, 10.0, 50.0).map_or(f64::NAN, |mark| mark.film_mm);
+        // The film beside the edge: in the middle of the mark, away from the edge.
+        let film = Mark::within(&heights, 0.0..50.0).map_or(f64::NAN, |mark| mark.film_mm);
         let near = if along {
             heights.part(
                 heights.columns_in(0.0..width_mm),

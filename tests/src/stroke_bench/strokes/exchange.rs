@@ -79,12 +79,14 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
         figures.push(Figure::new(format!("blue on the brush {place}"), 100.0 * share, "%"));
     }
     let grows = 100.0 * (on_brush[1] - on_brush[0]).min(on_brush[2] - on_brush[1]);
-    figures.push(Figure::new("  least growth from band to band", grows, "%").at_least(0.01));
+    figures.push(
+        Figure::new("  least growth on the brush from band to band", grows, "%").at_least(0.01),
+    );
     for (band, share) in laid.into_iter().enumerate() {
         figures.push(Figure::new(format!("blue laid after band {}", band + 1), 100.0 * share, "%"));
     }
     let grows = 100.0 * (laid[1] - laid[0]).min(laid[2] - laid[1]);
-    figures.push(Figure::new("  least growth from band to band", grows, "%").at_least(0.01));
+    figures.push(Figure::new("  least growth laid from band to band", grows, "%").at_least(0.01));
     figures.push(Figure::new("quanta lost or gained", lost as f64, "").at_most(0.0));
     let panels = vec![easel.show("flat 10, load 1 of yellow", 2.0..88.0, 2.0..22.0)];
     let title = "Wet in wet: yellow across three blue bands, 0.2 mm thick and 8 mm wide";

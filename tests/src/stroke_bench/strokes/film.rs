@@ -44,7 +44,7 @@ fn paint(bench: &Bench, (shape, size_mm): (HeadShape, f64), pressure: f64, load_
     let to = START_MM + 60.0;
     easel.stroke(brush, &Hand::across(pressure).along(&[(START_MM, middle), (to, middle)]));
     let heights = easel.heights();
-    let mark = Mark::along_x(&heights, START_MM, to);
+    let mark = Mark::along_x(&heights);
     let film = |from: f64, to: f64| {
         mark.as_ref().map_or(f64::NAN, |mark| mark.film_in(&heights, from..to))
     };

@@ -40,7 +40,7 @@ pub(super) fn weave(bench: &Bench) -> CaseReport {
     ];
     let panels = vec![
         easel.show("flat 10, load 2, three coats on linen", 2.0..78.0, 1.0..23.0),
-        easel.show("their middle", 35.0..50.0, 8.0..16.0),
+        easel.enlarge("their middle", 35.0..50.0, 8.0..16.0),
     ];
     let title = "Weave: relief of the top at the period of the threads, under three thick coats";
     CaseReport { name: "weave", title, figures, panels }

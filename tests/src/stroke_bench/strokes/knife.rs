@@ -17,8 +17,8 @@ fn spread(bench: &Bench) -> Part {
     let knife = easel.brush(HeadShape::Knife, 20.0);
     easel.stroke(knife, &Hand::across(0.3).along(&[(10.0, 18.0), (60.0, 18.0)]));
     let heights = easel.heights();
-    // From 10 mm after the pen's start to 5 mm before its end.
-    let mark = Mark::along_x(&heights, 18.0, 60.0);
+    // Beyond the heap.
+    let mark = Mark::within(&heights, 24.0..80.0);
     let [mut film, mut uneven, mut upper, mut lower] = [f64::NAN; 4];
     if let Some(mark) = mark {
         let part = heights.part(mark.steady.clone(), mark.middle.clone());

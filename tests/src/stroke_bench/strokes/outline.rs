@@ -4,7 +4,8 @@ use render::HeadShape;
 
 use super::super::canvas::{BODY, Bench, Easel, Hand, PRESSURE, START_MM};
 use super::super::figure::{CaseReport, Figure};
-use super::super::measure::mark::{Mark, extent_mm};
+use super::super::heights::Heights;
+use super::super::measure::mark::Mark;
 use super::super::measure::outline::edge_deviations_mm;
 
 /// Paints one stroke of a brush loaded with 1 mm on a panel.
@@ -22,6 +23,13 @@ fn painted(
     easel
 }
 
+/// Deviations in mm of both edges of the only mark; not a number where it has gaps.
+fn edge_deviations(heights: &Heights) -> [f64; 2] {
+    let mark = Mark::along_x(heights);
+    let found = mark.and_then(|mark| edge_deviations_mm(heights, mark.steady));
+    found.unwrap_or([f64::NAN; 2])
+}
+
 /// Edges of a wide stroke, and of strokes at 10 degrees.
 pub(super) fn outline(bench: &Bench) -> CaseReport {
     let (mut figures, mut panels) = (Vec::new(), Vec::new());
@@ -29,8 +37,7 @@ pub(super) fn outline(bench: &Bench) -> CaseReport {
     let points = [(START_MM, 20.0), (START_MM + 60.0, 20.0)];
     let mut easel = painted(bench, wide, Hand::across(PRESSURE), (80.0, 40.0), &points);
     let heights = easel.heights();
-    let steady = heights.columns_in(START_MM + 10.0..START_MM + 55.0);
-    let edges = edge_deviations_mm(&heights, steady).unwrap_or([f64::NAN; 2]);
+    let edges = edge_deviations(&heights);
     for (side, mm) in ["upper", "lower"].into_iter().zip(edges) {
         let name = format!("flat 25: RMS of the {side} edge over width");
         figures.push(Figure::new(name, 100.0 * mm / 25.0, "%").at_most(2.0));
@@ -42,14 +49,13 @@ pub(super) fn outline(bench: &Bench) -> CaseReport {
         let hand = Hand { twist_deg: 100.0, ..Hand::across(PRESSURE) };
         let mut easel = painted(bench, (shape, size_mm), hand, (80.0, 32.0), &points);
         let heights = easel.heights();
-        let steady = heights.columns_in(START_MM + 10.0..START_MM + 50.0);
-        let edges = edge_deviations_mm(&heights, steady).unwrap_or([f64::NAN; 2]);
+        let edges = edge_deviations(&heights);
         for (side, mm) in ["upper", "lower"].into_iter().zip(edges) {
             let name = format!("{shape} {size_mm} at 10 degrees: RMS of the {side} edge");
             figures.push(Figure::new(name, mm / heights.cell_mm(), "cell").at_most(0.25));
         }
         panels.push(easel.show(format!("{shape} {size_mm} at 10 degrees"), 2.0..78.0, 1.0..31.0));
-        panels.push(easel.show("its edges, larger", 32.0..44.0, 10.0..22.0));
+        panels.push(easel.enlarge("its edges", 32.0..47.0, 10.0..22.0));
     }
     let title = "Outlines at even pressure: deviation of the edges from straight lines";
     CaseReport { name: "outline", title, figures, panels }
@@ -73,12 +79,11 @@ pub(super) fn lag(bench: &Bench) -> CaseReport {
             let points = [(20.0, 18.0), (70.0, 18.0)];
             let mut easel = painted(bench, (shape, size_mm), hand, (90.0, 36.0), &points);
             let heights = easel.heights();
-            let steady = heights.across(heights.columns_in(30.0..65.0));
-            let edges = extent_mm(&steady, heights.cell_mm());
-            let (top, bottom) = edges.unwrap_or((f64::NAN, f64::NAN));
-            let mark = Mark::along_x(&heights, 20.0, 70.0);
+            let mark = Mark::along_x(&heights);
+            let none = (f64::NAN, f64::NAN);
+            let (top, bottom) = mark.as_ref().map_or(none, |mark| mark.edges_mm);
             let ends = mark.and_then(|mark| mark.ends_mm(&heights));
-            let (start, end) = ends.unwrap_or((f64::NAN, f64::NAN));
+            let (start, end) = ends.unwrap_or(none);
             let name = format!("{shape} {size_mm} {lean}");
             let figure = |what: &str, mm: f64| Figure::new(format!("{name}: {what}"), mm, "mm");
             figures.push(figure("start after the pen's", start - 20.0).at_least(-1.0).at_most(1.0));

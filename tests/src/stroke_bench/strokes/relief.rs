@@ -43,7 +43,7 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
     stroke(&mut easel, brush, 10.0, 60.0);
     let heights = easel.heights();
     let cell_mm = heights.cell_mm();
-    let mark = Mark::along_x(&heights, START_MM, START_MM + 60.0);
+    let mark = Mark::along_x(&heights);
     let [mut across, mut wavelength, mut along, mut chatter] = [f64::NAN; 4];
     if let Some(Mark { steady, middle, film_mm, .. }) = mark {
         let columns = steady.clone().map(|x| heights.across(x..x + 1)[middle.clone()].to_vec());
@@ -65,7 +65,7 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
     ];
     let panels = vec![
         easel.show("flat 10, load 1", 2.0..78.0, 2.0..18.0),
-        easel.show("its middle", 35.0..50.0, 6.0..14.0),
+        easel.enlarge("its middle", 35.0..50.0, 6.0..14.0),
     ];
     let title = "Furrows of a loaded flat, 10 mm after its start to 5 mm before its end";
     CaseReport { name: "furrows", title, figures, panels }
@@ -80,7 +80,8 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
         stroke(&mut easel, brush, y_mm, 60.0);
     }
     let heights = easel.heights();
-    let steady = START_MM + 10.0..START_MM + 55.0;
+    let start_mm = Mark::along_x(&heights).map_or(START_MM, |mark| mark.start_mm);
+    let steady = start_mm + 10.0..start_mm + 55.0;
     let compared = |a: &[Vec<f64>], b: &[Vec<f64>]| {
         mean(&a.iter().zip(b).map(|(a, b)| correlation(a, b)).collect::<Vec<_>>())
     };
@@ -104,11 +105,11 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
         stroke(&mut long, brush, 8.0 + 16.0 * f64::from(index), 120.0);
     }
     let heights = long.heights();
+    let steady = Mark::along_x(&heights).map_or(0..0, |mark| mark.steady);
     let line = |index: i32| {
         let middle = 8.0 + 16.0 * f64::from(index);
         let line = heights.along(heights.rows_in(middle - 3.0..middle + 3.0));
-        let steady = heights.columns_in(START_MM + 10.0..START_MM + 115.0);
-        rough(&line[steady], heights.cell_mm(), 40.0)
+        rough(&line[steady.clone()], heights.cell_mm(), 40.0)
     };
     let lines: Vec<Vec<f64>> = (0..count).map(line).collect();
     let cells = |mm: f64| (mm / heights.cell_mm()).round() as usize;

@@ -7,7 +7,7 @@ use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel, Hand, PRESSURE, START_
 use super::super::figure::{CaseReport, Figure};
 use super::super::heights::Heights;
 use super::super::measure::mark::Mark;
-use super::super::measure::surface::second_difference_mm;
+use super::super::measure::surface::second_differences_mm;
 
 /// Lips at the sides and at the end of thick strokes.
 pub(super) fn lips(bench: &Bench) -> CaseReport {
@@ -19,7 +19,7 @@ pub(super) fn lips(bench: &Bench) -> CaseReport {
         let samples = Hand::across(PRESSURE).along(&[(START_MM, 10.0), (START_MM + 60.0, 10.0)]);
         easel.stroke(brush, &samples);
         let heights = easel.heights();
-        let mark = Mark::along_x(&heights, START_MM, START_MM + 60.0);
+        let mark = Mark::along_x(&heights);
         let none = ([f64::NAN; 2], f64::NAN);
         let (sides, end) =
             mark.map_or(none, |mark| (mark.side_lips(&heights), mark.end_lip(&heights)));
@@ -44,19 +44,24 @@ pub(super) fn saw_tooth(bench: &Bench) -> CaseReport {
         easel.stroke(brush, &samples);
     }
     let heights = easel.heights();
-    let mark = Mark::along_x(&heights, START_MM, START_MM + 60.0);
-    let (film, tooth) =
-        mark.map_or((f64::NAN, f64::NAN), |Mark { steady, middle, film_mm, .. }| {
-            (film_mm, 100.0 * second_difference_mm(&heights, steady, middle) / film_mm)
-        });
+    let mark = Mark::along_x(&heights);
+    let [mut film, mut along, mut across] = [f64::NAN; 3];
+    if let Some(Mark { steady, middle, film_mm, .. }) = mark {
+        film = film_mm;
+        [along, across] =
+            second_differences_mm(&heights, steady, middle).map(|mm| 100.0 * mm / film_mm);
+    }
+    let both = (0.5 * (along * along + across * across)).sqrt();
     let mut figures = vec![
         Figure::new("film after 8 pulls", film, "mm"),
-        Figure::new("RMS of second differences over film", tooth, "%").at_most(3.0),
+        Figure::new("RMS of second differences over film", both, "%").at_most(3.0),
+        Figure::new("  along the stroke alone", along, "%"),
+        Figure::new("  across the stroke alone", across, "%"),
         Figure::new("highest cell", heights.highest_mm(), "mm"),
     ];
     let mut panels = vec![
         easel.show("flat 10, load 1, 8 pulls", 2.0..78.0, 1.0..23.0),
-        easel.show("their middle", 35.0..50.0, 8.0..16.0),
+        easel.enlarge("their middle", 35.0..50.0, 8.0..16.0),
     ];
     let (kept, mut beside) = ridge(bench);
     figures.push(Figure::new("ridge of 1 mm: height kept", 100.0 * kept, "%").at_least(90.0));
