@@ -13,6 +13,12 @@ use suite::stroke_bench::canvas::Bench;
 use suite::stroke_bench::strokes::CASES;
 use suite::stroke_bench::{report, sheet};
 
+const USAGE: &str = "stroke-bench [--out FOLDER] [--case NAME]... [--small]
+
+Paints a fixed set of strokes, measures them in mm, and writes strokes.txt, strokes.json, strokes.png
+and one PNG a case to FOLDER (stroke-bench by default). --small takes cells of 0.2 mm and fewer
+strokes.";
+
 /// Arguments of the program.
 struct Arguments {
     out: PathBuf,
@@ -31,7 +37,7 @@ impl Arguments {
                 "--out" => parsed.out = value()?.into(),
                 "--case" => parsed.cases.push(value()?),
                 "--small" => parsed.small = true,
-                _ => return Err(format!("unknown argument {argument}")),
+                _ => return Err(format!("unknown argument {argument}\n\n{USAGE}")),
             }
         }
         let names: Vec<&str> = CASES.iter().map(|(name, _)| *name).collect();
@@ -43,6 +49,10 @@ impl Arguments {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
+    if std::env::args().any(|argument| argument == "--help") {
+        println!("{USAGE}");
+        return Ok(());
+    }
     let Arguments { out, cases, small } = Arguments::parse()?;
     let bench = Bench::new(small);
     let mut reports = Vec::new();
@@ -61,6 +71,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     spectra::file::write_whole(&out.join("strokes.txt"), table.as_bytes())?;
     spectra::file::write_whole(&out.join("strokes.json"), json.as_bytes())?;
     sheet::sheet(&reports)?.save(out.join("strokes.png"))?;
-    println!("\n{table}\nWrote strokes.txt, .json and .png to {}", out.display());
+    println!("\n{table}\nWrote strokes.txt, strokes.json and strokes.png to {}", out.display());
     Ok(())
 }

@@ -312,7 +312,7 @@ impl Easel {
     /// If the part is empty.
     #[must_use]
     pub fn enlarge(&mut self, caption: &str, x_mm: Range<f64>, y_mm: Range<f64>) -> Panel {
-        Panel { zoom: 5.0, ..self.show(format!("{caption}, enlarged"), x_mm, y_mm) }
+        self.show(format!("{caption}, enlarged"), x_mm, y_mm).zoomed(5.0)
     }
 }
 

@@ -83,6 +83,14 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
+impl Panel {
+    /// The panel with its pictures `zoom` times as large as those of whole strokes.
+    #[must_use]
+    pub fn zoomed(self, zoom: f64) -> Self {
+        Self { zoom, ..self }
+    }
+}
+
 /// Results of a case.
 #[derive(Debug, Clone)]
 pub struct CaseReport {

@@ -18,7 +18,7 @@ pub(super) fn pick_up(bench: &Bench) -> CaseReport {
     easel.stroke(brush, &Hand::across(PRESSURE).along(&[(12.0, 12.0), (45.0, 12.0)]));
     let load = easel.load_mm(brush);
     let figures = vec![Figure::new("mean on the head", load, "mm").at_least(0.14).at_most(0.26)];
-    let panels = vec![easel.show("flat 5, clean", 2.0..58.0, 2.0..22.0)];
+    let panels = vec![easel.show("flat 5, clean", 2.0..58.0, 2.0..22.0).zoomed(2.0)];
     let title = "Pick-up: a clean flat 5 once through a heap 1 mm high and 15 mm wide";
     CaseReport { name: "pick-up", title, figures, panels }
 }
@@ -64,7 +64,7 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
     let wet: Layer = easel.wet();
     let heights = easel.heights();
     let across = heights.columns();
-    // Between the bands, where all blue was brought by the brush.
+    // Between the bands, where the brush brought or pushed all blue.
     let laid = BANDS_MM.map(|left| {
         let columns = heights.columns_in(left + BAND_MM + 3.0..left + BAND_MM + 9.0);
         let rows = heights.rows_in(9.0..15.0);
@@ -88,7 +88,7 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
     let grows = 100.0 * (laid[1] - laid[0]).min(laid[2] - laid[1]);
     figures.push(Figure::new("  least growth laid from band to band", grows, "%").at_least(0.01));
     figures.push(Figure::new("quanta lost or gained", lost as f64, "").at_most(0.0));
-    let panels = vec![easel.show("flat 10, load 1 of yellow", 2.0..88.0, 2.0..22.0)];
+    let panels = vec![easel.show("flat 10, load 1 of yellow", 2.0..88.0, 2.0..22.0).zoomed(2.0)];
     let title = "Wet in wet: yellow across three blue bands, 0.2 mm thick and 8 mm wide";
     CaseReport { name: "wet-in-wet", title, figures, panels }
 }

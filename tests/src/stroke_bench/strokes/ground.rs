@@ -72,7 +72,8 @@ pub(super) fn fill(bench: &Bench) -> CaseReport {
         Figure::new("seams: highest less lowest row over mean", spread_over_mean(lines), ""),
         Figure::new("highest cell", heights.highest_mm(), "mm"),
     ];
-    let panels = vec![easel.show("flat 12, load 1 before each of 5 pulls", 2.0..78.0, 2.0..54.0)];
+    let caption = "flat 12, load 1 before each of 5 pulls";
+    let panels = vec![easel.show(caption, 2.0..78.0, 2.0..54.0).zoomed(2.0)];
     let title = "Fill: a wall of 60 x 40 mm covered by a flat 12";
     CaseReport { name: "fill", title, figures, panels }
 }

@@ -34,15 +34,15 @@ fn edge_deviations(heights: &Heights) -> [f64; 2] {
 pub(super) fn outline(bench: &Bench) -> CaseReport {
     let (mut figures, mut panels) = (Vec::new(), Vec::new());
     let wide = (HeadShape::Flat, 25.0);
-    let points = [(START_MM, 20.0), (START_MM + 60.0, 20.0)];
-    let mut easel = painted(bench, wide, Hand::across(PRESSURE), (80.0, 40.0), &points);
+    let points = [(25.0, 20.0), (85.0, 20.0)];
+    let mut easel = painted(bench, wide, Hand::across(PRESSURE), (100.0, 40.0), &points);
     let heights = easel.heights();
     let edges = edge_deviations(&heights);
     for (side, mm) in ["upper", "lower"].into_iter().zip(edges) {
         let name = format!("flat 25: RMS of the {side} edge over width");
         figures.push(Figure::new(name, 100.0 * mm / 25.0, "%").at_most(2.0));
     }
-    panels.push(easel.show("flat 25, load 1", 2.0..78.0, 2.0..38.0));
+    panels.push(easel.show("flat 25, load 1", 2.0..98.0, 2.0..38.0));
     let rise = 60.0 * 10f64.to_radians().tan();
     let points = [(START_MM, 10.0), (START_MM + 60.0, 10.0 + rise)];
     for (shape, size_mm) in [(HeadShape::Round, 4.0), (HeadShape::Flat, 10.0)] {
@@ -54,7 +54,8 @@ pub(super) fn outline(bench: &Bench) -> CaseReport {
             let name = format!("{shape} {size_mm} at 10 degrees: RMS of the {side} edge");
             figures.push(Figure::new(name, mm / heights.cell_mm(), "cell").at_most(0.25));
         }
-        panels.push(easel.show(format!("{shape} {size_mm} at 10 degrees"), 2.0..78.0, 1.0..31.0));
+        let caption = format!("{shape} {size_mm} at 10 degrees");
+        panels.push(easel.show(caption, 2.0..78.0, 1.0..31.0));
         panels.push(easel.enlarge("its edges", 32.0..47.0, 10.0..22.0));
     }
     let title = "Outlines at even pressure: deviation of the edges from straight lines";

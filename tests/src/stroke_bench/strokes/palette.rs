@@ -34,7 +34,7 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
     for (recipe, x_mm) in [(BLUE, MIDDLE_MM.0 - 4.0), (YELLOW, MIDDLE_MM.0 + 4.0)] {
         easel.squeeze(&recipe, 60.0, (x_mm, MIDDLE_MM.1));
     }
-    let heaps = easel.show("two heaps of 60 mm3", 10.0..40.0, 10.0..40.0);
+    let heaps = easel.show("two heaps of 60 mm3", 5.0..45.0, 5.0..45.0).zoomed(2.0);
     let brush = easel.brush(shape, size_mm);
     easel.stroke(brush, &turning(Hand::across(PRESSURE).along(&circles(12))));
     let heights = easel.heights();
@@ -64,7 +64,8 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
         Figure::new(format!("{tool}: mean height"), mean(&film), "mm"),
         Figure::new(format!("{tool}: highest over mean"), highest / mean(&film), ""),
     ];
-    (figures, vec![heaps, easel.show(format!("{tool}, 12 circles"), 5.0..45.0, 5.0..45.0)])
+    let mixed = easel.show(format!("{tool}, 12 circles"), 5.0..45.0, 5.0..45.0).zoomed(2.0);
+    (figures, vec![heaps, mixed])
 }
 
 /// Mixes with knife and brush.

@@ -15,6 +15,8 @@ use super::super::measure::waves::{peak_wavelength_mm, rough};
 const SIZE_MM: f64 = 10.0;
 /// Length of a flat over its width.
 const LENGTH: f64 = 1.5;
+/// Longest wave in mm that counts as a furrow or as chatter.
+const LONGEST_MM: f64 = 3.0;
 
 /// Paints a stroke of a flat, washed and loaded with 1 mm, along x at `y_mm`.
 fn stroke(easel: &mut Easel, brush: BrushId, y_mm: f64, length_mm: f64) {
@@ -23,15 +25,16 @@ fn stroke(easel: &mut Easel, brush: BrushId, y_mm: f64, length_mm: f64) {
     easel.stroke(brush, &Hand::across(PRESSURE).along(&points));
 }
 
-/// Profiles across the middle 60 % of the width about `y_mm`, each the mean over 1 mm along the
-/// stroke, without their parabolas; from `x_mm.start` to `x_mm.end`.
-fn profiles(heights: &Heights, y_mm: f64, x_mm: Range<f64>) -> Vec<Vec<f64>> {
+/// Furrows across the middle 60 % of the width about `y_mm`: profiles, each the mean over 1 mm
+/// along the stroke from `x_mm.start` to `x_mm.end`, without waves longer than 3 mm. So the shape
+/// of the whole mark, which strokes of one brush share, does not count.
+fn furrow_profiles(heights: &Heights, y_mm: f64, x_mm: Range<f64>) -> Vec<Vec<f64>> {
     let rows = heights.rows_in(y_mm - 0.3 * SIZE_MM..y_mm + 0.3 * SIZE_MM);
     let count = (x_mm.end - x_mm.start) as usize;
     let profile = |index: usize| {
         let from = x_mm.start + index as f64;
         let columns = heights.columns_in(from..from + 1.0);
-        without_parabola(&heights.across(columns)[rows.clone()])
+        rough(&heights.across(columns)[rows.clone()], heights.cell_mm(), LONGEST_MM)
     };
     (0..count).map(profile).collect()
 }
@@ -53,8 +56,8 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
         wavelength = peak_wavelength_mm(&profiles, cell_mm);
         let line = &heights.along(middle.clone())[steady.clone()];
         along = 100.0 * rms(&without_parabola(line)) / film_mm;
-        let rows =
-            middle.flat_map(|y| rough(&heights.along(y..y + 1)[steady.clone()], cell_mm, 3.0));
+        let rows = middle
+            .flat_map(|y| rough(&heights.along(y..y + 1)[steady.clone()], cell_mm, LONGEST_MM));
         chatter = 100.0 * rms(&rows.collect::<Vec<_>>()) / film_mm;
     }
     let figures = vec![
@@ -85,7 +88,8 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
     let compared = |a: &[Vec<f64>], b: &[Vec<f64>]| {
         mean(&a.iter().zip(b).map(|(a, b)| correlation(a, b)).collect::<Vec<_>>())
     };
-    let [first, second, other] = rows_mm.map(|y_mm| profiles(&heights, y_mm, steady.clone()));
+    let [first, second, other] =
+        rows_mm.map(|y_mm| furrow_profiles(&heights, y_mm, steady.clone()));
     let lag = (LENGTH * SIZE_MM * 1.5) as usize;
     let mut figures = vec![
         Figure::new("two brushes of one kind", compared(&first, &other), "").at_most(0.3),

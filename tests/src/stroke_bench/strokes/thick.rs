@@ -28,7 +28,8 @@ pub(super) fn lips(bench: &Bench) -> CaseReport {
             let name = format!("{shape} {size_mm}: lip of the {place} over film");
             figures.push(Figure::new(name, value, "").at_least(1.3).at_most(2.5));
         }
-        panels.push(easel.show(format!("{shape} {size_mm}, load 2"), 2.0..78.0, 2.0..18.0));
+        let caption = format!("{shape} {size_mm}, load 2");
+        panels.push(easel.show(caption, 2.0..78.0, 2.0..18.0).zoomed(1.6));
     }
     let title = "Lips of thick strokes: highest of the mean profiles near the edges";
     CaseReport { name: "lips", title, figures, panels }

@@ -1,0 +1,59 @@
+//! The bench of strokes at its small size: laws of the paint that hold already, and the table.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::collections::BTreeSet;
+
+use suite::stroke_bench::canvas::Bench;
+use suite::stroke_bench::figure::CaseReport;
+use suite::stroke_bench::report::table;
+use suite::stroke_bench::sheet::picture;
+use suite::stroke_bench::strokes::CASES;
+
+fn report(name: &str) -> CaseReport {
+    let (_, case) = CASES.iter().find(|(case, _)| *case == name).unwrap();
+    case(&Bench::new(true))
+}
+
+/// Asserts that the figures of `report` whose names start with `start` are within their bounds.
+fn assert_met(report: &CaseReport, start: &str) {
+    let mut chosen = report.figures.iter().filter(|figure| figure.name.starts_with(start));
+    let first = chosen.next().unwrap();
+    for figure in std::iter::once(first).chain(chosen) {
+        assert_eq!(figure.is_met(), Some(true), "{}: {figure:?}", report.name);
+    }
+}
+
+#[test]
+fn no_paint_is_lost_between_brush_and_wet_bands() {
+    assert_met(&report("wet-in-wet"), "quanta lost or gained");
+}
+
+#[test]
+fn a_ridge_stays_beside_strokes() {
+    assert_met(&report("saw-tooth"), "ridge of 1 mm");
+}
+
+#[test]
+fn a_case_repeats_to_the_bit_and_is_drawn() {
+    let (first, second) = (report("pick-up"), report("pick-up"));
+    assert_eq!(first.figures, second.figures);
+    assert!(
+        first.figures.iter().all(|figure| figure.value.is_finite()),
+        "{}",
+        table(&[first.clone()])
+    );
+    assert!(picture(&first).unwrap() == picture(&second).unwrap(), "the same pictures");
+}
+
+#[test]
+fn figures_have_names_of_their_own() {
+    for name in ["film", "furrows", "lips", "outline", "edge", "knife"] {
+        let report = report(name);
+        let names: BTreeSet<&str> =
+            report.figures.iter().map(|figure| figure.name.trim()).collect();
+        assert_eq!(names.len(), report.figures.len(), "{}", table(&[report.clone()]));
+    }
+    let cases: BTreeSet<&str> = CASES.iter().map(|(name, _)| *name).collect();
+    assert_eq!(cases.len(), CASES.len());
+}
