@@ -5,8 +5,8 @@
 pub struct Sample {
     /// Seconds since the stroke began; never less than in the sample before.
     pub seconds: f64,
-    /// Distance in mm from the left edge of the canvas to the point where the axis of
-    /// the handle meets it.
+    /// Distance in mm from the left edge of the canvas to the middle of
+    /// what the brush touches.
     pub x_mm: f64,
     /// Distance in mm from the upper edge of the canvas to that point.
     pub y_mm: f64,
@@ -33,8 +33,8 @@ impl Sample {
 /// Position and attitude of a brush at one sub-step, with positions in cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// Distance in cells from the left edge of the canvas to the point where the axis of
-    /// the handle meets it.
+    /// Distance in cells from the left edge of the canvas to the middle of
+    /// what the brush touches.
     pub x: f64,
     /// Distance in cells from the upper edge of the canvas to that point.
     pub y: f64,

@@ -1,5 +1,6 @@
 //! How a head is held: its axes in space.
 
+use super::shape::Proportions;
 use super::vector::Vector;
 use crate::pose::Pose;
 
@@ -7,12 +8,12 @@ use crate::pose::Pose;
 /// the canvas.
 const FARTHEST_LEAN_DEG: f64 = 80.0;
 
-/// Largest angle of the handle of a knife from upright, in degrees. Only the lean
-/// across the edge counts, as a lean along it would put the knife on a corner.
-const FARTHEST_LEAN_OF_BLADE_DEG: f64 = 45.0;
+/// Component of a handle across a blade, as the sine of its lean, from which the blade is
+/// turned over to that side. Below it the twist decides.
+const OTHER_SIDE: f32 = 0.17;
 
-/// Angle in degrees between the blade of a knife and the canvas with an upright handle, at
-/// pressure 0 and at full pressure (chosen by eye).
+/// Angle in degrees between the blade of a knife and the canvas, at pressure 0 and at full
+/// pressure (chosen by eye).
 const BLADE_DEG: (f64, f64) = (25.0, 8.0);
 
 /// Number of steps per cell that positions are rounded to, so that a stroke shifted by whole
@@ -40,28 +41,30 @@ pub(super) struct Grip {
 }
 
 impl Grip {
-    /// Axes of `pose`; `None` if a number is not finite or the pressure is 0. `blade`:
-    /// whether the head is a knife.
-    pub(super) fn new(pose: &Pose, blade: bool) -> Option<Self> {
+    /// Axes of a head of these proportions at `pose`; `None` if a number is not finite or the
+    /// pressure is 0. A wide head or a blade lies level along its broad side, as it would
+    /// stand on a corner if it leaned that way.
+    pub(super) fn new(pose: &Pose, of: &Proportions) -> Option<Self> {
         if !pose.is_finite() || pose.pressure <= 0.0 {
             return None;
         }
         let pressure = pose.pressure.min(1.0);
         let (column, x) = whole_and_part(pose.x);
         let (row, y) = whole_and_part(pose.y);
-        let farthest = if blade { FARTHEST_LEAN_OF_BLADE_DEG } else { FARTHEST_LEAN_DEG };
-        let mut handle = handle(pose.tilt_x_deg, pose.tilt_y_deg, farthest);
+        let mut handle = handle(pose.tilt_x_deg, pose.tilt_y_deg, FARTHEST_LEAN_DEG);
         let (sin, cos) = (pose.twist_deg % 360.0).to_radians().sin_cos();
         let across = Vector::new(cos as f32, sin as f32, 0.0);
-        if blade {
+        if of.spines > 1 {
             handle = handle.across(across).unit_or(Vector::UP);
         }
         let broad = across.across(handle).unit_or(across);
         let mut axis = handle;
-        if blade {
+        if of.rigid {
             let angle = BLADE_DEG.0 + (BLADE_DEG.1 - BLADE_DEG.0) * pressure;
             let (sin, cos) = angle.to_radians().sin_cos();
-            axis = handle.cross(broad) * cos as f32 + handle * sin as f32;
+            let level = Vector::UP.cross(broad);
+            let side = if handle.dot(level) < -OTHER_SIDE { -1.0 } else { 1.0 };
+            axis = level * (side * cos as f32) + Vector::UP * sin as f32;
         }
         Some(Self {
             origin: (column, row),
@@ -111,6 +114,7 @@ fn handle(tilt_x_deg: f64, tilt_y_deg: f64, farthest_deg: f64) -> Vector {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shape::HeadShape;
     use super::*;
 
     const POSE: Pose =
@@ -121,33 +125,62 @@ mod tests {
         for (tilt_x_deg, tilt_y_deg) in
             [(0.0, 0.0), (45.0, 0.0), (90.0, 0.0), (-90.0, 90.0), (1e9, -1e9), (89.999, 30.0)]
         {
-            for (twist_deg, blade) in [(0.0, false), (90.0, true), (-1e12, false)] {
+            for (twist_deg, shape) in
+                [(0.0, HeadShape::Round), (90.0, HeadShape::Knife), (-1e12, HeadShape::Flat)]
+            {
                 let pose = Pose { tilt_x_deg, tilt_y_deg, twist_deg, ..POSE };
-                let grip = Grip::new(&pose, blade).unwrap();
+                let grip = Grip::new(&pose, shape.proportions()).unwrap();
                 for axis in [grip.axis, grip.broad, grip.thin] {
                     assert!((axis.length() - 1.0).abs() < 1e-5, "{pose:?}: {axis:?}");
                 }
                 assert!(grip.axis.dot(grip.broad).abs() < 1e-5, "{pose:?}");
-                assert!(blade || grip.axis.z > 0.17, "{pose:?}: {:?}", grip.axis);
+                assert!(grip.axis.z > 0.13, "{pose:?}: {:?}", grip.axis);
             }
         }
     }
 
     #[test]
     fn a_lean_is_towards_its_side_and_a_twist_clockwise() {
-        let right = Grip::new(&Pose { tilt_x_deg: 30.0, ..POSE }, false).unwrap();
+        let right =
+            Grip::new(&Pose { tilt_x_deg: 30.0, ..POSE }, HeadShape::Round.proportions()).unwrap();
         assert!((right.axis.x - 0.5).abs() < 1e-6 && right.axis.y == 0.0);
-        let lower = Grip::new(&Pose { tilt_y_deg: 30.0, ..POSE }, false).unwrap();
+        let lower =
+            Grip::new(&Pose { tilt_y_deg: 30.0, ..POSE }, HeadShape::Round.proportions()).unwrap();
         assert!((lower.axis.y - 0.5).abs() < 1e-6);
-        let turned = Grip::new(&Pose { twist_deg: 90.0, ..POSE }, false).unwrap();
+        let turned =
+            Grip::new(&Pose { twist_deg: 90.0, ..POSE }, HeadShape::Round.proportions()).unwrap();
         assert!((turned.broad.y - 1.0).abs() < 1e-6);
         assert_eq!((right.origin, right.tip), ((3, -2), (0.25, 0.5)));
     }
 
     #[test]
+    fn a_wide_head_stays_level_and_a_blade_stands_on_its_edge() {
+        for towards_deg in (0..360).step_by(15) {
+            let (sin, cos) = f64::from(towards_deg).to_radians().sin_cos();
+            let tilt = |part: f64| (1.5 * part).atan().to_degrees();
+            let pose = Pose { tilt_x_deg: tilt(cos), tilt_y_deg: tilt(sin), ..POSE };
+            for shape in [HeadShape::Flat, HeadShape::Knife] {
+                let grip = Grip::new(&pose, shape.proportions()).unwrap();
+                assert_eq!(grip.broad.z, 0.0, "{shape}, {towards_deg}");
+            }
+            let blade = Grip::new(&pose, HeadShape::Knife.proportions()).unwrap();
+            let angle_deg = blade.axis.z.asin().to_degrees();
+            assert!((angle_deg - 16.5).abs() < 0.01, "{towards_deg}: {angle_deg}");
+            // The handle chooses the side.
+            let leans = sin.abs() > 0.3;
+            assert!(!leans || f64::from(blade.axis.y) * sin > 0.0, "{towards_deg}: {blade:?}");
+        }
+    }
+
+    #[test]
     fn no_pressure_and_no_numbers_are_no_grip() {
-        assert!(Grip::new(&Pose { pressure: 0.0, ..POSE }, false).is_none());
-        assert!(Grip::new(&Pose { x: f64::NAN, ..POSE }, false).is_none());
-        assert!(Grip::new(&Pose { twist_deg: f64::INFINITY, ..POSE }, false).is_none());
+        assert!(
+            Grip::new(&Pose { pressure: 0.0, ..POSE }, HeadShape::Round.proportions()).is_none()
+        );
+        assert!(Grip::new(&Pose { x: f64::NAN, ..POSE }, HeadShape::Round.proportions()).is_none());
+        assert!(
+            Grip::new(&Pose { twist_deg: f64::INFINITY, ..POSE }, HeadShape::Round.proportions())
+                .is_none()
+        );
     }
 }

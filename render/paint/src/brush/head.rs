@@ -5,11 +5,12 @@ use rand_chacha::ChaCha8Rng;
 
 use super::footprint::Footprint;
 use super::grip::Grip;
+use super::hair::sink;
 use super::mesh::HeadMesh;
 use super::net::{Net, Point, columns};
 use super::relief::{Relief, ReliefView};
 use super::shape::HeadShape;
-use super::spines::{Spines, sink};
+use super::spines::Spines;
 use super::surface::LimitSurface;
 use super::vector::Vector;
 use crate::amount::QUANTA_PER_CELL;
@@ -129,8 +130,8 @@ impl Head {
     pub fn hover(&mut self, pose: &Pose, relief: &Relief) {
         self.lift();
         let held = Pose { pressure: 1.0, ..*pose };
-        let Some(grip) = Grip::new(&held, self.spines.of.rigid) else { return };
-        self.spines.hold_above(&grip, Vector::ZERO, &relief.seen_from(grip.origin));
+        let Some(grip) = Grip::new(&held, self.spines.of) else { return };
+        self.spines.hold_above(&grip, &relief.seen_from(grip.origin));
         self.net.follow(&self.spines, &grip);
         self.net.rest();
         self.hovering = Some(grip.origin);
@@ -148,7 +149,7 @@ impl Head {
     /// stays lifted.
     pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
         self.lift();
-        let Some(grip) = Grip::new(pose, self.spines.of.rigid) else { return };
+        let Some(grip) = Grip::new(pose, self.spines.of) else { return };
         self.origin = Some(grip.origin);
         let view = relief.seen_from(grip.origin);
         let way = Vector::new(heading.0 as f32, heading.1 as f32, 0.0);
@@ -168,7 +169,7 @@ impl Head {
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
-        let Some(grip) = Grip::new(pose, self.spines.of.rigid) else {
+        let Some(grip) = Grip::new(pose, self.spines.of) else {
             self.lift();
             return;
         };

@@ -1,7 +1,8 @@
 //! Mesh of a bent head, for drawing.
 
+use super::b_spline::b_spline;
 use super::net::{Net, Point};
-use super::surface::{SPANS, b_spline};
+use super::surface::SPANS;
 
 /// Number of vertices for each span of the surface along the head.
 const ALONG: usize = 3;
@@ -126,7 +127,8 @@ mod tests {
             }
             let mesh = head.mesh().unwrap();
             let [x, y, height] = extent(&mesh.vertices);
-            assert!((-6.0..0.5).contains(&height.0), "{shape}: {height:?}");
+            // Hair that gives way is drawn below the canvas, by up to half its thickness.
+            assert!((-20.0..0.5).contains(&height.0), "{shape}: {height:?}");
             let rect = contact.rect;
             let (left, right) = (rect.x as f32, (rect.x + rect.width) as f32);
             let (top, bottom) = (rect.y as f32, (rect.y + rect.height) as f32);

@@ -1,17 +1,21 @@
 //! Brush heads: bending spines that carry a surface with paint on it.
 //!
 //! As in Baxter, Wendt and Lin 2004, section 3, and Baxter et al. 2001 ("DAB:
-//! interactive haptic painting with 3D virtual brushes"): a skeleton of masses
-//! and springs, and around it a subdivision surface. Each sub-step the surface
-//! gives one [`Contact`](super::contact::Contact).
+//! interactive haptic painting with 3D virtual brushes"), a head is a skeleton and around it a
+//! subdivision surface; the skeleton is laid on the canvas in equilibrium, without masses and
+//! springs. Each sub-step the surface gives one [`Contact`](super::contact::Contact).
 
 mod vector;
+
+mod b_spline;
 
 mod shape;
 
 mod relief;
 
 mod grip;
+
+mod hair;
 
 mod spines;
 
@@ -32,3 +36,6 @@ pub use shape::{HeadShape, UnknownShape};
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod mark_tests;

@@ -2,8 +2,9 @@
 //! tip.
 
 use super::grip::Grip;
+use super::hair::FLATTENED;
 use super::shape::NODES;
-use super::spines::{FLATTENED, Spines};
+use super::spines::Spines;
 use super::vector::Vector;
 
 /// Number of rows of the net: one for each level of the spines, and one beyond either end so

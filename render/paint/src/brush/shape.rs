@@ -118,8 +118,9 @@ impl Explain for UnknownShape {
 /// Proportions of a head, in widths of the head. Profiles run from the ferrule to the tip.
 ///
 /// Lengths follow catalogues of artists' brushes: a bright is about as long as wide, a flat
-/// and a filbert 1.5 times, a round 2.5, a rigger 6. Stiffness, splay and the unevenness of
-/// bristles are chosen by eye.
+/// and a filbert 1.5 times, a round 2.5, a rigger 6. Give, splay and the profiles near the tip
+/// are chosen such that a head marks its own width at middle pressure; the unevenness of bristles
+/// is chosen by eye.
 #[derive(Debug)]
 pub(super) struct Proportions {
     /// Length from the ferrule to the tip.
@@ -130,10 +131,8 @@ pub(super) struct Proportions {
     pub(super) spines: usize,
     /// Width where the spines leave the ferrule, as a fraction of that at the tip.
     pub(super) root: f32,
-    /// Distance by which full pressure lowers the ferrule, as a fraction of its height.
+    /// Fraction of the hair that lies on the canvas at full pressure.
     pub(super) give: f32,
-    /// Fraction of a bend that is straightened in one iteration, at the ferrule.
-    pub(super) stiffness: f32,
     /// Relative increase of the width under full pressure, where the head lies on the canvas.
     pub(super) splay: f32,
     /// Profile of the width along the head.
@@ -154,11 +153,10 @@ const ROUND: Proportions = Proportions {
     thickness: 1.0,
     spines: 1,
     root: 1.0,
-    give: 0.6,
-    stiffness: 0.6,
-    splay: 0.45,
-    width: [0.82, 0.94, 1.0, 0.9, 0.6, 0.0],
-    depth: [0.82, 0.94, 1.0, 0.9, 0.6, 0.0],
+    give: 0.7,
+    splay: 0.85,
+    width: [0.82, 0.94, 1.0, 0.98, 0.87, 0.0],
+    depth: [0.82, 0.94, 1.0, 0.98, 0.87, 0.0],
     gaps: false,
     rigid: false,
     bristles: 0.5,
@@ -168,6 +166,7 @@ const FLAT: Proportions = Proportions {
     length: 1.5,
     thickness: 0.3,
     spines: 5,
+    give: 0.6,
     width: [1.0, 1.0, 1.0, 1.0, 1.0, 0.98],
     depth: [1.0, 0.95, 0.85, 0.65, 0.45, 0.0],
     splay: 0.2,
@@ -175,11 +174,15 @@ const FLAT: Proportions = Proportions {
     ..ROUND
 };
 
-const FILBERT: Proportions =
-    Proportions { thickness: 0.35, width: [1.0, 1.0, 1.0, 0.96, 0.8, 0.4], splay: 0.3, ..FLAT };
+const FILBERT: Proportions = Proportions {
+    thickness: 0.35,
+    give: 0.65,
+    width: [1.0, 1.0, 1.0, 1.0, 0.97, 0.55],
+    splay: 0.4,
+    ..FLAT
+};
 
-const BRIGHT: Proportions =
-    Proportions { length: 1.0, give: 0.4, stiffness: 0.8, splay: 0.15, ..FLAT };
+const BRIGHT: Proportions = Proportions { length: 1.0, give: 0.4, splay: 0.15, ..FLAT };
 
 const FAN: Proportions = Proportions {
     length: 0.9,
@@ -187,7 +190,6 @@ const FAN: Proportions = Proportions {
     spines: 7,
     root: 0.3,
     give: 0.45,
-    stiffness: 0.7,
     splay: 0.1,
     width: [1.0; NODES],
     depth: [1.0, 0.9, 0.8, 0.7, 0.6, 0.0],
@@ -198,22 +200,20 @@ const FAN: Proportions = Proportions {
 
 const RIGGER: Proportions = Proportions {
     length: 6.0,
-    give: 0.4,
-    stiffness: 0.4,
-    splay: 0.3,
-    width: [0.95, 1.0, 0.92, 0.8, 0.6, 0.0],
-    depth: [0.95, 1.0, 0.92, 0.8, 0.6, 0.0],
+    give: 0.65,
+    splay: 0.8,
+    width: [0.95, 1.0, 1.0, 0.98, 0.94, 0.0],
+    depth: [0.95, 1.0, 1.0, 0.98, 0.94, 0.0],
     bristles: 0.0,
     ..ROUND
 };
 
 const MOP: Proportions = Proportions {
     length: 1.6,
-    give: 0.5,
-    stiffness: 0.3,
-    splay: 0.8,
-    width: [0.6, 0.9, 1.0, 1.0, 0.8, 0.0],
-    depth: [0.6, 0.9, 1.0, 1.0, 0.8, 0.0],
+    give: 0.6,
+    splay: 1.0,
+    width: [0.6, 0.9, 1.0, 1.0, 0.87, 0.0],
+    depth: [0.6, 0.9, 1.0, 1.0, 0.87, 0.0],
     bristles: 0.3,
     ..ROUND
 };

@@ -3,6 +3,7 @@
 //! Over a regular net the limit of Catmull-Clark subdivision (1978) is the uniform bicubic
 //! B-spline, so that it can be evaluated directly.
 
+use super::b_spline::b_spline;
 use super::net::{Net, Point, ROWS};
 
 /// Number of paint cells along each side of a facet, if the head has enough cells.
@@ -33,13 +34,6 @@ impl Span {
         let weights = (0..=facets as usize).map(|i| b_spline(i as f32 / facets)).collect();
         Self { facets: facets as usize, cells: cells as usize, weights }
     }
-}
-
-/// Weights of the uniform cubic B-spline.
-pub(super) fn b_spline(t: f32) -> [f32; 4] {
-    let s = 1.0 - t;
-    let inner = |t: f32, s: f32| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t;
-    [s * s * s, inner(t, s) + t * t * t, inner(s, t) + s * s * s, t * t * t].map(|w| w / 6.0)
 }
 
 /// Surface of a head; vertices row by row from the ferrule.
