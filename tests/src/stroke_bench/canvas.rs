@@ -32,12 +32,6 @@ pub const YELLOW: [f64; SLOTS] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// Recipe of a light, hiding blue, in which relief shows.
 pub const BODY: [f64; SLOTS] = [1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
-/// Pressure at which most strokes are painted.
-pub const PRESSURE: f64 = 0.475;
-/// Distance in mm from the left edge of a canvas to the start of a stroke.
-pub const START_MM: f64 = 10.0;
-/// Speed of the hand in mm/s.
-const SPEED: f64 = 60.0;
 /// Bytes for undo; the bench takes nothing back.
 const UNDO_BYTES: u64 = 1 << 20;
 
@@ -79,65 +73,6 @@ impl Bench {
 pub struct Easel {
     /// The painting.
     pub painting: Painting,
-}
-
-/// Attitude of the hand.
-#[derive(Debug, Clone, Copy)]
-pub struct Hand {
-    /// Pressure, 0 to 1.
-    pub pressure: f64,
-    /// Tilt of the handle to the right and towards the lower edge, in degrees.
-    pub tilt_deg: (f64, f64),
-    /// Rotation about the handle in degrees.
-    pub twist_deg: f64,
-}
-
-impl Hand {
-    /// An upright brush whose broad side lies across strokes along x.
-    #[must_use]
-    pub fn across(pressure: f64) -> Self {
-        Self { pressure, tilt_deg: (0.0, 0.0), twist_deg: 90.0 }
-    }
-
-    /// Samples of a pen that moves evenly through `points` (in mm), one every mm.
-    #[must_use]
-    pub fn along(self, points: &[(f64, f64)]) -> Vec<Sample> {
-        let mut samples = vec![self.at(0.0, points[0])];
-        let mut seconds = 0.0;
-        for pair in points.windows(2) {
-            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
-            let length = (x1 - x0).hypot(y1 - y0);
-            let steps = length.ceil().max(1.0) as usize;
-            for step in 1..=steps {
-                let share = step as f64 / steps as f64;
-                let place = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
-                samples.push(self.at(seconds + share * length / SPEED, place));
-            }
-            seconds += length / SPEED;
-        }
-        samples
-    }
-
-    fn at(self, seconds: f64, (x_mm, y_mm): (f64, f64)) -> Sample {
-        let Self { pressure, tilt_deg: (tilt_x_deg, tilt_y_deg), twist_deg } = self;
-        Sample { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg }
-    }
-}
-
-/// Turns the broad side of the brush across the path of `samples`.
-#[must_use]
-pub fn turning(mut samples: Vec<Sample>) -> Vec<Sample> {
-    let places: Vec<(f64, f64)> = samples.iter().map(|s| (s.x_mm, s.y_mm)).collect();
-    let last = places.len() - 1;
-    let mut before = 0.0;
-    for (index, sample) in samples.iter_mut().enumerate() {
-        let ((x0, y0), (x1, y1)) = (places[index.saturating_sub(1)], places[(index + 1).min(last)]);
-        let heading = (y1 - y0).atan2(x1 - x0).to_degrees() + 90.0;
-        // The nearest equal angle, so that the handle never spins.
-        before = heading + 360.0 * ((before - heading) / 360.0).round();
-        sample.twist_deg = before;
-    }
-    samples
 }
 
 impl Easel {

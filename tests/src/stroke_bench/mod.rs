@@ -1,9 +1,9 @@
 //! The bench of strokes: a fixed set of strokes, measured in mm, with a table and a picture sheet.
 //!
 //! ```text
-//! canvas (paints) -> heights -> measure (pure) -> figure -> report (table, JSON)
-//!       |                                            |
-//!       +---------------- pictures ------------------+----> sheet (PNG)
+//! hand, canvas (paint) -> heights -> measure (pure) -> figure -> report (table, JSON)
+//!         |                                               |
+//!         +----------------- pictures --------------------+----> sheet (PNG)
 //! ```
 //!
 //! The program `stroke-bench` runs all cases of [`strokes::CASES`]. The guide to it is
@@ -14,6 +14,8 @@ pub mod heights;
 pub mod measure;
 
 pub mod figure;
+
+pub mod hand;
 
 pub mod canvas;
 

@@ -169,18 +169,27 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     Ok(sheet)
 }
 
-/// The whole sheet: all cases, one below another.
+/// The whole sheet: all cases in order, in up to three columns of about equal height.
 ///
 /// # Errors
 /// [`PictureError`] if the text cannot be drawn.
 pub fn sheet(reports: &[CaseReport]) -> Result<RgbImage, PictureError> {
     let pictures = reports.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
-    let height = pictures.iter().map(RgbImage::height).sum::<u32>().max(1);
-    let mut sheet = RgbImage::from_pixel((SCALE * WIDTH) as u32, height, Rgb(PAPER.0));
-    let mut y = 0;
+    let whole: u32 = pictures.iter().map(RgbImage::height).sum();
+    let width = (SCALE * WIDTH) as u32;
+    let (mut column, mut y, mut tallest) = (0, 0, 1);
+    let mut places = Vec::new();
     for picture in &pictures {
-        overlay(&mut sheet, picture, 0, i64::from(y));
+        if column < 2 && y > 0 && 3 * (y + picture.height() / 2) > whole {
+            (column, y) = (column + 1, 0);
+        }
+        places.push((column * width, y));
         y += picture.height();
+        tallest = tallest.max(y);
+    }
+    let mut sheet = RgbImage::from_pixel((column + 1) * width, tallest, Rgb(PAPER.0));
+    for (picture, (x, y)) in pictures.iter().zip(places) {
+        overlay(&mut sheet, picture, i64::from(x), i64::from(y));
     }
     Ok(sheet)
 }
@@ -216,6 +225,9 @@ mod tests {
         assert!(places.iter().all(|&place| red(place)), "each picture lies in its panel");
         let ink = |pixels: &RgbImage| pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count();
         assert!(ink(&picture) > 500, "there is text");
-        assert_eq!(sheet(&[report.clone(), report]).unwrap().height(), 2 * picture.height());
+        let sheet = sheet(&vec![report; 6]).unwrap();
+        assert_eq!(sheet.dimensions(), (3 * picture.width(), 2 * picture.height()));
+        let ends = sheet.get_pixel(5 * SCALE as u32, 0) == picture.get_pixel(5 * SCALE as u32, 0);
+        assert!(ends && ink(&sheet) == 6 * ink(&picture), "all six are shown");
     }
 }

@@ -41,7 +41,7 @@ fn a_case_repeats_to_the_bit_and_is_drawn() {
     assert!(
         first.figures.iter().all(|figure| figure.value.is_finite()),
         "{}",
-        table(&[first.clone()])
+        table(std::slice::from_ref(&first))
     );
     assert!(picture(&first).unwrap() == picture(&second).unwrap(), "the same pictures");
 }
@@ -52,7 +52,7 @@ fn figures_have_names_of_their_own() {
         let report = report(name);
         let names: BTreeSet<&str> =
             report.figures.iter().map(|figure| figure.name.trim()).collect();
-        assert_eq!(names.len(), report.figures.len(), "{}", table(&[report.clone()]));
+        assert_eq!(names.len(), report.figures.len(), "{}", table(std::slice::from_ref(&report)));
     }
     let cases: BTreeSet<&str> = CASES.iter().map(|(name, _)| *name).collect();
     assert_eq!(cases.len(), CASES.len());

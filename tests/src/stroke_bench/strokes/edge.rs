@@ -2,8 +2,9 @@
 
 use render::HeadShape;
 
-use super::super::canvas::{BODY, Bench, Hand, PRESSURE};
+use super::super::canvas::{BODY, Bench};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE};
 use super::super::measure::mark::Mark;
 
 /// Highest cell at the edge over the film, and the share of the last load that is neither on the

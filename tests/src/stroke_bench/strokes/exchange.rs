@@ -4,8 +4,9 @@ use render::HeadShape;
 use render::layer::Layer;
 use render::paint::ground::GroundKind;
 
-use super::super::canvas::{BLUE_SLOT, Bench, Easel, Hand, PRESSURE, YELLOW};
+use super::super::canvas::{BLUE_SLOT, Bench, Easel, YELLOW};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE};
 
 /// A clean flat once through a heap.
 pub(super) fn pick_up(bench: &Bench) -> CaseReport {

@@ -3,8 +3,9 @@
 use render::HeadShape;
 use render::paint::ground::GroundKind;
 
-use super::super::canvas::{BODY, Bench, Easel, Hand, PRESSURE, START_MM};
+use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure, Panel};
+use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::measure::mark::Mark;
 use super::super::measure::series::{least_rise, spread_over_mean};
 

@@ -3,8 +3,9 @@
 use render::HeadShape;
 use render::paint::ground::{GroundKind, Linen};
 
-use super::super::canvas::{BODY, Bench, Easel, Hand, PRESSURE, START_MM};
+use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::heights::Heights;
 use super::super::measure::series::{deviation, mean, spread_over_mean};
 use super::super::measure::waves::strength_at;

@@ -3,8 +3,9 @@
 use render::HeadShape;
 use render::paint::ground::GroundKind;
 
-use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel, Hand};
+use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure, Panel};
+use super::super::hand::Hand;
 use super::super::measure::mark::Mark;
 use super::super::measure::series::{deviation, mean, quantile};
 

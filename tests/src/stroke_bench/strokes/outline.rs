@@ -2,8 +2,9 @@
 
 use render::HeadShape;
 
-use super::super::canvas::{BODY, Bench, Easel, Hand, PRESSURE, START_MM};
+use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::heights::Heights;
 use super::super::measure::mark::Mark;
 use super::super::measure::outline::edge_deviations_mm;

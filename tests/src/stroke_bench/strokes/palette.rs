@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use render::HeadShape;
 use spectra::color::Lab;
 
-use super::super::canvas::{BLUE, Bench, Hand, PRESSURE, YELLOW, turning};
+use super::super::canvas::{BLUE, Bench, YELLOW};
 use super::super::figure::{CaseReport, Figure, Panel};
+use super::super::hand::{Hand, PRESSURE, turning};
 use super::super::measure::series::mean;
 use super::super::measure::surface::{color_spread, pits};
 

@@ -5,8 +5,9 @@ use std::ops::Range;
 use render::HeadShape;
 use render::paint::BrushId;
 
-use super::super::canvas::{BODY, Bench, Easel, Hand, PRESSURE, START_MM};
+use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::heights::Heights;
 use super::super::measure::mark::Mark;
 use super::super::measure::series::{autocorrelation, correlation, mean, rms, without_parabola};

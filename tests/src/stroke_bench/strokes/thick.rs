@@ -3,8 +3,9 @@
 use render::HeadShape;
 use render::paint::ground::GroundKind;
 
-use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel, Hand, PRESSURE, START_MM};
+use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};
+use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::heights::Heights;
 use super::super::measure::mark::Mark;
 use super::super::measure::surface::second_differences_mm;
