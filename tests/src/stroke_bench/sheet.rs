@@ -131,8 +131,8 @@ impl Drawing {
 pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let (places, panels_end) = places(&report.panels);
     let figures_end = HEADER + LINE * report.figures.len() as f64;
-    let height = panels_end.max(figures_end) + GAP;
-    let mut drawing = Drawing(opening(WIDTH as u32, height.ceil() as u32, 1));
+    let height = (panels_end.max(figures_end) + GAP).ceil();
+    let mut drawing = Drawing(opening(WIDTH as u32, height as u32, 1));
     let (width, paper) = (WIDTH, PAPER.hex());
     let _ = writeln!(drawing.0, r#"<rect width="{width}" height="{height:.0}" fill="{paper}"/>"#);
     drawing.line(&[(0.0, 2.0), (WIDTH, 2.0)], 1.0, GRID);
@@ -223,6 +223,8 @@ mod tests {
             *picture.get_pixel(at(x + 100.0), at(y + LINE + 20.0)) == Rgb([200, 0, 0])
         };
         assert!(places.iter().all(|&place| red(place)), "each picture lies in its panel");
+        let corner = picture.get_pixel(0, picture.height() - 1);
+        assert_eq!(*corner, Rgb(PAPER.0), "paper up to the last row");
         let ink = |pixels: &RgbImage| pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count();
         assert!(ink(&picture) > 500, "there is text");
         let sheet = sheet(&vec![report; 6]).unwrap();
