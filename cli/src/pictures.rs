@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
-use render::export::{self, ClippedColors, PaintingExports, PictureFormat, SpectralBands};
+use clap::{Args, ValueEnum, value_parser};
+use render::export::{self, OutsideGamut, PaintingExports, PictureFormat, SpectralBands};
 use render::field::Field;
 use render::paint::painting::Painting;
+use render::paint::scene::PixelsPerCell;
 use spectra::hint::Explain;
 
 use crate::console::Console;
@@ -33,12 +34,23 @@ enum Bands {
 /// Options for the files that a painting is exported to.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Exports {
-    /// Write the picture: .png (sRGB) or .exr (linear sRGB, nothing clipped)
+    /// Write the picture: .png (sRGB) or .exr (linear sRGB, as computed)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     picture: Option<PathBuf>,
     /// Bits of a channel of a PNG picture
     #[arg(long, value_enum, default_value = "8", help_heading = "Exports")]
     bits: Bits,
+    /// Pixels of the picture along the width of a cell, 1 to 4: more hide the cells, and light
+    /// falls on the relief between their centres
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = value_parser!(u8).range(1..=i64::from(PixelsPerCell::MOST)),
+        requires = "picture",
+        help_heading = "Exports"
+    )]
+    supersample: u8,
     /// Write a spectral OpenEXR: the reflectance of every cell, without relief and gloss
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     spectral: Option<PathBuf>,
@@ -74,6 +86,7 @@ impl Exports {
     /// First option present that needs layers of pigments, not only a picture.
     pub(crate) fn layer_option(&self) -> Option<&'static str> {
         let options = [
+            ("--supersample", self.supersample != 1),
             ("--spectral", self.spectral.is_some()),
             ("--pigment-maps", self.pigment_maps.is_some()),
             ("--output", self.output.is_some()),
@@ -140,13 +153,13 @@ impl OpenExports {
         let Some(output) = self.picture else { return Ok(()) };
         let format = self.options.bits.format(output.path());
         let file = export::picture_file(picture, cell_mm, format)?;
-        remark_clipping(output.path(), file.clipping(), console)?;
+        remark_gamut(output.path(), file.outside_gamut(), console)?;
         output.write(file.bytes)
     }
 
     /// Computes all exports of `painting` and writes their files.
     pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
-        let Exports { bits, bands, pigment_maps, .. } = self.options;
+        let Exports { bits, bands, pigment_maps, supersample, .. } = self.options;
         let path = |output: &Output| output.path().to_owned();
         let bands = match bands {
             Bands::Nodes => SpectralBands::Nodes,
@@ -154,13 +167,14 @@ impl OpenExports {
         };
         let exports = PaintingExports {
             picture: self.picture.as_ref().map(|output| (path(output), bits.format(output.path()))),
+            pixels_per_cell: PixelsPerCell::new(supersample)?,
             spectral: self.spectral.as_ref().map(|output| (path(output), bands)),
             pigment_maps,
             painting: self.painting.as_ref().map(path),
         };
-        let clipped = exports.write(painting)?;
+        let outside = exports.write(painting)?;
         match &exports.picture {
-            Some((path, _)) => remark_clipping(path, clipped, console),
+            Some((path, _)) => remark_gamut(path, outside, console),
             None => Ok(()),
         }
     }
@@ -177,20 +191,20 @@ impl Bits {
     }
 }
 
-/// Prints a remark if colours were clipped.
-fn remark_clipping(
+/// Prints a remark if colours were outside the gamut.
+fn remark_gamut(
     path: &Path,
-    clipped: Option<ClippedColors>,
+    outside: Option<OutsideGamut>,
     console: &mut Console<'_>,
 ) -> Result<()> {
-    match clipped.map(|clipped| clipping_remark(path, clipped)) {
+    match outside.map(|outside| gamut_remark(path, outside)) {
         Some(remark) => console.remark(remark),
         None => Ok(()),
     }
 }
 
-/// Remark on the colours that were clipped in the picture at `path`.
-pub(crate) fn clipping_remark(path: &Path, clipped: ClippedColors) -> String {
-    let hint = clipped.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
-    format!("{}: {clipped}{hint}", path.display())
+/// Remark on the colours of the picture at `path` that were outside its gamut.
+pub(crate) fn gamut_remark(path: &Path, outside: OutsideGamut) -> String {
+    let hint = outside.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
+    format!("{}: {outside}{hint}", path.display())
 }

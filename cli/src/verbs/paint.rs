@@ -19,7 +19,7 @@ use crate::engine::EngineOptions;
 use crate::failure::{Context, Failure, Result};
 use crate::input::{built_in_library, library};
 use crate::output::{Output, create_folder};
-use crate::pictures::{Exports, clipping_remark};
+use crate::pictures::{Exports, gamut_remark};
 use crate::progress::Progress;
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
@@ -223,7 +223,7 @@ fn save(
     let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         let picture = painting.picture()?;
         let file = picture_file(&picture, painting.cell_mm(), PictureFormat::Png8)?;
-        remarks.extend(file.clipping().map(|clipped| clipping_remark(path, clipped)));
+        remarks.extend(file.outside_gamut().map(|outside| gamut_remark(path, outside)));
         file.bytes
     } else {
         render::paint::file::write(&painting.document()?)?

@@ -37,9 +37,14 @@ pub(crate) struct Relight {
     /// Fraction of the light that is ambient, from all sides, 0 to 1
     #[arg(long, value_name = "SHARE")]
     ambient: Option<f64>,
-    /// Factor on the slopes of the relief, 0 to 10: 0 shades it flat, 1 leaves it unchanged
+    /// Factor on the heights of the relief, 0 to 10: 0 shades it flat, 1 leaves it unchanged
     #[arg(long, value_name = "X")]
     relief: Option<f64>,
+    /// How far the eye adapted to the light, 0 to 1: with 1 white paint is white under every
+    /// light, as an instrument measures; with 0 the light keeps its colour, so that evening looks
+    /// like evening [default: the painting's, 1 unless it says so]
+    #[arg(long, value_name = "DEGREE")]
+    adaptation: Option<f64>,
     /// Exchange a pigment: LAYER:FROM=TO, LAYER being `wet`, a number from 0 (the lowest dry
     /// layer), or `all`; may be repeated
     #[arg(long, value_name = "LAYER:FROM=TO")]
@@ -93,6 +98,7 @@ impl Relight {
             elevation_deg: number("elevation", self.elevation, saved.elevation_deg, 1.0, 90.0)?,
             ambient: number("ambient", self.ambient, saved.ambient, 0.0, 1.0)?,
             relief: number("relief", self.relief, saved.relief, 0.0, 10.0)?,
+            adaptation: number("adaptation", self.adaptation, saved.adaptation, 0.0, 1.0)?,
         })
     }
 }

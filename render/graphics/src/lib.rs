@@ -18,7 +18,7 @@
 //! let mut picture = Field::filled(64, 48, [1.0_f32; 4]);
 //! picture[(3, 2)] = [0.8, 0.1, 0.1, 1.0];
 //! let file = picture_file(&picture, 0.1, PictureFormat::Png16)?;
-//! assert!(file.clipped == 0.0 && file.bytes.starts_with(b"\x89PNG"));
+//! assert!(file.outside == 0.0 && file.bytes.starts_with(b"\x89PNG"));
 //! # Ok(())
 //! # }
 //! ```

@@ -99,6 +99,7 @@ fn scene(dry: usize) -> Scene {
             dry: gloss,
             ground: gloss,
         },
+        cell_mm: 0.1,
     }
 }
 

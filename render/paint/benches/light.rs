@@ -11,7 +11,7 @@ use paint::layer::{Layer, SLOTS};
 use paint::light::{Light, Mixer};
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{picture, scene};
-use paint::shade::{RowHeights, TopMaterial, shade_row};
+use paint::shade::{TopMaterial, Tops, shade_row};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
@@ -83,14 +83,13 @@ fn one_layer_to_rgb(bencher: Bencher, threads: usize) {
     let (document, mut scene) = painting(WIDTH, 256);
     scene.lamp.relief = 0.0;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    let level = vec![0; WIDTH + 2];
-    let heights = RowHeights { above: &level, here: &level, below: &level };
+    let level = Tops::level(WIDTH, 1);
     let cells = document.wet.pigments.values();
     let mut out = vec![[0.0; 4]; cells.len()];
     let row = |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
         internal.fill(scene.ground);
         composite_row(&scene.wet, cells, internal);
-        shade_row(&scene, &heights, internal, &[TopMaterial::Wet; WIDTH], out);
+        shade_row(&scene, (&level, (0, 0)), internal, &[TopMaterial::Wet; WIDTH], out);
     };
     bencher.counter(ItemsCount::new(cells.len())).bench_local(|| {
         pool.install(|| {

@@ -33,8 +33,21 @@ pub struct Lighting {
     pub elevation_deg: f64,
     /// Share of diffuse light from all sides, 0..1.
     pub ambient: f64,
-    /// Factor on the shading by the relief: 0 flat, 1 physical.
+    /// Factor on the heights of the relief: 0 flat, 1 physical.
     pub relief: f64,
+    /// How far the eye adapted to the light, 0..1: at 1 white paint is white under every light,
+    /// at 0 the picture has the light's own colour beside D65. Files omit 1.
+    #[serde(default = "complete", skip_serializing_if = "is_complete")]
+    pub adaptation: f64,
+}
+
+fn complete() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_complete(adaptation: &f64) -> bool {
+    *adaptation == complete()
 }
 
 impl Default for Lighting {
@@ -47,6 +60,7 @@ impl Default for Lighting {
             elevation_deg: 50.0,
             ambient: 0.5,
             relief: 1.0,
+            adaptation: complete(),
         }
     }
 }

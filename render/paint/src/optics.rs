@@ -21,8 +21,7 @@ pub struct LayerOptics {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gloss {
-    /// Linear light of the highlight relative to a perfect white, at no ambient light;
-    /// 0 and up.
+    /// Light of the highlight relative to a perfect white, at no ambient light; 0 and up.
     pub strength: f32,
     /// Blinn's exponent; 10 is satin, 100 the gloss of wet paint.
     pub exponent: f32,
@@ -33,7 +32,7 @@ pub struct Gloss {
 pub struct Lamp {
     /// Unit vector towards the light: x right, y down, z to the viewer.
     pub direction: [f32; 3],
-    /// Factor on the slopes of the surface: 0 renders it flat, 1 as it is.
+    /// Factor on the heights of the surface: 0 renders it flat, 1 as it is.
     pub relief: f32,
     /// Share of the light that is ambient, 0 to 1.
     pub ambient: f32,
@@ -61,6 +60,8 @@ pub struct Scene {
     pub rgb_from_nodes: [[f32; 3]; NODES],
     /// Direction of the light, relief and gloss.
     pub lamp: Lamp,
+    /// Width and height of a cell in mm, above 0: shading looks some tenths of a mm far.
+    pub cell_mm: f32,
 }
 
 /// The surface between paint and air in f32 (Saunderson 1942); see

@@ -3,7 +3,7 @@
 use super::matrix::Matrix3;
 use super::xyz::Xyz;
 
-/// The cone space in which von Kries adaptation is computed. Adaptation is complete.
+/// The cone space in which von Kries adaptation is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Adaptation {
     /// Bradford transform (Lam 1985) in its linear form, as used by ICC profiles.
@@ -29,13 +29,22 @@ impl Adaptation {
         }
     }
 
-    /// The matrix that adapts XYZ under the white `from` to the white `to`.
+    /// The matrix that adapts XYZ under the white `from` to the white `to`, completely.
     #[must_use]
     pub fn matrix(self, from: Xyz, to: Xyz) -> Matrix3 {
+        self.partial_matrix(from, to, 1.0)
+    }
+
+    /// The matrix for an eye that adapted from the white `from` to the white `to` by a `degree`
+    /// D of 0 (XYZ stay) to 1 (completely). It scales each response of the cones by
+    /// D to / from + 1 - D (CIECAM02, CIE 159:2004, for whites of the same luminance).
+    #[must_use]
+    pub fn partial_matrix(self, from: Xyz, to: Xyz, degree: f64) -> Matrix3 {
         let cone_from_xyz = self.cone_from_xyz();
         let from = cone_from_xyz.apply(from.to_array());
         let to = cone_from_xyz.apply(to.to_array());
-        let scale = Matrix3::diagonal([to[0] / from[0], to[1] / from[1], to[2] / from[2]]);
+        let scale = |cone: usize| degree * (to[cone] / from[cone]) + (1.0 - degree);
+        let scale = Matrix3::diagonal([scale(0), scale(1), scale(2)]);
         cone_from_xyz.inverse().after(&scale).after(&cone_from_xyz)
     }
 }

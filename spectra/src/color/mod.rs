@@ -16,6 +16,8 @@ mod adaptation;
 
 mod rgb;
 
+mod gamut;
+
 mod values;
 
 mod code;

@@ -60,7 +60,8 @@ impl Colors {
     /// parts.
     pub(super) fn of(&self, recipe: &[(PigmentId, f64)]) -> Option<[u8; 3]> {
         let xyz = self.weights.xyz(&self.film(recipe)?);
-        Some(Appearance::of(xyz, self.weights.white()).srgb.to_bytes())
+        let srgb = Appearance::of(xyz, self.weights.white()).srgb;
+        Some(srgb.linear().mapped_into_gamut().encoded().to_bytes())
     }
 
     /// sRGB of a mixture with these parts by slot.

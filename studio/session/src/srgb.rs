@@ -1,4 +1,4 @@
-//! Linear light to 8-bit sRGB by a table, with the same bytes as the PNG export.
+//! Linear light to 8-bit sRGB by a table: the bytes of the PNG export.
 
 use spectra::color::Rgb;
 
@@ -38,11 +38,22 @@ impl SrgbBytes {
         lowest + u8::from(linear >= self.least[usize::from(lowest) + 1])
     }
 
-    /// The opaque pixel of a colour.
+    /// The opaque pixel of a colour. Outside the gamut it keeps hue and lightness.
     #[inline(always)]
     pub(super) fn pixel(&self, [r, g, b, _]: [f32; 4]) -> [u8; 4] {
-        [self.byte(r), self.byte(g), self.byte(b), 255]
+        if [r, g, b].iter().all(|value| (0.0..=1.0).contains(value)) {
+            [self.byte(r), self.byte(g), self.byte(b), 255]
+        } else {
+            mapped([r, g, b])
+        }
     }
+}
+
+/// The opaque pixel of a colour that may lie outside the gamut.
+#[inline(never)]
+fn mapped(linear: [f32; 3]) -> [u8; 4] {
+    let [r, g, b] = Rgb(linear.map(f64::from)).mapped_into_gamut().encoded().to_bytes();
+    [r, g, b, 255]
 }
 
 /// Byte computed by the sRGB curve.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use render::export::{
-    ClippedColors, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
+    OutsideGamut, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
     spectral_file,
 };
 use render::light::Light;
@@ -39,7 +39,7 @@ impl Export {
 }
 
 /// Writes `export` of `document` under `light` to `path`. Returns a remark if colours were
-/// clipped.
+/// outside the gamut.
 ///
 /// # Errors
 /// [`JobError`] if the export failed or was cancelled. No incomplete file is left; pigment
@@ -61,7 +61,7 @@ pub(crate) fn export(
             let file = picture_file(&picture, document.cell_mm, format).map_err(problem)?;
             progress.report(0.9)?;
             write_whole(path, &file.bytes).map_err(Problem::from)?;
-            Ok(file.clipping().map(|clipped| clipping_remark(path, clipped)))
+            Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
         }
         Export::Spectral(bands) => {
             let picture = render_picture();
@@ -88,7 +88,7 @@ pub(crate) fn export(
     }
 }
 
-fn clipping_remark(path: &Path, clipped: ClippedColors) -> Problem {
-    let text = format!("{}: {clipped}", path.display());
+fn gamut_remark(path: &Path, outside: OutsideGamut) -> Problem {
+    let text = format!("{}: {outside}", path.display());
     Problem::new(text, "export linear OpenEXR to keep them")
 }

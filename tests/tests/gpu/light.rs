@@ -8,6 +8,7 @@ use render::layer::{Cell, Layer, SLOTS};
 use render::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
 use render::paint::View;
 use render::paint::engine::PaintEngine;
+use render::shade::{MOST, ReliefLamp, SOFT, Tap};
 use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
@@ -39,6 +40,7 @@ fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
             dry: Gloss { strength: 0.06, ..gloss },
             ground: Gloss { strength: 0.0, ..gloss },
         },
+        cell_mm: 0.1,
     }
 }
 
@@ -162,12 +164,8 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
         let i = y.clamp(0, end) as usize * SIZE + x.clamp(0, end) as usize;
         f64::from(floor.values()[i]) + f64::from(layers[2].cell(i).volume())
     };
-    let unit = f64::from(QUANTA_PER_CELL);
     let lamp = scene.lamp;
-    let light = lamp.direction.map(f64::from);
-    let halfway = [light[0], light[1], light[2] + 1.0];
-    let length = halfway.map(|v| v * v).iter().sum::<f64>().sqrt();
-    let (relief, ambient) = (f64::from(lamp.relief), f64::from(lamp.ambient));
+    let prepared = ReliefLamp::new(&scene);
     let picture = engine.picture().unwrap();
     let (off, cell) = largest(&picture, |i| {
         let nodes = std::array::from_fn(|node| {
@@ -175,29 +173,58 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
             let ground = f64::from(scene.ground[node]);
             stack.fold(ground, |backing, (paint, coat)| film(coat, &paint.cell(i), node, backing))
         });
-        let (x, y) = ((i % SIZE) as isize, (i / SIZE) as isize);
-        let slope_x = relief * (top(x + 1, y) - top(x - 1, y)) / (2.0 * unit);
-        let slope_y = relief * (top(x, y + 1) - top(x, y - 1)) / (2.0 * unit);
-        let normal = [-slope_x, -slope_y, 1.0];
-        let size = normal.map(|v| v * v).iter().sum::<f64>().sqrt();
-        let along = |way: [f64; 3]| -> f64 {
-            normal.iter().zip(way).map(|(n, w)| n * w).sum::<f64>() / size
-        };
-        let diffuse = ambient + (1.0 - ambient) * along(light).max(0.0) / light[2];
+        let at = ((i % SIZE) as isize, (i / SIZE) as isize);
         let gloss = match bare(&layers, i) {
             0 => lamp.wet,
             1 => lamp.dry,
             _ => lamp.ground,
         };
-        let exponent = f64::from(gloss.exponent);
-        let level = (halfway[2] / length).powf(exponent);
-        let mirrored = along(halfway).max(0.0) / length;
-        let shine = f64::from(gloss.strength)
-            * (1.0 - ambient)
-            * (mirrored.powf(exponent) - level).max(0.0);
-        color(&scene, nodes).map(|value| value * diffuse + shine)
+        shaded(&prepared, &lamp, gloss, |x, y| top(at.0 + x, at.1 + y), color(&scene, nodes))
     });
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
+}
+
+/// Light of a cell whose level colour is `flat`, by the formulas of [`render::shade`] in f64. `top`
+/// gives heights around the cell in quanta.
+fn shaded(
+    prepared: &ReliefLamp,
+    lamp: &Lamp,
+    gloss: Gloss,
+    top: impl Fn(isize, isize) -> f64,
+    flat: [f64; 3],
+) -> [f64; 3] {
+    let unit = f64::from(QUANTA_PER_CELL);
+    let (relief, ambient) = (f64::from(lamp.relief), f64::from(lamp.ambient));
+    let light = lamp.direction.map(f64::from);
+    let slope = |tap: &Tap| {
+        let [x, y] = tap.offset.map(|cells| cells as isize);
+        (top(x, y) - top(0, 0)) * f64::from(tap.per_quantum) - f64::from(tap.less)
+    };
+    let hidden = prepared.shadow.iter().map(slope).fold(0.0, f64::max);
+    let free = 1.0 / (1.0 + (hidden / f64::from(SOFT)).powi(2));
+    let sky = prepared.around.iter().map(|tap| slope(tap).max(0.0).powi(2)).sum::<f64>() / 8.0;
+    let open = 1.0 / (1.0 + sky);
+
+    let slope_x = relief * (top(1, 0) - top(-1, 0)) / (2.0 * unit);
+    let slope_y = relief * (top(0, 1) - top(0, -1)) / (2.0 * unit);
+    let normal = [-slope_x, -slope_y, 1.0];
+    let size = normal.map(|v| v * v).iter().sum::<f64>().sqrt();
+    let along =
+        |way: [f64; 3]| -> f64 { normal.iter().zip(way).map(|(n, w)| n * w).sum::<f64>() / size };
+    let direct = free * along(light).max(0.0) / light[2];
+    let diffuse = ambient * open + (1.0 - ambient) * direct;
+    let most = flat.into_iter().fold(0.0, f64::max);
+    let more = (diffuse - 1.0).max(0.0);
+    let bound = 1.0 + more * (most / (1.0 - most) + 1.0 / f64::from(MOST));
+    let factor = diffuse.min(1.0) + more / bound;
+
+    let halfway = [light[0], light[1], light[2] + 1.0];
+    let length = halfway.map(|v| v * v).iter().sum::<f64>().sqrt();
+    let exponent = f64::from(gloss.exponent);
+    let level = (halfway[2] / length).powf(exponent);
+    let mirrored = (along(halfway).max(0.0) / length).powf(exponent) - level;
+    let shine = f64::from(gloss.strength) * (1.0 - ambient) * free * mirrored.max(0.0);
+    flat.map(|value| value * factor + shine / (1.0 + shine) * (1.0 - value * factor))
 }
 
 /// Topmost material of a cell: 0 wet paint (the last of `layers`), 1 dry paint, 2 the ground.

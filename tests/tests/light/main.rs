@@ -2,7 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+mod adaptation;
+
 mod color;
+
+mod fine;
+
+mod gamut;
 
 mod grounds;
 

@@ -1,26 +1,39 @@
 //! Shading of relief and gloss.
 
 use calibrate::evaluate::Viewing;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use render::light::Light;
 use render::optics::{Gloss, Scene};
 use render::paint::document::Lighting;
 use render::paint::ground::GroundSpec;
 use render::paint::scene::{picture, scene};
-use render::shade::{RowHeights, TopMaterial, shade_row};
+use render::shade::{MOST, SOFT, TopMaterial, Tops, reach, shade_row};
 
 use TopMaterial::{Dry, Ground, Wet};
 
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay};
 
-/// Linear green of a grey cell whose surface rises by `slopes` along x and y, in cells per cell.
-fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
-    let quanta = |cells: f32| (cells * (1 << 21) as f32) as i32;
-    let (x, y) = (quanta(slopes.0), quanta(slopes.1));
+/// Width of the surfaces of these tests in cells, and their middle.
+const SIDE: usize = 65;
+const MIDDLE: usize = 32;
+
+/// Linear green of a grey cell in the middle of a surface of the height `cells`, in widths of a
+/// cell, by the distance from the middle along x and y.
+fn lit_in(scene: &Scene, cells: impl Fn(f64, f64) -> f64 + Sync, material: TopMaterial) -> f32 {
+    let mut tops = Tops::level(SIDE, SIDE);
+    let from_middle = |at: usize| at as f64 - MIDDLE as f64;
+    tops.set_all(|x, y| (cells(from_middle(x), from_middle(y)) * f64::from(1 << 21)) as i32);
     let mut out = [[0.0; 4]];
-    let heights = RowHeights { above: &[0, -y, 0], here: &[-x, 0, x], below: &[0, y, 0] };
-    shade_row(scene, &heights, &[[0.5; 8]], &[material], &mut out);
+    shade_row(scene, (&tops, (MIDDLE, MIDDLE)), &[[0.5; 8]], &[material], &mut out);
     assert_eq!(out[0][3], 1.0, "alpha");
     out[0][1]
+}
+
+/// Linear green of a grey cell whose surface rises by `slopes` along x and y, in cells per cell.
+fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
+    let [a, b] = [slopes.0, slopes.1].map(f64::from);
+    lit_in(scene, |x, y| a * x + b * y, material)
 }
 
 fn studio(lighting: Lighting) -> Scene {
@@ -68,18 +81,110 @@ fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
     assert!(lit(&scene, (0.0, 0.2), Ground) > level * 1.02);
     assert!(lit(&scene, (-0.2, 0.0), Ground) < level * 0.98);
     assert!(lit(&scene, (0.0, -0.2), Ground) < level * 0.98);
-    // Half of the light is ambient; the other half follows Lambert's law, relative to level paint.
+    // Half of the light is ambient, from the part of the sky that the slope sees; the other half
+    // follows Lambert's law, relative to level paint.
     let [x, y, z] = scene.lamp.direction;
-    let (a, b) = (0.3f32, -0.1f32);
-    let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
-    let found = lit(&scene, (a, b), Ground) / level;
-    assert!((found - (0.5 + 0.5 * lambert)).abs() < 1e-5, "{found} {lambert}");
-    // With ambient light only, slopes do not show.
+    for (a, b) in [(0.3f32, -0.1f32), (-0.2, 0.1), (-0.1, 0.3)] {
+        let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
+        let open = 1.0 / (1.0 + (a * a + b * b) / 4.0);
+        let light = 0.5 * open + 0.5 * lambert;
+        let more = (light - 1.0).max(0.0);
+        let factor = light.min(1.0) + more / (1.0 + more * (level / (1.0 - level) + 1.0 / MOST));
+        let found = lit(&scene, (a, b), Ground) / level;
+        assert!((found - factor).abs() < 1e-5, "{a} {b}: {found} {factor}");
+    }
+    // With ambient light only, the direction of a slope does not show.
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
-    assert!((lit(&soft, (0.2, 0.1), Wet) - level).abs() < 1e-6);
+    let any = [(0.2, 0.1), (-0.2, -0.1), (-0.1, 0.2)].map(|slopes| lit(&soft, slopes, Wet));
+    assert!(any.iter().all(|one| (one - level / 1.0125).abs() < 1e-5), "{any:?} {level}");
     // A slope that faces away from the lamp receives the ambient light only.
-    let steep = lit(&scene, (-5.0, -5.0), Ground) / level;
-    assert!((steep - 0.5).abs() < 1e-5, "{steep}");
+    let steep = lit(&scene, (-1.0, -1.0), Ground) / level;
+    assert!((steep - 0.5 / 1.5).abs() < 1e-5, "{steep}");
+}
+
+/// A scene whose lamp stands on the left, `elevation_deg` high.
+fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
+    studio(Lighting { azimuth_deg: 270.0, elevation_deg, ambient, ..Lighting::default() })
+}
+
+#[test]
+fn a_wall_casts_a_shadow_that_ends_softly() {
+    let scene = from_the_left(20.0, 0.2);
+    let level = lit(&scene, (0.0, 0.0), Ground);
+    // A wall of the height of two cells that ends `distance` cells to the left of the middle.
+    let behind = |distance: f64| {
+        lit_in(&scene, |x, _| if x <= -distance { 2.0 } else { 0.0 }, Ground) / level
+    };
+    // Its shadow is 2 / tan 20 degrees = 5.5 cells long.
+    let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(behind);
+    assert!(shades.windows(2).all(|pair| pair[0] <= pair[1]), "{shades:?}");
+    assert!(shades[0] < 0.35 && shades[1] < 0.6, "close behind the wall: {shades:?}");
+    assert!(shades[5] > 0.99, "far behind the wall: {shades:?}");
+    // At the distance of 3 cells the wall overtops the lamp by 2 / 3 - tan 20 degrees; of the
+    // sky it hides slopes of 2 / 3 in 3 of 8 directions at most.
+    let over = (2.0 / 3.0 - 20.0f32.to_radians().tan()) / SOFT;
+    let free = 1.0 / (1.0 + over * over);
+    let within = 0.8 * free + 0.2 / (1.0 + 0.5 * 4.0 / 9.0)..=0.8 * free + 0.2;
+    assert!(within.contains(&shades[1]), "{shades:?} {within:?}");
+    // Before the wall there is light.
+    let before = lit_in(&scene, |x, _| if x >= 3.0 { 2.0 } else { 0.0 }, Ground) / level;
+    assert!(before > 0.95, "{before}");
+}
+
+#[test]
+fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
+    let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
+    let level = lit(&soft, (0.0, 0.0), Ground);
+    for along in [0.0, 0.5, 1.0] {
+        // Furrows 6 cells apart, half a cell deep; `up` at their ridges.
+        let furrows = |up: f64| {
+            let wave = move |x: f64, y: f64| {
+                let across = x * (1.0 - along) + y * along;
+                up * 0.25 * (across * std::f64::consts::PI / 3.0).cos()
+            };
+            lit_in(&soft, wave, Ground) / level
+        };
+        let (ridge, ground) = (furrows(1.0), furrows(-1.0));
+        assert!(ridge > 0.999 && ground < 0.996, "along {along}: {ridge} {ground}");
+    }
+}
+
+#[test]
+fn no_relief_makes_paint_lighter_than_white() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let heights: Vec<f64> = (0..SIDE * SIDE).map(|_| random.random_range(0.0..2.0)).collect();
+    let at = |x: f64, y: f64| heights[(y as usize + MIDDLE) % SIDE * SIDE + x as usize % SIDE];
+    for elevation_deg in [1.0, 20.0, 50.0] {
+        for ambient in [0.0, 0.5] {
+            let lighting = Lighting { elevation_deg, ambient, relief: 10.0, ..Lighting::default() };
+            let mut scene = studio(lighting);
+            scene.lamp.wet = Gloss { strength: 100.0, exponent: 8.0 };
+            let mut lightest = 0.0f32;
+            for shift in 0..200 {
+                let rough = |x: f64, y: f64| at(x + 100.0 + f64::from(shift), y);
+                lightest = lightest.max(lit_in(&scene, rough, Wet));
+            }
+            let level = lit(&scene, (0.0, 0.0), Wet);
+            assert!(lightest > 1.1 * level && lightest < 1.0, "{level} {lightest}");
+        }
+    }
+}
+
+#[test]
+fn a_height_matters_as_far_as_it_says() {
+    for (cell_mm, cells) in [(0.05, 16), (0.1, 8), (0.4, 2), (3.0, 1)] {
+        assert_eq!(reach(cell_mm), cells);
+        let mut scene = from_the_left(1.0, 0.5);
+        scene.cell_mm = cell_mm as f32;
+        let level = lit(&scene, (0.0, 0.0), Wet);
+        let far = cells as f64;
+        let spot = |distance: f64| {
+            let ring = move |x: f64, y: f64| x.abs().max(y.abs()) >= distance;
+            lit_in(&scene, |x, y| if ring(x, y) { 3.0 } else { 0.0 }, Wet)
+        };
+        assert_eq!(spot(far + 1.0), level, "{cell_mm}");
+        assert!(spot(far) < level, "{cell_mm}");
+    }
 }
 
 #[test]
@@ -93,8 +198,12 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
     let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;
-    assert!((f64::from(wet - ground) - 0.5 * veil).abs() < 1e-4, "{wet} {ground} {veil}");
-    assert!((f64::from(dry - ground) - 0.25 * veil).abs() < 1e-4, "{dry} {ground} {veil}");
+    // What the surface mirrors replaces as much of the light from within.
+    for (found, strength) in [(wet, 0.5), (dry, 0.25)] {
+        let mirrored = strength * veil / (1.0 + strength * veil);
+        let wanted = f64::from(ground) + mirrored * (1.0 - f64::from(ground));
+        assert!((f64::from(found) - wanted).abs() < 1e-4, "{found} {ground} {mirrored}");
+    }
     for off in [0.8, 1.2] {
         let slopes = (mirror.0 * off, mirror.1 * off);
         assert!(lit(&scene, slopes, Wet) - lit(&scene, slopes, Ground) < wet - ground, "{off}");
@@ -113,6 +222,12 @@ fn a_row_may_be_cut_anywhere() {
     let scene = scene(&document, &light);
     let whole = picture(&document, &scene);
     let (y, width) = (20, 48);
+    let mut tops = Tops::level(width, 48);
+    tops.set_all(|x, y| {
+        let index = y * width + x;
+        let paint = document.dry[0].paint.cell(index).volume() + document.wet.cell(index).volume();
+        document.ground.height.values()[index] + paint as i32
+    });
     for first in [0, 1, 13, 40] {
         for count in [1, 7, 8] {
             let mut internal = vec![scene.ground; count];
@@ -122,14 +237,6 @@ fn a_row_may_be_cut_anywhere() {
                 let cells = layer.pigments.row(y, first, count);
                 render::composite::composite_row(coat, cells, &mut internal);
             }
-            let top = |x: usize, y: usize| {
-                let index = y * width + x.clamp(1, width) - 1;
-                let paint =
-                    document.dry[0].paint.cell(index).volume() + document.wet.cell(index).volume();
-                document.ground.height.values()[index] + paint as i32
-            };
-            let row = |y: usize| (first..first + count + 2).map(|x| top(x, y)).collect::<Vec<_>>();
-            let (above, here, below) = (row(y - 1), row(y), row(y + 1));
             let materials: Vec<TopMaterial> = (first..first + count)
                 .map(|x| {
                     match (
@@ -143,8 +250,7 @@ fn a_row_may_be_cut_anywhere() {
                 })
                 .collect();
             let mut out = vec![[0.0; 4]; count];
-            let heights = RowHeights { above: &above, here: &here, below: &below };
-            shade_row(&scene, &heights, &internal, &materials, &mut out);
+            shade_row(&scene, (&tops, (first, y)), &internal, &materials, &mut out);
             assert_eq!(out, whole.row(y, first, count), "{first} {count}");
         }
     }

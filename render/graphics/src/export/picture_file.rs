@@ -9,7 +9,7 @@ use super::linear_exr::linear_exr;
 use super::png::{png8, png16};
 use crate::field::Field;
 
-/// Least share of clipped pixels that is worth a note.
+/// Least share of pixels outside the gamut that is worth a note.
 const NOTEWORTHY: f64 = 0.0005;
 
 /// File format of a picture.
@@ -42,29 +42,29 @@ impl PictureFormat {
 pub struct PictureFile {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Share of pixels outside the gamut of the format, whose colours were clipped, 0..1.
-    pub clipped: f64,
+    /// Share of pixels outside the gamut of the format, whose chroma was reduced, 0..1.
+    pub outside: f64,
 }
 
-/// Some colours of a picture were outside sRGB and had to be clipped.
+/// Some colours of a picture were outside sRGB and lost chroma.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{:.1} % of the cells are outside sRGB and were clipped", 100.0 * .share)]
-pub struct ClippedColors {
+#[error("{:.1} % of the cells are outside sRGB and lost chroma", 100.0 * .share)]
+pub struct OutsideGamut {
     /// Share of pixels, 0..1.
     pub share: f64,
 }
 
-impl Explain for ClippedColors {
+impl Explain for OutsideGamut {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new("linear OpenEXR (.exr) keeps them"))
     }
 }
 
 impl PictureFile {
-    /// A note if a noteworthy share of pixels, 0.05 % or more, was clipped.
+    /// A note if a noteworthy share of pixels, 0.05 % or more, was outside the gamut.
     #[must_use]
-    pub fn clipping(&self) -> Option<ClippedColors> {
-        (self.clipped >= NOTEWORTHY).then_some(ClippedColors { share: self.clipped })
+    pub fn outside_gamut(&self) -> Option<OutsideGamut> {
+        (self.outside >= NOTEWORTHY).then_some(OutsideGamut { share: self.outside })
     }
 }
 
@@ -84,9 +84,9 @@ pub fn picture_file(
         PictureFormat::Png16 => png16(picture, cell_mm)?,
         PictureFormat::LinearExr => {
             let bytes = linear_exr(picture, cell_mm)?;
-            return Ok(PictureFile { bytes, clipped: 0.0 });
+            return Ok(PictureFile { bytes, outside: 0.0 });
         }
     };
-    let clipped = png.clipped as f64 / picture.values().len() as f64;
-    Ok(PictureFile { bytes: png.bytes, clipped })
+    let outside = png.outside as f64 / picture.values().len() as f64;
+    Ok(PictureFile { bytes: png.bytes, outside })
 }

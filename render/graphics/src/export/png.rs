@@ -17,8 +17,8 @@ const CICP: [u8; 4] = [1, 13, 0, 1];
 pub struct Png {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Number of pixels outside the sRGB gamut. Their channels were clamped to 0..1.
-    pub clipped: usize,
+    /// Number of pixels outside the sRGB gamut; see [`Rgb::mapped_into_gamut`] for what they show.
+    pub outside: usize,
 }
 
 /// Encodes linear sRGB (white at 1; the fourth value is ignored) with 8 bits per channel
@@ -28,11 +28,11 @@ pub struct Png {
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
 /// not finite.
 pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
-    let (values, clipped) = encoded(picture, |value, row| {
+    let (values, outside) = encoded(picture, |value, row| {
         row.push((value * 255.0).round() as u8);
     })?;
     let bytes = color_file(picture, cell_mm, BitDepth::Eight, &values)?;
-    Ok(Png { bytes, clipped })
+    Ok(Png { bytes, outside })
 }
 
 /// Encodes linear sRGB with 16 bits per channel, otherwise like [`png8`].
@@ -41,11 +41,11 @@ pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError>
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
 /// not finite.
 pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
-    let (values, clipped) = encoded(picture, |value, row| {
+    let (values, outside) = encoded(picture, |value, row| {
         row.extend(((value * 65535.0).round() as u16).to_be_bytes());
     })?;
     let bytes = color_file(picture, cell_mm, BitDepth::Sixteen, &values)?;
-    Ok(Png { bytes, clipped })
+    Ok(Png { bytes, outside })
 }
 
 /// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are
@@ -68,25 +68,26 @@ fn encoded(
 ) -> Result<(Vec<u8>, usize), ExportError> {
     let width = picture.width();
     let rows = (0..picture.height()).into_par_iter().map(|y| {
-        let (mut samples, mut clipped) = (Vec::with_capacity(width * 6), 0);
+        let (mut samples, mut outside) = (Vec::with_capacity(width * 6), 0);
         for (x, &[r, g, b, _]) in picture.row(y, 0, width).iter().enumerate() {
             if let Some(&found) = [r, g, b].iter().find(|value| !value.is_finite()) {
                 return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
             }
             let color = Rgb([r, g, b].map(f64::from));
-            clipped += usize::from(!color.in_gamut());
-            for value in Rgb(color.0.map(|value| value.clamp(0.0, 1.0))).encoded().0 {
+            outside += usize::from(!color.in_gamut());
+            let shown = color.mapped_into_gamut().0.map(|value| value.clamp(0.0, 1.0));
+            for value in Rgb(shown).encoded().0 {
                 put(value.clamp(0.0, 1.0), &mut samples);
             }
         }
-        Ok((samples, clipped))
+        Ok((samples, outside))
     });
     let rows: Vec<_> = rows.collect();
     let mut all = (Vec::with_capacity(picture.values().len() * 6), 0);
     for row in rows {
-        let (samples, clipped) = row?;
+        let (samples, outside) = row?;
         all.0.extend(samples);
-        all.1 += clipped;
+        all.1 += outside;
     }
     Ok(all)
 }

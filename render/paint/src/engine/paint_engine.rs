@@ -337,7 +337,9 @@ impl PaintEngine {
     /// baked reflectance of ground and dry layers, `baked` tiles by baking that first.
     /// Time is proportional to the number of tiles.
     ///
-    /// After a change of `scene` other than of its lamp all tiles must be baked.
+    /// The first call for a view must name all tiles. After a change of `scene` other than of
+    /// its lamp all tiles must be baked. After a change of the surface's height all tiles within
+    /// [`reach`](crate::shade::reach) of it must be shown.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.

@@ -10,7 +10,8 @@ use super::painting::{SpectralBands, painting_maps, spectral_file};
 use super::pigment_maps::{NamedFile, pigment_maps};
 use crate::file::{PaintingFileError, write};
 use crate::painting::{Painting, PaintingError};
-use graphics::export::{ClippedColors, ExportError, PictureFormat, picture_file};
+use crate::scene::PixelsPerCell;
+use graphics::export::{ExportError, OutsideGamut, PictureFormat, picture_file};
 
 /// Start of the names of pigment maps.
 const STEM: &str = "painting";
@@ -27,8 +28,8 @@ const STEM: &str = "painting";
 ///     painting: Some("wheat.exr".into()),
 ///     ..PaintingExports::default()
 /// };
-/// if let Some(clipped) = exports.write(painting)? {
-///     eprintln!("{clipped}");
+/// if let Some(outside) = exports.write(painting)? {
+///     eprintln!("{outside}");
 /// }
 /// # Ok(())
 /// # }
@@ -37,6 +38,8 @@ const STEM: &str = "painting";
 pub struct PaintingExports {
     /// Path and format of the picture.
     pub picture: Option<(PathBuf, PictureFormat)>,
+    /// Pixels of the picture along a cell's width.
+    pub pixels_per_cell: PixelsPerCell,
     /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
     /// relief and gloss.
     pub spectral: Option<(PathBuf, SpectralBands)>,
@@ -48,7 +51,7 @@ pub struct PaintingExports {
 }
 
 impl PaintingExports {
-    /// Makes and writes the files. Returns a note if colours of the picture were clipped.
+    /// Makes and writes the files. Returns a note if colours of the picture were outside its gamut.
     ///
     /// # Errors
     /// [`PaintingExportError`] if the painting cannot be computed or a file cannot be encoded
@@ -56,16 +59,20 @@ impl PaintingExports {
     pub fn write(
         &self,
         painting: &mut Painting,
-    ) -> Result<Option<ClippedColors>, PaintingExportError> {
+    ) -> Result<Option<OutsideGamut>, PaintingExportError> {
         let cell_mm = painting.cell_mm();
-        let mut clipped = None;
+        let mut outside = None;
         if let Some((path, format)) = &self.picture {
-            let file = picture_file(&painting.picture()?, cell_mm, *format)?;
+            let file = picture_file(
+                &painting.fine_picture(self.pixels_per_cell)?,
+                cell_mm / self.pixels_per_cell.count() as f64,
+                *format,
+            )?;
             write_whole(path, &file.bytes)?;
-            clipped = file.clipping();
+            outside = file.outside_gamut();
         }
         if self.spectral.is_none() && self.pigment_maps.is_none() && self.painting.is_none() {
-            return Ok(clipped);
+            return Ok(outside);
         }
         let document = painting.document()?;
         if let Some((path, bands)) = &self.spectral {
@@ -79,7 +86,7 @@ impl PaintingExports {
         if let Some(path) = &self.painting {
             write_whole(path, &write(&document)?)?;
         }
-        Ok(clipped)
+        Ok(outside)
     }
 }
 

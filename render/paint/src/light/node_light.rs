@@ -31,14 +31,25 @@ impl Light {
     /// [`PaintLightError::Quadrature`] if the light has fewer than eight usable wavelengths.
     pub fn new(library: &PigmentLibrary, viewing: &Viewing) -> Result<Self, PaintLightError> {
         let quadrature = Quadrature::library(viewing, library, NODES)?;
-        let white = quadrature.white;
-        let rgb = |i: usize| {
-            let weights = quadrature.weights[i].into();
-            let linear = RgbSpace::Srgb.linear_from_xyz(weights, white, Adaptation::Bradford);
-            linear.0.map(|channel| channel as f32)
-        };
-        let rgb_from_nodes = std::array::from_fn(rgb);
+        let rgb_from_nodes = rgb_from_nodes(&quadrature, 1.0).map(|rgb| rgb.map(|v| v as f32));
         Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes })
+    }
+
+    /// Linear sRGB of reflectance 1 at each wavelength for an eye that adapted to the light by a
+    /// `degree` of 0 (the picture has the light's own colour beside D65) to 1
+    /// (`rgb_from_nodes`, in which every light's white is white).
+    ///
+    /// Below 1 the exposure is lowered until white stays within sRGB: the greatest channel of
+    /// the perfect diffuser is 1.
+    #[must_use]
+    pub fn rgb_at_degree(&self, degree: f64) -> [[f32; 3]; NODES] {
+        if degree >= 1.0 {
+            return self.rgb_from_nodes;
+        }
+        let rgb = rgb_from_nodes(&self.quadrature, degree);
+        let white = |channel: usize| rgb.iter().map(|rgb| rgb[channel]).sum::<f64>();
+        let greatest = (0..3).map(white).fold(f64::MIN_POSITIVE, f64::max);
+        rgb.map(|rgb| rgb.map(|value| (value / greatest) as f32))
     }
 
     /// Prepares a light by names: `illuminant` as [`light_from_text`] reads it, `observer` as
@@ -55,6 +66,14 @@ impl Light {
         let illuminant = light_from_text(illuminant)?;
         Self::new(library, &Viewing { illuminant, observer: Observer::named(observer)? })
     }
+}
+
+/// Linear sRGB of reflectance 1 at each wavelength, adapted to D65 by `degree`.
+fn rgb_from_nodes(quadrature: &Quadrature, degree: f64) -> [[f64; 3]; NODES] {
+    let (space, white) = (RgbSpace::Srgb, quadrature.white);
+    let adapted = Adaptation::Bradford.partial_matrix(white, space.white(), degree);
+    let from_xyz = space.xyz_from_linear().inverse();
+    std::array::from_fn(|i| from_xyz.apply(adapted.apply(quadrature.weights[i])))
 }
 
 /// A light cannot be used for painting.

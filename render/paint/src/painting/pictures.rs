@@ -6,7 +6,7 @@ use super::views::PendingTiles;
 use crate::document::{Lighting, Slots};
 use crate::engine::View;
 use crate::optics::Scene;
-use crate::scene::{Appearance, SpectralStack};
+use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
 
@@ -51,6 +51,22 @@ impl Painting {
     pub fn picture(&mut self) -> Result<Field<[f32; 4]>, PaintingError> {
         self.compute(View::First, &self.scene(View::First))?;
         Ok(self.engine.picture()?)
+    }
+
+    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]; with one
+    /// pixel a cell it is [`Painting::picture`].
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn fine_picture(
+        &mut self,
+        pixels: PixelsPerCell,
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        if pixels == PixelsPerCell::default() {
+            return self.picture();
+        }
+        let scene = self.scene(View::First);
+        Ok(fine_picture(&self.document()?, &scene, pixels))
     }
 
     /// The picture in linear sRGB without shading of the relief and without gloss.

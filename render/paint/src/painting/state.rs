@@ -136,7 +136,7 @@ impl Painting {
         }
         engine.set_wet(&wet)?;
         let relief = Relief::from_floor(&engine.floor()?, cell_mm);
-        let views = Views::new(engine.bounds());
+        let views = Views::new(engine.bounds(), cell_mm);
         Ok(Self {
             title,
             cell_mm,

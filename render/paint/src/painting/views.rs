@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::document::Lighting;
 use crate::light::Light;
+use crate::shade::reach;
 use graphics::tile::{Rect, Tile, TileSet};
 
 /// Tiles of one picture that are out of date or were not reported.
@@ -29,6 +30,8 @@ pub(super) struct SecondLight {
 #[derive(Debug)]
 pub(super) struct Views {
     bounds: Rect,
+    /// How far shading looks, in cells.
+    reach: usize,
     pub(super) first: PendingTiles,
     pub(super) second: Option<SecondLight>,
 }
@@ -49,8 +52,8 @@ impl PendingTiles {
 
 impl Views {
     /// One picture that was not rendered yet.
-    pub(super) fn new(bounds: Rect) -> Self {
-        Self { bounds, first: PendingTiles::all(bounds), second: None }
+    pub(super) fn new(bounds: Rect, cell_mm: f64) -> Self {
+        Self { bounds, reach: reach(cell_mm), first: PendingTiles::all(bounds), second: None }
     }
 
     fn each(&mut self) -> impl Iterator<Item = &mut PendingTiles> {
@@ -60,8 +63,7 @@ impl Views {
 
     /// Marks `rect` after its wet paint changed.
     pub(super) fn mark_wet(&mut self, rect: Rect) {
-        // The shading of the relief reads neighbouring cells.
-        let reach = rect.grown(1, self.bounds);
+        let reach = rect.grown(self.reach, self.bounds);
         self.each().for_each(|pending| pending.wet.insert(reach));
     }
 

@@ -61,7 +61,7 @@ impl<'a> Appearance<'a> {
             dry: self.dry.iter().map(|(slots, opacity)| optics(slots, *opacity)).collect(),
             wet: optics(self.slots, 1.0),
             surface: scene_surface(&library.saunderson),
-            rgb_from_nodes: light.rgb_from_nodes,
+            rgb_from_nodes: light.rgb_at_degree(lighting.adaptation),
             lamp: Lamp {
                 direction: direction(lighting),
                 relief: lighting.relief as f32,
@@ -70,6 +70,7 @@ impl<'a> Appearance<'a> {
                 dry: medium.dry,
                 ground: ground.gloss,
             },
+            cell_mm: self.cell_mm as f32,
         }
     }
 }

@@ -5,8 +5,11 @@ mod appearance;
 
 mod picture;
 
+mod fine_picture;
+
 mod spectral;
 
 pub use appearance::{Appearance, scene};
+pub use fine_picture::{PixelsPerCell, PixelsPerCellError, fine_picture};
 pub use picture::picture;
 pub use spectral::{SpectralDocument, SpectralStack};

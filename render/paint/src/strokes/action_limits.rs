@@ -164,6 +164,7 @@ pub(super) fn check_light(at: &CheckContext, prefix: &str, lighting: &Lighting) 
     at.above_zero(&field("elevation_deg"), lighting.elevation_deg)?;
     at.range(&field("ambient"), lighting.ambient, 0.0, 1.0)?;
     at.range(&field("relief"), lighting.relief, 0.0, 100.0)?;
+    at.range(&field("adaptation"), lighting.adaptation, 0.0, 1.0)?;
     if let Err(error) = light_from_text(&lighting.illuminant) {
         let wanted = "a CIE illuminant, a temperature or a lamp's file";
         let hint = error.hint();

@@ -37,6 +37,7 @@ impl Action {
                 elevation_deg: six_digits(lighting.elevation_deg),
                 ambient: six_digits(lighting.ambient),
                 relief: six_digits(lighting.relief),
+                adaptation: six_digits(lighting.adaptation),
                 ..lighting.clone()
             }),
             Self::Opacity { layer, value } => {

@@ -2,6 +2,7 @@
 
 use render::export::{ExportError, png8, png16};
 use render::field::Field;
+use spectra::color::Rgb;
 use suite::near::assert_near;
 
 fn ramp() -> Field<[f32; 4]> {
@@ -30,7 +31,7 @@ fn pictures_follow_the_curve_of_srgb_in_both_depths() {
         (png8(&picture, 0.1).unwrap(), 255.0, 0.5 / 255.0),
         (png16(&picture, 0.1).unwrap(), 65535.0, 0.5 / 65535.0),
     ] {
-        assert_eq!(png.clipped, 0);
+        assert_eq!(png.outside, 0);
         let image = image::load_from_memory(&png.bytes).unwrap();
         let got: Vec<f64> = match image {
             image::DynamicImage::ImageRgb8(image) => image.iter().map(|v| f64::from(*v)).collect(),
@@ -62,16 +63,18 @@ fn pictures_say_what_they_are_and_how_large() {
 }
 
 #[test]
-fn colors_out_of_gamut_are_cut_off_and_counted() {
+fn colors_out_of_gamut_keep_hue_and_lightness_and_are_counted() {
     let mut picture = ramp();
     picture[(3, 0)] = [1.5, -0.25, 0.5, 1.0];
     picture[(4, 0)] = [0.0, 0.0, -0.1, 1.0];
     // An excess of the size of a rounding error is not counted.
     picture[(5, 0)] = [1.000_000_1, 0.0, 0.0, 1.0];
     let png = png8(&picture, 0.1).unwrap();
-    assert_eq!(png.clipped, 2);
+    assert_eq!(png.outside, 2);
     let image = image::load_from_memory(&png.bytes).unwrap().into_rgb8();
-    assert_eq!(image.get_pixel(3, 0).0, [255, 0, 188]);
+    let shown = Rgb([1.5, -0.25, 0.5]).mapped_into_gamut().encoded().to_bytes();
+    assert_eq!(image.get_pixel(3, 0).0, shown);
+    assert_ne!(shown, [255, 0, 188], "channels are not cut off one by one");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::columns::Columns;
 use super::sparse::SparseLayer;
 use crate::composite::composite_row;
 use crate::optics::{NODES, Scene};
-use crate::shade::{RowHeights, TopMaterial, shade_row};
+use crate::shade::{TopMaterial, Tops, shade_row};
 use graphics::field::Field;
 use graphics::tile::{Rect, TILE, Tile, TileSet};
 
@@ -30,13 +30,19 @@ pub(super) struct PaintLayers<'a> {
 pub(super) struct RenderedView {
     /// Internal reflectance of ground and dry layers.
     baked: Field<[f32; NODES]>,
+    /// Height of the surface.
+    tops: Tops,
     /// Linear sRGB, with 1 as the fourth component.
     picture: Field<[f32; 4]>,
 }
 
 impl Default for RenderedView {
     fn default() -> Self {
-        Self { baked: Field::filled(0, 0, [0.0; NODES]), picture: Field::filled(0, 0, BLACK) }
+        Self {
+            baked: Field::filled(0, 0, [0.0; NODES]),
+            tops: Tops::default(),
+            picture: Field::filled(0, 0, BLACK),
+        }
     }
 }
 
@@ -69,6 +75,7 @@ impl RenderedView {
         self.picture(bounds);
         if self.baked.bounds() != bounds {
             self.baked = Field::filled(bounds.width, bounds.height, scene.ground);
+            self.tops = Tops::level(bounds.width, bounds.height);
         }
         let mut both = shown.clone();
         for tile in baked.iter() {
@@ -78,10 +85,13 @@ impl RenderedView {
             return;
         };
         // Only rows between the first and the last tile are visited.
-        let first = highest.row * TILE;
-        let cells =
-            first * bounds.width..((lowest.row + 1) * TILE).min(bounds.height) * bounds.width;
+        let (first, end) = (highest.row * TILE, ((lowest.row + 1) * TILE).min(bounds.height));
+        let cells = first * bounds.width..end * bounds.width;
         let (baked_spans, shown_spans) = (spans(baked, bounds), spans(&both, bounds));
+        let PaintLayers { floor, wet, .. } = *layers;
+        let top = |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32;
+        self.tops.set(first..end, |y| &shown_spans[y / TILE], top);
+        let tops = &self.tops;
         let baked = self.baked.values_mut()[cells.clone()].par_chunks_mut(bounds.width);
         let picture = self.picture.values_mut()[cells].par_chunks_mut(bounds.width);
         let rows = baked.zip(picture).enumerate();
@@ -91,7 +101,7 @@ impl RenderedView {
                 bake(scene, layers, y, span, baked);
             }
             for span in &shown_spans[y / TILE] {
-                show(scene, layers, y, span, baked, picture, buffers);
+                show(scene, layers, (tops, y), span, baked, picture, buffers);
             }
         });
     }
@@ -135,8 +145,6 @@ fn bake(
 struct Buffers {
     internal: Vec<[f32; NODES]>,
     materials: Vec<TopMaterial>,
-    /// Heights of the surface in the rows above, here and below, in quanta.
-    heights: [Vec<i32>; 3],
 }
 
 /// Composites the wet paint over the baked reflectance in `span` of row `y`, and
@@ -144,15 +152,15 @@ struct Buffers {
 fn show(
     scene: &Scene,
     layers: &PaintLayers<'_>,
-    y: usize,
+    (tops, y): (&Tops, usize),
     span: &Range<usize>,
     baked: &[[f32; NODES]],
     picture: &mut [[f32; 4]],
     buffers: &mut Buffers,
 ) {
     let PaintLayers { ground, floor, wet, .. } = *layers;
-    let Buffers { internal, materials, heights } = buffers;
-    let (width, last_row) = (floor.width(), floor.height() - 1);
+    let Buffers { internal, materials } = buffers;
+    let width = floor.width();
     internal.clear();
     internal.extend_from_slice(&baked[span.clone()]);
     composite_row(&scene.wet, wet.layer().pigments.row(y, span.start, span.len()), internal);
@@ -162,13 +170,6 @@ fn show(
         0 => TopMaterial::Dry,
         _ => TopMaterial::Wet,
     }));
-    for (row, y) in heights.iter_mut().zip([y.saturating_sub(1), y, (y + 1).min(last_row)]) {
-        let top = |x: usize| floor[(x, y)] + wet.volume()[y * width + x] as i32;
-        row.clear();
-        row.push(top(span.start.saturating_sub(1)));
-        row.extend(span.clone().map(top));
-        row.push(top(span.end.min(width - 1)));
-    }
-    let heights = RowHeights { above: &heights[0], here: &heights[1], below: &heights[2] };
-    shade_row(scene, &heights, internal, materials, &mut picture[span.clone()]);
+    let first = (span.start, y);
+    shade_row(scene, (tops, first), internal, materials, &mut picture[span.clone()]);
 }

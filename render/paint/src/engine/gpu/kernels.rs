@@ -16,6 +16,7 @@ pub fn kernels() -> Vec<&'static Kernel> {
         &undo_tiles::UNDO_TILE,
         &render::PRIME,
         &render::BAKE,
+        &render::RAISE,
         &render::SHOW,
     ]
 }

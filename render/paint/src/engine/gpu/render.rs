@@ -5,9 +5,9 @@
 //! the two backends agree.
 
 use super::buffers::PaintBuffers;
-use crate::amount::QUANTA_PER_CELL;
 use crate::layer::SLOTS;
-use crate::optics::{Gloss, Lamp, NODES, Scene};
+use crate::optics::{Gloss, NODES, Scene};
+use crate::shade::{MOST, ReliefLamp, SOFT, Tap};
 use graphics::gpu::{
     Buffer, Device, DeviceError, GROUP, Kernel, Layout, Recording, Storage, layout,
 };
@@ -50,7 +50,7 @@ struct SurfaceParams {
     relief_on: u32,
 }
 
-/// The lamp, prepared for shading slopes.
+/// [`ReliefLamp`] as a uniform.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct LampParams {
@@ -59,6 +59,22 @@ struct LampParams {
     slope: f32,
     halfway: [f32; 4],
     gloss: [[f32; 4]; 3],
+    shadow: [[f32; 4]; 6],
+    around: [[f32; 4]; 8],
+    soft: f32,
+    most: f32,
+    padding: [f32; 2],
+}
+
+/// Uniforms of [`RAISE`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct RaiseParams {
+    /// Width and height of the canvas in cells.
+    canvas: [u32; 2],
+    /// Index of the first tile in the batch.
+    first_tile: u32,
+    padding: u32,
 }
 
 /// Uniforms of [`SHOW`].
@@ -108,6 +124,19 @@ pub(super) static BAKE: Kernel = Kernel {
     storage: BAKE_STORAGE,
 };
 
+/// Adds up the heights of floor and wet paint.
+pub(super) static RAISE: Kernel = Kernel {
+    name: "raise_tiles",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("passes/raise_tiles.wgsl"),
+    ),
+    parameters: layout!(RaiseParams { canvas, first_tile, padding }),
+    structs: &[],
+    storage: &[Storage::Batch, Storage::Read, Storage::Read, Storage::Read, Storage::Write],
+};
+
 /// Composites the wet layer over the baked reflectance and shades it.
 pub(super) static SHOW: Kernel = Kernel {
     name: "show_tiles",
@@ -115,7 +144,7 @@ pub(super) static SHOW: Kernel = Kernel {
         include_str!("../../amount.wgsl"),
         include_str!("../../layer.wgsl"),
         include_str!("../../composite.wgsl"),
-        include_str!("../../shade.wgsl"),
+        include_str!("../../shade/shade.wgsl"),
         include_str!("passes/show_tiles.wgsl"),
     ),
     parameters: layout!(ShowParams {
@@ -130,7 +159,18 @@ pub(super) static SHOW: Kernel = Kernel {
     structs: &[
         LAYER_OPTICS,
         layout!(SurfaceParams { k1, k2, specular, relief_on }),
-        layout!(LampParams { towards_lamp, ambient, slope, halfway, gloss }),
+        layout!(LampParams {
+            towards_lamp,
+            ambient,
+            slope,
+            halfway,
+            gloss,
+            shadow,
+            around,
+            soft,
+            most,
+            padding
+        }),
     ],
     storage: &[
         Storage::Batch,
@@ -162,6 +202,8 @@ pub(super) struct ViewBuffers {
     baked: Buffer,
     /// Material below the wet paint: 1 dry paint, 2 bare ground.
     material: Buffer,
+    /// Height of the surface in quanta.
+    tops: Buffer,
     /// Linear sRGB, with 1 as the fourth component.
     pub(super) picture: Buffer,
 }
@@ -172,20 +214,25 @@ impl From<&crate::optics::LayerOptics> for LayerOptics {
     }
 }
 
-impl LampParams {
-    fn new(lamp: &Lamp) -> Self {
-        let [x, y, z] = lamp.direction;
-        let length = (x * x + y * y + (z + 1.0) * (z + 1.0)).sqrt();
-        let halfway = [x / length, y / length, (z + 1.0) / length];
-        let gloss = |Gloss { strength, exponent }: Gloss| {
-            [strength * (1.0 - lamp.ambient), exponent, halfway[2].powf(exponent), 0.0]
+impl From<ReliefLamp> for LampParams {
+    fn from(lamp: ReliefLamp) -> Self {
+        let [x, y, z] = lamp.halfway;
+        let gloss = |(Gloss { strength, exponent }, level)| [strength, exponent, level, 0.0];
+        let tap = |tap: Tap| {
+            let [x, y] = tap.offset.map(|cells| cells as f32);
+            [x, y, tap.per_quantum, tap.less]
         };
         Self {
-            towards_lamp: [-x / z, -y / z],
+            towards_lamp: lamp.towards_lamp,
             ambient: lamp.ambient,
-            slope: lamp.relief / (2.0 * QUANTA_PER_CELL as f32),
-            halfway: [halfway[0], halfway[1], halfway[2], 0.0],
-            gloss: [lamp.wet, lamp.dry, lamp.ground].map(gloss),
+            slope: lamp.slope,
+            halfway: [x, y, z, 0.0],
+            gloss: lamp.gloss.map(gloss),
+            shadow: lamp.shadow.map(tap),
+            around: lamp.around.map(tap),
+            soft: SOFT,
+            most: MOST,
+            padding: [0.0; 2],
         }
     }
 }
@@ -197,6 +244,7 @@ impl ViewBuffers {
         Ok(Self {
             baked: device.buffer("the light of dry layers", 4 * NODES as u64 * cells)?,
             material: device.buffer("the light of dry layers", 4 * cells)?,
+            tops: device.buffer("the surface of the paint", 4 * cells)?,
             picture: device.buffer("the picture", 16 * cells)?,
         })
     }
@@ -222,7 +270,16 @@ impl ViewBuffers {
         for tiles in columns_and_rows(baked).chunks(MAX_TILES) {
             self.record_bake(recording, canvas, scene, tiles);
         }
-        for tiles in columns_and_rows(&shown).chunks(MAX_TILES) {
+        let shown = columns_and_rows(&shown);
+        // Cells look at their neighbours, so all heights come first.
+        for tiles in shown.chunks(MAX_TILES) {
+            let (canvas_size, first_tile) = (canvas.size, recording.batch(tiles));
+            let params = RaiseParams { canvas: canvas_size, first_tile, padding: 0 };
+            let PaintBuffers { pigments, vehicle } = canvas.wet;
+            let buffers = [pigments, vehicle, canvas.floor, &self.tops];
+            recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles));
+        }
+        for tiles in shown.chunks(MAX_TILES) {
             self.record_show(recording, canvas, scene, tiles);
         }
     }
@@ -272,13 +329,13 @@ impl ViewBuffers {
                 specular: surface.specular,
                 relief_on: u32::from(scene.lamp.relief != 0.0),
             },
-            lamp: LampParams::new(&scene.lamp),
+            lamp: ReliefLamp::new(scene).into(),
             canvas: canvas.size,
             first_tile: recording.batch(tiles),
             padding: 0,
         };
         let PaintBuffers { pigments, vehicle } = canvas.wet;
-        let buffers = [pigments, vehicle, canvas.floor, &self.baked, &self.material, &self.picture];
+        let buffers = [pigments, vehicle, &self.tops, &self.baked, &self.material, &self.picture];
         recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles));
     }
 }

@@ -105,6 +105,7 @@ fn scene(layers: usize) -> Scene {
             dry: gloss(0.2),
             ground: gloss(0.1),
         },
+        cell_mm: 0.1,
     }
 }
 

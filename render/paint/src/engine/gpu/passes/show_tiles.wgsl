@@ -18,21 +18,17 @@ struct ShowParams {
 @group(0) @binding(1) var<storage, read> tiles: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> vehicle: array<u32>;
-@group(0) @binding(4) var<storage, read> floor_height: array<i32>;
+// Height of the surface in quanta.
+@group(0) @binding(4) var<storage, read> tops: array<i32>;
 @group(0) @binding(5) var<storage, read> baked: array<vec4<f32>>;
 // Topmost material below the wet paint: 1 dry paint, 2 bare ground.
 @group(0) @binding(6) var<storage, read> material: array<u32>;
 @group(0) @binding(7) var<storage, read_write> picture: array<vec4<f32>>;
 
-fn cell_at(i: u32) -> Cell {
-    return Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
-}
-
 // Height of the surface in quanta at a cell, or at the nearest cell of the canvas.
-fn surface_height(at: vec2<i32>) -> i32 {
+fn top(at: vec2<i32>) -> f32 {
     let inside = vec2<u32>(clamp(at, vec2(0), vec2<i32>(params.canvas) - vec2(1)));
-    let i = inside.y * params.canvas.x + inside.x;
-    return floor_height[i] + bitcast<i32>(volume(cell_at(i)));
+    return f32(tops[inside.y * params.canvas.x + inside.x]);
 }
 
 @compute @workgroup_size(8, 8)
@@ -42,20 +38,13 @@ fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let i = at.y * params.canvas.x + at.x;
-    let wet = cell_at(i);
+    let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
     let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
     let internal = composite(wet.low, wet.high, backing);
     var rgb = color(internal);
     if params.surface.relief_on != 0u {
-        let here = vec2<i32>(at);
-        let heights = vec4(
-            surface_height(here - vec2(1, 0)),
-            surface_height(here + vec2(1, 0)),
-            surface_height(here - vec2(0, 1)),
-            surface_height(here + vec2(0, 1)),
-        );
-        let top = select(material[i], 0u, volume(wet) > 0u);
-        rgb = shade(params.lamp, heights, top, rgb);
+        let material_on_top = select(material[i], 0u, volume(wet) > 0u);
+        rgb = shade(vec2<i32>(at), material_on_top, rgb);
     }
     picture[i] = vec4(rgb, 1.0);
 }
