@@ -13,6 +13,8 @@ mod clock;
 
 mod speed;
 
+mod stamps;
+
 mod pointer;
 
 #[cfg(target_os = "linux")]

@@ -32,6 +32,10 @@ const LINE_START_MM: f64 = 2.0;
 /// remaining angle falls by a factor of e.
 const TURNING_POINTS: f64 = 30.0;
 
+/// Path length in points over which the direction of the stroke is averaged: single steps
+/// of a mouse are a few whole points, so their directions jump by up to 45 degrees.
+const HEADING_POINTS: f64 = 20.0;
+
 /// A stroke that has begun and not ended.
 #[derive(Debug)]
 pub(super) struct PenStroke {
@@ -46,6 +50,8 @@ pub(super) struct PenStroke {
     /// Whether the last sample was added because the pen rested.
     still: bool,
     twist: f64,
+    /// Recent way of the stroke in points; older steps weigh less.
+    way: (f64, f64),
     last: Option<Sample>,
     samples: Vec<PenSample>,
 }
@@ -71,6 +77,7 @@ impl PenStroke {
             moved: at,
             still: false,
             twist: settings.grip.twist_deg,
+            way: (0.0, 0.0),
             last: None,
             samples: Vec::new(),
         };
@@ -217,7 +224,9 @@ impl PenStroke {
         if length == 0.0 {
             return;
         }
-        let across = f64::from(step.y).atan2(f64::from(step.x)).to_degrees() + 90.0;
+        let kept = (-length / HEADING_POINTS).exp();
+        self.way = (self.way.0 * kept + f64::from(step.x), self.way.1 * kept + f64::from(step.y));
+        let across = self.way.1.atan2(self.way.0).to_degrees() + 90.0;
         // The broad side has no direction, so the difference is taken modulo 180 degrees.
         let off = (across - self.twist + 90.0).rem_euclid(180.0) - 90.0;
         self.twist += off * (1.0 - (-length / TURNING_POINTS).exp());

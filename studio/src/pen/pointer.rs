@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 
 use super::report::{Device, PointerState, Report, ReportKind};
+use super::stamps::{Stamp, Stamps, filled};
 
 /// Distance after which a moving finger paints, in points. Until then a second finger can
 /// turn the touch into a gesture.
@@ -20,6 +21,7 @@ const FRAME: Duration = Duration::from_millis(34);
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
     last_frame: Option<Instant>,
+    stamps: Stamps,
     /// Fingers that are down, in order of contact. Only the first can paint.
     fingers: Vec<TouchId>,
     finger: Finger,
@@ -41,8 +43,14 @@ enum Finger {
 }
 
 impl Pointer {
-    /// Reports since the last frame, in order. egui's events carry no times, so they are
-    /// spread evenly between the last frame and `now`.
+    /// Adds times of mouse events, as the window system reports them.
+    pub(super) fn stamp(&mut self, stamps: impl IntoIterator<Item = Stamp>) {
+        self.stamps.extend(stamps);
+    }
+
+    /// Reports since the last frame, in order. egui's events carry no times: they get those that
+    /// the window system reported for their places, and the others are spread evenly between
+    /// them, the last frame and `now`.
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
         let mut reports = Vec::new();
         for event in events {
@@ -50,9 +58,19 @@ impl Pointer {
         }
         let from = self.last_frame.unwrap_or(now);
         let from = from.max(now.checked_sub(FRAME).unwrap_or(now)).min(now);
-        let count = u32::try_from(reports.len()).unwrap_or(u32::MAX).max(1);
-        for (order, report) in (1..=count).zip(&mut reports) {
-            report.arrived = from + (now - from).mul_f64(f64::from(order) / f64::from(count));
+        let known: Vec<Option<Instant>> = reports
+            .iter()
+            .map(|report| match report.kind {
+                ReportKind::Moved(state) | ReportKind::Pressed(state)
+                    if report.device == Device::Mouse =>
+                {
+                    self.stamps.take(state.at, now)
+                }
+                _ => None,
+            })
+            .collect();
+        for (report, time) in reports.iter_mut().zip(filled(&known, from, now)) {
+            report.arrived = time;
         }
         self.last_frame = Some(now);
         self.decide(reports, now)
@@ -210,6 +228,20 @@ mod tests {
         let reports = pointer.reports(&[button(false), Event::PointerGone], at(5_000));
         assert_eq!(letters(&reports), "rg");
         assert_eq!([reports[0].arrived, reports[1].arrived], [at(4_983), at(5_000)]);
+    }
+
+    #[test]
+    fn events_that_the_system_timed_have_its_times() {
+        let start = Instant::now();
+        let at = |ms| start + Duration::from_millis(ms);
+        let mut pointer = Pointer::default();
+        pointer.reports(&[], at(0));
+        pointer.stamp([(2.0, 3), (7.0, 5), (8.0, 15)].map(|(x, ms)| (pos2(x, 0.0), at(ms))));
+        let events: Vec<Event> =
+            [2.0, 7.0, 8.0, 9.0].map(|x| Event::PointerMoved(pos2(x, 0.0))).to_vec();
+        let reports = pointer.reports(&events, at(20));
+        let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
+        assert_eq!(times, [3, 5, 15, 20].map(at));
     }
 
     #[test]

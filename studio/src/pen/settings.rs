@@ -17,9 +17,9 @@ pub struct Grip {
 }
 
 impl Default for Grip {
-    /// The attitude of a right hand that comes from the lower right.
+    /// Nearly upright, towards a right hand that comes from the lower right.
     fn default() -> Self {
-        Self { lean_deg: 35.0, towards_deg: 45.0, twist_deg: 0.0 }
+        Self { lean_deg: 5.0, towards_deg: 45.0, twist_deg: 0.0 }
     }
 }
 
@@ -55,7 +55,7 @@ pub struct PenSettings {
 
 impl Default for PenSettings {
     fn default() -> Self {
-        Self { gamma: 1.0, grip: Grip::default(), follow: false, pen_tilt: true }
+        Self { gamma: 1.0, grip: Grip::default(), follow: true, pen_tilt: true }
     }
 }
 
@@ -91,7 +91,7 @@ mod tests {
         let (x, y) = Grip::default().tilt_deg();
         assert!((x - y).abs() < 1e-9 && x > 0.0, "{x} {y}");
         let lean = x.to_radians().tan().hypot(y.to_radians().tan()).atan().to_degrees();
-        assert!((lean - 35.0).abs() < 1e-9, "{lean}");
+        assert!((lean - 5.0).abs() < 1e-9, "{lean}");
         let mut grip = Grip::default();
         grip.turn(-15.0);
         assert_eq!(grip.twist_deg, 345.0);

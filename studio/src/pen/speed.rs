@@ -3,8 +3,9 @@
 //! A slow movement presses more: the pressure is
 //! `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`, that is 0.70 at rest, 0.475 at 500 points
 //! per second and 0.25 at very high speed. (A point is 1/96 inch, so 500 points are 132
-//! mm.) The speed is smoothed over 50 ms and starts at 500, so that every stroke begins at
-//! a moderate pressure. At its start the pressure rises from a fifth to the full value over
+//! mm.) The speed is smoothed over 0.2 s and starts at 500, so that every stroke begins at
+//! a moderate pressure; the pressure that follows from it changes by at most the full pressure a
+//! second, because a hand that means to be even is not. At its start the pressure rises from a fifth to the full value over
 //! 10 points of path or 60 ms, whichever comes first; at its end it falls to 0. All
 //! constants were chosen by eye.
 
@@ -17,7 +18,9 @@ pub(super) const FAST: f64 = 0.25;
 /// Speed at which the pressure is midway between `SLOW` and `FAST`, in points per second.
 pub(super) const MEDIUM: f64 = 500.0;
 /// Time constant of the smoothed speed, in seconds.
-const SMOOTHING_SECONDS: f64 = 0.05;
+const SMOOTHING_SECONDS: f64 = 0.2;
+/// Largest change of the pressure that follows from the speed, in full pressures per second.
+const FASTEST_CHANGE: f64 = 1.0;
 /// Fraction of the full pressure with which a stroke starts.
 const START_SHARE: f64 = 0.2;
 /// Path length over which the pressure rises to its full value, in points.
@@ -36,6 +39,8 @@ const SHORTEST_STEP_SECONDS: f64 = 5e-4;
 pub(super) struct SpeedPressure {
     /// Smoothed speed in points per second.
     speed: f64,
+    /// Pressure that follows from the speed, without the rise at the start.
+    full: f64,
     /// Path length since the start of the stroke, in points.
     path: f64,
     /// Path length since `measured`, in points.
@@ -50,7 +55,8 @@ impl SpeedPressure {
     /// A stroke that starts at a point of the window, at a time in seconds.
     #[must_use]
     pub(super) fn new(at: Pos2, seconds: f64) -> Self {
-        Self { speed: MEDIUM, path: 0.0, step: 0.0, last: at, began: seconds, measured: seconds }
+        let (speed, full) = (MEDIUM, by_speed(MEDIUM));
+        Self { speed, full, path: 0.0, step: 0.0, last: at, began: seconds, measured: seconds }
     }
 
     /// Skips the initial rise: the stroke is at its full pressure.
@@ -71,6 +77,8 @@ impl SpeedPressure {
             let passed = passed.min(LONGEST_STEP_SECONDS);
             let share = 1.0 - (-passed / SMOOTHING_SECONDS).exp();
             self.speed += (self.step / passed - self.speed) * share;
+            let most = FASTEST_CHANGE * passed;
+            self.full += (by_speed(self.speed) - self.full).clamp(-most, most);
             self.step = 0.0;
             self.measured = seconds;
         }
@@ -80,11 +88,10 @@ impl SpeedPressure {
     /// Pressure at a time without further movement, 0 to 1.
     #[must_use]
     pub(super) fn pressure(&self, seconds: f64) -> f64 {
-        let full = FAST + (SLOW - FAST) / (1.0 + self.speed / MEDIUM);
         let done = (self.path / START_POINTS).max((seconds - self.began) / START_SECONDS);
         let done = done.clamp(0.0, 1.0);
         let eased = done * done * (3.0 - 2.0 * done);
-        full * (START_SHARE + (1.0 - START_SHARE) * eased)
+        self.full * (START_SHARE + (1.0 - START_SHARE) * eased)
     }
 
     /// Pressures, 0 to 1, of the samples that end the stroke at its last position; the last
@@ -102,6 +109,11 @@ impl SpeedPressure {
         lifted.extend([0.5 * from, 0.0]);
         lifted
     }
+}
+
+/// Pressure of an even movement at `speed` points per second.
+fn by_speed(speed: f64) -> f64 {
+    FAST + (SLOW - FAST) / (1.0 + speed / MEDIUM)
 }
 
 #[cfg(test)]
@@ -137,6 +149,40 @@ mod tests {
             let (seldom, often) = (steady(speed, 60), steady(speed, 1000));
             assert!((seldom - often).abs() < 0.005, "{speed}: {seldom} {often}");
         }
+    }
+
+    #[test]
+    fn an_even_hand_presses_evenly_although_its_reports_are_noisy() {
+        // Steps in points of a hand that means to go evenly, every 8 ms: whole points, late and
+        // early reports, as a mouse sends them.
+        let steps =
+            [3.0, 5.0, 0.0, 8.0, 4.0, 3.0, 6.0, 1.0, 7.0, 4.0, 2.0, 5.0, 9.0, 0.0, 4.0, 3.0];
+        let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0);
+        let (mut x, mut seconds, mut pressures) = (0.0, 0.0, Vec::new());
+        for step in steps.iter().cycle().take(240) {
+            x += step;
+            seconds += 0.008;
+            pressures.push(pressure_model.move_to(pos2(x, 0.0), seconds));
+        }
+        let even = &pressures[30..];
+        let steps = even.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        assert!(steps.fold(0.0, f64::max) < 0.008, "{even:?}");
+        let mean = even.iter().sum::<f64>() / even.len() as f64;
+        let spread = even.iter().map(|p| (p - mean) * (p - mean)).sum::<f64>();
+        let roughness = (spread / even.len() as f64).sqrt();
+        assert!(roughness < 0.006, "{roughness}");
+    }
+
+    #[test]
+    fn a_sudden_movement_changes_the_pressure_by_no_more_than_its_whole_a_second() {
+        let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0).at_full_pressure();
+        let mut last = pressure_model.pressure(0.0);
+        for (x, seconds) in [(900.0, 0.01), (2000.0, 0.03), (2000.0, 0.05), (9000.0, 0.1)] {
+            let pressure = pressure_model.move_to(pos2(x, 0.0), seconds);
+            assert!(last - pressure <= 0.0501, "{pressure} after {last}");
+            last = pressure;
+        }
+        assert!(last < 0.41, "{last}");
     }
 
     #[test]

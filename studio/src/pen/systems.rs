@@ -1,4 +1,4 @@
-//! Styluses of the window system: X11, Wayland or Windows.
+//! Styluses of the window system: X11, Wayland or Windows, and the times of its mice.
 
 use std::time::{Duration, Instant};
 
@@ -6,6 +6,7 @@ use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};
 
 use super::report::{Report, ReportKind};
+use super::stamps::Stamp;
 use super::tablet::Tablet;
 #[cfg(target_os = "linux")]
 use super::x11::X11Pens;
@@ -95,6 +96,17 @@ impl Systems {
             all_reports.extend(reports);
         }
         all_reports
+    }
+
+    /// Places and times of the mouse events since the last call, where the window system is
+    /// X11. The events that winit passes on have no times, on any system.
+    pub(super) fn mouse_times(&mut self, egui: &Context) -> Vec<Stamp> {
+        #[cfg(target_os = "linux")]
+        if let Some(x11) = &mut self.x11 {
+            return x11.mouse_times(egui.pixels_per_point()).collect();
+        }
+        let _ = egui;
+        Vec::new()
     }
 
     /// Time after which the window must poll a tablet, whose events do not wake it; `None`

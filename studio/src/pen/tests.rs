@@ -132,7 +132,7 @@ fn a_mouse_paints_with_the_grip_and_pressure_from_speed() {
     assert_eq!(seconds, [0.0, 0.0053, 0.0107]);
     let pressures: Vec<f64> = first.iter().map(|sample| sample.sample.pressure).collect();
     assert!(pressures[0] > 0.0 && pressures.is_sorted(), "{pressures:?}");
-    assert_eq!((first[2].sample.tilt_x_deg, first[2].sample.tilt_y_deg), (26.34, 26.34));
+    assert_eq!((first[2].sample.tilt_x_deg, first[2].sample.tilt_y_deg), (3.54, 3.54));
     // The stroke goes on beyond the canvas, over the palette.
     let output = test.frame(32, &[moved(900.0, 40.0), button(900.0, 40.0, false)]);
     assert_eq!(letters(&output), "MUH");
@@ -304,13 +304,31 @@ fn values_out_of_range_are_clamped_or_dropped() {
 #[test]
 fn a_following_brush_turns_its_broad_side_across_the_path() {
     let mut test = TestPen::new();
-    test.pen.settings.follow = true;
     test.frame(0, &[button(40.0, 40.0, true)]);
     let events: Vec<Event> = (1_u8..=60).map(|x| moved(40.0 + 5.0 * f32::from(x), 40.0)).collect();
     let output = samples(&test.frame(200, &events));
     let twists: Vec<f64> = output.iter().map(|sample| sample.sample.twist_deg.abs()).collect();
     assert!(twists.is_sorted() && twists[0] < 20.0, "{twists:?}");
     assert!((twists[59] - 90.0).abs() < 0.1, "{twists:?}");
+}
+
+#[test]
+fn a_following_brush_does_not_jitter_with_the_whole_points_of_a_mouse() {
+    let mut test = TestPen::new();
+    test.frame(0, &[button(40.0, 40.0, true)]);
+    // Whole points of a straight way of 20 degrees, in steps of 1 to 3 points.
+    let events: Vec<Event> = (1_u8..=200)
+        .map(|step| {
+            let way = f32::from(step) * 2.0 + f32::from(step % 3);
+            moved((40.0 + 0.94 * way).round(), (40.0 + 0.342 * way).round())
+        })
+        .collect();
+    let output = samples(&test.frame(900, &events));
+    let twists: Vec<f64> =
+        output.iter().skip(80).map(|sample| sample.sample.twist_deg.rem_euclid(180.0)).collect();
+    assert!(twists.iter().all(|twist| (twist - 110.0).abs() < 3.0), "{twists:?}");
+    let jitter = twists.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    assert!(jitter < 0.5, "{jitter}: {twists:?}");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Styluses under X11, through XInput 2 on a separate connection.
 //!
 //! Every device with an axis labelled `Abs Pressure` is a stylus. Its events are selected
-//! on the program's window, in addition to those of the pointer that it moves.
+//! on the program's window, in addition to those of the pointer that it moves. Of the other
+//! devices that move a pointer only the times of their events are read.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
@@ -16,6 +17,7 @@ use x11rb::rust_connection::RustConnection;
 
 use super::clock::StampClock;
 use super::report::{Device, Report, ReportKind};
+use super::stamps::Stamp;
 use super::valuator::{Axis, Valuator, Valuators};
 
 /// `XIAllDevices` of the protocol.
@@ -25,6 +27,7 @@ const ALL_DEVICES: u16 = 0;
 #[derive(Debug)]
 pub(super) struct X11Pens {
     reports: Receiver<Report>,
+    mouse_times: Receiver<Stamp>,
 }
 
 impl X11Pens {
@@ -50,10 +53,11 @@ impl X11Pens {
         let root = connection.setup().roots[screen].root;
         connection.xinput_xi_query_version(2, 2)?.reply()?;
         select_events(&connection, root, ALL_DEVICES, XIEventMask::HIERARCHY)?;
-        let pens = pens(&connection, window)?;
+        let (pens, mice) = devices(&connection, window)?;
         let (sender, reports) = channel();
-        let ends = PenEnds { pens, clock: StampClock::default() };
-        let mut listener = Listener { connection, window, ends, sender };
+        let (stamper, mouse_times) = channel();
+        let ends = PenEnds { pens, mice, clock: StampClock::default() };
+        let mut listener = Listener { connection, window, ends, sender, stamper };
         std::thread::spawn(move || {
             // The thread ends when the server closes the connection or the receiver is
             // gone.
@@ -65,7 +69,7 @@ impl X11Pens {
                 }
             }
         });
-        Ok(Self { reports })
+        Ok(Self { reports, mouse_times })
     }
 
     /// Reports since the last call. `pixels` is the number of pixels per point.
@@ -76,6 +80,12 @@ impl X11Pens {
             }
             report
         })
+    }
+
+    /// Places and times of the events of mice since the last call.
+    pub(super) fn mouse_times(&mut self, pixels: f32) -> impl Iterator<Item = Stamp> + '_ {
+        let in_points = move |at: Pos2| (at.to_vec2() / pixels).to_pos2();
+        self.mouse_times.try_iter().map(move |(at, time)| (in_points(at), time))
     }
 }
 
@@ -95,9 +105,10 @@ impl From<ReplyError> for Disconnected {
     }
 }
 
-/// All ends of all styluses.
+/// All ends of all styluses, and the numbers of the mice.
 struct PenEnds {
     pens: Vec<PenEnd>,
+    mice: Vec<u16>,
     clock: StampClock,
 }
 
@@ -123,6 +134,16 @@ impl PenEnds {
         let arrived = self.clock.instant(input.time, arrived);
         Some(Report { device: end.device, arrived, kind })
     }
+
+    /// Place and time of an event that was received at `arrived`, if it is of a mouse.
+    fn stamp(&mut self, event: &Event, arrived: Instant) -> Option<Stamp> {
+        let (Event::XinputMotion(input) | Event::XinputButtonPress(input)) = event else {
+            return None;
+        };
+        let mouse = self.mice.contains(&input.deviceid);
+        let place = position(input.event_x, input.event_y);
+        mouse.then(|| (place, self.clock.instant(input.time, arrived)))
+    }
 }
 
 struct Listener {
@@ -130,6 +151,7 @@ struct Listener {
     window: u32,
     ends: PenEnds,
     sender: Sender<Report>,
+    stamper: Sender<Stamp>,
 }
 
 impl Listener {
@@ -144,9 +166,13 @@ impl Listener {
             _ => false,
         };
         if plugged {
-            self.ends.pens = pens(&self.connection, self.window)?;
+            (self.ends.pens, self.ends.mice) = devices(&self.connection, self.window)?;
         }
-        let Some(report) = self.ends.report(event, Instant::now()) else { return Ok(false) };
+        let arrived = Instant::now();
+        if let Some(stamp) = self.ends.stamp(event, arrived) {
+            self.stamper.send(stamp).map_err(|_| Disconnected)?;
+        }
+        let Some(report) = self.ends.report(event, arrived) else { return Ok(false) };
         self.sender.send(report).map_err(|_| Disconnected)?;
         Ok(true)
     }
@@ -158,10 +184,13 @@ fn barrel(button: u32, pressed: bool) -> Option<ReportKind> {
     (button < 2).then_some(ReportKind::Barrel { button, pressed })
 }
 
-/// Lists the styluses and selects their events over `window`.
-fn pens(connection: &RustConnection, window: u32) -> Result<Vec<PenEnd>, ReplyError> {
+/// Lists the styluses and the mice and selects their events over `window`.
+fn devices(
+    connection: &RustConnection,
+    window: u32,
+) -> Result<(Vec<PenEnd>, Vec<u16>), ReplyError> {
     let devices = connection.xinput_xi_query_device(ALL_DEVICES)?.reply()?;
-    let mut pens = Vec::new();
+    let (mut pens, mut mice) = (Vec::new(), Vec::new());
     for device in devices.infos {
         if !matches!(device.type_, DeviceType::SLAVE_POINTER | DeviceType::FLOATING_SLAVE) {
             continue;
@@ -183,6 +212,10 @@ fn pens(connection: &RustConnection, window: u32) -> Result<Vec<PenEnd>, ReplyEr
             });
         }
         if !valuators.is_pen() {
+            let mask = XIEventMask::MOTION | XIEventMask::BUTTON_PRESS;
+            if select_events(connection, window, device.deviceid, mask).is_ok() {
+                mice.push(device.deviceid);
+            }
             continue;
         }
         let name = String::from_utf8_lossy(&device.name).to_lowercase();
@@ -197,7 +230,7 @@ fn pens(connection: &RustConnection, window: u32) -> Result<Vec<PenEnd>, ReplyEr
             pens.push(PenEnd { id: device.deviceid, device: kind, valuators });
         }
     }
-    Ok(pens)
+    Ok((pens, mice))
 }
 
 fn select_events(
@@ -257,7 +290,7 @@ mod tests {
         let pressure = axis(2, Axis::Pressure, (0.0, 2047.0));
         let valuators = Valuators(vec![pressure]);
         let pens = vec![PenEnd { id: 9, device: Device::Eraser, valuators }];
-        let mut ends = PenEnds { pens, clock: StampClock::default() };
+        let mut ends = PenEnds { pens, mice: vec![7], clock: StampClock::default() };
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let events = [
@@ -286,6 +319,10 @@ mod tests {
         assert_eq!((down.pressure, down.tilt_deg), (Some(0.5), None));
         let barrel = |button, pressed| ReportKind::Barrel { button, pressed };
         assert_eq!(rest, [barrel(0, true), barrel(1, false), ReportKind::Released]);
+        let of_mouse = ButtonPressEvent { deviceid: 7, ..button_event(524, 0, None) };
+        let stamp = ends.stamp(&Event::XinputMotion(of_mouse.clone()), at(40));
+        assert_eq!(stamp, Some((pos2(100.5, 1.75), at(24))));
+        assert!(ends.report(&Event::XinputMotion(of_mouse), at(40)).is_none());
     }
 
     /// An X server without a screen, ended after the test.
@@ -336,6 +373,7 @@ mod tests {
             pens_of_server.reports.try_recv(),
             Err(std::sync::mpsc::TryRecvError::Empty)
         ));
-        assert!(pens(&connection, window).unwrap().is_empty());
+        let (pens, mice) = devices(&connection, window).unwrap();
+        assert!(pens.is_empty() && !mice.is_empty());
     }
 }
