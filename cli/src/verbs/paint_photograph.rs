@@ -42,7 +42,7 @@ pub(crate) struct PhotographOptions {
     #[arg(long, value_parser = grounds(), default_value = "linen", conflicts_with = "script")]
     ground: GroundKind,
     /// Widths of the brushes in mm, separated by commas; used from the broadest to the finest
-    /// [default: 16,8,4,2 on 200 mm, and in proportion]
+    /// [default: 16,8,4,2,1 on 200 mm, and in proportion]
     #[arg(long, value_name = "MM", value_delimiter = ',', conflicts_with = "script")]
     brushes: Vec<f64>,
     /// Difference in CIELAB above which an area is painted over; less takes more strokes

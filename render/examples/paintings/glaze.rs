@@ -56,7 +56,7 @@ fn relief(script: &mut ScriptBuilder) {
                 (x + out * (turn + bend).cos(), y + 1.35 * out * (turn + bend).sin())
             };
             for pass in 0..4 {
-                script.fresh("round", "W1", 0.0, 1.6);
+                script.fresh("round", "W1", 0.0, 0.6);
                 let out = 15.0 - f64::from(pass);
                 script.stroke("round", &[at(3.5, 0.0), at(0.6 * out, 0.35), at(out, 0.9)], 0.75);
             }
@@ -64,13 +64,13 @@ fn relief(script: &mut ScriptBuilder) {
     }
     for pass in 0..5 {
         script.wash("round");
-        script.load("round", "W1", 0.0, 1.6);
+        script.load("round", "W1", 0.0, 0.6);
         let wave = |i: i32| (4.0 + 5.1 * f64::from(i), 58.0 + 2.5 * f64::from(i % 2));
         let places: Vec<Place> = (0..19).map(wave).collect();
         script.even("round", &places, 0.7);
         if pass > 2 {
             script.wash("knife");
-            script.load("knife", "W8Y1R0.2", 0.0, 3.0);
+            script.load("knife", "W8Y1R0.2", 0.0, 1.0);
             script.even("knife", &[(6.0, 66.0), (94.0, 65.0)], 0.5);
         }
     }
@@ -82,7 +82,7 @@ fn glazes(script: &mut ScriptBuilder) {
     for (recipe, left, vehicle) in [("L1", 6.0, 0.9), ("U1", 38.0, 0.95), ("V1", 70.0, 0.93)] {
         for row in 0..7 {
             script.wash("mop");
-            script.load("mop", recipe, vehicle, 0.7);
+            script.load("mop", recipe, vehicle, 0.06);
             let x = left + 4.0 * f64::from(row);
             script.even("mop", &[(x, 6.0), (x + 0.4, 35.0), (x, 64.0)], 0.3);
         }

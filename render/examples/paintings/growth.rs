@@ -27,7 +27,7 @@ pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half
         let mut up: f64 = 0.0;
         while up < 0.97 {
             let wide = half * (1.0 - up).powf(0.7) * (0.75 + 0.9 * up * (1.0 - up)) * spread + 0.6;
-            script.fresh("filbert", recipe, 0.0, 0.7);
+            script.fresh("filbert", recipe, 0.0, 0.3);
             let count = ((wide / 2.4) as i32).max(1);
             for i in -count..=count {
                 let side = f64::from(i) / f64::from(count);
@@ -53,7 +53,7 @@ pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half
             up += step / height;
         }
     }
-    script.fresh("small", "Y4E2W1", 0.0, 0.7);
+    script.fresh("small", "Y4E2W1", 0.0, 0.3);
     for number in 0..(height / 4.0) as i32 {
         let up = f64::from(number) * 4.0 / height;
         script.load("small", "Y4E2W1", 0.0, 0.15);
@@ -69,7 +69,7 @@ pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half
 pub(crate) fn shadows(script: &mut ScriptBuilder) {
     for (x, y, length) in [(163.0, 104.0, 60.0), (181.0, 100.0, 40.0)] {
         for number in 0..14 {
-            script.fresh("flat", ["C2R1K0.3Y2W2", "Y8R2K2C1"][number % 2], 0.1, 0.5);
+            script.fresh("flat", ["C2R1K0.3Y2W2", "Y8R2K2C1"][number % 2], 0.1, 0.22);
             let along = number as f64 / 13.0;
             let at = (x - 9.0 + along * length, y - 1.0 + 9.0 * along + script.about(2.5));
             script.stroke("flat", &bowed(at, -0.1, 0.25, 10.0), 0.45);
@@ -89,7 +89,7 @@ pub(crate) fn bushes(script: &mut ScriptBuilder) {
         for (recipe, count, lift) in
             [("V2P1K1Y1", 18, 0.0), ("Y5P1V1W1", 11, 0.25), ("E1Y3W1", 8, 0.55)]
         {
-            script.fresh("filbert", recipe, 0.0, 0.7);
+            script.fresh("filbert", recipe, 0.0, 0.3);
             for _ in 0..count {
                 script.load("filbert", recipe, 0.0, 0.1);
                 let turn = script.about(PI);
@@ -118,7 +118,7 @@ pub(crate) fn wheat(script: &mut ScriptBuilder) {
             continue;
         }
         let light = ["W5Y1", "W9Y1", "Y1W1", "W16Y1"][number / 38];
-        script.fresh("small", light, 0.0, 0.9);
+        script.fresh("small", light, 0.0, 0.4);
         let length = 3.0 + 4.0 * near;
         script.stroke(
             "small",
@@ -134,7 +134,7 @@ pub(crate) fn wheat(script: &mut ScriptBuilder) {
         if (x - middle).abs() < half + 2.0 {
             continue;
         }
-        script.fresh("rigger", recipe, 0.3, 0.5);
+        script.fresh("rigger", recipe, 0.3, 0.22);
         let (lean, tall) = (5.0 + script.about(3.0), 11.0 + script.about(4.0));
         script.even(
             "rigger",
@@ -151,7 +151,7 @@ pub(crate) fn poppies(script: &mut ScriptBuilder) {
         let (middle, half) = path(y);
         let side = if number % 3 == 0 { 1.0 } else { -1.0 };
         let x = middle + side * (half + 3.0 + (8.0 + 44.0 * near) * script.about(1.0).powi(2));
-        script.fresh("round", ["R4Y0.5", "R4W1", "R3Y1W1"][number / 16], 0.0, 0.9);
+        script.fresh("round", ["R4Y0.5", "R4W1", "R3Y1W1"][number / 16], 0.0, 0.4);
         for _ in 0..3 {
             let at = (x + script.about(0.9), y + script.about(0.7));
             script.dab("round", at, 0.35 + 0.45 * near, 0.0);

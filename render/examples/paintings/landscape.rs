@@ -85,7 +85,7 @@ fn underpainting(script: &mut ScriptBuilder) {
         let mut way = 1.0;
         while y < to {
             script.wash("wash");
-            script.load("wash", recipe, 0.3, 1.0);
+            script.load("wash", recipe, 0.3, 0.2);
             let bend = script.about(4.0);
             let x = |side: f64| WIDTH / 2.0 + way * side * (WIDTH / 2.0 - 1.0);
             script.even("wash", &[(x(-1.0), y), (x(0.0), y + bend), (x(1.0), y)], 0.45);
@@ -144,7 +144,7 @@ fn sky(script: &mut ScriptBuilder) {
     for (recipe, tuft) in blues.iter().zip(&tufts) {
         for (number, &at) in tuft.iter().enumerate() {
             if number % 6 == 0 {
-                script.fresh("flat", recipe, 0.05, 0.6);
+                script.fresh("flat", recipe, 0.05, 0.25);
             }
             let length = 14.0 + script.about(4.0);
             let pressure = 0.58 + script.about(0.12);
@@ -179,7 +179,7 @@ fn sun(script: &mut ScriptBuilder) {
         (4.6, "W3Y1", 8),
         (1.8, "W12Y1", 6),
     ] {
-        script.fresh("filbert", recipe, 0.0, 0.9);
+        script.fresh("filbert", recipe, 0.0, 0.4);
         for number in 0..count {
             let start = (f64::from(number) + script.about(0.3)) / f64::from(count) * 2.0 * PI;
             let arc = 7.0 / radius;
@@ -213,7 +213,7 @@ fn hills(script: &mut ScriptBuilder) {
             let mut x = -4.0 + 3.0 * f64::from(pass);
             while x < WIDTH {
                 let recipe = recipes[script.one_of(3)];
-                script.fresh("filbert", recipe, 0.05, 0.5);
+                script.fresh("filbert", recipe, 0.05, 0.22);
                 for _ in 0..2 {
                     let y = crest(x) + 2.6 * f64::from(pass) + 1.2 + script.about(0.5);
                     let fall = crest(x + 6.0) - crest(x);
@@ -239,13 +239,13 @@ fn house(script: &mut ScriptBuilder) {
         ("R2Y2W4", [52.4, 52.2, 52.0, 51.8], 70.0, 89.5),
     ] {
         script.wash("flat");
-        script.load("flat", recipe, 0.0, 0.9);
+        script.load("flat", recipe, 0.0, 0.4);
         for (number, y) in rows.into_iter().enumerate() {
             let (from, to) = if number % 2 == 0 { (from, to) } else { (to, from) };
             script.even("flat", &[(from, y), (to, y)], 0.42);
         }
     }
-    script.fresh("round", "K1P1", 0.0, 0.5);
+    script.fresh("round", "K1P1", 0.0, 0.22);
     for x in [80.0, 86.0] {
         script.dab("round", (x, 59.5), 0.5, 0.0);
     }
@@ -288,7 +288,7 @@ fn field(script: &mut ScriptBuilder) {
         // Sorted by mixture, so that the brush is not washed for every stroke.
         row.sort_by(|a, b| a.0.cmp(b.0));
         for (recipe, places) in row {
-            script.fresh(brush, recipe, 0.05, 0.55);
+            script.fresh(brush, recipe, 0.05, 0.22);
             script.stroke(brush, &places, 0.5);
         }
         y += 2.4 + 4.6 * near;

@@ -78,8 +78,14 @@ impl ScriptBuilder {
         self.built.actions.push(Action::Dry { fraction: 1.0 });
     }
 
-    /// Sets the pigments of the palette.
+    /// Washes all brushes, as those that were in paint hold some of it, and sets the pigments of
+    /// the palette.
     pub(crate) fn palette(&mut self, pigments: &[(&str, &str)]) {
+        let brushes: Vec<String> = self.built.brushes.keys().cloned().collect();
+        for brush in &brushes {
+            self.wash(brush);
+        }
+        self.loaded.clear();
         self.built.actions.push(Action::Palette(palette(pigments)));
     }
 

@@ -45,7 +45,7 @@ fn pose(step: usize, pressure: f64) -> Pose {
 fn drag(bencher: Bencher, head: usize, relief: &Relief) {
     let (shape, size_mm, pressure) = HEADS[head];
     let mut head = Head::new(shape, size_mm, CELL_MM).expect("a head");
-    let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+    let mut contact = Contact::default();
     let mut step = 0;
     head.set_down(&pose(0, pressure), (1.0, 0.0), relief);
     for _ in 0..200 {

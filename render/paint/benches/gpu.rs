@@ -51,7 +51,9 @@ fn contacts(side: usize, count: usize) -> Vec<Contact> {
     };
     let touches: Vec<_> = (0..side * side).map(touch).collect();
     let rect = |step: usize| Rect { x: 10 + step % 128, y: 20, width: side, height: side };
-    (0..count).map(|step| Contact { rect: rect(step), touches: touches.clone() }).collect()
+    (0..count)
+        .map(|step| Contact { rect: rect(step), touches: touches.clone(), ..Contact::default() })
+        .collect()
 }
 
 /// 256 sub-steps in one call, then a wait.
@@ -60,7 +62,7 @@ fn sub_steps(bencher: Bencher<'_, '_>, side: usize) {
     let Some((mut engine, brush)) = engine(512) else { return };
     let contacts = contacts(side, 256);
     bencher.counter(ItemsCount::new(256_u32)).bench_local(|| {
-        engine.apply_contacts(brush, &MotionConstants::default(), &contacts).unwrap();
+        engine.apply_contacts(brush, &MotionConstants::new(0.1, 0.7), &contacts).unwrap();
         engine.finish().unwrap();
     });
 }
@@ -73,7 +75,11 @@ fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
     bencher.counter(ItemsCount::new(16_u32)).bench_local(|| {
         for contact in &contacts {
             engine
-                .apply_contacts(brush, &MotionConstants::default(), std::slice::from_ref(contact))
+                .apply_contacts(
+                    brush,
+                    &MotionConstants::new(0.1, 0.7),
+                    std::slice::from_ref(contact),
+                )
                 .unwrap();
             engine.finish().unwrap();
         }

@@ -61,7 +61,7 @@ fn contact(size: usize, x: usize, whole: bool) -> Contact {
         Touch::new(height as i32, cell as u32, (250, 30), 256, 1)
     });
     let rect = Rect { x, y: (CANVAS - size) / 2, width: size, height: size };
-    Contact { rect, touches: touches.collect() }
+    Contact { rect, touches: touches.collect(), ..Contact::default() }
 }
 
 fn stroke(size: usize, whole: bool) -> Vec<Contact> {
@@ -73,7 +73,9 @@ fn run(bencher: Bencher<'_, '_>, size: usize, whole: bool, batch: usize) {
     let items = ItemsCount::new(size * size * contacts.len());
     bencher.counter(items).with_inputs(engine).bench_local_refs(|(engine, brush)| {
         for contacts in contacts.chunks(batch) {
-            engine.apply_contacts(*brush, &MotionConstants::default(), contacts).expect("played");
+            engine
+                .apply_contacts(*brush, &MotionConstants::new(0.1, 0.7), contacts)
+                .expect("played");
         }
     });
 }

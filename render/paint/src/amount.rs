@@ -26,6 +26,20 @@ pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
     (amount >> 16) * share + (((amount & 0xffff) * share) >> 16)
 }
 
+/// Computes `part / whole` in parts of 65536, for a `part` up to `whole`: never more than the
+/// exact ratio, at most 1/32768 of it less, and 0 for a `whole` of 0.
+#[inline(always)]
+#[must_use]
+pub const fn ratio_of_65536(part: u32, whole: u32) -> u32 {
+    // The product of `part` and 65536 must fit into 32 bits.
+    let excess = 16_u32.saturating_sub(part.leading_zeros());
+    let whole = (whole >> excess) + (excess > 0) as u32;
+    match ((part >> excess) << 16).checked_div(whole) {
+        Some(ratio) => ratio,
+        None => 0,
+    }
+}
+
 /// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to
 /// [`MAX_COLUMN`]. `cell_mm` is the width of a cell in mm.
 #[must_use]
@@ -56,6 +70,20 @@ mod tests {
                 assert_eq!(share_of_65536(amount, share), wide, "{amount} {share}");
             }
         }
+    }
+
+    #[test]
+    fn ratios_are_near_the_exact_ones_and_never_above() {
+        for whole in [1, 2, 77, 65535, 65536, 65537, 99_999_999, MAX_COLUMN] {
+            for share in [0, 1, 1000, 32768, 65536_u64] {
+                let part = u64::from(whole) * share / 65536;
+                let exact = part as f64 / f64::from(whole) * 65536.0;
+                let found = f64::from(ratio_of_65536(part as u32, whole));
+                let least = exact * (1.0 - 1.0 / 32768.0) - 1.0;
+                assert!((least..=exact).contains(&found), "{part} of {whole}: {found}");
+            }
+        }
+        assert_eq!(ratio_of_65536(0, 0), 0);
     }
 
     #[test]

@@ -15,7 +15,8 @@ pub struct Touch {
     /// Tangential velocity of the surface in 1/256 cell a sub-step: x in the low 16 bits,
     /// y in the high 16 bits, each as two's complement.
     pub velocity: u32,
-    /// Low 16 bits: [`Touch::transfer_weight`]; high 16 bits: [`Touch::sharers`].
+    /// Bits 0 to 8: [`Touch::transfer_weight`]; bits 9 to 15: [`Touch::release`]; bits 16 to
+    /// 31: [`Touch::sharers`].
     pub weights: u32,
 }
 
@@ -23,7 +24,7 @@ impl Touch {
     /// The touch of a cell without a head above it.
     pub const NONE: Self = Self { height: i32::MAX, brush_cell: u32::MAX, velocity: 0, weights: 0 };
 
-    /// Packs a touch; see the fields and accessors for units. `(x, y)` is the velocity in
+    /// Packs a touch of hair with the mean coat; see the fields and accessors for units. `(x, y)` is the velocity in
     /// 1/256 cell a sub-step.
     #[must_use]
     pub fn new(
@@ -38,7 +39,7 @@ impl Touch {
             height,
             brush_cell,
             velocity: pack(x as u16, y as u16),
-            weights: pack(transfer_weight, sharers),
+            weights: pack(transfer_weight | 32 << 9, sharers),
         }
     }
 
@@ -54,7 +55,21 @@ impl Touch {
     #[inline(always)]
     #[must_use]
     pub fn transfer_weight(&self) -> u32 {
-        self.weights & 0xffff
+        self.weights & 0x1ff
+    }
+
+    /// Coat of the hair at this point relative to the head's mean, in parts of 32, below 128:
+    /// locks of hair leave different amounts of paint.
+    #[inline(always)]
+    #[must_use]
+    pub fn release(&self) -> u32 {
+        (self.weights >> 9) & 0x7f
+    }
+
+    /// Replaces [`Touch::release`].
+    #[inline(always)]
+    pub(crate) fn set_release(&mut self, release: u32) {
+        self.weights = self.weights & !(0x7f << 9) | release << 9;
     }
 
     /// Number of canvas cells that lie under the same cell of the head, 1 and up.
@@ -65,12 +80,42 @@ impl Touch {
     }
 }
 
+/// How a head exchanges paint with the canvas in a sub-step. Shares are in parts of 65536. The
+/// shaders read it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ExchangeRates {
+    /// Thickness of the head's coat relative to that of the paint on it, beyond `film`.
+    pub release: u32,
+    /// Thickness in quanta of the film that the head leaves even without paint of its own.
+    pub film: u32,
+    /// Share of what a film lacks of the coat's thickness that is laid in a sub-step.
+    pub deposit: u32,
+    /// Share of what a film has beyond the coat's thickness that is taken up in a sub-step.
+    pub pick_up: u32,
+    /// Share of the smaller side that goes to the other side and is replaced by its paint.
+    pub mixing: u32,
+    /// Distance in quanta by which hair is pressed below the crests of the ground; less where
+    /// its coat bears it.
+    pub sink: u32,
+    /// Velocity of the paint that the head has penetrated, relative to that of the head, in
+    /// parts of 256; up to 256.
+    pub drag: u32,
+    /// Unused; pads the uniforms of the shaders.
+    pub padding: u32,
+}
+
 /// The head of a brush over the canvas during one sub-step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {
     /// Rectangle around the cells under the head, clipped to the canvas; empty if the head
     /// touches none.
     pub rect: Rect,
     /// One touch for each cell of `rect`, row by row.
     pub touches: Vec<Touch>,
+    /// How the head exchanges paint with the canvas.
+    pub rates: ExchangeRates,
+    /// Share of the differences along the hair of the head that flows off before the sub-step,
+    /// in parts of 65536; 0 if no paint flows. The first contact of a stroke has some.
+    pub wicking: u32,
 }

@@ -1,6 +1,7 @@
 //! A painting at rest: everything that its file stores.
 
 use pigment::library::PigmentLibrary;
+use pigment::palette::scattering_per_mm;
 
 use crate::ground::Ground;
 use crate::layer::Layer;
@@ -72,20 +73,46 @@ pub struct Medium {
     /// S of the library's reference white per mm of height. It converts heights to the
     /// library's thickness, which has no unit of its own.
     pub scattering_per_mm: f64,
+    /// Stiffness of the wet paint: 0 is stand oil, which levels by itself, 1 is putty, which
+    /// stays as it is laid. Left out of files where it is that of tube paint.
+    #[serde(default = "tube_paint", skip_serializing_if = "is_tube_paint")]
+    pub stiffness: f64,
     /// Gloss of wet paint.
     pub wet: Gloss,
     /// Gloss of dry paint.
     pub dry: Gloss,
 }
 
+/// Stiffness of paint from the tube (chosen by eye).
+fn tube_paint() -> f64 {
+    0.7
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_tube_paint(stiffness: &f64) -> bool {
+    *stiffness == tube_paint()
+}
+
 impl Default for Medium {
-    /// Oil: 0.1 mm of white is nearly opaque (S d = 5). Values chosen by eye.
+    /// A thin oil: 0.1 mm of white is translucent (S d = 5). Values chosen by eye.
     fn default() -> Self {
         Self {
             scattering_per_mm: 50.0,
+            stiffness: tube_paint(),
             wet: Gloss { strength: 0.25, exponent: 60.0 },
             dry: Gloss { strength: 0.06, exponent: 20.0 },
         }
+    }
+}
+
+impl Medium {
+    /// Oil for the paint of `library`: its white hides from 0.05 mm on (see [`scattering_per_mm`]),
+    /// or has the scattering of the default if the library has no white that hides.
+    #[must_use]
+    pub fn of(library: &PigmentLibrary) -> Self {
+        let default = Self::default();
+        let scattering_per_mm = scattering_per_mm(library).unwrap_or(default.scattering_per_mm);
+        Self { scattering_per_mm, ..default }
     }
 }
 

@@ -49,7 +49,8 @@ pub fn substeps(
 }
 
 /// Contacts of `head` with the canvas along `poses`. The head is set down at the first pose
-/// without dragging and lifted after the last. Poses that touch nothing give no contact.
+/// without dragging and lifted after the last. Poses that touch nothing give no contact, unless
+/// paint flows along the hair.
 pub fn contacts(
     head: &mut Head,
     poses: impl Iterator<Item = Pose>,
@@ -65,9 +66,9 @@ pub fn contacts(
     let mut poses = first.into_iter().chain(poses);
     std::iter::from_fn(move || {
         for pose in poses.by_ref() {
-            let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+            let mut contact = Contact::default();
             head.advance(&pose, relief, bounds, &mut contact);
-            if !contact.rect.is_empty() {
+            if !contact.rect.is_empty() || contact.wicking > 0 {
                 return Some(contact);
             }
         }
@@ -245,8 +246,10 @@ mod tests {
         let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1).unwrap();
         let stroke: Vec<Contact> = contacts(&mut head, line, &relief, bounds).collect();
         assert!(stroke.len() > 150, "{}", stroke.len());
+        // Hair is pressed by about half its sink.
+        let sunk = |contact: &Contact| (contact.rates.sink / 2) as i32;
         let fastest = |contact: &Contact| {
-            let pressed = contact.touches.iter().filter(|touch| touch.height < 0);
+            let pressed = contact.touches.iter().filter(|touch| touch.height < sunk(contact));
             pressed.map(|touch| touch.velocity().0.abs()).max()
         };
         assert!(fastest(&stroke[0]) < Some(96), "{:?}", fastest(&stroke[0]));
@@ -255,7 +258,8 @@ mod tests {
         let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
         assert_eq!(dab.len(), DAB.len() - 2);
         let paints = |contact: &Contact| {
-            contact.touches.iter().any(|touch| touch.height < 0 && touch.transfer_weight() == 256)
+            let mut touches = contact.touches.iter();
+            touches.any(|touch| touch.height < sunk(contact) && touch.transfer_weight() == 256)
         };
         assert!(dab.iter().any(paints));
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use super::deposit_curve::{DepositCurve, repeated_path};
+use super::deposit_curve::DepositCurve;
 use super::plan::Plan;
 use super::planned::{BLUR_SIZES, PlannedStroke, plan_layer};
 use graphics::blurred;
@@ -16,6 +16,8 @@ use paint::painting::{Painting, PaintingError};
 use paint::separation::{ColorErrors, Separation};
 use paint::session::{PaintingSession, ReplayError, ReplayReport};
 use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, SurfaceId};
+use rayon::prelude::*;
+use spectra::color::delta_e_ciede2000;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// Brushes below this width in mm are rounds, others filberts (chosen by eye).
@@ -99,7 +101,7 @@ impl Painter<'_> {
                 progress(PaintProgress::Planned(planned.len()));
                 let curve = match &curve {
                     Some(curve) => curve,
-                    None => curve.insert(self.measured(session.canvas(), &brush, &planned)?),
+                    None => curve.insert(self.measured(session.canvas(), &brush)?),
                 };
                 let round = round_script(script, level, &brush, &planned, curve);
                 let played = play(round, session, script, &mut progress)?;
@@ -107,7 +109,7 @@ impl Painter<'_> {
                 report.substeps += played.substeps;
             }
             let blur_cells = Self::blur_cells(size_mm, session.canvas().cell_mm());
-            report.mean_error = self.errors(session.canvas_mut(), blur_cells)?.mean;
+            report.mean_error = self.mean_error(session.canvas_mut(), blur_cells)?;
             reports.push(report);
         }
         Ok(reports)
@@ -128,6 +130,20 @@ impl Painter<'_> {
         Ok(ColorErrors::between(self.separation, &wanted, &painted))
     }
 
+    /// Mean of [`Painter::errors`], which is found much faster than what is in gamut.
+    fn mean_error(&self, painting: &mut Painting, blur_cells: f64) -> Result<f64, PaintingError> {
+        let film = self.separation.film();
+        let wanted = blurred(self.target, blur_cells);
+        let painted = blurred(&colors(painting)?, blur_cells);
+        let pairs = wanted.values().par_iter().zip(painted.values());
+        let errors: Vec<f64> = pairs
+            .map(|(&wanted, &painted)| {
+                delta_e_ciede2000(film.lab_from_rgb(wanted), film.lab_from_rgb(painted))
+            })
+            .collect();
+        Ok(errors.iter().sum::<f64>() / errors.len() as f64)
+    }
+
     /// Standard deviation in cells of the blur at which pictures are compared for a brush of
     /// `size_mm`.
     #[must_use]
@@ -142,27 +158,38 @@ impl Painter<'_> {
         level: usize,
         round: u64,
     ) -> Result<Vec<PlannedStroke>, PaintingError> {
-        let current = colors(painting)?;
+        let current = match (level, round) {
+            (0, 0) => unlike(self.target),
+            _ => colors(painting)?,
+        };
         let plan = Plan { seed: self.plan.seed.wrapping_add(round), ..self.plan.clone() };
         let cell_mm = painting.cell_mm();
         Ok(plan_layer(self.target, &current, self.separation, &plan, level, cell_mm))
     }
 
-    /// Heights that the brush lays, measured up to the greatest of the planned strokes.
+    /// Heights that the brush lays.
     fn measured(
         &self,
         painting: &Painting,
         brush: &BrushSpec,
-        planned: &[PlannedStroke],
     ) -> Result<DepositCurve, PaintingError> {
-        let most_mm = planned.iter().map(|stroke| stroke.height_mm).fold(0.0, f64::max);
-        DepositCurve::measure(brush.shape, brush.size_mm, painting.cell_mm(), self.plan, most_mm)
+        DepositCurve::measure(brush.shape, brush.size_mm, painting.cell_mm(), self.plan)
     }
 }
 
 /// Shape of a brush of this width.
 fn shape(size_mm: f64) -> HeadShape {
     if size_mm < ROUND_BELOW_MM { HeadShape::Round } else { HeadShape::Filbert }
+}
+
+/// White where `picture` is dark and black elsewhere, so that the first coat also covers a ground
+/// that looks like the picture.
+fn unlike(picture: &Picture) -> Picture {
+    let far = |&[red, green, blue]: &[f32; 3]| {
+        if red + green + blue < 0.6 { [1.0; 3] } else { [0.0; 3] }
+    };
+    let values = picture.values().iter().map(far).collect();
+    Field::from_values(picture.width(), picture.height(), values)
 }
 
 /// Colours of the canvas without relief and gloss.
@@ -189,22 +216,24 @@ fn round_script(
     let brush = format!("{}-{}", level + 1, spec.shape);
     for stroke in planned {
         let length = stroke.amount_mm / stroke.height_mm - 1.0;
-        let load = curve.load_for_stroke(stroke.height_mm, length);
         let used = stroke.recipe.iter().zip(&script.palette.pigments);
         let recipe: Recipe = used
             .filter(|(part, _)| **part >= LEAST_PART)
             .map(|(part, (_, name))| (name.clone(), *part))
             .collect();
-        let samples = repeated_path(&stroke.samples, load.passes);
         round.actions.extend([
             Action::Wash { brush: brush.clone() },
             Action::Load(Load {
                 brush: brush.clone(),
                 recipe,
                 vehicle: 0.0,
-                amount_mm: load.load_mm,
+                amount_mm: curve.load_mm(stroke.height_mm, length),
             }),
-            Action::Stroke(Stroke { brush: brush.clone(), on: SurfaceId::Canvas, samples }),
+            Action::Stroke(Stroke {
+                brush: brush.clone(),
+                on: SurfaceId::Canvas,
+                samples: stroke.samples.clone(),
+            }),
         ]);
     }
     round.actions.push(Action::Dry { fraction: 1.0 });

@@ -37,6 +37,11 @@ pub struct Plan {
     pub bending: f64,
     /// Most strokes of a level. Those with the largest difference are kept.
     pub most_strokes: usize,
+    /// Thickness in mm that black strokes have at least, 0.001 to 10.
+    pub darks_mm: f64,
+    /// Thickness in mm that white strokes have at least, 0.001 to 10; a brush lays at most
+    /// 0.06 of its width.
+    pub lights_mm: f64,
     /// Pressure of the brush in the middle of a stroke, 0..1.
     pub pressure: f64,
     /// Pressure at both ends of a stroke relative to its middle, 0..1.
@@ -55,16 +60,18 @@ impl Default for Plan {
         Self {
             sizes_mm: vec![16.0, 8.0, 4.0, 2.0, 1.0],
             tolerance: 6.0,
-            departure: 15.0,
-            shortest: 1.5,
-            longest: 8.0,
+            departure: 12.0,
+            shortest: 3.0,
+            longest: 12.0,
             spacing: 0.5,
             bending: 0.7,
             most_strokes: 30_000,
-            pressure: 0.9,
-            ends: 0.25,
+            darks_mm: 0.04,
+            lights_mm: 0.35,
+            pressure: 0.6,
+            ends: 0.15,
             speed: 10.0,
-            order: Order::Shuffled,
+            order: Order::DarkToLight,
             seed: 1,
         }
     }
@@ -98,6 +105,8 @@ impl Plan {
             ("longest", self.longest, self.shortest, 1000.0, "from `shortest` to 1000 brush sizes"),
             ("spacing", self.spacing, 0.1, 100.0, "0.1 to 100 brush sizes"),
             ("bending", self.bending, 0.0, 1.0, "0 to 1"),
+            ("darks_mm", self.darks_mm, 0.001, 10.0, "0.001 to 10 mm"),
+            ("lights_mm", self.lights_mm, 0.001, 10.0, "0.001 to 10 mm"),
             ("pressure", self.pressure, 0.0, 1.0, "0 to 1"),
             ("ends", self.ends, 0.0, 1.0, "0 to 1"),
             ("speed", self.speed, 1e-3, 1e6, "0.001 to 1000000 brush sizes a second"),

@@ -25,6 +25,15 @@ use paint::separation::Separation;
 pub(super) const BLUR_SIZES: f64 = 0.2;
 /// Number of passes that look for further strokes between those already planned.
 const PASSES: usize = 3;
+/// Change of the target in CIELAB over the width of a brush from which on it is detail (chosen by
+/// eye).
+const DETAIL: f32 = 16.0;
+/// Factor on differences where the target does not change at all (chosen by eye).
+const SMOOTH: f32 = 0.5;
+/// Greatest thickness of a stroke in brush widths (chosen by eye).
+const THICKEST: f64 = 0.06;
+/// Share of the impasto that the first coat has (chosen by eye).
+const LEAN: f64 = 0.4;
 /// Width that a stroke covers, relative to the width of its brush (chosen by eye).
 pub(super) const COVER: f64 = 0.8;
 
@@ -70,21 +79,25 @@ pub fn plan_layer(
     let target_lab = lab_picture(&blurred_target);
     let mut difference =
         differences(&target_lab, &blurred_target, current, separation, BLUR_SIZES * size);
+    if level > 1 {
+        leave_smooth_alone(&mut difference, &target_lab, size);
+    }
     let flow = OrientationField::from_lab(&target_lab, BLUR_SIZES * size);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     random.set_stream(level as u64);
 
+    let mut bare = difference.clone();
     let mut paths: Vec<(f32, Vec<[f64; 2]>)> = Vec::new();
     for _ in 0..PASSES {
-        for (square, _) in worst_first(&difference, plan, size, &mut random) {
-            let Some((start, mean)) = square.worst(&difference) else { continue };
+        for (square, _) in worst_first(&bare, plan, size, &mut random) {
+            let Some((start, mean)) = square.worst(&bare) else { continue };
             if f64::from(mean) <= plan.tolerance {
                 continue;
             }
-            let input =
-                TraceInput { target: &target_lab, flow: &flow, difference: &difference, size };
+            let (target, flow) = (&target_lab, &flow);
+            let input = TraceInput { target, flow, difference: &difference, bare: &bare, size };
             let path = trace_path(&input, plan, start);
-            cover(&mut difference, &path, COVER * size / 2.0);
+            cover(&mut bare, &path, size);
             paths.push((mean, path));
         }
     }
@@ -97,23 +110,34 @@ pub fn plan_layer(
         .map(|(_, path)| {
             let color = mean_color(&blurred_target, path);
             let heights = separation.refined_heights_mm(color).map(f64::from);
-            let height_mm: f64 = heights.iter().sum();
+            let film_mm: f64 = heights.iter().sum();
+            let lightness = separation.film().lab(&heights).lightness;
+            let height_mm = film_mm.max(impasto_mm(plan, level, lightness));
             let samples = poses(path, plan, size, cell_mm);
             let length = path.windows(2).map(|ends| between(ends[0], ends[1])).sum::<f64>() / size;
             let stroke = PlannedStroke {
                 level,
-                recipe: heights.map(|height| height / height_mm),
+                recipe: heights.map(|height| height / film_mm),
                 height_mm,
                 amount_mm: height_mm * (length + 1.0),
                 samples,
             };
-            (separation.film().lab(&heights).lightness, stroke)
+            (lightness, stroke)
         })
         .collect();
     if plan.order == Order::DarkToLight {
         strokes.sort_by_key(|(lightness, _)| (lightness / 5.0).floor() as i64);
     }
     strokes.into_iter().map(|(_, stroke)| stroke).collect()
+}
+
+/// Least thickness in mm of a stroke of this L* by the brush of `level`: lights stand out, darks
+/// are thin, and the first coat is lean.
+fn impasto_mm(plan: &Plan, level: usize, lightness: f64) -> f64 {
+    let light = (lightness / 100.0).clamp(0.0, 1.0).powi(2);
+    let lean = if level == 0 && plan.sizes_mm.len() > 1 { LEAN } else { 1.0 };
+    let height_mm = plan.darks_mm + lean * light * (plan.lights_mm - plan.darks_mm);
+    height_mm.min(THICKEST * plan.sizes_mm[level])
 }
 
 /// A picture in CIELAB under the white of sRGB.
@@ -147,6 +171,26 @@ fn differences(
         distance(target, painted).min(distance(reached, painted))
     });
     Field::from_values(width, height, differences.collect())
+}
+
+/// Reduces the difference where the target is smooth at the scale of a brush `size` cells wide:
+/// there the strokes of broader brushes may stay as they are.
+fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>, size: f64) {
+    let (width, height) = (target_lab.width(), target_lab.height());
+    let reach = (size / 2.0).ceil() as usize;
+    let change = |at: usize| {
+        let (x, y) = (at % width, at / width);
+        let (left, right) = (x.saturating_sub(reach), (x + reach).min(width - 1));
+        let (above, below) = (y.saturating_sub(reach), (y + reach).min(height - 1));
+        let across = distance(target_lab[(left, y)], target_lab[(right, y)]);
+        let down = distance(target_lab[(x, above)], target_lab[(x, below)]);
+        [across.max(down)]
+    };
+    let changes = (0..width * height).into_par_iter().map(change).collect();
+    let changes = blurred(&Field::from_values(width, height, changes), size / 4.0);
+    for (difference, [change]) in difference.values_mut().iter_mut().zip(changes.values()) {
+        *difference *= SMOOTH + (1.0 - SMOOTH) * (change / DETAIL).min(1.0);
+    }
 }
 
 /// A square in which a stroke may begin: first and end column, first and end row.
@@ -218,12 +262,16 @@ fn lines(cells: usize, step: f64, random: &mut ChaCha8Rng) -> Vec<usize> {
 }
 
 /// Sets the difference to 0 where a stroke covers the canvas: one coat per level is enough,
-/// and the next level paints what remains.
-fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], radius: f64) {
-    for &[x, y] in path {
+/// and the next level paints what remains. The ends of a stroke, where the brush comes down and
+/// leaves, do not count.
+fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], size: f64) {
+    let radius = COVER * size / 2.0;
+    let apart = path.windows(2).map(|ends| between(ends[0], ends[1])).fold(1e-9, f64::max);
+    let end = ((size / 4.0 / apart) as usize).min((path.len() - 1) / 2);
+    for &[x, y] in &path[end..path.len() - end] {
         let span = |middle: f64, cells: usize| {
             let from = (middle - radius).max(0.0) as usize;
-            from..((middle + radius).ceil() as usize).min(cells)
+            from..((middle + radius).ceil().max(0.0) as usize).min(cells)
         };
         for row in span(y, difference.height()) {
             for column in span(x, difference.width()) {

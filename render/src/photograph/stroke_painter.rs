@@ -20,7 +20,7 @@ use spectra::hint::{Explain, Fault, Hint};
 use super::painter::{LevelReport, PaintProgress, Painter, PainterError};
 use super::plan::Plan;
 use super::stroke_settings::{StrokeSettings, StrokeSettingsError};
-use super::tones::black_compensated;
+use super::tones::{black_compensated, toned_priming};
 
 /// Heights of the films of a painted photograph in mm (chosen by eye: the thinnest still
 /// hides with most pigments, the thickest shows relief at the default cell size).
@@ -91,16 +91,21 @@ impl StrokePainter {
         library: &PigmentLibrary,
         settings: &StrokeSettings,
     ) -> Result<Self, StrokePainterError> {
-        let canvas = settings.canvas(photograph.size())?;
+        let mut canvas = settings.canvas(photograph.size())?;
         let (width, height) = canvas.cells();
         let seen = photograph.on_canvas(width, height);
         let (separation, slots) = separation(&seen, library, settings)?;
         let target = black_compensated(&seen, separation.black());
+        if settings.hides {
+            canvas.ground.reflectance = Some(toned_priming(&target));
+        }
         let names = slots.iter().flatten().map(|&pigment| library[pigment].name.clone());
         let pigments: Vec<String> = names.collect();
         let palette = PaletteSpec::from_names(pigments.iter().map(String::as_str));
         let mut script = StrokeScript::new(&settings.title, "", canvas, palette);
         script.library = Some(library.title.clone());
+        // The films of the separation are those of this medium.
+        script.medium = Some(Medium::of(library));
         let resolved = script.resolve(library)?;
         let ground = script.canvas.ground(library)?;
         let (library, plan) = (library.clone(), settings.plan());
@@ -198,7 +203,7 @@ fn separation(
         library,
         slots: &bare,
         ground: &ground,
-        scattering_per_mm: Medium::default().scattering_per_mm,
+        scattering_per_mm: Medium::of(library).scattering_per_mm,
     };
     let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
     let slots = if settings.palette.is_empty() {

@@ -13,8 +13,6 @@ const NARROWEST_CELLS: f64 = 2.0;
 const NARROWEST_MM: f64 = 0.2;
 /// Greatest width of a brush in mm.
 const BROADEST_MM: f64 = 100.0;
-/// Brushes used by default. The finest of [`Plan::for_width`] shows on close view only.
-const BRUSHES: usize = 4;
 
 /// How to paint a photograph in strokes, or to separate it into pigments.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +31,7 @@ pub struct StrokeSettings {
     /// that come nearest to the photograph's colours.
     pub palette: Vec<String>,
     /// Widths of the brushes in mm in any order: two cells or more, 0.2 to 100 mm, and not
-    /// wider than the painting. If empty (the default), 16, 8, 4 and 2 mm for a painting
+    /// wider than the painting. If empty (the default), 16, 8, 4, 2 and 1 mm for a painting
     /// 200 mm wide, and in proportion.
     pub brushes_mm: Vec<f64>,
     /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0.5 to 100; 6 by
@@ -107,7 +105,6 @@ impl StrokeSettings {
     /// Plan of the strokes, its brushes from coarse to fine.
     pub(super) fn plan(&self) -> Plan {
         let mut plan = Plan::for_width(self.width_mm);
-        plan.sizes_mm.truncate(BRUSHES);
         plan.sizes_mm.retain(|size| *size >= self.narrowest_mm());
         if !self.brushes_mm.is_empty() || plan.sizes_mm.is_empty() {
             plan.sizes_mm.clone_from(&self.brushes_mm);

@@ -7,20 +7,29 @@ use super::plan::Plan;
 use graphics::field::Field;
 use graphics::orientation::OrientationField;
 
+/// Brush widths that a stroke runs on over others of its level.
+const OVERLAP: f64 = 1.0;
+
+/// Greatest turn of a stroke in radians over a brush width: in tighter bends the outer side of the
+/// brush would skip cells.
+const TIGHTEST: f64 = 1.0;
+
 /// Pictures that the strokes of one level are traced on. Lengths are in cells.
 pub(super) struct TraceInput<'a> {
     /// Target in CIELAB, blurred to the scale of the brush.
     pub(super) target: &'a Field<[f32; 3]>,
     /// Structure of the target.
     pub(super) flow: &'a OrientationField,
-    /// CIELAB difference still to paint in each cell; 0 where a stroke of this level lies.
+    /// CIELAB difference of the canvas from the target, before this level.
     pub(super) difference: &'a Field<f32>,
+    /// That difference, but 0 where a stroke of this level lies.
+    pub(super) bare: &'a Field<f32>,
     /// Width of the brush in cells.
     pub(super) size: f64,
 }
 
 /// Path of a stroke from `start`, as points in cells that lie at most half a brush apart.
-/// Points lie up to half a brush beyond the canvas, so that paint runs over the edge.
+/// Points lie up to a whole brush beyond the canvas, so that the brush leaves only there.
 pub(super) fn trace_path(input: &TraceInput<'_>, plan: &Plan, start: [f64; 2]) -> Vec<[f64; 2]> {
     let cell = cell(input.target, start);
     let color = input.target[cell];
@@ -41,6 +50,7 @@ fn half_path(
     let step = (input.size / 4.0).max(0.5);
     let steps = |sizes: f64| (sizes * input.size / 2.0 / step).round() as usize;
     let (least, most) = (steps(plan.shortest).max(1), steps(plan.longest).max(1));
+    let mut painted = 0.0;
     let mut points = Vec::new();
     let mut place = start;
     while points.len() < most {
@@ -51,22 +61,30 @@ fn half_path(
         }
         let bend = plan.bending;
         let turned: [f64; 2] = std::array::from_fn(|i| bend * along[i] + (1.0 - bend) * heading[i]);
-        // Never 0: the two directions are at most a right angle apart.
-        let length = turned[0].hypot(turned[1]);
-        heading = turned.map(|side| side / length);
+        heading = turned_to(heading, turned, TIGHTEST * step / input.size);
         place = [place[0] + step * heading[0], place[1] + step * heading[1]];
-        if beyond(input, place) > input.size / 2.0 {
+        if beyond(input, place) > input.size {
             break;
         }
         let here = cell(input.target, place);
         let departs = distance(input.target[here], color);
         let limit = input.difference[here].min(plan.departure as f32);
-        if points.len() >= least && departs >= limit {
+        painted = if input.bare[here] > 0.0 { 0.0 } else { painted + step };
+        let again = painted > OVERLAP * input.size;
+        if points.len() >= least && (departs >= limit || again) {
             break;
         }
         points.push(place);
     }
     points
+}
+
+/// Unit vector `heading`, turned towards the direction of `to` by at most `most` radians.
+fn turned_to(heading: [f64; 2], to: [f64; 2], most: f64) -> [f64; 2] {
+    let across = heading[0] * to[1] - heading[1] * to[0];
+    let along = heading[0] * to[0] + heading[1] * to[1];
+    let (sin, cos) = across.atan2(along).clamp(-most, most).sin_cos();
+    [heading[0] * cos - heading[1] * sin, heading[0] * sin + heading[1] * cos]
 }
 
 /// Distance of a point from the canvas in cells, 0 or less within it.

@@ -113,7 +113,7 @@ pub enum Command {
     },
     /// Ends a replay.
     Cancel,
-    /// Washes a brush and loads it with the mean wet paint that was picked.
+    /// Loads a brush with the mean wet paint that was picked, besides what it holds.
     LoadPicked {
         /// Name of the brush.
         brush: String,

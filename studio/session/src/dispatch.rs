@@ -106,8 +106,11 @@ impl WorkerLoop<'_> {
             let brush = session.open_stroke().map(|(_, brush)| brush.to_owned());
             self.stroke = None;
             session.end_stroke()?;
-            if let Some(brush) = brush {
-                open.reporter.brushes.remove(&brush);
+            if let Some(brush) = brush
+                && open.reporter.is_dirty_after_stroke(session, &brush)?
+                && !std::mem::replace(&mut self.dirty_told, true)
+            {
+                (self.send)(Event::DirtyBrush(brush));
             }
             (self.picture_stale, self.state_stale) = (true, true);
         }
@@ -143,6 +146,8 @@ impl WorkerLoop<'_> {
         match command {
             Command::PenDown { surface, brush, decimals } => {
                 self.session().begin_rounded_stroke(surface, &brush, decimals)?;
+                let OpenPainting { prepared, reporter, .. } = self.open_mut();
+                reporter.stroke_begins(&mut prepared.session, &brush)?;
                 self.stroke = Some(StrokeTiming::default());
                 self.state_stale = true;
                 Ok(())
@@ -207,7 +212,7 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Washes a brush and loads it with picked paint.
+    /// Loads a brush with picked paint.
     fn load_picked(
         &mut self,
         brush: String,
@@ -227,16 +232,9 @@ impl WorkerLoop<'_> {
         let named = slots.iter().zip(amounts).filter(|(_, amount)| *amount > 0.0);
         let recipe = named
             .filter_map(|(slot, amount)| Some((library[(*slot)?].name.clone(), amount / total)));
-        let load = Load {
-            brush: brush.clone(),
-            recipe: recipe.collect(),
-            vehicle: amounts[SLOTS] / total,
-            amount_mm,
-        };
-        self.session().apply(&Action::Wash { brush: brush.clone() })?;
-        self.brush_changed(&brush);
-        self.session().apply(&Action::Load(load))?;
-        Ok(())
+        let load =
+            Load { brush, recipe: recipe.collect(), vehicle: amounts[SLOTS] / total, amount_mm };
+        self.apply(&Action::Load(load))
     }
 
     /// Executes a command that changes no paint.
@@ -311,7 +309,7 @@ impl WorkerLoop<'_> {
     }
 
     fn brush_changed(&mut self, brush: &str) {
-        self.open_mut().reporter.brushes.remove(brush);
+        self.open_mut().reporter.brush_changed(brush);
         self.state_stale = true;
     }
 
@@ -321,7 +319,7 @@ impl WorkerLoop<'_> {
     }
 
     pub(super) fn all_changed(&mut self) {
-        self.open_mut().reporter.brushes.clear();
+        self.open_mut().reporter.brushes_changed();
         self.changed();
     }
 }

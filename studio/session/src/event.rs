@@ -103,6 +103,9 @@ pub enum Event {
     },
     /// A replay ended or was cancelled.
     Replayed,
+    /// A brush ended a stroke with other pigments at its tip than it was loaded with; the front
+    /// end advises to wash or wipe it. Sent once in the life of a worker.
+    DirtyBrush(String),
     /// A message for the painter, for example that the recording ended early.
     Message {
         /// Text of the message, one sentence.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
 use render::light::Light;
+use render::paint::painting::TipLoad;
 use render::paint::session::{PaintingSession, SessionError};
 use render::paint::strokes::{BrushSpec, SurfaceId};
 
@@ -20,10 +21,22 @@ use super::state::{BrushState, PaintingState};
 pub(super) struct Reporter {
     colors: Colors,
     pub(super) layers: Layers,
-    /// Mean heights of the paint on brushes in mm, by name. Entries that may have changed are
-    /// removed.
-    pub(super) brushes: BTreeMap<String, [f64; SLOTS + 1]>,
+    /// Paint on brushes, by name. Entries that may have changed are removed.
+    brushes: BTreeMap<String, BrushLoad>,
+    /// Whether brushes had the pigment of each slot before their strokes, by name.
+    clean: BTreeMap<String, [bool; SLOTS]>,
 }
+
+/// Mean heights in mm of each slot and, last, of the vehicle.
+#[derive(Debug, Clone, Copy)]
+struct BrushLoad {
+    head: [f64; SLOTS + 1],
+    tip: [f64; SLOTS + 1],
+}
+
+/// Share of the pigment at the tip, picked up from a surface, from which a brush is dirty: less
+/// does not change its colour much.
+const DIRTY: f64 = 0.05;
 
 /// State that the worker adds to each report.
 #[derive(Debug, Clone)]
@@ -38,7 +51,67 @@ impl Reporter {
     pub(super) fn new(prepared: &PreparedPainting) -> Self {
         let light = Arc::clone(prepared.session.canvas().light());
         let colors = Colors::new(Arc::clone(&prepared.library), light);
-        Self { colors, layers: Layers::default(), brushes: BTreeMap::new() }
+        let (brushes, clean) = (BTreeMap::new(), BTreeMap::new());
+        Self { colors, layers: Layers::default(), brushes, clean }
+    }
+
+    /// Forgets a brush, which was loaded, wiped or washed.
+    pub(super) fn brush_changed(&mut self, name: &str) {
+        self.brushes.remove(name);
+        self.clean.remove(name);
+    }
+
+    /// Forgets all brushes.
+    pub(super) fn brushes_changed(&mut self) {
+        self.brushes.clear();
+        self.clean.clear();
+    }
+
+    /// Remembers the pigments of a brush that begins its first stroke since it was loaded.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub(super) fn stroke_begins(
+        &mut self,
+        session: &mut PaintingSession,
+        name: &str,
+    ) -> Result<(), SessionError> {
+        if !self.clean.contains_key(name) {
+            let head = self.load(session, name)?.head;
+            self.clean.insert(name.to_owned(), std::array::from_fn(|slot| head[slot] > 0.0));
+        }
+        Ok(())
+    }
+
+    /// Whether a brush that ends a stroke has picked up other pigments than it began with.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub(super) fn is_dirty_after_stroke(
+        &mut self,
+        session: &mut PaintingSession,
+        name: &str,
+    ) -> Result<bool, SessionError> {
+        self.brushes.remove(name);
+        let Some(had) = self.clean.get(name).copied() else { return Ok(false) };
+        let tip = self.load(session, name)?.tip;
+        let pigment: f64 = tip[..SLOTS].iter().sum();
+        let foreign: f64 = (0..SLOTS).filter(|&slot| !had[slot]).map(|slot| tip[slot]).sum();
+        Ok(foreign > DIRTY * pigment)
+    }
+
+    /// Paint on a brush, from the cache if it has not changed.
+    fn load(
+        &mut self,
+        session: &mut PaintingSession,
+        name: &str,
+    ) -> Result<BrushLoad, SessionError> {
+        if let Some(load) = self.brushes.get(name) {
+            return Ok(*load);
+        }
+        let load = brush_load(session, name)?;
+        self.brushes.insert(name.to_owned(), load);
+        Ok(load)
     }
 
     /// The whole state as it is now.
@@ -99,21 +172,19 @@ impl Reporter {
             session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
         let mut states = Vec::with_capacity(specs.len());
         for (name, spec) in specs {
-            let heights = match self.brushes.get(&name) {
-                Some(heights) => *heights,
-                None => {
-                    let heights = heights_mm(session, &name)?;
-                    self.brushes.insert(name.clone(), heights);
-                    heights
-                }
-            };
-            let amount_mm: f64 = heights.iter().sum();
-            let pigments: f64 = heights[..SLOTS].iter().sum();
+            let BrushLoad { head, tip } = self.load(session, &name)?;
+            let amount_mm: f64 = head.iter().sum();
             let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
-            let parts = std::array::from_fn(|slot| share(pigments, heights[slot]));
+            let parts_of = |heights: &[f64; SLOTS + 1]| -> [f64; SLOTS] {
+                let pigments: f64 = heights[..SLOTS].iter().sum();
+                std::array::from_fn(|slot| share(pigments, heights[slot]))
+            };
+            let parts = parts_of(&head);
+            let of_tip = self.colors.of_slots(&slots, &parts_of(&tip));
             states.push(BrushState {
-                color: self.colors.of_slots(&slots, &parts),
-                vehicle: share(amount_mm, heights[SLOTS]),
+                color: of_tip.or_else(|| self.colors.of_slots(&slots, &parts)),
+                tip_mm: tip.iter().sum(),
+                vehicle: share(amount_mm, head[SLOTS]),
                 name,
                 spec,
                 amount_mm,
@@ -124,10 +195,23 @@ impl Reporter {
     }
 }
 
-/// Mean height of each slot and, last, of the vehicle on a brush, in mm.
-fn heights_mm(session: &mut PaintingSession, name: &str) -> Result<[f64; SLOTS + 1], SessionError> {
+/// Paint on a brush, on its whole head and at its tip.
+fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, SessionError> {
     let cell_mm = session.canvas().cell_mm();
-    let Some(paint) = session.brush_paint(name)? else { return Ok([0.0; SLOTS + 1]) };
-    let cells = (paint.width() * paint.height()).max(1) as f64;
-    Ok(paint.totals().map(|total| total as f64 / cells * mm_from_quanta(1, cell_mm)))
+    let Some(paint) = session.brush_paint(name)? else {
+        return Ok(BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1] });
+    };
+    let cell_area = paint_cell_area(session, name).unwrap_or(1.0);
+    let area = (paint.width() * paint.height()).max(1) as f64 * cell_area;
+    let head = paint.totals().map(|total| total as f64 / area * mm_from_quanta(1, cell_mm));
+    Ok(BrushLoad { head, tip: TipLoad::of(&paint, cell_mm, cell_area).amounts_mm })
+}
+
+/// Area of a cell of a head in cells of the canvas, the same on both surfaces; `None` if it was
+/// never used.
+fn paint_cell_area(session: &PaintingSession, name: &str) -> Option<f64> {
+    [SurfaceId::Canvas, SurfaceId::Palette].into_iter().find_map(|surface| {
+        let id = session.brush_id_on(name, surface)?;
+        Some(session.painting(surface)?.head(id).paint_cell_area())
+    })
 }

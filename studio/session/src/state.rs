@@ -42,13 +42,16 @@ pub struct BrushState {
     pub name: String,
     /// Shape and size of its head.
     pub spec: BrushSpec,
-    /// Mean height of the paint on it, in mm; 0 if it is clean.
+    /// Mean height of the paint on its whole head, in mm; 0 if it is clean.
     pub amount_mm: f64,
     /// Fraction of vehicle in this paint, 0 to 1.
     pub vehicle: f64,
     /// Parts by slot of the palette, with sum 1; all 0 without pigment.
     pub parts: [f64; render::layer::SLOTS],
-    /// sRGB of its mixture in an opaque film, if it has pigment.
+    /// Mean height of the paint at its tip, in mm: what it paints with now.
+    pub tip_mm: f64,
+    /// sRGB of the mixture at its tip in an opaque film, or of the whole head if the tip is
+    /// clean; `None` without pigment.
     pub color: Option<[u8; 3]>,
 }
 

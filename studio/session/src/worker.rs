@@ -52,6 +52,8 @@ pub(super) struct WorkerLoop<'a> {
     state_due: Instant,
     performance_sent: Option<Instant>,
     performance: Performance,
+    /// Whether the front end was told of a dirty brush.
+    pub(super) dirty_told: bool,
     /// Whether the front end shows the head.
     head_shown: bool,
 }
@@ -96,6 +98,7 @@ impl<'a> WorkerLoop<'a> {
             state_due: now,
             performance_sent: None,
             performance: Performance::default(),
+            dirty_told: false,
             head_shown: false,
         }
     }

@@ -48,6 +48,11 @@ impl Studio {
             Event::Recording { number, .. } => self.last_recording = Some(number),
             // Handled by the files above.
             Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
+            Event::DirtyBrush(brush) => {
+                let text = format!("the brush \u{201c}{brush}\u{201d} is dirty");
+                let hint = "wash (W) or wipe (X) it before another colour";
+                self.show_message(text, Some(hint.to_owned()), false);
+            }
             Event::Message { text, hint, failed } => {
                 self.show_message(text, hint.map(|hint| hint.to_string()), failed);
             }

@@ -1,8 +1,8 @@
 //! Context in which a panel is drawn: the painting, the tools, and a queue of requests.
 
-use render::paint::strokes::Action;
+use render::paint::strokes::{Action, Load, Recipe};
 
-use super::tools::Tools;
+use super::tools::{Mode, Tools};
 use crate::files::FileRequest;
 use session::{Command, PaintingState};
 
@@ -35,6 +35,15 @@ impl PanelContext<'_> {
     /// Queues an action, which becomes one entry of the history.
     pub fn act(&mut self, action: Action) {
         self.command(Command::Apply(action));
+    }
+
+    /// Adds paint of a recipe with this share of medium to the selected brush, as high as set in
+    /// the tools, and selects the paint tool. What the brush holds stays on it until it is
+    /// washed.
+    pub fn load(&mut self, recipe: Recipe, vehicle: f64) {
+        let (brush, amount_mm) = (self.tools.brush.clone(), self.tools.load_mm);
+        self.act(Action::Load(Load { brush, recipe, vehicle, amount_mm }));
+        self.tools.mode = Mode::Paint;
     }
 
     /// Queues a file request.

@@ -205,7 +205,7 @@ fn a_typed_color_gets_the_recipes_of_the_library_search() {
 }
 
 #[test]
-fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
+fn a_recipe_is_added_to_the_paint_on_a_brush_as_a_tube_is() {
     let mut painting = made_painting();
     painting.brushes[0].amount_mm = 0.2;
     let mut stage = stage(painting);
@@ -213,12 +213,10 @@ fn a_brush_with_paint_is_washed_before_a_recipe_is_loaded() {
     wait_for_recipes(&mut stage);
     stage.click("Load recipe 1");
     let commands = stage.commands();
-    let [Command::Apply(Action::Wash { brush }), Command::Apply(Action::Load(load))] =
-        &commands[..]
-    else {
+    let [Command::Apply(Action::Load(load))] = &commands[..] else {
         panic!("{commands:?}");
     };
-    assert_eq!((brush.as_str(), load.brush.as_str()), ("round", "round"));
+    assert_eq!(load.brush, "round");
 }
 
 #[test]

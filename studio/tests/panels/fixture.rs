@@ -89,6 +89,7 @@ fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> 
         name: name.to_owned(),
         spec: BrushSpec { shape, size_mm },
         amount_mm: if loaded { 0.4 } else { 0.0 },
+        tip_mm: if loaded { 0.25 } else { 0.0 },
         vehicle: if loaded { 0.2 } else { 0.0 },
         parts: if loaded { parts } else { [0.0; SLOTS] },
         color,

@@ -289,6 +289,8 @@ fn the_second_light_is_shown_right_of_a_draggable_line() {
     assert!((f64::from(window.studio().tools.split) - wanted).abs() < 0.02, "{wanted}");
     window.save("split");
     window.key(Modifiers::COMMAND, Key::Num1);
+    // The brush and its shadow lie over the picture.
+    window.frame(vec![eframe::egui::Event::PointerGone]);
     let Some(picture) = window.picture() else { return };
     // At one cell per pixel, each pixel shows the picture of its side.
     for (x, second) in [(120, false), (310, true)] {

@@ -136,6 +136,7 @@ pub(crate) fn made_painting() -> PaintingState {
     }
     let round = BrushState {
         amount_mm: 0.0,
+        tip_mm: 0.0,
         vehicle: 0.0,
         parts: [0.0; SLOTS],
         color: None,

@@ -104,8 +104,30 @@ fn brushes_and_tubes_are_reported() {
     window.wait_until("less paint", |window| {
         (1e-3..loaded.amount_mm).contains(&round(window).amount_mm)
     });
+    let used = round(&window);
+    // The tip paints, so that it loses more than the whole head.
+    assert!(used.tip_mm < used.amount_mm, "{} of {}", used.tip_mm, used.amount_mm);
     window.act(Action::Undo {});
     window.wait_until("the paint back", |window| round(window).amount_mm == loaded.amount_mm);
     window.act(Action::Wash { brush: "round".to_owned() });
     window.wait_until("a clean brush", |window| round(window).color.is_none());
+}
+
+#[test]
+fn the_first_dirty_brush_is_told_once() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let dirty = |window: &mut Window| {
+        window.snapshot();
+        std::mem::take(&mut window.dirty)
+    };
+    window.act(load("round", "Ultramarine"));
+    let path = wander(43, 60, 10.0, 8.0);
+    window.stroke(SurfaceId::Canvas, "round", [&path[..]]);
+    window.stroke(SurfaceId::Canvas, "round", [&path[..]]);
+    assert!(dirty(&mut window).is_empty(), "its own paint makes no brush dirty");
+    // A clean flat through wet paint.
+    window.stroke(SurfaceId::Canvas, "flat", [&path[..]]);
+    assert_eq!(dirty(&mut window), ["flat"]);
+    window.stroke(SurfaceId::Canvas, "filbert", [&path[..]]);
+    assert!(dirty(&mut window).is_empty(), "once is enough");
 }

@@ -59,6 +59,7 @@ fn a_pick_equals_an_instrument_reading() {
     // A brush loaded with picked paint holds that paint.
     let brush = "filbert".to_owned();
     window.act(load("filbert", "Zinc White"));
+    window.act(Action::Wash { brush: brush.clone() });
     window.ask(Command::LoadPicked {
         brush,
         picked: Arc::unwrap_or_clone(disc).into(),

@@ -22,6 +22,8 @@ pub(crate) struct Window {
     pub(crate) state: Option<Arc<PaintingState>>,
     pub(crate) pictures: Pictures,
     pub(crate) events: Vec<Event>,
+    /// Brushes that were reported to be dirty.
+    pub(crate) dirty: Vec<String>,
     numbers: u64,
 }
 
@@ -48,6 +50,7 @@ impl Window {
             state: None,
             pictures: Pictures::default(),
             events: Vec::new(),
+            dirty: Vec::new(),
             numbers: 0,
         }
     }
@@ -102,6 +105,7 @@ impl Window {
                     };
                     self.state = Some(Arc::clone(state));
                 }
+                Event::DirtyBrush(brush) => self.dirty.push(brush.clone()),
                 Event::State(state) => self.state = Some(Arc::clone(state)),
                 Event::Tiles { surface, second, tiles, .. } => {
                     let state = self.state.as_ref().expect("a painting was opened first");

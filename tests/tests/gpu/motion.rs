@@ -27,11 +27,7 @@ fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> render::paint
 }
 
 fn engine(start: &Reference) -> Option<(PaintEngine, render::paint::BrushId)> {
-    let mut engine = PaintEngine::on_device(crate::device()?, &start.floor).unwrap();
-    let brush = engine.add_brush(HEAD.0, HEAD.1).unwrap();
-    engine.set_wet(&start.wet).unwrap();
-    engine.set_brush_paint(brush, &start.brush).unwrap();
-    Some((engine, brush))
+    Some(start.in_engine(PaintEngine::on_device(crate::device()?, &start.floor).unwrap()))
 }
 
 /// Rectangles in the middle, at every edge, of one cell, and of the whole canvas.
@@ -63,15 +59,18 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
         (None, None),
     ] {
         let mut rng = ChaCha8Rng::seed_from_u64(canvas as u64 * 7 + head as u64);
-        let mut wanted = reference(&mut rng, canvas, head);
-        let Some((mut engine, brush)) = engine(&wanted) else { return };
-        for rect in rects() {
-            let contact = contact_on(&mut rng, &wanted, rect);
-            wanted.step(&MotionConstants::default(), &contact);
-            engine.apply_contacts(brush, &MotionConstants::default(), &[contact]).unwrap();
+        let start = reference(&mut rng, canvas, head);
+        let Some((mut engine, brush)) = engine(&start) else { return };
+        let (mut wanted, wanted_brush) = start.on_cpu();
+        let motion = MotionConstants::new(0.1, 0.7);
+        for rect in rects().into_iter().chain(rects()) {
+            let contact = [contact_on(&mut rng, &start, rect)];
+            wanted.apply_contacts(wanted_brush, &motion, &contact).unwrap();
+            engine.apply_contacts(brush, &motion, &contact).unwrap();
             let told = format!("canvas {canvas:?}, head {head:?}, {rect:?}");
-            assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {told}");
-            assert!(engine.brush_paint(brush).unwrap() == wanted.brush, "the head, {told}");
+            assert!(engine.wet().unwrap() == wanted.wet().unwrap(), "wet paint, {told}");
+            let paint = wanted.brush_paint(wanted_brush).unwrap();
+            assert!(engine.brush_paint(brush).unwrap() == paint, "the head, {told}");
         }
     }
 }
@@ -80,28 +79,34 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
 fn other_constants_are_followed_too() {
     for motion in [
         MotionConstants {
-            push_quanta: 1,
+            push_share: 8192,
+            squeeze_share: 65536,
+            yield_quanta: 0,
+            levelling_share: 8192,
             adhesion_quanta: 0,
-            max_transfer_quanta: 65535,
-            full_transfer_quanta: 256,
+            padding: [0; 3],
         },
         MotionConstants {
-            push_quanta: 1 << 30,
+            push_share: 0,
+            squeeze_share: 0,
+            yield_quanta: 1 << 31,
+            levelling_share: 0,
             adhesion_quanta: 65535,
-            max_transfer_quanta: 0,
-            full_transfer_quanta: 1 << 31,
+            padding: [0; 3],
         },
     ] {
-        let mut rng = ChaCha8Rng::seed_from_u64(motion.max_transfer_quanta.into());
-        let mut wanted = reference(&mut rng, Amounts::Usual, Amounts::Usual);
-        let Some((mut engine, brush)) = engine(&wanted) else { return };
+        let mut rng = ChaCha8Rng::seed_from_u64(motion.push_share.into());
+        let start = reference(&mut rng, Amounts::Usual, Amounts::Usual);
+        let Some((mut engine, brush)) = engine(&start) else { return };
+        let (mut wanted, wanted_brush) = start.on_cpu();
         for rect in rects() {
-            let contact = contact_on(&mut rng, &wanted, rect);
-            wanted.step(&motion, &contact);
-            engine.apply_contacts(brush, &motion, &[contact]).unwrap();
+            let contact = [contact_on(&mut rng, &start, rect)];
+            wanted.apply_contacts(wanted_brush, &motion, &contact).unwrap();
+            engine.apply_contacts(brush, &motion, &contact).unwrap();
         }
-        assert!(engine.wet().unwrap() == wanted.wet, "wet paint, {motion:?}");
-        assert!(engine.brush_paint(brush).unwrap() == wanted.brush, "the head, {motion:?}");
+        assert!(engine.wet().unwrap() == wanted.wet().unwrap(), "wet paint, {motion:?}");
+        let paint = wanted.brush_paint(wanted_brush).unwrap();
+        assert!(engine.brush_paint(brush).unwrap() == paint, "the head, {motion:?}");
     }
 }
 
@@ -117,7 +122,7 @@ fn ten_thousand_sub_steps_keep_every_pigment() {
         })
         .collect();
     for _ in 0..100 {
-        engine.apply_contacts(brush, &MotionConstants::default(), &contacts).unwrap();
+        engine.apply_contacts(brush, &MotionConstants::new(0.1, 0.7), &contacts).unwrap();
     }
     let end = Reference {
         wet: engine.wet().unwrap(),

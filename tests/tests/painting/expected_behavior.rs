@@ -60,7 +60,7 @@ fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
 }
 
 #[test]
-fn a_stroke_beside_the_canvas_or_above_it_changes_nothing() {
+fn a_stroke_beside_the_canvas_only_evens_out_the_hair() {
     for mut painting in on_both(&bare(80, 80)) {
         let brush = loaded(&mut painting, HeadShape::Flat, 4.0, YELLOW, 0.4);
         painting.stroke(brush, &along(&[(3.0, 8.0), (12.0, 8.0)], 0.5)).unwrap();
@@ -68,6 +68,10 @@ fn a_stroke_beside_the_canvas_or_above_it_changes_nothing() {
         for places in [[(-40.0, 5.0), (-20.0, 9.0)], [(5.0, 60.0), (9.0, 1e3)]] {
             let report = painting.stroke(brush, &along(&places, 0.8)).unwrap();
             assert_eq!((report.substeps, report.cells), (0, 0));
+            let (wet, head) = whole(&mut painting, brush);
+            assert!(wet == before.0, "{places:?}");
+            assert_eq!(head.totals(), before.1.totals(), "{places:?}");
+            painting.undo().unwrap();
             assert!(whole(&mut painting, brush) == before, "{places:?}");
         }
     }

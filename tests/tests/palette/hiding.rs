@@ -2,7 +2,7 @@
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, Pigment};
-use calibrate::palette::{Cards, Hides, Palette, PaletteError, hiding_powers};
+use calibrate::palette::{Cards, Hides, Palette, PaletteError, hiding_powers, scattering_per_mm};
 use suite::near::assert_near;
 
 use crate::made::{Oils, band, even, grid, library};
@@ -102,4 +102,22 @@ fn a_card_on_other_wavelengths_is_refused() {
     let short = Cards { white: vec![0.8; 30], ..Cards::standard(grid()) };
     let refused = Palette::new(&library, &viewing, short).unwrap_err();
     assert_eq!(refused, PaletteError::Cards { wanted: 31, found: 30 });
+}
+
+#[test]
+fn the_white_of_a_library_hides_from_five_hundredths_of_a_millimetre_on() {
+    let mut oils = calibrate::library::PigmentLibrary::van_gogh_oils();
+    let per_mm = scattering_per_mm(&oils).unwrap();
+    assert!((380.0..440.0).contains(&per_mm) && per_mm.fract() == 0.0, "{per_mm}");
+    let white = oils.mix([(oils.reference_id().unwrap(), 1.0)]).unwrap();
+    let cards = Cards::standard(oils.grid);
+    let weights = Viewing::default().weights(oils.grid).unwrap();
+    let contrast = |mm: f64| {
+        let luminance = |card: &[f64]| weights.xyz(&white.film(mm * per_mm, card, oils.film())).y;
+        luminance(&cards.black) / luminance(&cards.white)
+    };
+    assert!((contrast(0.05) - 0.98).abs() < 2e-4, "{}", contrast(0.05));
+    assert!(contrast(0.04) < 0.975, "{}", contrast(0.04));
+    oils.reference = None;
+    assert_eq!(scattering_per_mm(&oils), None);
 }

@@ -107,6 +107,23 @@ fn a_painting_ends_at_a_quarter_of_the_difference_it_began_with() {
 }
 
 #[test]
+fn a_ground_of_the_color_of_the_picture_is_covered() {
+    let bare = opened(&bare_script()).flat_picture().unwrap();
+    let ground = bare.values()[0];
+    let target = Field::filled(48, 36, [ground[0], ground[1], ground[2]]);
+    let plan = plan();
+    let painter = Painter { target: &target, separation: &HIDING, plan: &plan };
+    let mut script = bare_script();
+    let mut session = PaintingSession::new(opened(&script), None).unwrap();
+    painter.paint(&mut session, &mut script, |_| {}).unwrap();
+    let layers = session.canvas_mut().document().unwrap().dry;
+    let covered = (0..48 * 36)
+        .filter(|&cell| layers.iter().any(|layer| layer.paint.cell(cell).volume() > 0))
+        .count();
+    assert!(covered > 48 * 36 * 98 / 100, "{covered} of {} cells", 48 * 36);
+}
+
+#[test]
 fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     let mut finished = painted(&plan());
     let strokes = finished.script.actions.iter().filter(|a| a.kind() == "stroke").count();

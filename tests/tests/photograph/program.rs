@@ -103,7 +103,7 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
         *slot = Some(library.find(name).unwrap());
     }
     let ground = GroundSpec::default().build(1, 1, 0.5, library).unwrap().reflectance;
-    let scattering_per_mm = Medium::default().scattering_per_mm;
+    let scattering_per_mm = Medium::of(library).scattering_per_mm;
     let materials = FilmMaterials { library, slots: &slots, ground: &ground, scattering_per_mm };
     let film = PaintFilm::at_nodes(materials, &light.quadrature);
     let settings =

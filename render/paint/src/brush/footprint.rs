@@ -1,5 +1,6 @@
 //! Rasterisation of the facets near the canvas.
 
+use super::locks::Lock;
 use super::net::Point;
 use super::surface::LimitSurface;
 use crate::contact::{Contact, Touch};
@@ -26,9 +27,6 @@ const ALONG: usize = 5;
 pub(super) struct Footprint {
     /// Whether each facet has hair; empty if all have.
     hair: Vec<bool>,
-    /// Recess of the bristles in each column of paint cells, in quanta, which is added to the
-    /// height of the surface.
-    bristles: Vec<i32>,
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
     sharers: Vec<u16>,
@@ -44,24 +42,18 @@ struct Facet {
 }
 
 impl Footprint {
-    /// A footprint of a head of `bristles.len()` x `height` paint cells with hair on these
-    /// facets.
-    pub(super) fn new(bristles: Vec<i32>, height: usize, hair: Vec<bool>) -> Self {
-        let width = bristles.len();
-        Self {
-            hair,
-            bristles,
-            facets: Vec::new(),
-            sharers: vec![0; width * height],
-            width: width as u32,
-        }
+    /// A footprint of a head of `width` x `height` paint cells with hair on these facets.
+    pub(super) fn new(width: usize, height: usize, hair: Vec<bool>) -> Self {
+        Self { hair, facets: Vec::new(), sharers: vec![0; width * height], width: width as u32 }
     }
 
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
-    /// of `bounds`, in coordinates from the cell `origin`.
+    /// of `bounds`, in coordinates from the cell `origin`. `locks` are those of each column of
+    /// paint cells.
     pub(super) fn draw(
         &mut self,
         surface: &LimitSurface,
+        locks: &[Lock],
         ceiling: f32,
         origin: (i64, i64),
         bounds: Rect,
@@ -99,7 +91,7 @@ impl Footprint {
                 cell: facet.cell,
                 row: self.width,
                 most,
-                bristles: &self.bristles[facet.cell as usize % self.bristles.len()..],
+                locks: &locks[facet.cell as usize % locks.len()..],
             };
             canvas.triangle(&corners[0], &corners[1], &corners[2]);
             canvas.triangle(&corners[3], &corners[2], &corners[1]);
@@ -205,8 +197,8 @@ struct Canvas<'a> {
     row: u32,
     /// Index of the facet's last paint cell, around and along.
     most: (i32, i32),
-    /// Recesses of the bristles in quanta, from the first column of the facet on.
-    bristles: &'a [i32],
+    /// Locks from the first column of the facet on.
+    locks: &'a [Lock],
 }
 
 impl Canvas<'_> {
@@ -255,13 +247,14 @@ impl Canvas<'_> {
             let mut at = whole(&begin);
             for touch in row {
                 let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
-                let height = at[HEIGHT] + self.bristles[around as usize];
+                let lock = self.locks[around as usize];
+                let height = at[HEIGHT] + lock.recess;
                 if height < touch.height {
                     let along = (at[ALONG] >> 16).max(0).min(self.most.1) as u32;
                     touch.height = height;
                     touch.brush_cell = self.cell + along * self.row + around;
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
-                    touch.weights = (at[SPEED] >> 16).clamp(0, 256) as u32;
+                    touch.weights = (at[SPEED] >> 16).clamp(0, 256) as u32 | lock.release;
                 }
                 for i in 0..8 {
                     at[i] = at[i].wrapping_add(step[i]);

@@ -20,10 +20,10 @@ const INWARDS: f32 = 0.7;
 /// Number of points of a segment at which contact is looked for.
 const LOOKS: usize = 4;
 
-/// Distance by which hair is pressed below the crests of the relief at `pressure`, in cells:
-/// 0.1 at first contact, 2.5 at full pressure.
-pub(super) fn sink(pressure: f32) -> f32 {
-    0.1 + 2.4 * pressure
+/// Distance in mm by which hair is pressed below the crests of the relief at `pressure` (chosen
+/// by eye).
+pub(super) fn sink_mm(pressure: f32) -> f32 {
+    0.01 + 0.24 * pressure
 }
 
 /// Hair of a head, without its place. Lengths are in cells.
@@ -40,6 +40,8 @@ pub(super) struct Hair<'a> {
     pub(super) section: &'a [(f32, f32); NODES],
     /// Length from the ferrule to the tip.
     pub(super) length: f32,
+    /// Distance by which hair is pressed below the crests of the relief.
+    pub(super) sink: f32,
 }
 
 /// A spine on the canvas, from the ferrule to the tip.
@@ -91,7 +93,7 @@ impl Hair<'_> {
         rest: &[(f32, f32)],
         floor: impl Fn(f32, f32) -> f32,
     ) -> Laid {
-        let dig = 2.0 * sink(self.pressure);
+        let dig = 2.0 * self.sink;
         let mut lying = [0.0; NODES];
         let mut places = [ferrule + self.broad * rest[0].1; NODES];
         let mut at = ferrule;

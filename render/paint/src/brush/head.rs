@@ -1,20 +1,19 @@
 //! A brush head: its bending, its surface, and its contacts with the canvas.
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-
 use super::footprint::Footprint;
 use super::grip::Grip;
-use super::hair::sink;
+use super::locks::Locks;
 use super::mesh::HeadMesh;
 use super::net::{Net, Point, columns};
 use super::relief::{Relief, ReliefView};
 use super::shape::HeadShape;
+use super::sides::{Extent, Sides};
 use super::spines::Spines;
 use super::surface::LimitSurface;
+use super::uptake::{rates, wicking};
 use super::vector::Vector;
 use crate::amount::QUANTA_PER_CELL;
-use crate::contact::Contact;
+use crate::contact::{Contact, ExchangeRates};
 use crate::pose::Pose;
 use graphics::tile::Rect;
 use spectra::hint::{Explain, Hint};
@@ -33,6 +32,13 @@ const NARROWEST: f32 = 1.5;
 /// Wet paint above that height is not touched.
 const HIGHEST_PAINT_MM: f64 = 2.0;
 
+/// Distance from the tip in mm over which the hair loses its grasp of the paint, so that a
+/// film does not depend on where in a cell the tip ends.
+const TIP_MM: f64 = 0.8;
+
+/// Height over the crests in mm up to which hair counts as touching.
+const TOUCHING_MM: f32 = 0.1;
+
 /// Maximum distance in cells along x or y that a head is dragged in a sub-step; after a longer
 /// move it is set down anew.
 const FARTHEST_DRAG: i64 = 64;
@@ -48,6 +54,11 @@ pub struct Head {
     net: Net,
     surface: LimitSurface,
     footprint: Footprint,
+    locks: Locks,
+    sides: Sides,
+    /// Number of sub-steps since the head was set down.
+    sub_step: u32,
+    paint_cell_area: f64,
     /// Origin of coordinates while the head touches the canvas.
     origin: Option<(i64, i64)>,
     /// Origin of coordinates while the head hovers.
@@ -72,7 +83,7 @@ impl Head {
         }
         let of = shape.proportions();
         let width = ((size_mm / cell_mm) as f32).max(NARROWEST);
-        let spines = Spines::new(of, width);
+        let spines = Spines::new(of, width, cell_mm);
         let perimeter = if of.spines == 1 {
             std::f32::consts::PI * width
         } else {
@@ -81,17 +92,29 @@ impl Head {
         let surface = LimitSurface::new(columns(of.spines), perimeter, spines.length());
         let (around, along) = cells(&surface);
         let hair = if of.gaps { tufts(&surface, of.spines) } else { Vec::new() };
+        let area = f64::from(perimeter) * f64::from(spines.length());
+        let column_mm = f64::from(perimeter) * cell_mm / around as f64;
         Ok(Self {
             shape,
             size_mm,
             cell_mm,
             net: Net::new(&spines),
             spines,
-            footprint: Footprint::new(bristles(of.bristles, around, size_mm), along, hair),
+            footprint: Footprint::new(around, along, hair),
+            locks: Locks::new(0, around, column_mm, 0.1 * of.bristles, cell_mm),
+            sides: Sides::default(),
+            sub_step: 0,
+            paint_cell_area: area / (around * along) as f64,
             surface,
             origin: None,
             hovering: None,
         })
+    }
+
+    /// The head with other locks of hair: each seed gives locks of its own.
+    #[must_use]
+    pub fn with_locks(self, seed: u64) -> Self {
+        Self { locks: self.locks.seeded(seed), ..self }
     }
 
     /// Shape of the head.
@@ -120,9 +143,19 @@ impl Head {
         cells(&self.surface)
     }
 
+    /// Area of a paint cell, in cells of the canvas. Paint `d` mm thick on the head takes a column
+    /// of `d` times this area in each of its cells.
+    #[must_use]
+    pub fn paint_cell_area(&self) -> f64 {
+        self.paint_cell_area
+    }
+
     /// Lifts the head off the canvas, which straightens it.
     pub fn lift(&mut self) {
         (self.origin, self.hovering) = (None, None);
+        self.locks.lift();
+        self.sides.lift();
+        self.sub_step = 0;
     }
 
     /// Holds the straight head just above the canvas at `pose`, for any pressure, so that it
@@ -161,7 +194,7 @@ impl Head {
 
     /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
     /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are
-    /// not finite. A lifted head comes down from just above the canvas; a head that is more
+    /// not finite; over no canvas, paint may still flow along the hair. A lifted head comes down from just above the canvas; a head that is more
     /// than 64 cells away is set down anew.
     ///
     /// The speed that governs transfer includes the surface's vertical motion, so that a head
@@ -169,6 +202,7 @@ impl Head {
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
+        (out.rates, out.wicking) = (ExchangeRates::default(), 0);
         let Some(grip) = Grip::new(pose, self.spines.of) else {
             self.lift();
             return;
@@ -192,8 +226,13 @@ impl Head {
             }
         }
         self.origin = Some(grip.origin);
+        let turned_over = self.spines.turns_over(&grip);
         self.spines.advance(&grip, &view);
         self.net.follow(&self.spines, &grip);
+        if turned_over {
+            // Its edge stays where it is; the blade does not sweep over the paint.
+            self.net.rest();
+        }
         self.touch(&grip, &view, bounds, out);
     }
 
@@ -201,14 +240,27 @@ impl Head {
         let reach = self.spines.width + grip.pressure * self.spines.length();
         let (lowest, highest) = view.range(grip.tip, reach);
         let ceiling = highest + (HIGHEST_PAINT_MM / self.cell_mm) as f32;
-        let sink = sink(grip.pressure);
         let plane = lowest == highest;
-        self.surface.evaluate(&self.net, ceiling, |vertex| {
+        let moved = self.locks.follow(grip);
+        let mut extent = Extent::new(grip.tip, moved);
+        let touching = (highest + TOUCHING_MM / self.cell_mm as f32) * QUANTA_PER_CELL as f32;
+        let (facets, cells) = (self.surface.facets().1, self.surface.cells_of_facet().1);
+        let row_mm = cells as f64 * self.cell_mm;
+        let fade = (row_mm / TIP_MM) as f32;
+        self.surface.evaluate(&self.net, ceiling, |row, vertex| {
             let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
-            *vertex = finished(vertex, relief, sink);
+            let grasp = ((facets - row) as f32 * fade).min(1.0);
+            *vertex = finished(vertex, relief, grasp);
+            if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
+                extent.include(vertex[0], vertex[1]);
+            }
         });
         let ceiling = ceiling * QUANTA_PER_CELL as f32;
-        self.footprint.draw(&self.surface, ceiling, grip.origin, bounds, out);
+        self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
+        self.sides.thicken(out, extent, grip.origin, self.cell_mm as f32);
+        out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
+        out.wicking = wicking(self.spines.of, self.sub_step, self.cell_mm);
+        self.sub_step += 1;
     }
 }
 
@@ -219,13 +271,12 @@ fn cells(surface: &LimitSurface) -> (usize, usize) {
 }
 
 /// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
-/// 0.2 cells per sub-step, full from 0.3). Where the surface would be below the relief, it is
-/// raised to less than `sink` cells below it.
+/// 0.2 cells per sub-step, full from 0.3), both times `grasp`. Where the surface would be below
+/// the relief, it is raised to it.
 #[inline(always)]
-fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
+fn finished(vertex: &Point, relief: f32, grasp: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
-    let below = (relief - z).max(0.0);
-    let height = if below > 0.0 { relief - sink * below / (below + sink) } else { z };
+    let height = z.max(relief);
     let speed = (dx * dx + dy * dy + dz * dz).sqrt();
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
     let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
@@ -233,31 +284,12 @@ fn finished(vertex: &Point, relief: f32, sink: f32) -> Point {
         x,
         y,
         height * QUANTA_PER_CELL as f32,
-        fixed(dx),
-        fixed(dy),
-        t * t * (3.0 - 2.0 * t) * (256.0 * 65536.0),
+        fixed(grasp * dx),
+        fixed(grasp * dy),
+        grasp * t * t * (3.0 - 2.0 * t) * (256.0 * 65536.0),
         0.0,
         0.0,
     ]
-}
-
-/// Recess of the bristles in each column of paint cells, in quanta: at most `most` cells, for
-/// most bristles much less. Bristles cling together in locks about 0.5 mm wide (chosen by eye).
-/// Random numbers are seeded with the size, so that heads of one size are equal.
-fn bristles(most: f32, columns: usize, size_mm: f64) -> Vec<i32> {
-    let mut random = ChaCha8Rng::seed_from_u64(size_mm.to_bits());
-    // The perimeter of the head is a little more than twice its width.
-    let locks = ((4.0 * size_mm) as usize).max(4);
-    let lock: Vec<f32> = (0..locks).map(|_| random.random::<f32>()).collect();
-    let bristle = |column: usize| {
-        let place = column as f32 * locks as f32 / columns as f32;
-        let (left, share) = (place as usize % locks, place.fract());
-        let smooth = share * share * (3.0 - 2.0 * share);
-        let high = lock[left] + (lock[(left + 1) % locks] - lock[left]) * smooth;
-        let hair = 0.7 * high * high + 0.3 * random.random::<f32>() * high;
-        (most * hair * QUANTA_PER_CELL as f32) as i32
-    };
-    (0..columns).map(bristle).collect()
 }
 
 /// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines

@@ -1,7 +1,8 @@
 //! Tests of the marks of dragged heads: how wide, where, and how even, however the hand leans.
 
 use super::{Head, HeadShape, Relief};
-use crate::contact::Contact;
+use crate::contact::{Contact, ExchangeRates, Touch};
+use crate::motion::press::{NO_CONTACT, coat, penetration};
 use crate::pose::Pose;
 use graphics::tile::Rect;
 
@@ -56,10 +57,15 @@ struct Mark {
     unsteadiness: f64,
 }
 
+/// Whether a dry head touches the bare plane.
+fn touches(rates: &ExchangeRates, touch: &Touch) -> bool {
+    penetration(rates, *touch, 0, 0, coat(rates, *touch, 0)) != NO_CONTACT
+}
+
 fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {
     let mut head = Head::new(shape, size_mm, CELL_MM).unwrap();
     let relief = Relief::flat(BOUNDS.width, BOUNDS.height, CELL_MM);
-    let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+    let mut contact = Contact::default();
     let (sin, cos) = hand.heading_deg.to_radians().sin_cos();
     let steep = hand.lean_deg.to_radians().tan();
     let (towards_y, towards_x) = hand.towards_deg.to_radians().sin_cos();
@@ -85,7 +91,7 @@ fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {
         }
         let (mut along, mut count) = (0.0, 0.0);
         for (i, touch) in contact.touches.iter().enumerate() {
-            if touch.height <= 0 {
+            if touches(&contact.rates, touch) {
                 let x = (contact.rect.x + i % contact.rect.width) as f64 + 0.5 - pose.x;
                 let y = (contact.rect.y + i / contact.rect.width) as f64 + 0.5 - pose.y;
                 let across = y * cos - x * sin;

@@ -118,7 +118,7 @@ mod tests {
         let relief = Relief::flat(400, 300, 0.1);
         for shape in HeadShape::ALL {
             let mut head = Head::new(shape, 4.0, 0.1).unwrap();
-            let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+            let mut contact = Contact::default();
             head.set_down(&POSE, (1.0, 0.0), &relief);
             let mut pose = POSE;
             for _ in 0..20 {
@@ -148,7 +148,7 @@ mod tests {
                 head.hover(&Pose { x: 20.0, twist_deg: 10.0, ..POSE }, &relief);
             }
             head.set_down(&POSE, (1.0, 0.0), &relief);
-            let mut contact = Contact { rect: Rect::default(), touches: Vec::new() };
+            let mut contact = Contact::default();
             head.advance(&Pose { x: POSE.x + 1.0, ..POSE }, &relief, BOUNDS, &mut contact);
             contact
         };

@@ -25,6 +25,12 @@ mod surface;
 
 mod mesh;
 
+mod locks;
+
+mod uptake;
+
+mod sides;
+
 mod footprint;
 
 mod head;

@@ -11,7 +11,7 @@
 //! contact is at the pen, whatever its lean.
 
 use super::grip::Grip;
-use super::hair::{Hair, Laid};
+use super::hair::{Hair, Laid, sink_mm};
 use super::relief::ReliefView;
 use super::shape::{NODES, Proportions};
 use super::vector::Vector;
@@ -27,15 +27,17 @@ const CLEARANCE: f32 = 0.5;
 /// and touch none.
 const THINNEST: f32 = 2.0;
 
-/// Minimum distance by which full pressure lowers a head, in cells; a knife is lowered by just
+/// Minimum distance by which full pressure lowers a head, in mm; a knife is lowered by just
 /// this distance.
-const LEAST_DEPTH: f32 = 6.0;
+const LEAST_DEPTH_MM: f32 = 0.6;
 
 /// Spines of one head; lengths in cells.
 #[derive(Debug, Clone)]
 pub(super) struct Spines {
     pub(super) of: &'static Proportions,
     pub(super) width: f32,
+    /// Number of cells in a mm.
+    cells_per_mm: f32,
     /// Rest position of each node: distances from the ferrule along the axis and across it.
     rest: Vec<(f32, f32)>,
     /// Half the thickness at each level.
@@ -50,10 +52,12 @@ pub(super) struct Spines {
     trail: Vector,
     /// The pen in the last sub-step.
     pen: (f32, f32),
+    /// Direction to the ferrule in the last sub-step.
+    axis: Vector,
 }
 
 impl Spines {
-    pub(super) fn new(of: &'static Proportions, width: f32) -> Self {
+    pub(super) fn new(of: &'static Proportions, width: f32, cell_mm: f64) -> Self {
         let margin = 0.5 * (of.thickness * width);
         let half_thickness = of.depth.map(|d| {
             let half = 0.5 * d * of.thickness * width;
@@ -77,6 +81,7 @@ impl Spines {
         Self {
             of,
             width,
+            cells_per_mm: 1.0 / cell_mm as f32,
             nodes: vec![Vector::ZERO; rest.len()],
             rest,
             half_thickness,
@@ -84,6 +89,7 @@ impl Spines {
             load: [0.0; NODES],
             trail: Vector::ZERO,
             pen: (0.0, 0.0),
+            axis: Vector::UP,
         }
     }
 
@@ -123,12 +129,26 @@ impl Spines {
         self.settle(grip, relief);
     }
 
+    /// Whether a blade lies on its other side at `grip` than it did.
+    pub(super) fn turns_over(&self, grip: &Grip) -> bool {
+        self.of.rigid && self.axis.dot(grip.axis) < 0.0
+    }
+
     /// Advances one sub-step, in which the pen moved to `grip`.
     pub(super) fn advance(&mut self, grip: &Grip, relief: &ReliefView<'_>) {
         let moved = Vector::new(grip.tip.0 - self.pen.0, grip.tip.1 - self.pen.1, 0.0);
         let trail = self.trail - moved * (1.0 / (TOW * self.length()));
         self.trail = if trail.length() > 1.0 { trail.unit_or(trail) } else { trail };
         self.settle(grip, relief);
+    }
+
+    /// Distance in cells by which hair is pressed below the crests of the relief at `pressure`.
+    pub(super) fn sink(&self, pressure: f32) -> f32 {
+        sink_mm(pressure) * self.cells_per_mm
+    }
+
+    fn least_depth(&self, pressure: f32) -> f32 {
+        LEAST_DEPTH_MM * self.cells_per_mm * pressure
     }
 
     /// Height of the canvas below the pen.
@@ -143,7 +163,7 @@ impl Spines {
 
     /// Bends the head to `grip`.
     fn settle(&mut self, grip: &Grip, relief: &ReliefView<'_>) {
-        self.pen = grip.tip;
+        (self.pen, self.axis) = (grip.tip, grip.axis);
         let pen = Vector::new(grip.tip.0, grip.tip.1, 0.0);
         let ride = self.ride(grip, relief);
         if self.of.rigid {
@@ -157,10 +177,11 @@ impl Spines {
             pressure: grip.pressure,
             section: &self.section,
             length: self.length(),
+            sink: self.sink(grip.pressure),
         };
         let low = hair.lowest();
         let pressed = hair.drop(1.0) - hair.drop(1.0 - self.of.give * grip.pressure);
-        let high = CLEARANCE + low - pressed.max(LEAST_DEPTH * grip.pressure);
+        let high = CLEARANCE + low - pressed.max(self.least_depth(grip.pressure));
         let middle = hair.middle(high, &self.of.width);
         let ferrule = pen - middle + Vector::UP * (ride + high);
         let mut pressed = [0.0; NODES];
@@ -180,7 +201,7 @@ impl Spines {
 
     /// Presses the edge of a blade below the canvas at `pen`.
     fn press_blade(&mut self, grip: &Grip, pen: Vector) {
-        let depth = LEAST_DEPTH * grip.pressure - CLEARANCE;
+        let depth = self.least_depth(grip.pressure) - CLEARANCE;
         let covered = (depth.max(0.0) / grip.axis.z).min(self.length());
         let level = Vector::new(grip.axis.x, grip.axis.y, 0.0);
         let ferrule =

@@ -89,9 +89,14 @@ impl LimitSurface {
         self.around.facets
     }
 
-    /// Evaluates the surface where it may reach below `ceiling`, and passes each vertex to
-    /// `finish`.
-    pub(super) fn evaluate(&mut self, net: &Net, ceiling: f32, finish: impl Fn(&mut Point)) {
+    /// Evaluates the surface where it may reach below `ceiling`, and passes each vertex with
+    /// its row to `finish`.
+    pub(super) fn evaluate(
+        &mut self,
+        net: &Net,
+        ceiling: f32,
+        mut finish: impl FnMut(usize, &mut Point),
+    ) {
         self.find_near(net, ceiling);
         let columns = self.columns;
         let width = columns * self.around.facets;
@@ -123,7 +128,7 @@ impl LimitSurface {
                     &mut self.vertices[row * width + column * self.around.facets..][..count];
                 for (vertex, weights) in vertices.iter_mut().zip(&self.around.weights) {
                     *vertex = combined(weights, &line[0], &line[1], &line[2], &line[3]);
-                    finish(vertex);
+                    finish(row, vertex);
                 }
             }
         }

@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{CommitOutcome, History, TILE_BYTES};
-use crate::contact::{Contact, Touch};
+use crate::contact::{Contact, ExchangeRates, Touch};
 use crate::engine::{BrushId, PaintEngine};
 use crate::layer::{Cell, Layer};
 use crate::motion::MotionConstants;
@@ -56,8 +56,15 @@ fn stroke(history: &mut History<usize>, engine: &mut PaintEngine, random: &mut C
         history.save_tiles(engine, reach).unwrap();
         let velocity = (random.random_range(-256..=256), random.random_range(-256..=256));
         let touches = (0..SIZE * SIZE).map(|i| Touch::new(900_000, i as u32, velocity, 256, 1));
-        let contact = Contact { rect, touches: touches.collect() };
-        engine.apply_contacts(brush, &MotionConstants::default(), &[contact]).unwrap();
+        let rates = ExchangeRates {
+            release: 20_000,
+            deposit: 6000,
+            pick_up: 6000,
+            mixing: 900,
+            ..ExchangeRates::default()
+        };
+        let contact = Contact { rect, touches: touches.collect(), rates, wicking: 9000 };
+        engine.apply_contacts(brush, &MotionConstants::new(0.1, 0.7), &[contact]).unwrap();
     }
 }
 

@@ -31,13 +31,14 @@ pub fn mobile_share(motion: &MotionConstants, volume: u32) -> u32 {
 }
 
 /// Computes the paint that leaves `cell` in one sub-step. `mobile` is the share that may
-/// move in parts of 65536, `speed` the absolute velocity along x and y in 1/256 cell.
+/// move in parts of 65536, `speed` the absolute velocity along x and y in 1/16384 cell.
 #[inline(always)]
 #[must_use]
 pub fn outflow(cell: &Cell, mobile: u32, speed: (u32, u32)) -> Outflow {
     let moving = cell.share_of_65536(mobile);
-    let sideways = moving.share_of_256(speed.0);
-    let diagonal = sideways.share_of_256(speed.1);
-    let in_y = moving.minus(&sideways).share_of_256(speed.1);
+    let (x, y) = (4 * speed.0, 4 * speed.1);
+    let sideways = moving.share_of_65536(x);
+    let diagonal = sideways.share_of_65536(y);
+    let in_y = moving.minus(&sideways).share_of_65536(y);
     Outflow { in_x: sideways.minus(&diagonal), in_y, diagonal }
 }

@@ -1,36 +1,73 @@
 //! The constants of motion, as whole numbers.
 
-use crate::amount::QUANTA_PER_CELL;
+use crate::amount::{QUANTA_PER_CELL, quanta_from_mm};
 
-/// The constants of motion. They are uniforms of the shaders as well.
-///
-/// The lengths of Baxter, Wendt and Lin 2004 have no unit. One of their units of height
-/// is taken as ten cells (1 mm with cells of 0.1 mm), so that a sub-step deposits at most
-/// a hundredth of a cell.
+/// The constants of motion of a paint on cells of one size. They are uniforms of the shaders
+/// as well.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct MotionConstants {
-    /// Difference in penetration over two cells, in quanta, that pushes paint by 1/256
-    /// cell a sub-step; 1 and up. The paper's c is `QUANTA_PER_CELL / 128 / push_quanta`.
-    pub push_quanta: i32,
+    /// Share of a difference in pressure between two columns, one of them under the head,
+    /// that flows in a sub-step, in parts of 65536; up to 8192.
+    pub push_share: u32,
+    /// Pressure of the head per height that it has penetrated, relative to the pressure of
+    /// that height of paint, in parts of 65536.
+    pub squeeze_share: u32,
+    /// Difference in height between two columns, in quanta, that the paint bears without
+    /// flowing: its yield.
+    pub yield_quanta: u32,
+    /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536; up
+    /// to 8192.
+    pub levelling_share: u32,
     /// Height in quanta that always stays behind when a column moves; below 65536.
     pub adhesion_quanta: u32,
-    /// Maximum transfer between two cells in a sub-step, in quanta; below 65536.
-    pub max_transfer_quanta: u32,
-    /// Difference between the two sides, in quanta, from which the full tenth is
-    /// transferred (the paper's cutoff); 256 and up.
-    pub full_transfer_quanta: u32,
+    /// Unused; pads the uniforms of the shaders.
+    pub padding: [u32; 3],
 }
 
-impl Default for MotionConstants {
-    /// From the paper: the maximum transfer of 0.001 and the cutoff of 1/30 of its unit of
-    /// height. Chosen by eye: c = 1/4 and an adhesion of 1/500 of a cell.
-    fn default() -> Self {
+/// Flow under the head: mm2 of paint that leaves under a pressure of 1 mm of paint, for each mm
+/// that the head moves (chosen by measured lips).
+const PUSH_MM: f64 = 0.002;
+
+/// Slope that the stiffest paint bears.
+const STEEPEST: f64 = 1.5;
+
+/// Slope that the most fluid paint bears.
+const FLATTEST: f64 = 0.01;
+
+/// Height in mm that stays behind when a column moves (chosen by eye).
+const ADHESION_MM: f64 = 0.0002;
+
+impl MotionConstants {
+    /// Constants for cells of `cell_mm` mm and a paint of this `stiffness`: 0 is stand oil,
+    /// which levels by itself, 1 is putty, which stays as it is laid.
+    #[must_use]
+    pub fn new(cell_mm: f64, stiffness: f64) -> Self {
+        let parts = |share: f64| (share * 65536.0).round() as u32;
+        let slope = FLATTEST * (STEEPEST / FLATTEST).powf(stiffness.clamp(0.0, 1.0));
         Self {
-            push_quanta: (QUANTA_PER_CELL / 32) as i32,
-            adhesion_quanta: QUANTA_PER_CELL / 500,
-            max_transfer_quanta: QUANTA_PER_CELL / 100,
-            full_transfer_quanta: QUANTA_PER_CELL / 3,
+            push_share: parts((PUSH_MM / cell_mm).min(0.125)),
+            squeeze_share: parts(1.0),
+            yield_quanta: (slope * f64::from(QUANTA_PER_CELL)) as u32,
+            levelling_share: parts(1.0 / 16.0),
+            adhesion_quanta: quanta_from_mm(ADHESION_MM, cell_mm).min(65535),
+            padding: [0; 3],
         }
     }
+}
+
+/// Stiffness below which paint levels after a stroke.
+const LEVELS_BELOW: f64 = 0.5;
+
+/// Sub-steps of levelling of the most fluid paint on cells of 0.1 mm. A wave of 1 mm then falls
+/// to a twentieth.
+const MOST_LEVELLING: f64 = 64.0;
+
+/// Number of sub-steps without a head after a stroke in which paint of this `stiffness` levels,
+/// on cells of `cell_mm` mm: at most 256, none for paint from the tube.
+#[must_use]
+pub fn levelling_sub_steps(cell_mm: f64, stiffness: f64) -> usize {
+    let fluid = (1.0 - stiffness / LEVELS_BELOW).max(0.0);
+    // Diffusion over a distance takes a time that grows with its square.
+    (MOST_LEVELLING * fluid * (0.1 / cell_mm).powi(2)).ceil().min(256.0) as usize
 }

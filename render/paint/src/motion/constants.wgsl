@@ -1,8 +1,12 @@
 // The constants of motion; twin of constants.rs.
 
 struct MotionConstants {
-    push_quanta: i32,
+    push_share: u32,
+    squeeze_share: u32,
+    yield_quanta: u32,
+    levelling_share: u32,
     adhesion_quanta: u32,
-    max_transfer_quanta: u32,
-    full_transfer_quanta: u32,
+    padding: u32,
+    padding_b: u32,
+    padding_c: u32,
 }

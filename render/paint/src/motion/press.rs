@@ -1,47 +1,122 @@
-//! How deep the head is pressed into the paint, and the velocity that it gives to the
-//! paint.
+//! How deep the head is pressed into the paint, and the velocity that the head, the weight of
+//! the paint and its surface tension give to it.
 //!
-//! Baxter, Wendt and Lin 2004, section 4.2: paint moves with half the velocity of the
-//! brush, and down the gradient of the penetration.
+//! Baxter, Wendt and Lin 2004, section 4.2: paint moves with a share of the velocity of the
+//! brush. Here only the part of a column that the head has penetrated does. Paint flows from high
+//! pressure to low: the pressure is the height of the surface plus that of the head. Away
+//! from the head, paint is a Bingham fluid: it flows only where its slope exceeds its yield.
 
 use super::constants::MotionConstants;
-use crate::amount::MAX_COLUMN;
-use crate::contact::Touch;
+use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_65536};
+use crate::contact::{ExchangeRates, Touch};
 
-/// Value that stands for "no contact" among penetrations, which are 0 and up.
-pub const NO_CONTACT: i32 = -1;
+/// Value that stands for "no contact" among penetrations.
+pub const NO_CONTACT: i32 = i32::MIN;
 
 /// Columns higher than this, in quanta (some fifty cell widths), do not move and receive
 /// no inflow. Eight columns may flow into one at once, so this keeps every column below
 /// [`MAX_COLUMN`].
 pub const CROWDED_VOLUME: u32 = MAX_COLUMN / 10;
 
-/// Penetration of the head: how far it is below the top of the paint, in quanta, or
-/// [`NO_CONTACT`]. `floor` is the height of ground and dry paint, `volume` that of the
-/// wet paint on it, both in quanta.
+/// Velocity of one cell a sub-step.
+pub const CELL_A_SUB_STEP: i32 = 1 << 14;
+
+/// Largest velocity of flow: half a column in a sub-step.
+const FASTEST_FLOW: u32 = 1 << 13;
+
+/// Thickness in quanta of the film that a head leaves when it presses down on the ground: the
+/// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of
+/// that column of the head.
 #[inline(always)]
 #[must_use]
-pub fn penetration(touch: Touch, floor: i32, volume: u32) -> i32 {
-    let top = floor + volume as i32;
-    if touch.height <= top { top - touch.height } else { NO_CONTACT }
+pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
+    let usual = share_of_65536(mean, rates.release).min(CROWDED_VOLUME);
+    rates.film + (usual >> 5) * touch.release()
 }
 
-/// Velocity of a cell's paint along x and y in 1/256 cell a sub-step, each component from
-/// -256 to 256.
-///
-/// `penetration` is that of the cell; `slopes` are the differences of penetration between
-/// the right and left and the lower and upper neighbours, where no contact counts as 0.
+/// Penetration of the head in quanta: how far its hair is below the top of the paint, but
+/// never below the floor. Negative if it is above; [`NO_CONTACT`] if not even its `coat`
+/// reaches the paint. `floor` is the height of ground and dry paint, `volume` that of the wet
+/// paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless its
+/// coat is thick enough to bear it, so a thick film hides a weave.
 #[inline(always)]
 #[must_use]
-pub fn velocity(
-    motion: &MotionConstants,
-    touch: Touch,
-    penetration: i32,
-    slopes: (i32, i32),
-) -> (i32, i32) {
-    let (x, y) = if penetration == NO_CONTACT { (0, 0) } else { touch.velocity() };
-    let along = |brush: i32, slope: i32| (brush / 2 - slope / motion.push_quanta).clamp(-256, 256);
-    (along(x, slopes.0), along(y, slopes.1))
+pub fn penetration(rates: &ExchangeRates, touch: Touch, floor: i32, volume: u32, coat: u32) -> i32 {
+    let sunk = touch.height.saturating_sub_unsigned(rates.sink.saturating_sub(coat));
+    let hair = sunk.max(floor);
+    let top = floor + volume as i32;
+    let reached = touch.height != Touch::NONE.height && hair - coat as i32 <= top;
+    if reached { top - hair } else { NO_CONTACT }
+}
+
+/// One column of paint in the field of pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Height of its surface over the plane of the canvas, in quanta.
+    pub top: i32,
+    /// Penetration of the head in quanta, or [`NO_CONTACT`].
+    pub penetration: i32,
+}
+
+impl Column {
+    /// Penetration in quanta, 0 where the head does not reach into the paint.
+    #[inline(always)]
+    #[must_use]
+    pub fn depth(&self) -> u32 {
+        self.penetration.max(0) as u32
+    }
+}
+
+/// Paint that flows from the column `here` to `next` in one sub-step, in quanta; negative if it
+/// flows back. `before` is the top of the column on the other side of `here`, `beyond` that
+/// after `next`.
+///
+/// Three flows add up: under the head from high pressure to low, where the slope exceeds the
+/// yield, and from crests to pits that are one cell wide.
+#[inline(always)]
+#[must_use]
+pub fn flow(motion: &MotionConstants, before: i32, here: Column, next: Column, beyond: i32) -> i32 {
+    let drop = here.top - next.top;
+    let head = share_of_65536(here.depth(), motion.squeeze_share) as i32
+        - share_of_65536(next.depth(), motion.squeeze_share) as i32;
+    let pressed = here.penetration.max(next.penetration) != NO_CONTACT;
+    // Halves, as the sum may exceed 31 bits.
+    let driven = if pressed { (drop >> 1) + (head >> 1) } else { 0 };
+    let slides = drop.unsigned_abs().saturating_sub(motion.yield_quanta) as i32 / 8;
+    let crest = ((here.top - before) >> 1) + (drop >> 1);
+    let pit = (drop >> 1) + ((beyond - next.top) >> 1);
+    let kink = if (crest ^ pit) < 0 { 0 } else { crest.unsigned_abs().min(pit.unsigned_abs()) };
+    let level = share_of_65536(kink, motion.levelling_share) as i32;
+    let driven_flow = share_of_65536(driven.unsigned_abs(), motion.push_share) as i32;
+    driven_flow * driven.signum() + slides * drop.signum() + level * crest.signum()
+}
+
+/// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most
+/// a cell: that of the head, 0 without contact, and the larger of its outflows. `before` is the
+/// flow from the neighbour before it, `after` that to the neighbour after it, in quanta.
+#[inline(always)]
+#[must_use]
+pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
+    let (forward, back) = (after.max(0), (-before).max(0));
+    let flow = if forward >= back { forward } else { -back };
+    let cells = (ratio_of_65536(flow.unsigned_abs(), volume) / 4).min(FASTEST_FLOW) as i32;
+    (head + cells * flow.signum()).clamp(-CELL_A_SUB_STEP, CELL_A_SUB_STEP)
+}
+
+/// Velocity in 1/16384 cell a sub-step, along x and y, that a head gives to a column of `volume`
+/// quanta: a share of its own for the part that it has penetrated.
+#[inline(always)]
+#[must_use]
+pub fn dragged(rates: &ExchangeRates, touch: Touch, penetration: i32, volume: u32) -> (i32, i32) {
+    let depth = (penetration.max(0) as u32).saturating_sub(rates.film);
+    if depth == 0 {
+        return (0, 0);
+    }
+    let immersed = if depth >= volume { 256 } else { ratio_of_65536(depth, volume) >> 8 };
+    let share = (immersed * rates.drag) as i32;
+    let (x, y) = touch.velocity();
+    let of = |velocity: i32| velocity * share / 1024;
+    (of(x), of(y))
 }
 
 /// Removes the components of `velocity` that would move a column above
@@ -67,4 +142,85 @@ pub fn avoid_crowded_columns(
         y = 0;
     }
     (x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::amount::QUANTA_PER_CELL;
+
+    const CELL: i32 = QUANTA_PER_CELL as i32;
+
+    /// Flow between the middle two of four tops, away from the head.
+    fn alone([before, here, next, beyond]: [i32; 4], motion: &MotionConstants) -> i32 {
+        let column = |top: i32| Column { top, penetration: NO_CONTACT };
+        flow(motion, before, column(here), column(next), beyond)
+    }
+
+    #[test]
+    fn what_flows_to_the_next_column_comes_from_the_one_before() {
+        let random = &mut ChaCha8Rng::seed_from_u64(1);
+        let motion = MotionConstants::new(0.1, 0.3);
+        for _ in 0..10_000 {
+            let tops: [i32; 4] = std::array::from_fn(|_| random.random_range(0..8 * CELL));
+            let mut column = |top: i32| {
+                let penetration = random.random_range(-CELL..top.max(1));
+                Column { top, penetration: [penetration, NO_CONTACT][random.random_range(0..2)] }
+            };
+            let (here, next) = (column(tops[1]), column(tops[2]));
+            let there = flow(&motion, tops[0], here, next, tops[3]);
+            let back = flow(&motion, tops[3], next, here, tops[0]);
+            // Halves and shares are rounded.
+            assert!((there + back).abs() <= 2, "{there}, {back}: {tops:?}");
+        }
+    }
+
+    #[test]
+    fn teeth_of_a_cell_are_levelled_and_a_straight_slope_stays() {
+        let motion = MotionConstants { levelling_share: 4096, ..MotionConstants::new(0.1, 1.0) };
+        assert_eq!(alone([0, CELL, 0, CELL], &motion), CELL / 16);
+        assert_eq!(alone([CELL, 0, CELL, 0], &motion), -CELL / 16);
+        assert_eq!(alone([3 * CELL, 2 * CELL, CELL, 0], &motion), 0);
+        assert_eq!(alone([CELL, CELL, 0, 0], &motion), CELL / 32, "the rim of a step");
+    }
+
+    #[test]
+    fn paint_bears_slopes_up_to_its_yield() {
+        let motion = MotionConstants::new(0.1, 0.5);
+        let bears = motion.yield_quanta as i32;
+        for (drop, flows) in [(bears / 2, 0), (bears, 0), (bears + 800, 100)] {
+            assert_eq!(alone([3 * drop, 2 * drop, drop, 0], &motion), flows, "{drop}");
+            assert_eq!(alone([0, drop, 2 * drop, 3 * drop], &motion), -flows, "{drop}");
+        }
+    }
+
+    #[test]
+    fn under_the_head_paint_flows_below_its_yield_to_where_the_head_is_less_deep() {
+        let motion = MotionConstants::new(0.1, 1.0);
+        let column = |penetration: i32| Column { top: CELL, penetration };
+        let out = flow(&motion, CELL, column(CELL / 2), column(0), CELL);
+        assert!(out > 0, "{out}");
+        assert_eq!(flow(&motion, CELL, column(CELL / 2), column(CELL / 2), CELL), 0);
+    }
+
+    #[test]
+    fn hair_sinks_to_the_floor_unless_its_coat_bears_it() {
+        let rates = ExchangeRates { sink: 1000, ..ExchangeRates::default() };
+        let touch = Touch::new(5000, 0, (0, 0), 0, 1);
+        let found =
+            |floor: i32, volume: u32, coat: u32| penetration(&rates, touch, floor, volume, coat);
+        assert_eq!(found(4000, 0, 0), 0, "on a floor that it just reaches");
+        assert_eq!(found(3900, 300, 0), 200, "above a floor that it does not reach");
+        assert_eq!(found(4500, 300, 0), 300, "never below the floor");
+        assert_eq!(found(3900, 300, 600), -400, "on a coat that bears it");
+        assert_eq!(found(3900, 0, 0), NO_CONTACT, "above the paint");
+        assert_eq!(
+            penetration(&rates, Touch::NONE, 4000, 300, 600),
+            NO_CONTACT,
+            "where the head is not"
+        );
+    }
 }

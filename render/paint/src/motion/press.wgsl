@@ -1,21 +1,77 @@
 // How deep the head is pressed into the paint, and the velocity that it gives to the
 // paint; twin of press.rs.
 
-const NO_CONTACT: i32 = -1;
-// A tenth of amount::MAX_COLUMN.
-const CROWDED_VOLUME: u32 = 107374182u;
+const NO_CONTACT: i32 = i32(-2147483647 - 1);
+const NO_HEAD: i32 = 2147483647;
+const CROWDED_VOLUME: u32 = MAX_COLUMN / 10u;
+const CELL_A_SUB_STEP: i32 = 16384;
+const FASTEST_FLOW: u32 = 8192u;
 
-fn penetration(touch: Touch, floor_quanta: i32, volume_quanta: u32) -> i32 {
-    let top = floor_quanta + bitcast<i32>(volume_quanta);
-    return select(NO_CONTACT, top - touch.height, touch.height <= top);
+fn coat(rates: ExchangeRates, touch: Touch, mean: u32) -> u32 {
+    let usual = min(share_of_65536(mean, rates.release), CROWDED_VOLUME);
+    return rates.film + (usual >> 5u) * touch_release(touch);
 }
 
-fn velocity(
-    motion: MotionConstants,
+fn penetration(
+    rates: ExchangeRates,
     touch: Touch,
-    depth: i32,
-    slopes: vec2<i32>,
-) -> vec2<i32> {
-    let brush = select(touch_velocity(touch), vec2(0), depth == NO_CONTACT);
-    return clamp(brush / 2 - slopes / motion.push_quanta, vec2(-256), vec2(256));
+    floor_quanta: i32,
+    volume_quanta: u32,
+    coat_quanta: u32,
+) -> i32 {
+    if touch.height == NO_HEAD {
+        return NO_CONTACT;
+    }
+    let sinks = bitcast<i32>(select(0u, rates.sink - coat_quanta, rates.sink > coat_quanta));
+    // Heads far below the canvas do not wrap.
+    let hair = max(max(touch.height, -NO_HEAD + sinks) - sinks, floor_quanta);
+    let top = floor_quanta + bitcast<i32>(volume_quanta);
+    return select(NO_CONTACT, top - hair, hair - bitcast<i32>(coat_quanta) <= top);
+}
+
+// `before`, `here`, `next` and `beyond` are tops, the others penetrations.
+fn flow(
+    motion: MotionConstants,
+    before: i32,
+    here: i32,
+    next: i32,
+    beyond: i32,
+    depth_here: i32,
+    depth_next: i32,
+) -> i32 {
+    let drop = here - next;
+    let head = bitcast<i32>(share_of_65536(u32(max(depth_here, 0)), motion.squeeze_share))
+        - bitcast<i32>(share_of_65536(u32(max(depth_next, 0)), motion.squeeze_share));
+    let pressed = max(depth_here, depth_next) != NO_CONTACT;
+    let driven = select(0, (drop >> 1u) + (head >> 1u), pressed);
+    let steep = u32(abs(drop));
+    let beyond_yield = select(0u, steep - motion.yield_quanta, steep > motion.yield_quanta);
+    let slides = bitcast<i32>(beyond_yield) / 8;
+    let crest = ((here - before) >> 1u) + (drop >> 1u);
+    let pit = (drop >> 1u) + ((beyond - next) >> 1u);
+    let kink = select(min(u32(abs(crest)), u32(abs(pit))), 0u, (crest ^ pit) < 0);
+    let level = bitcast<i32>(share_of_65536(kink, motion.levelling_share));
+    let driven_flow = bitcast<i32>(share_of_65536(u32(abs(driven)), motion.push_share));
+    return driven_flow * sign(driven) + slides * sign(drop) + level * sign(crest);
+}
+
+fn velocity(head: i32, volume_quanta: u32, before: i32, after: i32) -> i32 {
+    let forward = max(after, 0);
+    let back = max(-before, 0);
+    let flow = select(-back, forward, forward >= back);
+    let cells = min(ratio_of_65536(u32(abs(flow)), volume_quanta) / 4u, FASTEST_FLOW);
+    return clamp(head + bitcast<i32>(cells) * sign(flow), -CELL_A_SUB_STEP, CELL_A_SUB_STEP);
+}
+
+fn dragged(rates: ExchangeRates, touch: Touch, penetration: i32, volume_quanta: u32) -> vec2<i32> {
+    let below = u32(max(penetration, 0));
+    let depth = select(0u, below - rates.film, below > rates.film);
+    if depth == 0u {
+        return vec2(0);
+    }
+    var immersed = 256u;
+    if depth < volume_quanta {
+        immersed = ratio_of_65536(depth, volume_quanta) >> 8u;
+    }
+    return touch_velocity(touch) * bitcast<i32>(immersed * rates.drag) / 1024;
 }

@@ -1,55 +1,154 @@
 //! Transfer of paint between a cell of the canvas and the cell of the head above it.
 //!
-//! Baxter, Wendt and Lin 2004, algorithm 1: the side that has more paint gives a tenth of
-//! it to the other; less where both have nearly the same or where the head is slow, and
-//! never more than a fixed amount. Of the paint on the canvas, only the height that the
-//! head has penetrated counts. Where several cells of the canvas lie under one cell of the
-//! head, each may take an equal share of the head's paint.
+//! The head lays paint until the film under it is as thick as its coat, and takes paint up
+//! where the film is thicker. Besides, both sides exchange equal amounts in proportion to what
+//! touches, so that colors blend and a brush gets dirty (Chu, Baxter, Wei and Govindaraju
+//! 2010, section 4). Of the paint on the canvas, only the height that the head has penetrated
+//! counts. Where several cells of the canvas lie under one cell of the head, each may take an
+//! equal share of the head's paint, or of the room that it has below [`MAX_COLUMN`].
 
-use super::constants::MotionConstants;
-use crate::amount::share_of_256;
-use crate::contact::Touch;
+use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_256, share_of_65536};
+use crate::contact::{ExchangeRates, Touch};
+use graphics::tile::Rect;
 
-/// The side that paint is taken from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
-    /// Paint is deposited on the canvas.
-    Brush,
-    /// Paint is picked up from the canvas.
-    Canvas,
-}
-
-/// The transfer between one cell of the canvas and the head's cell above it.
+/// The transfer between one cell of the canvas and the head's cell above it, as shares of the
+/// whole cells in parts of 65536.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exchange {
-    /// The side that paint is taken from.
-    pub source: Source,
-    /// Share of the source's whole cell that is transferred, in parts of 65536.
-    pub share: u32,
+    /// Share of the head's cell that goes to the canvas.
+    pub down: u32,
+    /// Share of the canvas's cell that goes to the head.
+    pub up: u32,
 }
 
 /// Computes the transfer of one sub-step.
 ///
-/// `penetration` is that at the start of the sub-step, in quanta, 0 and up; the volumes
-/// are those of the two cells now, in quanta.
+/// `penetration` and `coat` are those at the start of the sub-step, in quanta; the volumes are
+/// those of the two cells now, in quanta. `leaving` is the velocity in 1/256 cell with which
+/// the head drags paint over the edge of the canvas; that paint stays on the head.
 #[inline(always)]
 #[must_use]
 pub fn exchange(
-    motion: &MotionConstants,
+    rates: &ExchangeRates,
     touch: Touch,
-    penetration: u32,
+    penetration: i32,
+    coat: u32,
     canvas_volume: u32,
     brush_volume: u32,
+    leaving: u32,
 ) -> Exchange {
-    let canvas = canvas_volume.min(penetration);
-    let brush = brush_volume / touch.sharers().max(1);
-    let (source, amount, whole) = if brush > canvas {
-        (Source::Brush, brush, brush_volume)
-    } else {
-        (Source::Canvas, canvas, canvas_volume)
-    };
-    let difference = (brush.abs_diff(canvas) / (motion.full_transfer_quanta / 256)).min(256);
-    let wanted = share_of_256(share_of_256(amount / 10, difference), touch.transfer_weight());
-    let transferred = wanted.min(motion.max_transfer_quanta);
-    Exchange { source, share: (transferred << 16).checked_div(whole).unwrap_or(0) }
+    let canvas = canvas_volume.min(penetration.max(0) as u32);
+    let sharers = touch.sharers().max(1);
+    let (brush, room) = (brush_volume / sharers, MAX_COLUMN.saturating_sub(brush_volume) / sharers);
+    let missing = coat as i32 - penetration;
+    let laid = share_of_65536(missing.max(0) as u32, rates.deposit);
+    let taken = share_of_65536((-missing).max(0) as u32, rates.pick_up);
+    let mixed = share_of_65536(canvas.min(brush), rates.mixing);
+    // Where the hair is above the paint, only a part of the coat touches.
+    let near = (coat as i32 + penetration.min(0)) as u32 / (coat >> 8).max(1);
+    let touching = if penetration < 0 { near.min(256) } else { 256 };
+    let weight = share_of_256(touch.transfer_weight(), touching);
+    let down = share_of_256(laid + mixed, weight).min(brush / 2);
+    let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2);
+    Exchange {
+        down: ratio_of_65536(down, brush_volume),
+        up: ratio_of_65536(up.min(canvas / 2).min(room), canvas_volume),
+    }
+}
+
+/// Velocity in 1/256 cell with which the head drags the paint of the cell `(x, y)` over the edge
+/// of the canvas `bounds`.
+#[inline(always)]
+#[must_use]
+pub fn leaving(touch: Touch, (x, y): (usize, usize), bounds: Rect) -> u32 {
+    let (right, down) = touch.velocity();
+    let mut leaving = 0;
+    leaving = if x == 0 { leaving.max(-right) } else { leaving };
+    leaving = if x + 1 == bounds.width { leaving.max(right) } else { leaving };
+    leaving = if y == 0 { leaving.max(-down) } else { leaving };
+    leaving = if y + 1 == bounds.height { leaving.max(down) } else { leaving };
+    leaving.min(256) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOUCH: Touch = Touch { height: 0, brush_cell: 0, velocity: 0, weights: 256 | 1 << 16 };
+
+    /// Film after 60 sub-steps on a flat ground, from `film` quanta, and the paint that the head
+    /// has won. All in quanta; the head's coat is `coat` quanta thick and does not change.
+    fn painted(rates: &ExchangeRates, coat: u32, film: u32) -> (u32, i64) {
+        let (mut canvas, mut brush) = (film, 50_000_000_u32);
+        for _ in 0..60 {
+            let Exchange { down, up } =
+                exchange(rates, TOUCH, canvas as i32, coat, canvas, brush, 0);
+            let (laid, taken) = (share_of_65536(brush, down), share_of_65536(canvas, up));
+            (canvas, brush) = (canvas - taken + laid, brush - laid + taken);
+        }
+        (canvas, i64::from(brush) - 50_000_000)
+    }
+
+    #[test]
+    fn a_film_becomes_as_thick_as_the_coat() {
+        let rates = ExchangeRates { deposit: 20_000, pick_up: 9000, ..ExchangeRates::default() };
+        for film in [0, 70_000, 300_000, 2_000_000] {
+            let (after, won) = painted(&rates, 300_000, film);
+            assert!(after.abs_diff(300_000) < 3000, "{film}: {after}");
+            assert_eq!(i64::from(after) + won, i64::from(film));
+        }
+    }
+
+    #[test]
+    fn a_head_without_a_coat_takes_all_and_lays_nothing() {
+        let rates = ExchangeRates { deposit: 65536, pick_up: 20_000, ..ExchangeRates::default() };
+        let (after, won) = painted(&rates, 0, 1_000_000);
+        assert!(after < 100, "{after}");
+        assert_eq!(i64::from(after) + won, 1_000_000);
+    }
+
+    #[test]
+    fn both_sides_mix_in_equal_amounts() {
+        let rates = ExchangeRates { mixing: 6000, ..ExchangeRates::default() };
+        for (canvas, brush) in [(400_000, 3_000_000), (400_000, 500_000), (900_000, 70_000)] {
+            let found = exchange(&rates, TOUCH, canvas as i32, canvas, canvas, brush, 0);
+            let moved = share_of_65536(canvas.min(brush), 6000);
+            for (whole, share) in [(brush, found.down), (canvas, found.up)] {
+                let part = share_of_65536(whole, share);
+                // A share is rounded down to 1/65536 of the whole.
+                let near = moved.abs_diff(part) <= whole / 65536 + moved / 32768 + 1;
+                assert!(near && part > 0, "{part} of {whole}, not {moved}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_full_head_takes_no_more() {
+        let rates = ExchangeRates { pick_up: 65536, ..ExchangeRates::default() };
+        let shared = Touch { weights: 256 | 3 << 16, ..TOUCH };
+        let (canvas, room) = (80_000_000, 30_000_000);
+        let found = |brush: u32| exchange(&rates, shared, canvas as i32, 0, canvas, brush, 256);
+        assert_eq!(found(MAX_COLUMN).up, 0);
+        let taken = share_of_65536(canvas, found(MAX_COLUMN - room).up);
+        assert!(taken <= room / 3 && taken + 10_000 > room / 3, "{taken} of a third of {room}");
+    }
+
+    #[test]
+    fn paint_leaves_only_over_the_edge_that_the_head_drags_it_to() {
+        let bounds = Rect { x: 0, y: 0, width: 5, height: 4 };
+        let at = |velocity: (i16, i16), place: (usize, usize)| {
+            leaving(Touch::new(0, 0, velocity, 0, 1), place, bounds)
+        };
+        for (velocity, edge, opposite) in [
+            ((-90, 0), (0, 2), (4, 2)),
+            ((90, 0), (4, 2), (0, 2)),
+            ((0, -90), (2, 0), (2, 3)),
+            ((0, 90), (2, 3), (2, 0)),
+        ] {
+            assert_eq!(at(velocity, edge), 90, "{velocity:?}");
+            assert_eq!(at(velocity, opposite), 0, "{velocity:?}");
+            assert_eq!(at(velocity, (2, 2)), 0, "{velocity:?}");
+        }
+        assert_eq!(at((300, -120), (4, 0)), 256, "at a corner");
+    }
 }

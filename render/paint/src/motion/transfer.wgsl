@@ -1,31 +1,54 @@
 // Transfer of paint between canvas and head; twin of transfer.rs.
 
 struct Exchange {
-    // Whether paint is taken from the brush, not from the canvas.
-    from_brush: bool,
-    // Share of the source's whole cell that is transferred, in parts of 65536.
-    share: u32,
+    // Shares of the head's and of the canvas's whole cell, in parts of 65536.
+    down: u32,
+    up: u32,
 }
 
 fn exchange(
-    motion: MotionConstants,
+    rates: ExchangeRates,
     touch: Touch,
-    penetration: u32,
+    penetration: i32,
+    coat_quanta: u32,
     canvas_volume: u32,
     brush_volume: u32,
+    leaving: u32,
 ) -> Exchange {
-    let canvas = min(canvas_volume, penetration);
-    let brush = brush_volume / max(touch_sharers(touch), 1u);
-    let from_brush = brush > canvas;
-    let amount = select(canvas, brush, from_brush);
-    let whole = select(canvas_volume, brush_volume, from_brush);
-    let quanta_apart = max(brush, canvas) - min(brush, canvas);
-    let difference = min(quanta_apart / (motion.full_transfer_quanta / 256u), 256u);
-    let wanted =
-        share_of_256(share_of_256(amount / 10u, difference), touch_transfer_weight(touch));
-    let transferred = min(wanted, motion.max_transfer_quanta);
-    if whole == 0u {
-        return Exchange(from_brush, 0u);
+    let canvas = min(canvas_volume, u32(max(penetration, 0)));
+    let sharers = max(touch_sharers(touch), 1u);
+    let brush = brush_volume / sharers;
+    let room = (MAX_COLUMN - min(brush_volume, MAX_COLUMN)) / sharers;
+    let missing = bitcast<i32>(coat_quanta) - penetration;
+    let laid = share_of_65536(u32(max(missing, 0)), rates.deposit);
+    let taken = share_of_65536(u32(max(-missing, 0)), rates.pick_up);
+    let mixed = share_of_65536(min(canvas, brush), rates.mixing);
+    let near =
+        u32(bitcast<i32>(coat_quanta) + min(penetration, 0)) / max(coat_quanta >> 8u, 1u);
+    let touching = select(256u, min(near, 256u), penetration < 0);
+    let weight = share_of_256(touch_transfer_weight(touch), touching);
+    let down = min(share_of_256(laid + mixed, weight), brush / 2u);
+    let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2u);
+    return Exchange(
+        ratio_of_65536(down, brush_volume),
+        ratio_of_65536(min(min(up, canvas / 2u), room), canvas_volume),
+    );
+}
+
+fn leaving(touch: Touch, place: vec2<u32>, canvas: vec2<u32>) -> u32 {
+    let velocity = touch_velocity(touch);
+    var leaving = 0;
+    if place.x == 0u {
+        leaving = max(leaving, -velocity.x);
     }
-    return Exchange(from_brush, (transferred << 16u) / whole);
+    if place.x + 1u == canvas.x {
+        leaving = max(leaving, velocity.x);
+    }
+    if place.y == 0u {
+        leaving = max(leaving, -velocity.y);
+    }
+    if place.y + 1u == canvas.y {
+        leaving = max(leaving, velocity.y);
+    }
+    return u32(min(leaving, 256));
 }

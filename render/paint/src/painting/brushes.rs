@@ -19,7 +19,8 @@ impl Painting {
     /// [`PaintingError`] if the size is out of range, or the memory of the device does not
     /// suffice.
     pub fn add_brush(&mut self, shape: HeadShape, size_mm: f64) -> Result<BrushId, PaintingError> {
-        let head = Head::new(shape, size_mm, self.cell_mm)?;
+        let seed = self.brushes.len() as u64 + 1;
+        let head = Head::new(shape, size_mm, self.cell_mm)?.with_locks(seed);
         let cells = head.paint_grid();
         let id = self.engine.add_brush(cells.0, cells.1)?;
         debug_assert_eq!(id.0, self.brushes.len(), "the engine numbers brushes from 0");
@@ -27,8 +28,7 @@ impl Painting {
         Ok(id)
     }
 
-    /// Adds paint to a brush: to every cell of the head `amount_mm` mm of the mixture of
-    /// `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear medium.
+    /// Adds paint to a brush: all over the head `amount_mm` mm of the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear medium.
     /// With `vehicle` 1 the recipe may be empty.
     ///
     /// # Errors
@@ -44,12 +44,13 @@ impl Painting {
         vehicle: f64,
         amount_mm: f64,
     ) -> Result<(), PaintingError> {
-        let fresh = self.mixture(recipe, vehicle, amount_mm)?;
+        let area = self.brushes[brush.0].head.paint_cell_area();
+        let fresh = self.mixture(recipe, vehicle, amount_mm * area)?;
         let Brush { id, cells, .. } = self.brushes[brush.0];
         let mut paint = self.engine.brush_paint(id)?;
         let cells = 0..cells.0 * cells.1;
         let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
-        let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm);
+        let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm) / area;
         if amount_mm > most_mm {
             return Err(PaintingError::Overloaded { amount_mm, most_mm });
         }

@@ -15,6 +15,8 @@ mod undo;
 
 mod brushes;
 
+mod tip_load;
+
 mod open_stroke;
 
 mod heaps;
@@ -29,3 +31,4 @@ pub use failure::PaintingError;
 pub use layers::{LayerRef, MERGE_TOLERANCE};
 pub use open_stroke::{OpenStroke, StrokeReport};
 pub use state::{Brush, DryLayerState, Painting, State, UNDO_BYTES};
+pub use tip_load::TipLoad;

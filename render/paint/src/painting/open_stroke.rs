@@ -3,13 +3,14 @@
 use super::failure::PaintingError;
 use super::state::Painting;
 use crate::brush::{Head, Relief};
-use crate::contact::Contact;
+use crate::contact::{Contact, Touch};
 use crate::engine::BrushId;
 use crate::history::CommitOutcome;
 use crate::layer::Layer;
+use crate::motion::levelling_sub_steps;
 use crate::pose::Sample;
 use crate::stroke::{Path, StrokeError};
-use graphics::tile::Rect;
+use graphics::tile::{Rect, Tile, TileSet};
 
 /// Sub-steps that go to the backend together: enough to hide the cost of a call, few
 /// enough that the contacts stay in the cache (chosen by timing).
@@ -51,6 +52,8 @@ pub struct OpenStroke {
     next: Batch,
     reached: usize,
     waiting: usize,
+    /// Tiles that the head was over.
+    touched: TileSet,
     report: StrokeReport,
 }
 
@@ -66,7 +69,7 @@ struct Batch {
 
 impl Batch {
     fn empty() -> Self {
-        let nothing = Contact { rect: Rect::default(), touches: Vec::new() };
+        let nothing = Contact::default();
         Self { contacts: vec![nothing; BATCH], count: 0, reached: 0 }
     }
 
@@ -96,6 +99,7 @@ impl OpenStroke {
             next: Batch::empty(),
             reached: 0,
             waiting: 0,
+            touched: TileSet::default(),
             report: StrokeReport::default(),
         })
     }
@@ -195,7 +199,7 @@ impl OpenStroke {
     ) -> Result<usize, PaintingError> {
         let Some(brush) = self.brush else { return Ok(0) };
         painting.assert_stroke_of(brush);
-        let bounds = painting.engine.bounds();
+        let (bounds, motion) = (painting.engine.bounds(), painting.motion());
         let tool = &mut painting.brushes[brush.0];
         let (head, relief) = (&mut tool.head, &painting.relief);
         let (engine, history) = (&mut painting.engine, &mut painting.history);
@@ -212,7 +216,7 @@ impl OpenStroke {
                     for contact in touching.clone() {
                         history.save_tiles(engine, contact.rect.grown(2, bounds))?;
                     }
-                    engine.apply_contacts(tool.id, &painting.motion, now)
+                    engine.apply_contacts(tool.id, &motion, now)
                 },
                 || {
                     if all {
@@ -222,6 +226,7 @@ impl OpenStroke {
             );
             for contact in touching {
                 painting.views.mark_wet(contact.rect.grown(2, bounds));
+                self.touched.insert(contact.rect);
                 self.report.substeps += 1;
                 self.report.cells += (contact.rect.width * contact.rect.height) as u64;
             }
@@ -257,7 +262,7 @@ impl OpenStroke {
     /// If the stroke was begun on another painting.
     pub fn finish(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
         self.lift();
-        let painted = self.advance(painting, usize::MAX);
+        let painted = self.advance(painting, usize::MAX).and_then(|_| self.level(painting));
         if self.is_open() {
             painting.stroke_brush = None;
             if self.samples() == 0 {
@@ -269,6 +274,33 @@ impl OpenStroke {
         }
         painted?;
         Ok(self.report)
+    }
+
+    /// Lets fluid paint level where the head was.
+    fn level(&self, painting: &mut Painting) -> Result<(), PaintingError> {
+        let Some(brush) = self.brush else { return Ok(()) };
+        let (bounds, motion) = (painting.engine.bounds(), painting.motion());
+        let stiffness = painting.state.medium.stiffness;
+        let sub_steps = levelling_sub_steps(painting.cell_mm, stiffness);
+        if sub_steps == 0 {
+            return Ok(());
+        }
+        let id = painting.brushes[brush.0].id;
+        let resting = |tile: Tile| {
+            let rect = tile.rect(bounds);
+            let touches = vec![Touch::NONE; rect.width * rect.height];
+            Contact { rect, touches, ..Contact::default() }
+        };
+        let contacts: Vec<Contact> = self.touched.iter().map(resting).collect();
+        for contact in &contacts {
+            let reach = contact.rect.grown(2, bounds);
+            painting.history.save_tiles(&mut painting.engine, reach)?;
+            painting.views.mark_wet(reach);
+        }
+        for _ in 0..sub_steps {
+            painting.engine.apply_contacts(id, &motion, &contacts)?;
+        }
+        Ok(())
     }
 
     /// Sets the head down at the first pose, once its direction is known.

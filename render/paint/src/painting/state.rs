@@ -73,7 +73,6 @@ pub struct Painting {
     pub(super) cell_mm: f64,
     pub(super) ground: Ground,
     pub(super) library: PigmentLibrary,
-    pub(super) motion: MotionConstants,
     pub(super) engine: PaintEngine,
     pub(super) state: State,
     pub(super) light: Arc<Light>,
@@ -142,7 +141,6 @@ impl Painting {
             cell_mm,
             ground,
             library,
-            motion: MotionConstants::default(),
             engine,
             state: State { slots, dry: states, lighting, medium },
             light: light.into(),
@@ -226,6 +224,11 @@ impl Painting {
     #[must_use]
     pub fn medium(&self) -> &Medium {
         &self.state.medium
+    }
+
+    /// Constants of motion of the wet paint.
+    pub(super) fn motion(&self) -> MotionConstants {
+        MotionConstants::new(self.cell_mm, self.state.medium.stiffness)
     }
 
     /// Relief and reflectance under the paint.

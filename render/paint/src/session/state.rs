@@ -5,7 +5,7 @@ use super::failure::SessionError;
 use super::history::SharedHistory;
 use super::record::Record;
 use crate::brush::Head;
-use crate::document::Document;
+use crate::document::{Document, Medium};
 use crate::engine::BrushId;
 use crate::layer::Layer;
 use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport};
@@ -135,7 +135,8 @@ impl PaintingSession {
             return Err(SessionError::Unlike { what: "palettes than the script describes" });
         }
         let bare = header.start.is_none();
-        if bare && header.medium.clone().unwrap_or_default() != *canvas.medium() {
+        let medium = header.medium.clone().unwrap_or_else(|| Medium::of(canvas.library()));
+        if bare && medium != *canvas.medium() {
             return Err(SessionError::Unlike { what: "media than the script describes" });
         }
         if bare && header.lighting.clone().unwrap_or_default() != canvas.state().lighting {

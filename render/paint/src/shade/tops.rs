@@ -70,8 +70,8 @@ impl Tops {
     /// Sets all heights to `top(x, y)`, on all cores.
     pub fn set_all(&mut self, top: impl Fn(usize, usize) -> i32 + Sync) {
         if self.width > 0 {
-            let whole = [0..self.width];
-            self.set(0..self.height, |_| &whole, top);
+            let row = 0..self.width;
+            self.set(0..self.height, |_| std::slice::from_ref(&row), top);
         }
     }
 

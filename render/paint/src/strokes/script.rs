@@ -133,7 +133,7 @@ fn bounded_actions<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Act
 pub struct BrushSpec {
     /// The shape of its head.
     pub shape: HeadShape,
-    /// Width of the head in mm, 0.2 to 100.
+    /// Width of its mark at half pressure in mm, 0.2 to 100.
     pub size_mm: f64,
 }
 

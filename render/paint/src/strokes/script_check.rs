@@ -135,5 +135,6 @@ fn check_start(path: &str) -> Checked {
 fn check_medium(medium: &Medium) -> Checked {
     let at = CheckContext::default();
     at.range("medium.scattering_per_mm", medium.scattering_per_mm, 1e-3, 1e6)?;
+    at.range("medium.stiffness", medium.stiffness, 0.0, 1.0)?;
     check_gloss(&at, "medium.", medium.wet, medium.dry)
 }

@@ -10,7 +10,7 @@ use super::palette::PaletteSpec;
 use super::resolve::Resolved;
 use super::script::StrokeScript;
 use crate::canvas::{Canvas, covering_cells};
-use crate::document::{Document, Slots};
+use crate::document::{Document, Medium, Slots};
 use crate::ground::{Ground, GroundError, GroundSpec};
 use graphics::tile::Rect;
 use spectra::hint::{Explain, Hint};
@@ -44,7 +44,7 @@ impl StrokeScript {
             self.canvas.cell_mm,
             ground,
             library.clone(),
-            self.medium.clone().unwrap_or_default(),
+            self.medium.clone().unwrap_or_else(|| Medium::of(library)),
             resolved.slots,
             self.lighting.clone().unwrap_or_default(),
         )

@@ -2,15 +2,12 @@
 
 use render::paint::strokes::{Action, Load, Recipe};
 
-use crate::panels::{Mode, PanelContext};
+use crate::panels::PanelContext;
 use session::BrushState;
 
 /// Loads the selected brush with clear medium only and selects the paint tool.
 pub fn load_medium(cx: &mut PanelContext<'_>) {
-    let brush = cx.tools.brush.clone();
-    let amount_mm = cx.tools.load_mm;
-    cx.act(Action::Load(Load { brush, recipe: Recipe::new(), vehicle: 1.0, amount_mm }));
-    cx.tools.mode = Mode::Paint;
+    cx.load(Recipe::new(), 1.0);
 }
 
 /// Wipes the selected brush if it holds paint.

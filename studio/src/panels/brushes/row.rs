@@ -48,7 +48,7 @@ impl Row<'_> {
         let (amount, bar) =
             between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
         let amount_text = match self.state {
-            Some(state) if state.amount_mm > 0.0 => millimetres(state.amount_mm),
+            Some(state) if state.amount_mm > 0.0 => millimetres(state.tip_mm),
             _ => "clean".to_owned(),
         };
         text(ui, amount, Align::Max, TextStyle::Small, faint, &amount_text);
@@ -70,9 +70,10 @@ impl Row<'_> {
     }
 }
 
-/// Describes the paint on a brush: `0.30 mm, 15 % medium: 60 % Zinc White, ..`.
+/// Describes the paint on a brush: `0.12 mm at the tip, 0.30 mm in all, 15 % medium: ..`.
 fn paint(painting: &PaintingState, state: &BrushState) -> String {
-    let mut words = millimetres(state.amount_mm);
+    let tip = millimetres(state.tip_mm);
+    let mut words = format!("{tip} at the tip, {} in all", millimetres(state.amount_mm));
     if state.vehicle > 0.0 {
         words += &format!(", {:.0} % medium", 100.0 * state.vehicle);
     }
@@ -84,10 +85,10 @@ fn paint(painting: &PaintingState, state: &BrushState) -> String {
     if parts.is_empty() { words } else { format!("{words}: {}", parts.join(", ")) }
 }
 
-/// Draws a bar of the amount of paint: pigment in its colour, then medium in grey.
+/// Draws a bar of the amount of paint at the tip: pigment in its colour, then medium in grey.
 fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
     painter.rect_filled(bar, 2.0, theme::WELL);
-    let filled = (state.amount_mm / FULL_MM).clamp(0.0, 1.0) as f32;
+    let filled = (state.tip_mm / FULL_MM).clamp(0.0, 1.0) as f32;
     let (paint, _) = bar.split_left_right_at_fraction(filled);
     let (pigment, medium) = paint.split_left_right_at_fraction(1.0 - state.vehicle as f32);
     painter.rect_filled(medium, 0.0, Color32::from_gray(176));

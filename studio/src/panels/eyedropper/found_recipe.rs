@@ -7,7 +7,7 @@ use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
 use pigment::library::PigmentLibrary;
 use pigment::matching::RecipeMatch;
 use render::layer::SLOTS;
-use render::paint::strokes::{Action, Load, PaletteSpec, Recipe as Parts};
+use render::paint::strokes::{Action, PaletteSpec, Recipe as Parts};
 use spectra::color::{Rgb, Xyz};
 
 use super::super::context::PanelContext;
@@ -65,10 +65,11 @@ impl FoundRecipe<'_> {
             let load = ui.add_enabled(ready, Button::new("Load the brush"));
             let load = load.accessible_name(format!("Load recipe {number}"));
             let load = load
-                .on_hover_text("Washes the selected brush and loads it with this paint")
+                .on_hover_text("Adds this paint to the selected brush, as a tube does")
                 .on_disabled_hover_text("Some of its pigments are not on the palette");
             if load.clicked() {
-                self.load(cx);
+                let vehicle = cx.tools.vehicle;
+                cx.load(self.parts(), vehicle);
             }
             let lay = ui.add_enabled(ready, Button::new("Lay on the palette"));
             let lay = lay.accessible_name(format!("Lay recipe {number}"));
@@ -134,17 +135,6 @@ impl FoundRecipe<'_> {
 
     fn parts(&self) -> Parts {
         self.amounts().map(|(name, amount)| (name.to_owned(), amount)).collect()
-    }
-
-    fn load(&self, cx: &mut PanelContext<'_>) {
-        let brush = cx.tools.brush.clone();
-        let mut brushes = cx.painting.brushes.iter();
-        if brushes.any(|one| one.name == brush && one.amount_mm > 0.0) {
-            cx.command(Command::Apply(Action::Wash { brush: brush.clone() }));
-        }
-        let (vehicle, amount_mm) = (cx.tools.vehicle, cx.tools.load_mm);
-        let load = Load { brush, recipe: self.parts(), vehicle, amount_mm };
-        cx.command(Command::Apply(Action::Load(load)));
     }
 
     /// Pigments of the recipe that are not on the palette.

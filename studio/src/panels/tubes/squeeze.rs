@@ -1,8 +1,8 @@
 //! Squeezing a tube and loading the brush from it.
 
-use render::paint::strokes::{Action, Load, Recipe, Squeeze, SurfaceId};
+use render::paint::strokes::{Action, Recipe, Squeeze, SurfaceId};
 
-use crate::panels::{Mode, PanelContext};
+use crate::panels::PanelContext;
 
 /// Drag payload of a tube. A drop on a surface squeezes it there with [`squeeze`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,11 +22,10 @@ pub fn squeeze(cx: &mut PanelContext<'_>, slot: usize, on: SurfaceId, x_mm: f64,
 /// Loads the selected brush from a slot's tube, with the medium and height set in the
 /// tools, and selects the paint tool. Does nothing for an empty slot.
 pub fn load(cx: &mut PanelContext<'_>, slot: usize) {
-    let Some(recipe) = recipe(cx, slot) else { return };
-    let brush = cx.tools.brush.clone();
-    let (vehicle, amount_mm) = (cx.tools.vehicle, cx.tools.load_mm);
-    cx.act(Action::Load(Load { brush, recipe, vehicle, amount_mm }));
-    cx.tools.mode = Mode::Paint;
+    if let Some(recipe) = recipe(cx, slot) {
+        let vehicle = cx.tools.vehicle;
+        cx.load(recipe, vehicle);
+    }
 }
 
 /// Recipe of a slot's pigment alone.

@@ -205,5 +205,5 @@ fn preferences_apply_and_are_written() {
     let (read, failures) = Preferences::read(&path);
     assert_eq!(failures, []);
     assert_eq!(read, window.state_mut().files().preferences);
-    assert!(read.replay_as_painted && read.pen.follow, "they were ticked");
+    assert!(read.replay_as_painted && !read.pen.follow, "one was ticked, one cleared");
 }

@@ -101,6 +101,16 @@ pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     if power > 0.0 { covariance / power.sqrt() } else { 0.0 }
 }
 
+/// Slope of the line that fits `b` best as a function of `a`: the share of a relief `a` that
+/// shows in `b`.
+#[must_use]
+pub fn slope(a: &[f64], b: &[f64]) -> f64 {
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let covariance: f64 = a.iter().zip(b).map(|(a, b)| (a - mean_a) * (b - mean_b)).sum();
+    let variance: f64 = a.iter().map(|a| (a - mean_a) * (a - mean_a)).sum();
+    if variance > 0.0 { covariance / variance } else { 0.0 }
+}
+
 /// Autocorrelation at `lags` (in values), averaged over several series: the sum of products over
 /// that of squares, each per value. The series have no trend.
 #[must_use]
@@ -167,6 +177,16 @@ mod tests {
             1e-9,
         );
         assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), 0.0);
+    }
+
+    #[test]
+    fn a_relief_shows_by_the_slope_whatever_lies_beside_it() {
+        let relief: Vec<f64> = (0..300).map(|i| (f64::from(i) * 0.7).sin()).collect();
+        let other = |i: usize| 5.0 + (i as f64 * 0.31).cos();
+        let top: Vec<f64> = relief.iter().enumerate().map(|(i, z)| 0.25 * z + other(i)).collect();
+        let found = slope(&relief, &top);
+        assert!((found - 0.25).abs() < 0.02, "{found}");
+        assert_eq!(slope(&[1.0; 9], &[2.0; 9]), 0.0);
     }
 
     #[test]

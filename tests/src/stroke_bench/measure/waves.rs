@@ -2,7 +2,7 @@
 
 use std::f64::consts::{LN_2, PI, TAU};
 
-use super::series::{mean, without_parabola};
+use super::series::without_parabola;
 
 /// Profile without waves shorter than `cut_mm`: the Gaussian filter of surface texture (ISO
 /// 16610-21:2011, equation 1), which passes half of a wave of that length. Near the ends the
@@ -67,19 +67,6 @@ pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     best.1
 }
 
-/// Root of the mean power of several profiles in the band around `wavelength_mm`, from 0.8 to
-/// 1.25 of it. Only ratios of it have a meaning.
-#[must_use]
-pub fn strength_at(profiles: &[Vec<f64>], step_mm: f64, wavelength_mm: f64) -> f64 {
-    let steps = (0..=18).map(|step| (0.8 + 0.025 * f64::from(step)) / wavelength_mm);
-    let of = |profile: &Vec<f64>| {
-        let middle = mean(profile);
-        let flat: Vec<f64> = profile.iter().map(|value| value - middle).collect();
-        steps.clone().map(|per_mm| power(&flat, step_mm, per_mm)).sum::<f64>()
-    };
-    mean(&profiles.iter().map(of).collect::<Vec<_>>()).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::series::rms;
@@ -120,14 +107,5 @@ mod tests {
         }
         assert!(peak_wavelength_mm(&[vec![0.0; 60]], 0.1).is_nan(), "no relief has no peak");
         assert!(peak_wavelength_mm(&[], 0.1).is_nan(), "no profile has no peak");
-    }
-
-    #[test]
-    fn strength_counts_waves_of_the_band_alone() {
-        let at = |wavelength_mm: f64, height_mm: f64| {
-            strength_at(&[wave(40.0, wavelength_mm, height_mm)], 0.1, 0.714)
-        };
-        assert_near("half the height", &[at(0.714, 0.5) / at(0.714, 1.0)], &[0.5], 1e-9);
-        assert!(at(2.0, 1.0) < 0.01 * at(0.714, 1.0), "{} {}", at(2.0, 1.0), at(0.714, 1.0));
     }
 }

@@ -84,15 +84,22 @@ pub(super) fn film(bench: &Bench) -> CaseReport {
         }
         let rise = least_rise(&films);
         figures.push(Figure::new(format!("{shape}, rise over load"), rise, "").at_least(RISES));
-        let pressed = PRESSURES.map(|pressure| match pressure {
+        let mut pressed = PRESSURES.map(|pressure| match pressure {
             PRESSURE => films[1],
             pressure => paint(bench, head, pressure, 1.0).mean_mm,
         });
         for (pressure, mm) in [(PRESSURES[0], pressed[0]), (PRESSURES[2], pressed[2])] {
             figures.push(Figure::new(format!("{shape}, pressure {pressure}"), mm, "mm"));
         }
-        let rise = least_rise(&pressed);
-        figures.push(Figure::new(format!("{shape}, rise over pressure"), rise, "").at_least(RISES));
+        // A blade that is pressed harder leaves less.
+        let change = if shape == HeadShape::Knife {
+            pressed.reverse();
+            "fall"
+        } else {
+            "rise"
+        };
+        let name = format!("{shape}, {change} over pressure");
+        figures.push(Figure::new(name, least_rise(&pressed), "").at_least(RISES));
     }
     let title = "Film over load and pressure: strokes of 60 mm, mean of the first 50 mm";
     CaseReport { name: "film", title, figures, panels }

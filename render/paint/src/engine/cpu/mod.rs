@@ -7,9 +7,13 @@
 
 mod columns;
 
+mod head_paint;
+
 mod penetration;
 
 mod band;
+
+mod wick;
 
 mod sub_steps;
 

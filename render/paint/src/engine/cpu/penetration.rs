@@ -1,29 +1,35 @@
-//! How deep the head is pressed into the paint during one sub-step: steps 1 and 2 of
-//! the specification in [`crate::motion`], row by row.
+//! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
+//! specification in [`crate::motion`], row by row.
 
 use super::columns::Columns;
+use super::head_paint::HeadPaint;
 use crate::contact::{Contact, Touch};
 use crate::motion::MotionConstants;
 use crate::motion::press::{
-    CROWDED_VOLUME, NO_CONTACT, avoid_crowded_columns, penetration, velocity,
+    CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration,
 };
 use graphics::field::Field;
 use graphics::tile::Rect;
 
-/// Penetration in quanta over the reach of a contact. A rim of one cell on every side
-/// holds [`NO_CONTACT`], so that slopes need no bounds checks.
+/// Cells on every side of the reach that repeat the nearest cell of the reach, so that flows
+/// need no bounds checks.
+const RIM: usize = 2;
+
+/// Tops and penetrations in quanta over the reach of a contact and a rim around it, where
+/// there is no contact.
 #[derive(Debug, Default)]
 pub(super) struct PenetrationMap {
     reach: Rect,
-    values: Vec<i32>,
+    tops: Vec<i32>,
+    penetrations: Vec<i32>,
     /// Whether each column is crowded, with the same rim; empty if none is, which is
     /// nearly always so.
     crowded: Vec<bool>,
 }
 
 impl PenetrationMap {
-    /// Step 1: computes the penetration of each cell of `contact`, which lies within
-    /// `reach`.
+    /// Step 1: computes the top of each cell of `reach` and the penetration of each cell of
+    /// `contact`, which lies within `reach`.
     #[inline(always)]
     pub(super) fn measure(
         &mut self,
@@ -31,21 +37,51 @@ impl PenetrationMap {
         reach: Rect,
         floor: &Field<i32>,
         wet: &Columns,
+        head: &HeadPaint,
     ) {
-        let rect = contact.rect;
         self.reach = reach;
         self.find_crowded(wet);
-        self.values.clear();
-        self.values.resize((reach.width + 2) * (reach.height + 2), NO_CONTACT);
+        let row = self.row_length();
+        let cells = row * (reach.height + 2 * RIM);
+        self.tops.resize(self.tops.len().max(cells), 0);
+        self.penetrations.clear();
+        self.penetrations.resize(cells, NO_CONTACT);
+        for y in reach.y..reach.y + reach.height {
+            let volume = &wet.volume()[y * floor.width() + reach.x..][..reach.width];
+            let floor = floor.row(y, reach.x, reach.width);
+            let start = self.start(y);
+            let tops = &mut self.tops[start - RIM..][..row];
+            for ((top, &floor), &volume) in tops[RIM..].iter_mut().zip(floor).zip(volume) {
+                *top = floor + volume as i32;
+            }
+            let (first, last) = (tops[RIM], tops[RIM + reach.width - 1]);
+            tops[..RIM].fill(first);
+            tops[RIM + reach.width..].fill(last);
+        }
+        let (first, last) = (RIM * row, (RIM + reach.height - 1) * row);
+        for i in 1..=RIM {
+            self.tops.copy_within(first..first + row, first - i * row);
+            self.tops.copy_within(last..last + row, last + i * row);
+        }
+        self.press(contact, floor, wet, head);
+    }
+
+    #[inline(always)]
+    fn press(&mut self, contact: &Contact, floor: &Field<i32>, wet: &Columns, head: &HeadPaint) {
+        let rect = contact.rect;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
             let volume = &wet.volume()[y * floor.width() + rect.x..][..rect.width];
             let floor = floor.row(y, rect.x, rect.width);
-            let start = self.start(y) + rect.x - reach.x;
-            let found = &mut self.values[start..][..rect.width];
+            let start = self.start(y) + rect.x - self.reach.x;
+            let found = &mut self.penetrations[start..][..rect.width];
             for (((here, &touch), &floor), &volume) in
                 found.iter_mut().zip(touches).zip(floor).zip(volume)
             {
-                *here = penetration(touch, floor, volume);
+                if touch.height == Touch::NONE.height {
+                    continue;
+                }
+                let coat = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
+                *here = penetration(&contact.rates, touch, floor, volume, coat);
             }
         }
     }
@@ -58,7 +94,7 @@ impl PenetrationMap {
         let row = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
         let highest = rows.clone().map(|y| highest(row(y))).max().unwrap_or(0);
         if highest > CROWDED_VOLUME {
-            self.crowded.resize((reach.width + 2) * (reach.height + 2), false);
+            self.crowded.resize(self.row_length() * (reach.height + 2 * RIM), false);
             for y in rows {
                 let start = self.start(y);
                 for (crowded, &volume) in self.crowded[start..].iter_mut().zip(row(y)) {
@@ -68,55 +104,73 @@ impl PenetrationMap {
         }
     }
 
-    /// Step 2: applies [`avoid_crowded_columns`] to the cells of row `y` from `x` on.
+    /// Step 2: applies [`avoid_crowded_columns`] to the velocity of a cell.
     #[inline(always)]
-    pub(super) fn avoid_crowded(&self, (x, y): (usize, usize), velocities: &mut [(i32, i32)]) {
+    pub(super) fn avoid_crowded(&self, (x, y): (usize, usize), velocity: (i32, i32)) -> (i32, i32) {
         if self.crowded.is_empty() {
-            return;
+            return velocity;
         }
-        let row = (self.reach.width + 2) as isize;
-        let start = self.start(y) + x - self.reach.x;
-        for (i, velocity) in velocities.iter_mut().enumerate() {
-            *velocity = avoid_crowded_columns(*velocity, |right, down| {
-                let step = down as isize * row + right as isize;
-                self.crowded[(start + i).wrapping_add_signed(step)]
-            });
-        }
+        let row = self.row_length() as isize;
+        let place = self.start(y) + x - self.reach.x;
+        avoid_crowded_columns(velocity, |right, down| {
+            self.crowded[place.wrapping_add_signed(down as isize * row + right as isize)]
+        })
     }
 
-    /// Index of the reach's first cell in row `y`. The rows just above and below the
-    /// reach are allowed too.
+    fn row_length(&self) -> usize {
+        self.reach.width + 2 * RIM
+    }
+
+    /// Index of the reach's first cell in row `y`. The rows of the rim are allowed too.
     #[inline(always)]
     fn start(&self, y: usize) -> usize {
-        (y + 1 - self.reach.y) * (self.reach.width + 2) + 1
+        (y + RIM - self.reach.y) * self.row_length() + RIM
     }
 
     /// Penetration of `width` cells of row `y` from `x` on, in quanta.
     #[inline(always)]
     pub(super) fn row(&self, y: usize, x: usize, width: usize) -> &[i32] {
-        &self.values[self.start(y) + x - self.reach.x..][..width]
+        &self.penetrations[self.start(y) + x - self.reach.x..][..width]
     }
 
-    /// Step 2: velocities of `touches.len()` cells of row `y` from `x` on, before the
-    /// canvas edges and crowded columns are taken into account.
+    /// Step 2: flows over the left sides of the cells of row `y` from `x` on, one for each of
+    /// `found`, in quanta.
     #[inline(always)]
-    pub(super) fn velocities(
+    pub(super) fn flows_in_x(
         &self,
         motion: &MotionConstants,
         (x, y): (usize, usize),
-        touches: &[Touch],
-        found: &mut Vec<(i32, i32)>,
+        found: &mut [i32],
     ) {
-        let width = touches.len();
-        let start = self.start(y) + x - self.reach.x;
-        let row = self.reach.width + 2;
-        let here = &self.values[start - 1..][..width + 2];
-        let above = &self.values[start - row..][..width];
-        let below = &self.values[start + row..][..width];
-        found.resize(found.len().max(width), (0, 0));
-        for (i, (found, &touch)) in found.iter_mut().zip(touches).enumerate() {
-            let slopes = (here[i + 2].max(0) - here[i].max(0), below[i].max(0) - above[i].max(0));
-            *found = velocity(motion, touch, here[i + 1], slopes);
+        self.flows(motion, self.start(y) + x - self.reach.x, 1, found);
+    }
+
+    /// Step 2: flows over the upper sides of the cells of row `y` from `x` on, one for each of
+    /// `found`, in quanta.
+    #[inline(always)]
+    pub(super) fn flows_in_y(
+        &self,
+        motion: &MotionConstants,
+        (x, y): (usize, usize),
+        found: &mut [i32],
+    ) {
+        self.flows(motion, self.start(y) + x - self.reach.x, self.row_length(), found);
+    }
+
+    /// Flows into the cells from `place` on, each from the cell `stride` before it.
+    #[inline(always)]
+    fn flows(&self, motion: &MotionConstants, place: usize, stride: usize, found: &mut [i32]) {
+        let count = found.len();
+        let tops = |first: usize| &self.tops[first..][..count];
+        let depths = |first: usize| &self.penetrations[first..][..count];
+        let before = tops(place - 2 * stride);
+        let (here, next) = (tops(place - stride), tops(place));
+        let beyond = tops(place + stride);
+        let (pressed_here, pressed_next) = (depths(place - stride), depths(place));
+        for (i, found) in found.iter_mut().enumerate() {
+            let here = Column { top: here[i], penetration: pressed_here[i] };
+            let next = Column { top: next[i], penetration: pressed_next[i] };
+            *found = flow(motion, before[i], here, next, beyond[i]);
         }
     }
 }

@@ -1,14 +1,17 @@
 //! A sub-step written directly from the specification in [`crate::motion`], cell by
 //! cell. Tests compare the fast implementation with it.
 
+use super::head_paint::HeadPaint;
+use super::wick::Wick;
 use crate::contact::{Contact, Touch};
 use crate::layer::{Cell, Layer};
 use crate::motion::MotionConstants;
 use crate::motion::advect::{mobile_share, outflow};
 use crate::motion::press::{
-    CROWDED_VOLUME, NO_CONTACT, avoid_crowded_columns, penetration, velocity,
+    CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, dragged, flow, penetration,
+    velocity,
 };
-use crate::motion::transfer::{Exchange, Source, exchange};
+use crate::motion::transfer::{Exchange, exchange, leaving};
 use graphics::field::Field;
 
 /// Applies one sub-step to `wet` and `brush`.
@@ -17,25 +20,46 @@ pub(super) fn sub_step(
     contact: &Contact,
     floor: &Field<i32>,
     wet: &mut Layer,
-    brush: &mut Layer,
+    paint: &mut HeadPaint,
 ) {
-    let Contact { rect, touches } = contact;
+    let Contact { rect, touches, rates, wicking } = contact;
     let (width, height) = (floor.width(), floor.height());
-    let start = wet.clone();
+    if *wicking > 0 {
+        Wick::default().apply(*wicking, paint);
+    }
+    let HeadPaint { cells: brush, means } = paint;
+    let (start, head) = (wet.clone(), brush.clone());
     // Signed coordinates, so that cells beyond the canvas can be queried.
     let touch = |x: i64, y: i64| -> Touch {
         let (x, y) = (x - rect.x as i64, y - rect.y as i64);
         let inside = x >= 0 && y >= 0 && x < rect.width as i64 && y < rect.height as i64;
         if inside { touches[y as usize * rect.width + x as usize] } else { Touch::NONE }
     };
+    let coat_at = |x: i64, y: i64| -> u32 {
+        let here = touch(x, y);
+        coat(rates, here, means[here.brush_cell as usize])
+    };
     let pressed = |x: i64, y: i64| -> i32 {
-        if touch(x, y) == Touch::NONE {
+        let here = touch(x, y);
+        if here == Touch::NONE {
             return NO_CONTACT;
         }
-        let (x, y) = (x as usize, y as usize);
-        penetration(touch(x as i64, y as i64), floor[(x, y)], start.cell(y * width + x).volume())
+        let index = y as usize * width + x as usize;
+        penetration(rates, here, floor.values()[index], start.cell(index).volume(), coat_at(x, y))
     };
-    let depth = |x: i64, y: i64| pressed(x, y).max(0);
+    let reach = rect.grown(2, floor.bounds());
+    let top = |x: i64, y: i64| -> i32 {
+        let x = x.clamp(reach.x as i64, (reach.x + reach.width) as i64 - 1) as usize;
+        let y = y.clamp(reach.y as i64, (reach.y + reach.height) as i64 - 1) as usize;
+        floor[(x, y)] + start.cell(y * width + x).volume() as i32
+    };
+    let column = |x: i64, y: i64| Column { top: top(x, y), penetration: pressed(x, y) };
+    // Flow from the cell at `(x, y)` to that one step on.
+    let flow_from = |x: i64, y: i64, (right, down): (i64, i64)| -> i32 {
+        let next = column(x + right, y + down);
+        let (before, beyond) = (top(x - right, y - down), top(x + 2 * right, y + 2 * down));
+        flow(motion, before, column(x, y), next, beyond)
+    };
     let change = |wet: &mut Layer, x: i64, y: i64, act: &dyn Fn(&Cell) -> Cell| {
         let index = y as usize * width + x as usize;
         let cell = act(&wet.cell(index));
@@ -44,8 +68,13 @@ pub(super) fn sub_step(
     let moving = rect.grown(1, floor.bounds());
     for y in moving.y as i64..(moving.y + moving.height) as i64 {
         for x in moving.x as i64..(moving.x + moving.width) as i64 {
-            let slopes = (depth(x + 1, y) - depth(x - 1, y), depth(x, y + 1) - depth(x, y - 1));
-            let (mut right, mut down) = velocity(motion, touch(x, y), pressed(x, y), slopes);
+            let cell = start.cell(y as usize * width + x as usize);
+            let volume = cell.volume();
+            let head = dragged(rates, touch(x, y), pressed(x, y), volume);
+            let in_x = (flow_from(x - 1, y, (1, 0)), flow_from(x, y, (1, 0)));
+            let in_y = (flow_from(x, y - 1, (0, 1)), flow_from(x, y, (0, 1)));
+            let mut right = velocity(head.0, volume, in_x.0, in_x.1);
+            let mut down = velocity(head.1, volume, in_y.0, in_y.1);
             if (x == 0 && right < 0) || (x + 1 == width as i64 && right > 0) {
                 right = 0;
             }
@@ -56,8 +85,7 @@ pub(super) fn sub_step(
                 let at = (y + i64::from(to_y)) as usize * width + (x + i64::from(to_x)) as usize;
                 start.cell(at).volume() > CROWDED_VOLUME
             });
-            let cell = start.cell(y as usize * width + x as usize);
-            let mobile = mobile_share(motion, cell.volume());
+            let mobile = mobile_share(motion, volume);
             let out = outflow(&cell, mobile, (right.unsigned_abs(), down.unsigned_abs()));
             let (in_x, in_y) = (x + i64::from(right.signum()), y + i64::from(down.signum()));
             for (to_x, to_y, part) in
@@ -68,7 +96,6 @@ pub(super) fn sub_step(
             }
         }
     }
-    let head = brush.clone();
     for y in rect.y as i64..(rect.y + rect.height) as i64 {
         for x in rect.x as i64..(rect.x + rect.width) as i64 {
             let (here, deep) = (touch(x, y), pressed(x, y));
@@ -77,22 +104,18 @@ pub(super) fn sub_step(
             }
             let at = here.brush_cell as usize;
             let canvas = wet.cell(y as usize * width + x as usize);
-            let brush_volume = head.cell(at).volume();
-            let Exchange { source, share } =
-                exchange(motion, here, deep as u32, canvas.volume(), brush_volume);
-            let now = brush.cell(at);
-            match source {
-                Source::Brush => {
-                    let part = head.cell(at).share_of_65536(share);
-                    change(wet, x, y, &|cell| cell.plus(&part));
-                    brush.set_cell(at, now.minus(&part));
-                }
-                Source::Canvas => {
-                    let part = canvas.share_of_65536(share);
-                    change(wet, x, y, &|cell| cell.minus(&part));
-                    brush.set_cell(at, now.plus(&part));
-                }
-            }
+            let Exchange { down, up } = exchange(
+                rates,
+                here,
+                deep,
+                coat_at(x, y),
+                canvas.volume(),
+                head.cell(at).volume(),
+                leaving(here, (x as usize, y as usize), floor.bounds()),
+            );
+            let (laid, taken) = (head.cell(at).share_of_65536(down), canvas.share_of_65536(up));
+            change(wet, x, y, &|cell| cell.minus(&taken).plus(&laid));
+            brush.set_cell(at, brush.cell(at).minus(&laid).plus(&taken));
         }
     }
 }

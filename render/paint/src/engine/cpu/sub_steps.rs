@@ -4,7 +4,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::band::{Band, SubStep};
 use super::columns::{Columns, Rows};
+use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
+use super::wick::Wick;
 use crate::contact::Contact;
 use crate::motion::MotionConstants;
 use graphics::field::Field;
@@ -19,6 +21,7 @@ const CELLS_PER_BAND: usize = 2500;
 pub(super) struct SubStepRunner {
     penetration: PenetrationMap,
     bands: Vec<Band>,
+    wick: Wick,
 }
 
 /// Number of bands that a reach is cut into, one thread each.
@@ -38,10 +41,10 @@ impl SubStepRunner {
         contacts: &[Contact],
         floor: &Field<i32>,
         wet: &mut Columns,
-        brush: &mut Columns,
+        head: &mut HeadPaint,
     ) {
         let bounds = floor.bounds();
-        for Contact { rect, touches } in contacts {
+        for Contact { rect, touches, .. } in contacts {
             let inside =
                 rect.x + rect.width <= bounds.width && rect.y + rect.height <= bounds.height;
             assert!(inside, "a contact over {rect:?} must lie within the canvas {bounds:?}");
@@ -50,8 +53,13 @@ impl SubStepRunner {
         }
         let arch = Arch::new();
         let mut all = || {
-            for contact in contacts.iter().filter(|contact| !contact.rect.is_empty()) {
-                self.sub_step(arch, motion, contact, floor, wet, brush);
+            for contact in contacts {
+                if contact.wicking > 0 {
+                    self.wick.apply(contact.wicking, head);
+                }
+                if !contact.rect.is_empty() {
+                    self.sub_step(arch, motion, contact, floor, wet, head);
+                }
             }
         };
         // Enter the thread pool once for all sub-steps rather than once for each.
@@ -69,7 +77,7 @@ impl SubStepRunner {
         contact: &Contact,
         floor: &Field<i32>,
         wet: &mut Columns,
-        brush: &mut Columns,
+        head: &mut HeadPaint,
     ) {
         let bounds = floor.bounds();
         let reach = contact.rect.grown(2, bounds);
@@ -78,11 +86,11 @@ impl SubStepRunner {
         let bands = &mut self.bands[..count];
         for (i, band) in bands.iter_mut().enumerate() {
             let edge = |i: usize| reach.y + reach.height * i / count;
-            band.begin(edge(i)..edge(i + 1), reach, brush.volume().len());
+            band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
         }
         let penetration = &mut self.penetration;
-        arch.dispatch(MeasurePenetration { penetration, contact, reach, floor, wet });
-        let step = SubStep { motion, contact, bounds, reach, penetration, brush };
+        arch.dispatch(MeasurePenetration { penetration, contact, reach, floor, wet, head });
+        let step = SubStep { motion, contact, bounds, reach, penetration, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
             arch.dispatch(Advect { band, step, rows });
@@ -95,7 +103,7 @@ impl SubStepRunner {
             arch.dispatch(AddInflowAndTransfer { band, step, rows });
         });
         for band in bands {
-            arch.dispatch(AddBrushGains { band, brush });
+            arch.dispatch(AddBrushGains { band, head });
         }
     }
 }
@@ -127,6 +135,7 @@ struct MeasurePenetration<'a> {
     reach: Rect,
     floor: &'a Field<i32>,
     wet: &'a Columns,
+    head: &'a HeadPaint,
 }
 
 struct Advect<'a, 'b> {
@@ -143,7 +152,7 @@ struct AddInflowAndTransfer<'a, 'b> {
 
 struct AddBrushGains<'a> {
     band: &'a mut Band,
-    brush: &'a mut Columns,
+    head: &'a mut HeadPaint,
 }
 
 impl WithSimd for MeasurePenetration<'_> {
@@ -151,7 +160,8 @@ impl WithSimd for MeasurePenetration<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.penetration.measure(self.contact, self.reach, self.floor, self.wet);
+        let Self { penetration, contact, reach, floor, wet, head } = self;
+        penetration.measure(contact, reach, floor, wet, head);
     }
 }
 
@@ -178,6 +188,6 @@ impl WithSimd for AddBrushGains<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.band.add_brush_gains(self.brush);
+        self.band.add_brush_gains(self.head);
     }
 }

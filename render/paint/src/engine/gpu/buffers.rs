@@ -63,13 +63,24 @@ impl PaintBuffers {
 pub(super) struct BrushBuffers {
     /// Width and height in cells.
     pub(super) size: (usize, usize),
+    /// The buffer of the vehicle also holds the mean of each cell's hair, after all vehicle.
     pub(super) paint: PaintBuffers,
 }
 
 impl BrushBuffers {
     pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, DeviceError> {
-        let cells = size.0 * size.1;
-        Ok(Self { size, paint: PaintBuffers::empty(device, "the head of a brush", cells)? })
+        let (cells, label) = ((size.0 * size.1) as u64, "the head of a brush");
+        let pigments = device.buffer(label, PIGMENT_BYTES * cells)?;
+        let vehicle = device.buffer(label, 2 * 4 * cells)?;
+        Ok(Self { size, paint: PaintBuffers { pigments, vehicle } })
+    }
+
+    /// Uploads the paint of all cells; the means are 0 until paint flows along the hair.
+    pub(super) fn upload(&self, device: &mut Device, paint: &Layer) -> Result<(), DeviceError> {
+        self.paint.upload(device, self.all_cells(), paint)?;
+        let cells = self.size.0 * self.size.1;
+        let means = Rows { first: cells, ..Rows::start(cells) };
+        device.write(&self.paint.vehicle, means, &vec![0_u32; cells])
     }
 
     /// The rectangle of all cells, and the width of a row.
@@ -88,7 +99,7 @@ impl BrushBuffers {
 pub(super) struct SubStepBuffers {
     /// Number of cells that fit.
     pub(super) cells: usize,
-    /// Penetration and volume of each cell, i32 each.
+    /// Penetration, volume, top and coat of each cell, i32 each.
     pub(super) depths: Buffer,
     /// Paint of the head's cell above each cell.
     pub(super) above: Buffer,
@@ -103,7 +114,7 @@ impl SubStepBuffers {
         let buffer = |bytes| device.buffer("the paint in motion", bytes * cells as u64);
         Ok(Self {
             cells,
-            depths: buffer(8)?,
+            depths: buffer(16)?,
             above: buffer(48)?,
             flow: buffer(8)?,
             moved: buffer(48)?,

@@ -3,7 +3,7 @@
 use super::buffers::{BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers};
 use super::drying::{self, DryParams};
 use super::render::{CanvasBuffers, ViewBuffers};
-use super::sub_step::{self, SubStepParams};
+use super::sub_step::{self, SubStepParams, WickParams};
 use super::undo_tiles::{UNDO_TILE, UndoTileParams, UndoTiles};
 use crate::contact::{Contact, Touch};
 use crate::engine::ids::{BrushId, UndoSlot, View};
@@ -94,8 +94,13 @@ impl GpuPaint {
         motion: &MotionConstants,
         contacts: &[Contact],
     ) -> Result<(), DeviceError> {
-        for contact in contacts.iter().filter(|contact| !contact.rect.is_empty()) {
-            self.record_sub_step(brush, motion, contact)?;
+        for contact in contacts {
+            if contact.wicking > 0 {
+                self.record_wicking(brush, contact.wicking)?;
+            }
+            if !contact.rect.is_empty() {
+                self.record_sub_step(brush, motion, contact)?;
+            }
         }
         Ok(())
     }
@@ -124,7 +129,7 @@ impl GpuPaint {
         let brush = &self.brushes[brush.0];
         let size = (paint.width(), paint.height());
         assert_eq!(size, brush.size, "paint must cover the brush's cells");
-        brush.paint.upload(&mut self.device, brush.all_cells(), paint)
+        brush.upload(&mut self.device, paint)
     }
 
     pub(crate) fn wet_in(&mut self, rect: Rect) -> Result<Layer, DeviceError> {
@@ -276,11 +281,12 @@ impl GpuPaint {
         self.device.check_size("a contact", size_of_val(contact.touches.as_slice()) as u64)?;
         let params = SubStepParams {
             motion: *motion,
+            rates: contact.rates,
             region: as_u32(region),
             contact: as_u32(contact.rect),
             canvas: self.canvas_size(),
             first_touch: self.recording.batch(&contact.touches),
-            padding: 0,
+            brush_cells: head.cell_count(),
         };
         let PaintBuffers { pigments, vehicle } = &self.wet;
         let PaintBuffers { pigments: head_pigments, vehicle: head_vehicle } = &head.paint;
@@ -293,6 +299,16 @@ impl GpuPaint {
         recording.dispatch(&sub_step::ADVECT, &params, &[pigments, vehicle, flow, moved], over);
         let transfer = [depths, moved, above, head_pigments, head_vehicle, pigments, vehicle];
         recording.dispatch(&sub_step::TRANSFER, &params, &transfer, over);
+        self.submit_if_full()
+    }
+
+    fn record_wicking(&mut self, brush: BrushId, wicking: u32) -> Result<(), DeviceError> {
+        let BrushBuffers { size, paint } = &self.brushes[brush.0];
+        let size_u32 = [size.0 as u32, size.1 as u32];
+        let params = WickParams { size: size_u32, wicking, padding: 0 };
+        // A group of 8 x 8 invocations takes 64 hairs.
+        let over = [groups(size.0.div_ceil(2).div_ceil(8)), 1, 1];
+        self.recording.dispatch(&sub_step::WICK, &params, &[&paint.pigments, &paint.vehicle], over);
         self.submit_if_full()
     }
 
@@ -347,7 +363,7 @@ fn as_u32(rect: Rect) -> [u32; 4] {
 
 /// Panics if a contact names cells of the canvas or of the head that do not exist.
 fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
-    let Contact { rect, touches } = contact;
+    let Contact { rect, touches, .. } = contact;
     assert_eq!(rect.intersection(bounds), *rect, "a contact must lie within {bounds:?}");
     assert_eq!(touches.len(), rect.width * rect.height, "a contact has a touch per cell");
     let outside = |touch: &&Touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX;

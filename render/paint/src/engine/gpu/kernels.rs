@@ -11,6 +11,7 @@ pub fn kernels() -> Vec<&'static Kernel> {
         &sub_step::PRESS,
         &sub_step::ADVECT,
         &sub_step::TRANSFER,
+        &sub_step::WICK,
         &drying::DRY,
         &drying::MOVE_FLOOR,
         &undo_tiles::UNDO_TILE,

@@ -1,8 +1,9 @@
-//! A sub-step on the device: four kernels over the contact grown by 2 cells.
+//! A sub-step on the device: four kernels over the contact grown by 2 cells, and one
+//! along the hair of the head.
 //!
 //! The kernels compute the same as [`crate::motion`], bit for bit.
 
-use crate::contact::Touch;
+use crate::contact::{ExchangeRates, Touch};
 use crate::motion::MotionConstants;
 use graphics::gpu::{Kernel, Layout, Storage, layout};
 
@@ -11,6 +12,7 @@ use graphics::gpu::{Kernel, Layout, Storage, layout};
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct SubStepParams {
     pub(super) motion: MotionConstants,
+    pub(super) rates: ExchangeRates,
     /// The contact's rectangle grown by 2 within the canvas.
     pub(super) region: [u32; 4],
     /// The contact's rectangle.
@@ -19,19 +21,23 @@ pub(super) struct SubStepParams {
     pub(super) canvas: [u32; 2],
     /// Index of the contact's first touch in the batch.
     pub(super) first_touch: u32,
-    pub(super) padding: u32,
+    /// Number of cells of the head.
+    pub(super) brush_cells: u32,
 }
 
 const SUB_STEP_PARAMS: Layout =
-    layout!(SubStepParams { motion, region, contact, canvas, first_touch, padding });
+    layout!(SubStepParams { motion, rates, region, contact, canvas, first_touch, brush_cells });
 
 const STRUCTS: &[Layout] = &[
     layout!(MotionConstants {
-        push_quanta,
+        push_share,
+        squeeze_share,
+        yield_quanta,
+        levelling_share,
         adhesion_quanta,
-        max_transfer_quanta,
-        full_transfer_quanta
+        padding
     }),
+    layout!(ExchangeRates { release, film, deposit, pick_up, mixing, sink, drag, padding }),
     layout!(Touch { height, brush_cell, velocity, weights }),
 ];
 
@@ -102,4 +108,29 @@ pub(super) static TRANSFER: Kernel = Kernel {
         Storage::Write,
         Storage::Write,
     ],
+};
+
+/// Uniforms of [`WICK`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct WickParams {
+    /// Width and height of the head in cells.
+    pub(super) size: [u32; 2],
+    /// Share of each surplus that moves, in parts of 65536.
+    pub(super) wicking: u32,
+    pub(super) padding: u32,
+}
+
+/// Lets paint flow along the hair of a head; an invocation a hair.
+pub(super) static WICK: Kernel = Kernel {
+    name: "wick_hairs",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("../../motion/wick.wgsl"),
+        include_str!("passes/wick.wgsl"),
+    ),
+    parameters: layout!(WickParams { size, wicking, padding }),
+    structs: &[],
+    storage: &[Storage::Write, Storage::Write],
 };

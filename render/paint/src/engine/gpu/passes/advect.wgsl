@@ -5,7 +5,7 @@
 @group(0) @binding(1) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> vehicle: array<u32>;
 // x: velocity, packed as in `Touch`; y: mobile share in parts of 65536.
-@group(0) @binding(3) var<storage, read> flow: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> flow_in: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read_write> moved: array<Cell>;
 
 fn cell_at(place: vec2<u32>) -> Cell {
@@ -20,7 +20,7 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let width = params.region.z;
     var cell = cell_at(id.xy);
-    let own = flow[id.y * width + id.x];
+    let own = flow_in[id.y * width + id.x];
     if own.x != 0u {
         let out = outflow(cell, own.y, vec2<u32>(abs(halves(own.x))));
         cell = minus(cell, plus(out.in_x, plus(out.in_y, out.diagonal)));
@@ -34,13 +34,13 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let at = source.y * width + source.x;
-        let speed = halves(flow[at].x);
+        let speed = halves(flow_in[at].x);
         // Paint flows here only if its velocity has the sign of each component of
         // `direction` that is not 0.
         if any((direction != vec2(0)) & (sign(speed) != direction)) {
             continue;
         }
-        let out = outflow(cell_at(source), flow[at].y, vec2<u32>(abs(speed)));
+        let out = outflow(cell_at(source), flow_in[at].y, vec2<u32>(abs(speed)));
         if direction.y == 0 {
             cell = plus(cell, out.in_x);
         } else if direction.x == 0 {

@@ -7,8 +7,10 @@
 @group(0) @binding(3) var<storage, read> vehicle: array<u32>;
 @group(0) @binding(4) var<storage, read> floor_height: array<i32>;
 @group(0) @binding(5) var<storage, read> brush_pigments: array<vec4<u32>>;
+// The vehicle of all cells, then the mean of each cell's hair.
 @group(0) @binding(6) var<storage, read> brush_vehicle: array<u32>;
-@group(0) @binding(7) var<storage, read_write> depths: array<vec2<i32>>;
+// x: penetration, y: volume, z: top, w: coat.
+@group(0) @binding(7) var<storage, read_write> depths: array<vec4<i32>>;
 @group(0) @binding(8) var<storage, read_write> above: array<Cell>;
 
 @compute @workgroup_size(8, 8)
@@ -20,14 +22,20 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = canvas_index(id.xy);
     let wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
     var depth = NO_CONTACT;
+    var coat_quanta = 0u;
     if within_contact(id.xy) {
         let touch = touches[touch_index(id.xy)];
-        depth = penetration(touch, floor_height[i], wet);
+        let b = touch.brush_cell;
+        if touch.height != NO_HEAD {
+            coat_quanta = coat(params.rates, touch, brush_vehicle[params.brush_cells + b]);
+            depth = penetration(params.rates, touch, floor_height[i], wet, coat_quanta);
+        }
         if depth != NO_CONTACT {
-            let b = touch.brush_cell;
             above[place] =
                 Cell(brush_pigments[2u * b], brush_pigments[2u * b + 1u], brush_vehicle[b]);
         }
     }
-    depths[place] = vec2(depth, bitcast<i32>(wet));
+    let volume_quanta = bitcast<i32>(wet);
+    let top = floor_height[i] + volume_quanta;
+    depths[place] = vec4(depth, volume_quanta, top, bitcast<i32>(coat_quanta));
 }

@@ -2,19 +2,27 @@
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
-// x: penetration; y: volume.
-@group(0) @binding(2) var<storage, read> depths: array<vec2<i32>>;
+// x: penetration, y: volume, z: top, w: coat.
+@group(0) @binding(2) var<storage, read> depths: array<vec4<i32>>;
 // x: velocity, packed as in `Touch`; y: mobile share in parts of 65536. Either both are 0
 // or neither is.
-@group(0) @binding(3) var<storage, read_write> flow: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read_write> flow_out: array<vec2<u32>>;
 
-// Penetration for slopes: 0 where there is no contact and beyond the region.
-fn pressed(place: vec2<u32>) -> i32 {
-    if any(place >= params.region.zw) {
-        return 0;
-    }
-    let depth = depths[place.y * params.region.z + place.x].x;
-    return select(depth, 0, depth == NO_CONTACT);
+// Top and penetration of the cell at `place`, or of the nearest cell of the region.
+fn column(place: vec2<i32>) -> vec2<i32> {
+    let last = vec2<i32>(params.region.zw) - vec2(1);
+    let inside = vec2<u32>(clamp(place, vec2(0), last));
+    let here = depths[inside.y * params.region.z + inside.x];
+    return vec2(here.z, select(NO_CONTACT, here.x, all(inside == vec2<u32>(place))));
+}
+
+// Flow from the cell at `place` to the next one along `step`.
+fn flow_from(place: vec2<i32>, step: vec2<i32>) -> i32 {
+    let here = column(place);
+    let next = column(place + step);
+    let before = column(place - step).x;
+    let beyond = column(place + 2 * step).x;
+    return flow(params.motion, before, here.x, next.x, beyond, here.y, next.y);
 }
 
 fn crowded(place: vec2<u32>, offset: vec2<i32>) -> bool {
@@ -47,23 +55,37 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let place = id.y * params.region.z + id.x;
-    let here = depths[place];
-    var touch: Touch;
-    if here.x != NO_CONTACT {
-        touch.velocity = touches[touch_index(id.xy)].velocity;
+    flow_out[place] = vec2(0u);
+    // Only cells of the contact grown by 1 move.
+    let moving = params.region.xy + id.xy + vec2(1u) - params.contact.xy;
+    if any(moving >= params.contact.zw + vec2(2u)) {
+        return;
     }
-    // Left of or above the region the differences wrap to large numbers, which lie outside
-    // as well.
-    let slopes = vec2(
-        pressed(id.xy + vec2(1u, 0u)) - pressed(id.xy - vec2(1u, 0u)),
-        pressed(id.xy + vec2(0u, 1u)) - pressed(id.xy - vec2(0u, 1u)),
+    let here = depths[place];
+    var head = vec2(0);
+    if here.x != NO_CONTACT {
+        head = dragged(params.rates, touches[touch_index(id.xy)], here.x, bitcast<u32>(here.y));
+    }
+    let cell = vec2<i32>(id.xy);
+    let volume_quanta = bitcast<u32>(here.y);
+    var speed = vec2(
+        velocity(
+            head.x,
+            volume_quanta,
+            flow_from(cell - vec2(1, 0), vec2(1, 0)),
+            flow_from(cell, vec2(1, 0)),
+        ),
+        velocity(
+            head.y,
+            volume_quanta,
+            flow_from(cell - vec2(0, 1), vec2(0, 1)),
+            flow_from(cell, vec2(0, 1)),
+        ),
     );
-    var speed = velocity(params.motion, touch, here.x, slopes);
     // No paint leaves the canvas.
     let beyond = vec2<i32>(params.region.xy + id.xy) + sign(speed);
     let leaves = (beyond < vec2(0)) | (beyond >= vec2<i32>(params.canvas));
     speed = select(speed, vec2(0), leaves);
-    flow[place] = vec2(0u);
     if any(speed != vec2(0)) {
         speed = avoid_crowded_columns(id.xy, speed);
     }
@@ -71,7 +93,7 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         let mobile = mobile_share(params.motion, bitcast<u32>(here.y));
         if mobile != 0u {
             let halves = vec2<u32>(speed) & vec2(0xffffu);
-            flow[place] = vec2(halves.x | (halves.y << 16u), mobile);
+            flow_out[place] = vec2(halves.x | (halves.y << 16u), mobile);
         }
     }
 }

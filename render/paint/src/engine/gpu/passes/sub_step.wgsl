@@ -4,6 +4,7 @@
 
 struct SubStepParams {
     motion: MotionConstants,
+    rates: ExchangeRates,
     // The contact's rectangle grown by 2: all cells that may change.
     region: vec4<u32>,
     contact: vec4<u32>,
@@ -11,7 +12,8 @@ struct SubStepParams {
     canvas: vec2<u32>,
     // Index of the contact's first touch in the batch.
     first_touch: u32,
-    padding: u32,
+    // Number of cells of the head.
+    brush_cells: u32,
 }
 
 fn canvas_index(place: vec2<u32>) -> u32 {

@@ -4,8 +4,8 @@
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
-// x: penetration, y: volume, both from before advection.
-@group(0) @binding(2) var<storage, read> depths: array<vec2<i32>>;
+// x: penetration, y: volume, z: top, w: coat, all from before advection.
+@group(0) @binding(2) var<storage, read> depths: array<vec4<i32>>;
 @group(0) @binding(3) var<storage, read> moved: array<Cell>;
 // The head's cell above, at the start of the sub-step.
 @group(0) @binding(4) var<storage, read> above: array<Cell>;
@@ -41,19 +41,24 @@ fn transfer_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let place = id.y * params.region.z + id.x;
     var cell = moved[place];
-    let depth = depths[place].x;
-    if depth != NO_CONTACT {
+    let here = depths[place];
+    if here.x != NO_CONTACT {
         let touch = touches[touch_index(id.xy)];
         let brush = above[place];
-        let change = exchange(params.motion, touch, u32(depth), volume(cell), volume(brush));
-        if change.share != 0u && change.from_brush {
-            let part = cell_share_of_65536(brush, change.share);
-            cell = plus(cell, part);
-            gain_cell(touch.brush_cell, minus(Cell(), part));
-        } else if change.share != 0u {
-            let part = cell_share_of_65536(cell, change.share);
-            cell = minus(cell, part);
-            gain_cell(touch.brush_cell, part);
+        let change = exchange(
+            params.rates,
+            touch,
+            here.x,
+            bitcast<u32>(here.w),
+            volume(cell),
+            volume(brush),
+            leaving(touch, params.region.xy + id.xy, params.canvas),
+        );
+        if (change.down | change.up) != 0u {
+            let laid = cell_share_of_65536(brush, change.down);
+            let taken = cell_share_of_65536(cell, change.up);
+            cell = plus(minus(cell, taken), laid);
+            gain_cell(touch.brush_cell, minus(taken, laid));
         }
     }
     let i = canvas_index(id.xy);

@@ -1,0 +1,141 @@
+//! Lips at the sides of a stroke.
+//!
+//! A pressed head squeezes paint to its sides, where it stands up as a lip. The flow takes place
+//! between the hairs, below the size of a cell, so it is not computed: the coat is thicker near
+//! the sides of the contact.
+
+use crate::contact::{Contact, Touch};
+
+/// Increase of the coat at the sides (chosen by measured lips).
+const THICKER: f32 = 1.1;
+
+/// Distance from a side in mm over which the coat falls to its usual thickness.
+const REACH_MM: f32 = 0.7;
+
+/// Share of a change of the sides that is followed in a sub-step, so that the sides do not
+/// jump from cell to cell.
+const FOLLOWED: f32 = 0.2;
+
+/// Where the sides of the contact are, seen from the pen.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sides {
+    /// Lowest and highest distance in cells across the stroke; `None` before its first contact.
+    extent: Option<(f32, f32)>,
+}
+
+/// Extent of a contact across the stroke, in cells from the pen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    pen: (f32, f32),
+    across: (f32, f32),
+    low: f32,
+    high: f32,
+}
+
+impl Extent {
+    /// An empty extent around `pen`, which moved by `moved` cells; `None` if it hardly moved.
+    pub(super) fn new(pen: (f32, f32), (x, y): (f32, f32)) -> Option<Self> {
+        let length = x.hypot(y);
+        let across = (-y / length, x / length);
+        (length >= 0.2).then_some(Self { pen, across, low: f32::INFINITY, high: f32::NEG_INFINITY })
+    }
+
+    fn at(&self, x: f32, y: f32) -> f32 {
+        (x - self.pen.0) * self.across.0 + (y - self.pen.1) * self.across.1
+    }
+
+    /// Extends it to a point of the head that touches.
+    #[inline(always)]
+    pub(super) fn include(&mut self, x: f32, y: f32) {
+        let at = self.at(x, y);
+        self.low = if at < self.low { at } else { self.low };
+        self.high = if at > self.high { at } else { self.high };
+    }
+}
+
+impl Sides {
+    /// Ends a stroke.
+    pub(super) fn lift(&mut self) {
+        self.extent = None;
+    }
+
+    /// Thickens the coat near the sides of `contact`, whose extent is `now`. Positions in it
+    /// count from the cell `origin`.
+    pub(super) fn thicken(
+        &mut self,
+        contact: &mut Contact,
+        now: Option<Extent>,
+        origin: (i64, i64),
+        cell_mm: f32,
+    ) {
+        let Some(now) = now.filter(|now| now.low <= now.high) else { return };
+        let (before_low, before_high) = self.extent.unwrap_or((now.low, now.high));
+        let low = before_low + (now.low - before_low) * FOLLOWED;
+        let high = before_high + (now.high - before_high) * FOLLOWED;
+        self.extent = Some((low, high));
+        let reach = (REACH_MM / cell_mm).min(0.25 * (high - low)).max(1.0);
+        let left = (contact.rect.x as i64 - origin.0) as f32 + 0.5;
+        let top = (contact.rect.y as i64 - origin.1) as f32 + 0.5;
+        let width = contact.rect.width.max(1);
+        for (row, touches) in contact.touches.chunks_exact_mut(width).enumerate() {
+            let start = now.at(left, top + row as f32);
+            for (column, touch) in touches.iter_mut().enumerate() {
+                let at = start + column as f32 * now.across.0;
+                let inside = (at - low).min(high - at);
+                if inside < reach && touch.height != Touch::NONE.height {
+                    let near = 1.0 - (inside / reach).max(0.0);
+                    let release = touch.release() as f32 * (1.0 + THICKER * near * near);
+                    touch.set_release(release.min(127.0) as u32);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use graphics::tile::Rect;
+
+    /// Coats across a contact of 40 x 3 cells after a head moved by `moved` cells over it.
+    fn coats(moved: (f32, f32)) -> Vec<u32> {
+        let rect = Rect { x: 10, y: 20, width: 40, height: 3 };
+        let touch = Touch::new(0, 0, (0, 0), 256, 1);
+        let mut contact = Contact { rect, touches: vec![touch; 120], ..Contact::default() };
+        let mut extent = Extent::new((30.0, 21.5), moved);
+        for x in [10.0, 50.0] {
+            extent.iter_mut().for_each(|extent| extent.include(x, 21.5));
+        }
+        Sides::default().thicken(&mut contact, extent, (0, 0), 0.1);
+        contact.touches[40..80].iter().map(Touch::release).collect()
+    }
+
+    #[test]
+    fn the_coat_is_thicker_at_both_sides_of_the_way_only() {
+        for moved in [(0.0, 0.9), (0.0, -0.9)] {
+            let across = coats(moved);
+            let mirrored: Vec<u32> = across.iter().rev().copied().collect();
+            assert_eq!(across, mirrored);
+            assert!(across[0] > 48 && across[0] > across[3] && across[3] > 32, "{across:?}");
+            assert!(across[10..30].iter().all(|&coat| coat == 32), "{across:?}");
+        }
+        assert_eq!(coats((0.0, 0.1)), [32; 40], "a head that hardly moves has no sides");
+    }
+
+    #[test]
+    fn the_sides_follow_a_change_slowly_within_a_stroke() {
+        let mut sides = Sides::default();
+        let mut reach = |half: f32| {
+            let mut extent = Extent::new((0.0, 0.0), (1.0, 0.0)).unwrap();
+            extent.include(0.0, -half);
+            extent.include(0.0, half);
+            sides.thicken(&mut Contact::default(), Some(extent), (0, 0), 0.1);
+            sides.extent.unwrap().1
+        };
+        assert_eq!(reach(10.0), 10.0);
+        let second = reach(20.0);
+        assert!(second > 10.5 && second < 19.0, "{second}");
+        sides.lift();
+        assert_eq!(sides.extent, None);
+    }
+}

@@ -1,0 +1,56 @@
+//! Flow of paint along the hair of a head, from where there is more to where there is less.
+//!
+//! A hair is a column of cells and the column opposite to it, on the other side of the head.
+//! Each of its cells gives a share of what it has beyond the hair's mean to a pot, and the pot
+//! is divided among the cells below the mean in proportion to what they lack. So a head feeds
+//! its tip from its belly, and a level hair does not mix. Until paint flows again, the coat
+//! follows the mean of each hair, so that a film does not show when that was.
+
+use crate::amount::{ratio_of_65536, share_of_65536};
+use crate::layer::Cell;
+
+/// Volumes are summed in units of this power of two of quanta, so that sums fit into 32 bits.
+pub const UNIT_BITS: u32 = 10;
+
+/// Mean volume in units of a column of `count` cells whose volumes sum to `sum` units.
+#[inline(always)]
+#[must_use]
+pub fn mean(sum: u32, count: u32) -> u32 {
+    sum / count.max(1)
+}
+
+/// Most units that a pot holds, so that its quanta fit into 32 bits.
+const POT_UNITS: u32 = 1 << 21;
+
+/// Share of each surplus that goes to the pot of a hair whose cells lack `lacks` units, in parts
+/// of 65536: `wicking`, or less if the pot could not hold it.
+#[inline(always)]
+#[must_use]
+pub fn flowing(wicking: u32, lacks: u32) -> u32 {
+    // A hair has about as much surplus as it lacks.
+    wicking.min(ratio_of_65536(POT_UNITS, lacks.max(POT_UNITS)))
+}
+
+/// Share of a cell of `volume` quanta that goes to the pot, in parts of 65536. `mean` is in
+/// units, `flowing` the share of the surplus in parts of 65536.
+#[inline(always)]
+#[must_use]
+pub fn given_share(volume: u32, mean: u32, flowing: u32) -> u32 {
+    let surplus = volume.saturating_sub(mean << UNIT_BITS);
+    ratio_of_65536(share_of_65536(surplus, flowing), volume)
+}
+
+/// Units that a cell of `volume` quanta lacks of `mean` units.
+#[inline(always)]
+#[must_use]
+pub fn lack(volume: u32, mean: u32) -> u32 {
+    mean.saturating_sub(volume >> UNIT_BITS)
+}
+
+/// Part of `pot` for a cell that lacks `lack` of the `lacks` units that all cells of its column
+/// lack. The last of these cells gets the rest of the pot instead.
+#[inline(always)]
+#[must_use]
+pub fn dealt(pot: &Cell, lack: u32, lacks: u32) -> Cell {
+    pot.share_of_65536(ratio_of_65536(lack, lacks))
+}
