@@ -24,8 +24,8 @@ impl Touch {
     /// The touch of a cell without a head above it.
     pub const NONE: Self = Self { height: i32::MAX, brush_cell: u32::MAX, velocity: 0, weights: 0 };
 
-    /// Packs a touch of hair with the mean coat; see the fields and accessors for units. `(x, y)` is the velocity in
-    /// 1/256 cell a sub-step.
+    /// Packs a touch of hair with the mean coat; see the fields and accessors for units. `(x, y)`
+    /// is the velocity in 1/256 cell a sub-step.
     #[must_use]
     pub fn new(
         height: i32,

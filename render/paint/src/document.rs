@@ -88,7 +88,7 @@ fn tube_paint() -> f64 {
     0.7
 }
 
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_tube_paint(stiffness: &f64) -> bool {
     *stiffness == tube_paint()
 }

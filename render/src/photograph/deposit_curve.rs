@@ -9,6 +9,7 @@ use graphics::field::Field;
 use paint::BrushId;
 use paint::amount::{mm_from_quanta, quanta_from_mm};
 use paint::brush::{Head, HeadShape, Relief};
+use paint::document::Medium;
 use paint::engine::PaintEngine;
 use paint::layer::Layer;
 use paint::motion::MotionConstants;
@@ -19,8 +20,6 @@ use paint::stroke::{contacts, substeps};
 const LENGTH: f64 = 4.0;
 /// Loads tried in mm, rising.
 const LOADS_MM: [f64; 4] = [0.05, 0.2, 0.8, 3.2];
-/// How stiff the paint of a painting is, see [`MotionConstants::new`].
-const STIFFNESS: f64 = 0.7;
 
 /// Thickness of the film that a brush lays, by its load.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +117,7 @@ impl<'a> Trial<'a> {
         let path: Vec<[f64; 2]> =
             (0..=points).map(|point| [size * (1.5 + 0.25 * point as f64), middle]).collect();
         let poses = substeps(&poses(&path, self.plan, size, cell_mm), cell_mm)?;
-        let motion = MotionConstants::new(cell_mm, STIFFNESS);
+        let motion = MotionConstants::new(cell_mm, Medium::default().stiffness);
         for contact in contacts(&mut self.head, poses, &self.relief, bounds) {
             self.engine.apply_contacts(self.brush, &motion, &[contact])?;
         }

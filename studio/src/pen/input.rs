@@ -100,8 +100,8 @@ impl Pen {
         self.systems.notice.take()
     }
 
-    /// Collects the reports of the window system's styluses and the times of its mice. To be called from
-    /// `App::raw_input_hook`.
+    /// Collects the reports of the window system's styluses and the times of its mice. To be
+    /// called from `App::raw_input_hook`.
     pub fn read_systems(&mut self, context: &egui::Context, input: &mut RawInput) {
         self.pending.extend(self.systems.reports(context, input));
         self.pointer.stamp(self.systems.mouse_times(context));

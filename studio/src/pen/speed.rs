@@ -3,11 +3,11 @@
 //! A slow movement presses more: the pressure is
 //! `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`, that is 0.70 at rest, 0.475 at 500 points
 //! per second and 0.25 at very high speed. (A point is 1/96 inch, so 500 points are 132
-//! mm.) The speed is smoothed over 0.2 s and starts at 500, so that every stroke begins at
-//! a moderate pressure; the pressure that follows from it changes by at most the full pressure a
-//! second, because a hand that means to be even is not. At its start the pressure rises from a fifth to the full value over
-//! 10 points of path or 60 ms, whichever comes first; at its end it falls to 0. All
-//! constants were chosen by eye.
+//! mm.) The speed is smoothed over 0.2 s and starts at 500, so that every stroke begins at a
+//! moderate pressure; the pressure that follows from it changes by at most the full pressure a
+//! second, because even a steady hand moves unevenly. At the start of a stroke the pressure
+//! rises from a fifth to the full value over 10 points of path or 60 ms, whichever comes first;
+//! at the end it falls to 0. All constants were chosen by eye.
 
 use eframe::egui::Pos2;
 

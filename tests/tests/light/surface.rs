@@ -198,7 +198,7 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
     let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;
-    // What the surface mirrors replaces as much of the light from within.
+    // Mirrored light replaces as much of the light from within.
     for (found, strength) in [(wet, 0.5), (dry, 0.25)] {
         let mirrored = strength * veil / (1.0 + strength * veil);
         let wanted = f64::from(ground) + mirrored * (1.0 - f64::from(ground));

@@ -29,6 +29,8 @@ mod changes;
 
 mod expected_behavior;
 
+mod stiffness;
+
 mod program;
 
 mod hostile;

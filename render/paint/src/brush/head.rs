@@ -58,6 +58,7 @@ pub struct Head {
     sides: Sides,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
+    /// Area of a paint cell in cells of the canvas.
     paint_cell_area: f64,
     /// Origin of coordinates while the head touches the canvas.
     origin: Option<(i64, i64)>,
@@ -101,7 +102,7 @@ impl Head {
             net: Net::new(&spines),
             spines,
             footprint: Footprint::new(around, along, hair),
-            locks: Locks::new(0, around, column_mm, 0.1 * of.bristles, cell_mm),
+            locks: Locks::new(0, around, column_mm, 0.1 * of.recess, cell_mm),
             sides: Sides::default(),
             sub_step: 0,
             paint_cell_area: area / (around * along) as f64,
@@ -193,9 +194,9 @@ impl Head {
     }
 
     /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
-    /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are
-    /// not finite; over no canvas, paint may still flow along the hair. A lifted head comes down from just above the canvas; a head that is more
-    /// than 64 cells away is set down anew.
+    /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are not
+    /// finite; over no canvas, paint may still flow along the hair. A lifted head comes down from
+    /// just above the canvas; a head that is more than 64 cells away is set down anew.
     ///
     /// The speed that governs transfer includes the surface's vertical motion, so that a head
     /// that is pressed straight down leaves paint too.
@@ -292,9 +293,9 @@ fn finished(vertex: &Point, relief: f32, grasp: f32) -> Point {
     ]
 }
 
-/// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines
-/// near the tip.
-/// A small fan, whose facets are no finer than its tufts, has tufts around pairs of spines.
+/// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines near
+/// the tip. A small fan, whose facets are no finer than its tufts, has tufts around pairs of
+/// spines.
 fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();

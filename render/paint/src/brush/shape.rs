@@ -144,8 +144,8 @@ pub(super) struct Proportions {
     pub(super) gaps: bool,
     /// Whether the head is rigid.
     pub(super) rigid: bool,
-    /// Largest recess of bristles from the surface, in cells of the canvas.
-    pub(super) bristles: f32,
+    /// Largest recess of bristles from the surface, in tenths of a mm.
+    pub(super) recess: f32,
 }
 
 const ROUND: Proportions = Proportions {
@@ -159,7 +159,7 @@ const ROUND: Proportions = Proportions {
     depth: [0.82, 0.94, 1.0, 0.98, 0.87, 0.0],
     gaps: false,
     rigid: false,
-    bristles: 0.5,
+    recess: 0.5,
 };
 
 const FLAT: Proportions = Proportions {
@@ -170,7 +170,7 @@ const FLAT: Proportions = Proportions {
     width: [1.0, 1.0, 1.0, 1.0, 1.0, 0.98],
     depth: [1.0, 0.95, 0.85, 0.65, 0.45, 0.0],
     splay: 0.2,
-    bristles: 0.9,
+    recess: 0.9,
     ..ROUND
 };
 
@@ -194,7 +194,7 @@ const FAN: Proportions = Proportions {
     width: [1.0; NODES],
     depth: [1.0, 0.9, 0.8, 0.7, 0.6, 0.0],
     gaps: true,
-    bristles: 0.3,
+    recess: 0.3,
     ..FLAT
 };
 
@@ -204,7 +204,7 @@ const RIGGER: Proportions = Proportions {
     splay: 0.8,
     width: [0.95, 1.0, 1.0, 0.98, 0.94, 0.0],
     depth: [0.95, 1.0, 1.0, 0.98, 0.94, 0.0],
-    bristles: 0.0,
+    recess: 0.0,
     ..ROUND
 };
 
@@ -214,7 +214,7 @@ const MOP: Proportions = Proportions {
     splay: 1.0,
     width: [0.6, 0.9, 1.0, 1.0, 0.87, 0.0],
     depth: [0.6, 0.9, 1.0, 1.0, 0.87, 0.0],
-    bristles: 0.3,
+    recess: 0.3,
     ..ROUND
 };
 
@@ -226,7 +226,7 @@ const KNIFE: Proportions = Proportions {
     width: [0.7, 0.9, 1.0, 1.0, 1.0, 1.0],
     depth: [1.0, 1.0, 1.0, 1.0, 1.0, 0.0],
     rigid: true,
-    bristles: 0.0,
+    recess: 0.0,
     ..FLAT
 };
 

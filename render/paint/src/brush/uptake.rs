@@ -8,20 +8,23 @@ use crate::contact::ExchangeRates;
 /// Distance in mm that a head moves between two flows of paint along its hair.
 const WICKING_EVERY_MM: f64 = 1.6;
 
-/// Distances in mm over which differences between the head and the canvas fall to 1/e, and the
-/// thickness of the coat.
+/// Coat of a head, and the distances in mm that it moves while differences between head and canvas
+/// fall to 1/e.
 struct Uptake {
-    /// Thickness of the coat relative to the paint on the head, without pressure and the
-    /// increase by full pressure.
+    /// Thickness of the coat relative to that of the paint on the head: at pressure 0, and how
+    /// much full pressure adds.
     coat: (f64, f64),
-    /// Thickness in mm of the film that stays without pressure.
+    /// Thickness in mm, at pressure 0, of the film that the head leaves whatever it holds.
     film_mm: f64,
     /// Velocity of the paint relative to that of the head.
     drag: f64,
+    /// For a film thinner than the coat.
     deposit_mm: f64,
+    /// For a film thicker than the coat.
     pick_up_mm: f64,
+    /// For the colours of both sides.
     mixing_mm: f64,
-    /// Distance over which the paint along a hair evens out.
+    /// For the paint along a hair.
     wicking_mm: f64,
 }
 
@@ -54,9 +57,10 @@ fn uptake(of: &Proportions) -> &'static Uptake {
     if of.rigid { &BLADE } else { &HAIR }
 }
 
-/// Share of a difference that is evened out over `distance_mm`, in parts of 65536.
-fn share(distance_mm: f64, even_mm: f64) -> u32 {
-    ((1.0 - (-distance_mm / even_mm).exp()) * 65536.0) as u32
+/// Share of a difference that is gone after `distance_mm` if it falls to 1/e over `fall_mm`, in
+/// parts of 65536.
+fn share(distance_mm: f64, fall_mm: f64) -> u32 {
+    ((1.0 - (-distance_mm / fall_mm).exp()) * 65536.0) as u32
 }
 
 /// Rates of a head at `pressure` (0 to 1) in a sub-step of one cell of `cell_mm` mm.

@@ -1,15 +1,17 @@
 //! The motion of paint in one sub-step, cell by cell and in whole numbers: the
 //! specification that both backends follow.
 //!
-//! Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times
-//! in sub-steps; the head moves by at most one cell in a sub-step.
+//! After Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times
+//! in sub-steps; the head moves by at most one cell in a sub-step. [`MotionConstants`] and the
+//! [`ExchangeRates`](crate::contact::ExchangeRates) of a head are made from lengths in mm, so that
+//! a stroke hardly depends on the size of the cells.
 //!
 //! # A sub-step
 //! On the contact's rectangle grown by two cells, within the canvas, the reach:
 //!
-//! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint flows along each
-//!    column of cells of the head, which then feeds the coat with the column's mean: see
-//!    [`wick`]. [`press::penetration`] of each touched cell, from the floor, the wet volume and
+//! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint flows along the
+//!    hair of the head, and the mean volume of each hair is taken anew: see [`wick`].
+//!    [`press::penetration`] of each touched cell, from the floor, the wet volume and
 //!    the [`press::coat`] of the head at the start; [`press::NO_CONTACT`] everywhere else.
 //! 2. [`press::flow`] between each cell of the rectangle grown by one and its neighbours in x
 //!    and y; beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of

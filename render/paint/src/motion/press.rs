@@ -26,7 +26,7 @@ const FASTEST_FLOW: u32 = 1 << 13;
 
 /// Thickness in quanta of the film that a head leaves when it presses down on the ground: the
 /// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of
-/// that column of the head.
+/// that hair.
 #[inline(always)]
 #[must_use]
 pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {

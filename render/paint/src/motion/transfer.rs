@@ -24,8 +24,8 @@ pub struct Exchange {
 /// Computes the transfer of one sub-step.
 ///
 /// `penetration` and `coat` are those at the start of the sub-step, in quanta; the volumes are
-/// those of the two cells now, in quanta. `leaving` is the velocity in 1/256 cell with which
-/// the head drags paint over the edge of the canvas; that paint stays on the head.
+/// those of the two cells now, in quanta. `leaving` is the velocity of the head over the edge of
+/// the canvas, in 1/256 cell: paint that would leave with half of it goes onto the head.
 #[inline(always)]
 #[must_use]
 pub fn exchange(
@@ -56,8 +56,8 @@ pub fn exchange(
     }
 }
 
-/// Velocity in 1/256 cell with which the head drags the paint of the cell `(x, y)` over the edge
-/// of the canvas `bounds`.
+/// Velocity in 1/256 cell of the head above the cell `(x, y)` over an edge of the canvas `bounds`;
+/// 0 away from the edges.
 #[inline(always)]
 #[must_use]
 pub fn leaving(touch: Touch, (x, y): (usize, usize), bounds: Rect) -> u32 {

@@ -3,8 +3,8 @@
 //! A hair is a column of cells and the column opposite to it, on the other side of the head.
 //! Each of its cells gives a share of what it has beyond the hair's mean to a pot, and the pot
 //! is divided among the cells below the mean in proportion to what they lack. So a head feeds
-//! its tip from its belly, and a level hair does not mix. Until paint flows again, the coat
-//! follows the mean of each hair, so that a film does not show when that was.
+//! its tip from its belly, and a level hair does not mix. The coat follows the mean of each hair,
+//! not the cell that touches: that cell empties between two flows, and the film would show it.
 
 use crate::amount::{ratio_of_65536, share_of_65536};
 use crate::layer::Cell;

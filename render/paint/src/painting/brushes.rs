@@ -28,8 +28,9 @@ impl Painting {
         Ok(id)
     }
 
-    /// Adds paint to a brush: all over the head `amount_mm` mm of the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear medium.
-    /// With `vehicle` 1 the recipe may be empty.
+    /// Adds paint to a brush: all over the head `amount_mm` mm of the mixture of `recipe` (parts by
+    /// slot), of which the fraction `vehicle` (0 to 1) is clear medium. With `vehicle` 1 the recipe
+    /// may be empty.
     ///
     /// # Errors
     /// [`PaintingError`] if the recipe has no parts or parts of an empty slot, or if the

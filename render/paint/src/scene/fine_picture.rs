@@ -103,7 +103,7 @@ pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -
     picture
 }
 
-/// What lies in every cell.
+/// Light of level paint and topmost material of every cell.
 struct Cells {
     /// Linear sRGB without relief and gloss.
     colors: Field<[f32; 4]>,

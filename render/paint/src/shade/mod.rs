@@ -12,7 +12,7 @@
 //! sky above horizons of these slopes, `seen` a cast shadow with a soft edge; both are 1 on a
 //! level surface, and look [`REACH_MM`] far.
 //!
-//! What is lighter than level paint is bounded by Reinhard's (2002) shoulder: with e = f - 1
+//! Light beyond that of level paint is bounded by Reinhard's (2002) shoulder: with e = f - 1
 //! above 0 and m the greatest channel of the colour, the factor is
 //! `1 + e / (1 + e (m / (1 - m) + 1 / MOST))`. It starts with f's own slope, stays below
 //! 1 + [`MOST`], and leaves m below 1, so that no hue shifts.

@@ -28,7 +28,7 @@ pub struct Tap {
     pub offset: [i32; 2],
     /// Slope for each quantum that the other cell is higher.
     pub per_quantum: f32,
-    /// What is subtracted from the slope: the lamp's.
+    /// Subtracted from the slope: that of the ray to the lamp, or 0.
     pub less: f32,
 }
 
@@ -47,9 +47,9 @@ pub struct ReliefLamp {
     /// By [`TopMaterial`](super::TopMaterial): gloss with its strength times the share of direct
     /// light, and h_z to its exponent.
     pub gloss: [(Gloss, f32); 3],
-    /// What may stand in the way of the lamp.
+    /// Cells towards the lamp that may shade this one.
     pub shadow: [Tap; SHADOW.len()],
-    /// What may hide the sky.
+    /// Cells around that may hide part of the sky.
     pub around: [Tap; 8],
 }
 

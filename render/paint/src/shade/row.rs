@@ -130,7 +130,7 @@ impl ReliefLamp {
     }
 }
 
-/// What the surface of a block of cells sees.
+/// How much of the lamp the cells of a block see, and at which angle.
 struct Seen {
     n_dot_h: [f32; BLOCK],
     /// Share of the lamp that nothing hides.

@@ -13,10 +13,10 @@ struct LampParams {
     halfway: vec4<f32>,
     // For wet paint, dry paint and ground: strength, exponent, h_z to the exponent, 0.
     gloss: array<vec4<f32>, 3>,
-    // What may stand in the way of the lamp: offset along x and y, slope per quantum, what is
-    // subtracted from the slope.
+    // Cells towards the lamp: offset along x and y, slope per quantum, slope of the ray to the
+    // lamp.
     shadow: array<vec4<f32>, 6>,
-    // What may hide the sky, likewise.
+    // Cells around: offset along x and y, slope per quantum, 0.
     around: array<vec4<f32>, 8>,
     // How far a slope overtops the lamp's where half of the light is left.
     soft: f32,

@@ -3,11 +3,11 @@
 use super::columns::Columns;
 use crate::layer::Layer;
 
-/// Paint on a head, and what its coat follows.
+/// Paint on a head, and the means that its coat follows.
 #[derive(Debug, Clone)]
 pub(super) struct HeadPaint {
     pub(super) cells: Columns,
-    /// Mean volume in quanta of the column of each cell when paint last flowed along the hair.
+    /// Mean volume in quanta of the hair of each cell when paint last flowed along it.
     pub(super) means: Vec<u32>,
 }
 

@@ -6,7 +6,7 @@ use crate::motion::wick::{UNIT_BITS, dealt, flowing, given_share, lack, mean};
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
 
-/// What is known of a column of cells of the head and the column opposite to it.
+/// Sums over one hair: a column of cells of the head and the column opposite to it.
 #[derive(Debug, Clone, Copy)]
 struct Hair {
     mean: u32,
