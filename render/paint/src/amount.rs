@@ -26,18 +26,35 @@ pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
     (amount >> 16) * share + (((amount & 0xffff) * share) >> 16)
 }
 
-/// Computes `part / whole` in parts of 65536, for a `part` up to `whole`: never more than the
-/// exact ratio, at most 1/32768 of it less, and 0 for a `whole` of 0.
+/// Computes `part / whole` in parts of 65536, for a `part` up to `whole` and a `whole` up to
+/// [`MAX_COLUMN`]: never more than the exact ratio, at most 1/32768 of it less, and 0 for a
+/// `whole` of 0.
 #[inline(always)]
 #[must_use]
-pub const fn ratio_of_65536(part: u32, whole: u32) -> u32 {
-    // The product of `part` and 65536 must fit into 32 bits.
-    let excess = 16_u32.saturating_sub(part.leading_zeros());
-    let whole = (whole >> excess) + (excess > 0) as u32;
-    match ((part >> excess) << 16).checked_div(whole) {
-        Some(ratio) => ratio,
-        None => 0,
-    }
+pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
+    // In the shaders, the product of `part` and 65536 must fit into 32 bits.
+    let exponent = (f64::from(part as i32).to_bits() >> 52) as i32 - 1023;
+    let excess = (exponent - 15).max(0);
+    let whole = (whole >> excess) + u32::from(excess > 0);
+    floor_of_quotient(f64::from((part >> excess) as i32) * 65536.0, whole)
+}
+
+/// Computes `amount / count`, rounded down, for an `amount` up to [`MAX_COLUMN`] and a `count` of
+/// 1 or more.
+#[inline(always)]
+#[must_use]
+pub fn quotient(amount: u32, count: u32) -> u32 {
+    floor_of_quotient(f64::from(amount as i32), count)
+}
+
+/// Computes `part / whole`, rounded down, for whole numbers. Processors
+/// cannot divide vectors of whole numbers, so this divides in f64, which is exact here.
+#[inline(always)]
+fn floor_of_quotient(part: f64, whole: u32) -> u32 {
+    /// 2^52: above this number, neighbouring f64 values are 1 apart. Adding it is faster than the
+    /// range checks of `as`.
+    const UNIT: f64 = 4_503_599_627_370_496.0;
+    ((part / f64::from(whole.max(1) as i32)).floor() + UNIT).to_bits() as u32
 }
 
 /// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to
@@ -56,6 +73,9 @@ pub fn mm_from_quanta(quanta: u32, cell_mm: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
     use super::*;
 
     #[test]
@@ -84,6 +104,29 @@ mod tests {
             }
         }
         assert_eq!(ratio_of_65536(0, 0), 0);
+    }
+
+    #[test]
+    fn quotients_and_ratios_agree_with_whole_numbers() {
+        /// The division of the shaders.
+        fn ratio(part: u32, whole: u32) -> u32 {
+            let excess = 16_u32.saturating_sub(part.leading_zeros());
+            ((part >> excess) << 16) / ((whole >> excess) + u32::from(excess > 0))
+        }
+        let random = &mut ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..200_000 {
+            let mut number = || {
+                let most = MAX_COLUMN >> random.random_range(0..30);
+                random.random_range(1..=most)
+            };
+            let (a, b) = (number(), number());
+            for amount in [a, a / b * b, (a / b * b).saturating_sub(1)] {
+                assert_eq!(quotient(amount, b), amount / b, "{amount} / {b}");
+                let part = amount.min(b);
+                assert_eq!(ratio_of_65536(part, b), ratio(part, b), "{part} of {b}");
+            }
+            assert_eq!(ratio_of_65536(b, b), ratio(b, b), "{b} of {b}");
+        }
     }
 
     #[test]

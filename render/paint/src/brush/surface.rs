@@ -7,7 +7,7 @@ use super::b_spline::b_spline;
 use super::net::{Net, Point, ROWS};
 
 /// Number of paint cells along each side of a facet, if the head has enough cells.
-const FACET: f32 = 4.0;
+const FACET: f32 = 6.0;
 
 /// Maximum number of paint cells of a head. On a larger head they are wider than the cells of
 /// the canvas.
@@ -176,12 +176,12 @@ mod tests {
     }
 
     #[test]
-    fn facets_have_three_to_four_cells_and_large_heads_wider_ones() {
-        for length in 5..200 {
+    fn facets_have_four_to_six_cells_and_large_heads_wider_ones() {
+        for length in 8..200 {
             let span = Span::new(length as f32);
             let cell = length as f32 / (span.facets * span.cells) as f32;
-            assert!((3..=4).contains(&span.cells) || length < 6, "{length}: {span:?}");
-            assert!((0.7..1.4).contains(&cell), "{length}: {cell}");
+            assert!((4..=6).contains(&span.cells), "{length}: {span:?}");
+            assert!((0.8..1.5).contains(&cell), "{length}: {cell}");
         }
         let large = LimitSurface::new(8, 6000.0, 5000.0);
         let (around, along) = (large.facets(), large.cells_of_facet());

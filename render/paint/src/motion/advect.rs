@@ -6,17 +6,17 @@
 //! neighbour.
 
 use super::constants::MotionConstants;
-use crate::layer::Cell;
+use crate::amount::{ratio_of_65536, share_of_65536};
 
-/// Paint that leaves a cell, by destination.
+/// Shares of a column that leave it in one sub-step, by destination, in parts of 65536.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outflow {
-    /// Paint that moves to the neighbour in x.
-    pub in_x: Cell,
-    /// Paint that moves to the neighbour in y.
-    pub in_y: Cell,
-    /// Paint that moves to the diagonal neighbour.
-    pub diagonal: Cell,
+    /// Share that moves to the neighbour in x.
+    pub in_x: u32,
+    /// Share that moves to the neighbour in y.
+    pub in_y: u32,
+    /// Share that moves to the diagonal neighbour.
+    pub diagonal: u32,
 }
 
 /// Share of a column of `volume` quanta that may move, in parts of 65536: all but the
@@ -24,21 +24,18 @@ pub struct Outflow {
 #[inline(always)]
 #[must_use]
 pub fn mobile_share(motion: &MotionConstants, volume: u32) -> u32 {
-    if volume <= motion.adhesion_quanta {
-        return 0;
-    }
-    65536 - (motion.adhesion_quanta << 16).div_ceil(volume)
+    let moving = volume.saturating_sub(motion.adhesion_quanta);
+    ratio_of_65536(moving, volume)
 }
 
-/// Computes the paint that leaves `cell` in one sub-step. `mobile` is the share that may
+/// Computes the shares of a column that leave it in one sub-step. `mobile` is the share that may
 /// move in parts of 65536, `speed` the absolute velocity along x and y in 1/16384 cell.
 #[inline(always)]
 #[must_use]
-pub fn outflow(cell: &Cell, mobile: u32, speed: (u32, u32)) -> Outflow {
-    let moving = cell.share_of_65536(mobile);
+pub fn outflow(mobile: u32, speed: (u32, u32)) -> Outflow {
     let (x, y) = (4 * speed.0, 4 * speed.1);
-    let sideways = moving.share_of_65536(x);
-    let diagonal = sideways.share_of_65536(y);
-    let in_y = moving.minus(&sideways).share_of_65536(y);
-    Outflow { in_x: sideways.minus(&diagonal), in_y, diagonal }
+    let sideways = share_of_65536(mobile, x);
+    let diagonal = share_of_65536(sideways, y);
+    let in_y = share_of_65536(mobile - sideways, y);
+    Outflow { in_x: sideways - diagonal, in_y, diagonal }
 }

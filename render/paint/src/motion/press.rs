@@ -54,17 +54,17 @@ pub fn penetration(rates: &ExchangeRates, touch: Touch, floor: i32, volume: u32,
 pub struct Column {
     /// Height of its surface over the plane of the canvas, in quanta.
     pub top: i32,
-    /// Penetration of the head in quanta, or [`NO_CONTACT`].
-    pub penetration: i32,
+    /// Pressure of the head in quanta of paint, or [`NO_CONTACT`]; see [`pressure`].
+    pub pressure: i32,
 }
 
-impl Column {
-    /// Penetration in quanta, 0 where the head does not reach into the paint.
-    #[inline(always)]
-    #[must_use]
-    pub fn depth(&self) -> u32 {
-        self.penetration.max(0) as u32
-    }
+/// Pressure under a head that has penetrated `penetration` quanta, in quanta of paint: 0 where it
+/// does not reach into the paint, [`NO_CONTACT`] where there is no contact.
+#[inline(always)]
+#[must_use]
+pub fn pressure(motion: &MotionConstants, penetration: i32) -> i32 {
+    let pressed = share_of_65536(penetration.max(0) as u32, motion.squeeze_share) as i32;
+    if penetration == NO_CONTACT { NO_CONTACT } else { pressed }
 }
 
 /// Paint that flows from the column `here` to `next` in one sub-step, in quanta; negative if it
@@ -77,18 +77,22 @@ impl Column {
 #[must_use]
 pub fn flow(motion: &MotionConstants, before: i32, here: Column, next: Column, beyond: i32) -> i32 {
     let drop = here.top - next.top;
-    let head = share_of_65536(here.depth(), motion.squeeze_share) as i32
-        - share_of_65536(next.depth(), motion.squeeze_share) as i32;
-    let pressed = here.penetration.max(next.penetration) != NO_CONTACT;
+    let pressed = here.pressure.max(next.pressure) != NO_CONTACT;
+    let head = here.pressure.max(0) - next.pressure.max(0);
     // Halves, as the sum may exceed 31 bits.
     let driven = if pressed { (drop >> 1) + (head >> 1) } else { 0 };
-    let slides = drop.unsigned_abs().saturating_sub(motion.yield_quanta) as i32 / 8;
+    let driven_flow = share_of_65536(driven.unsigned_abs(), motion.push_share) as i32;
+    let slides = (drop.unsigned_abs().saturating_sub(motion.yield_quanta) / 8) as i32;
     let crest = ((here.top - before) >> 1) + (drop >> 1);
     let pit = (drop >> 1) + ((beyond - next.top) >> 1);
     let kink = if (crest ^ pit) < 0 { 0 } else { crest.unsigned_abs().min(pit.unsigned_abs()) };
     let level = share_of_65536(kink, motion.levelling_share) as i32;
-    let driven_flow = share_of_65536(driven.unsigned_abs(), motion.push_share) as i32;
-    driven_flow * driven.signum() + slides * drop.signum() + level * crest.signum()
+    with_sign_of(driven, driven_flow) + with_sign_of(drop, slides) + with_sign_of(crest, level)
+}
+
+#[inline(always)]
+fn with_sign_of(sign: i32, size: i32) -> i32 {
+    if sign < 0 { -size } else { size }
 }
 
 /// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most
@@ -98,9 +102,10 @@ pub fn flow(motion: &MotionConstants, before: i32, here: Column, next: Column, b
 #[must_use]
 pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
     let (forward, back) = (after.max(0), (-before).max(0));
-    let flow = if forward >= back { forward } else { -back };
-    let cells = (ratio_of_65536(flow.unsigned_abs(), volume) / 4).min(FASTEST_FLOW) as i32;
-    (head + cells * flow.signum()).clamp(-CELL_A_SUB_STEP, CELL_A_SUB_STEP)
+    let flow = (forward.max(back) as u32).min(volume);
+    let cells = (ratio_of_65536(flow, volume) / 4).min(FASTEST_FLOW) as i32;
+    let flowing = if forward >= back { cells } else { -cells };
+    (head + flowing).clamp(-CELL_A_SUB_STEP, CELL_A_SUB_STEP)
 }
 
 /// Velocity in 1/16384 cell a sub-step, along x and y, that a head gives to a column of `volume`
@@ -109,14 +114,11 @@ pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
 #[must_use]
 pub fn dragged(rates: &ExchangeRates, touch: Touch, penetration: i32, volume: u32) -> (i32, i32) {
     let depth = (penetration.max(0) as u32).saturating_sub(rates.film);
-    if depth == 0 {
-        return (0, 0);
-    }
-    let immersed = if depth >= volume { 256 } else { ratio_of_65536(depth, volume) >> 8 };
+    let part = ratio_of_65536(depth.min(volume), volume) >> 8;
+    let immersed = if depth < volume { part } else { 256 };
     let share = (immersed * rates.drag) as i32;
     let (x, y) = touch.velocity();
-    let of = |velocity: i32| velocity * share / 1024;
-    (of(x), of(y))
+    (x * share / 1024, y * share / 1024)
 }
 
 /// Removes the components of `velocity` that would move a column above
@@ -156,7 +158,7 @@ mod tests {
 
     /// Flow between the middle two of four tops, away from the head.
     fn alone([before, here, next, beyond]: [i32; 4], motion: &MotionConstants) -> i32 {
-        let column = |top: i32| Column { top, penetration: NO_CONTACT };
+        let column = |top: i32| Column { top, pressure: NO_CONTACT };
         flow(motion, before, column(here), column(next), beyond)
     }
 
@@ -168,7 +170,8 @@ mod tests {
             let tops: [i32; 4] = std::array::from_fn(|_| random.random_range(0..8 * CELL));
             let mut column = |top: i32| {
                 let penetration = random.random_range(-CELL..top.max(1));
-                Column { top, penetration: [penetration, NO_CONTACT][random.random_range(0..2)] }
+                let penetration = [penetration, NO_CONTACT][random.random_range(0..2)];
+                Column { top, pressure: pressure(&motion, penetration) }
             };
             let (here, next) = (column(tops[1]), column(tops[2]));
             let there = flow(&motion, tops[0], here, next, tops[3]);
@@ -200,7 +203,7 @@ mod tests {
     #[test]
     fn under_the_head_paint_flows_below_its_yield_to_where_the_head_is_less_deep() {
         let motion = MotionConstants::new(0.1, 1.0);
-        let column = |penetration: i32| Column { top: CELL, penetration };
+        let column = |pressure: i32| Column { top: CELL, pressure };
         let out = flow(&motion, CELL, column(CELL / 2), column(0), CELL);
         assert!(out > 0, "{out}");
         assert_eq!(flow(&motion, CELL, column(CELL / 2), column(CELL / 2), CELL), 0);

@@ -58,17 +58,15 @@ fn flow(
 fn velocity(head: i32, volume_quanta: u32, before: i32, after: i32) -> i32 {
     let forward = max(after, 0);
     let back = max(-before, 0);
-    let flow = select(-back, forward, forward >= back);
-    let cells = min(ratio_of_65536(u32(abs(flow)), volume_quanta) / 4u, FASTEST_FLOW);
-    return clamp(head + bitcast<i32>(cells) * sign(flow), -CELL_A_SUB_STEP, CELL_A_SUB_STEP);
+    let flow = min(u32(max(forward, back)), volume_quanta);
+    let cells = bitcast<i32>(min(ratio_of_65536(flow, volume_quanta) / 4u, FASTEST_FLOW));
+    let flowing = select(-cells, cells, forward >= back);
+    return clamp(head + flowing, -CELL_A_SUB_STEP, CELL_A_SUB_STEP);
 }
 
 fn dragged(rates: ExchangeRates, touch: Touch, penetration: i32, volume_quanta: u32) -> vec2<i32> {
     let below = u32(max(penetration, 0));
     let depth = select(0u, below - rates.film, below > rates.film);
-    if depth == 0u {
-        return vec2(0);
-    }
     var immersed = 256u;
     if depth < volume_quanta {
         immersed = ratio_of_65536(depth, volume_quanta) >> 8u;

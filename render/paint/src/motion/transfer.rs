@@ -7,7 +7,7 @@
 //! counts. Where several cells of the canvas lie under one cell of the head, each may take an
 //! equal share of the head's paint, or of the room that it has below [`MAX_COLUMN`].
 
-use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_256, share_of_65536};
+use crate::amount::{MAX_COLUMN, quotient, ratio_of_65536, share_of_256, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};
 use graphics::tile::Rect;
 
@@ -23,8 +23,8 @@ pub struct Exchange {
 
 /// Computes the transfer of one sub-step.
 ///
-/// `penetration` and `coat` are those at the start of the sub-step, in quanta; the volumes are
-/// those of the two cells now, in quanta. `leaving` is the velocity of the head over the edge of
+/// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are those
+/// at the start of the sub-step, in quanta; the volumes are those of the two cells now, in quanta. `leaving` is the velocity of the head over the edge of
 /// the canvas, in 1/256 cell: paint that would leave with half of it goes onto the head.
 #[inline(always)]
 #[must_use]
@@ -37,15 +37,18 @@ pub fn exchange(
     brush_volume: u32,
     leaving: u32,
 ) -> Exchange {
+    // Where there is no contact, no part of the coat touches.
+    let penetration = penetration.max(-(coat as i32));
     let canvas = canvas_volume.min(penetration.max(0) as u32);
     let sharers = touch.sharers().max(1);
-    let (brush, room) = (brush_volume / sharers, MAX_COLUMN.saturating_sub(brush_volume) / sharers);
+    let brush = quotient(brush_volume, sharers);
+    let room = quotient(MAX_COLUMN.saturating_sub(brush_volume), sharers);
     let missing = coat as i32 - penetration;
     let laid = share_of_65536(missing.max(0) as u32, rates.deposit);
     let taken = share_of_65536((-missing).max(0) as u32, rates.pick_up);
     let mixed = share_of_65536(canvas.min(brush), rates.mixing);
     // Where the hair is above the paint, only a part of the coat touches.
-    let near = (coat as i32 + penetration.min(0)) as u32 / (coat >> 8).max(1);
+    let near = quotient((coat as i32 + penetration.min(0)) as u32, (coat >> 8).max(1));
     let touching = if penetration < 0 { near.min(256) } else { 256 };
     let weight = share_of_256(touch.transfer_weight(), touching);
     let down = share_of_256(laid + mixed, weight).min(brush / 2);

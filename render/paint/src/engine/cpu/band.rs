@@ -3,28 +3,14 @@
 use std::ops::Range;
 
 use super::columns::{Row, Rows};
+use super::exchanges::Exchanges;
 use super::head_paint::HeadPaint;
-use super::penetration::PenetrationMap;
-use crate::contact::{Contact, Touch};
+use super::step::SubStep;
+use super::velocities::Velocities;
 use crate::layer::{Cell, SLOTS};
-use crate::motion::MotionConstants;
-use crate::motion::advect::{mobile_share, outflow};
-use crate::motion::press::{NO_CONTACT, coat, dragged, velocity};
-use crate::motion::transfer::{Exchange, exchange, leaving};
+use crate::motion::advect::outflow;
+use crate::motion::transfer::Exchange;
 use graphics::tile::Rect;
-
-/// Inputs of a sub-step that all bands share.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SubStep<'a> {
-    pub(super) motion: &'a MotionConstants,
-    pub(super) contact: &'a Contact,
-    pub(super) bounds: Rect,
-    /// The contact's rectangle grown by two cells.
-    pub(super) reach: Rect,
-    pub(super) penetration: &'a PenetrationMap,
-    /// Paint on the head at the start of the sub-step.
-    pub(super) head: &'a HeadPaint,
-}
 
 /// Rows of the canvas and the buffers of the thread that works on them. Buffers are
 /// all zero between sub-steps and are reused, so that no sub-step allocates.
@@ -40,11 +26,8 @@ pub(super) struct Band {
     gains: Vec<Cell>,
     /// Indices of the head's cells that gain or lose paint, possibly repeated.
     changed: Vec<u32>,
-    touches: Vec<Touch>,
-    /// Flows over the left sides of the cells of one row and over the right side of its last.
-    in_x: Vec<i32>,
-    /// Flows over the upper and the lower sides of the cells of one row.
-    in_y: [Vec<i32>; 2],
+    velocities: Velocities,
+    exchanges: Exchanges,
 }
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
@@ -64,37 +47,17 @@ impl Band {
     /// [`Band::add_inflow_and_transfer`].
     #[inline(always)]
     pub(super) fn advect(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
-        let moving = step.contact.rect.grown(1, step.bounds);
+        let moving = step.moving();
         let first = self.rows.start.max(moving.y);
         let end = self.rows.end.min(moving.y + moving.height);
-        let Self { in_x, in_y: [above, below], .. } = self;
-        in_x.resize(moving.width + 1, 0);
-        above.resize(moving.width, 0);
-        below.resize(moving.width, 0);
         if first < end {
-            step.penetration.flows_in_y(step.motion, (moving.x, first), above);
+            self.velocities.begin(step, first);
         }
         for y in first..end {
-            self.gather_touches(step.contact, moving, y);
-            let [_, below] = &mut self.in_y;
-            step.penetration.flows_in_x(step.motion, (moving.x, y), &mut self.in_x);
-            step.penetration.flows_in_y(step.motion, (moving.x, y + 1), below);
-            self.scatter(step, rows.row(y, moving.x, moving.width), (moving.x, y));
-            self.in_y.swap(0, 1);
+            let row = rows.row(y, moving.x, moving.width);
+            self.velocities.of_row(step, row.volume, y);
+            self.scatter(step, row, (moving.x, y));
         }
-    }
-
-    /// Copies the touches of row `y`; cells beyond the contact get [`Touch::NONE`].
-    #[inline(always)]
-    fn gather_touches(&mut self, contact: &Contact, moving: Rect, y: usize) {
-        let rect = contact.rect;
-        self.touches.clear();
-        if (rect.y..rect.y + rect.height).contains(&y) {
-            self.touches.resize(rect.x - moving.x, Touch::NONE);
-            let start = (y - rect.y) * rect.width;
-            self.touches.extend_from_slice(&contact.touches[start..][..rect.width]);
-        }
-        self.touches.resize(moving.width, Touch::NONE);
     }
 
     /// Moves the columns of `row`, whose first cell is at `(x, y)`, by their velocities.
@@ -103,41 +66,26 @@ impl Band {
         let stride = step.reach.width;
         let inflow_row = y + 1 - self.rows.start;
         let here = inflow_row * stride + x - step.reach.x;
-        let depths = step.penetration.row(y, x, row.volume.len());
+        let Velocities { x, y, mobile, .. } = &self.velocities;
         let mut flows = false;
-        for (i, &depth) in depths.iter().enumerate() {
-            let (left, right) = (self.in_x[i], self.in_x[i + 1]);
-            let (above, below) = (self.in_y[0][i], self.in_y[1][i]);
-            if (depth <= 0) & (left | right | above | below == 0) {
-                continue;
-            }
-            let mobile = mobile_share(step.motion, row.volume[i]);
-            if mobile == 0 {
-                continue;
-            }
-            let head = dragged(&step.contact.rates, self.touches[i], depth, row.volume[i]);
-            let speed = (
-                velocity(head.0, row.volume[i], left, right),
-                velocity(head.1, row.volume[i], above, below),
-            );
-            let speed = on_canvas(speed, (x + i, y), step.bounds);
-            let (x_speed, y_speed) = step.penetration.avoid_crowded((x + i, y), speed);
-            if x_speed | y_speed == 0 {
+        for (i, ((&x, &y), &mobile)) in x.iter().zip(y).zip(mobile).enumerate() {
+            if (x | y == 0) | (mobile == 0) {
                 continue;
             }
             flows = true;
             let cell = row.cell(i);
-            let out = outflow(&cell, mobile, (x_speed.unsigned_abs(), y_speed.unsigned_abs()));
-            row.put(i, cell.minus(&out.in_x).minus(&out.in_y).minus(&out.diagonal));
-            let to_y = match y_speed.signum() {
+            let out = outflow(mobile, (x.unsigned_abs(), y.unsigned_abs()));
+            let in_x = cell.share_of_65536(out.in_x);
+            let in_y = cell.share_of_65536(out.in_y);
+            let diagonal = cell.share_of_65536(out.diagonal);
+            row.put(i, cell.minus(&in_x).minus(&in_y).minus(&diagonal));
+            let to_y = match y.signum() {
                 0 => here + i,
                 1 => here + i + stride,
                 _ => here + i - stride,
             };
-            let in_x = |at: usize| at.wrapping_add_signed(x_speed.signum() as isize);
-            for (at, part) in
-                [(in_x(here + i), out.in_x), (to_y, out.in_y), (in_x(to_y), out.diagonal)]
-            {
+            let aside = |at: usize| at.wrapping_add_signed(x.signum() as isize);
+            for (at, part) in [(aside(here + i), in_x), (to_y, in_y), (aside(to_y), diagonal)] {
                 self.inflow[at] = self.inflow[at].plus(&part);
             }
         }
@@ -188,29 +136,14 @@ impl Band {
     #[inline(always)]
     fn transfer(&mut self, step: &SubStep<'_>, mut row: Row<'_>, y: usize) {
         let rect = step.contact.rect;
+        self.exchanges.of_row(step, row.volume, y);
         let touches = &step.contact.touches[(y - rect.y) * rect.width..][..rect.width];
-        let penetrations = step.penetration.row(y, rect.x, rect.width);
-        for (i, (&touch, &penetration)) in touches.iter().zip(penetrations).enumerate() {
-            if penetration == NO_CONTACT {
-                continue;
-            }
-            let at = touch.brush_cell as usize;
-            let (canvas_volume, brush_volume) = (row.volume[i], step.head.cells.volume()[at]);
-            if canvas_volume | brush_volume == 0 {
-                continue;
-            }
-            let Exchange { down, up } = exchange(
-                &step.contact.rates,
-                touch,
-                penetration,
-                coat(&step.contact.rates, touch, step.head.means[at]),
-                canvas_volume,
-                brush_volume,
-                leaving(touch, (rect.x + i, y), step.bounds),
-            );
+        for (i, (touch, &exchange)) in touches.iter().zip(&self.exchanges.found).enumerate() {
+            let Exchange { down, up } = exchange;
             if down | up == 0 {
                 continue;
             }
+            let at = touch.brush_cell as usize;
             let laid = step.head.cells.cell(at).share_of_65536(down);
             let canvas = row.cell(i);
             let taken = canvas.share_of_65536(up);
@@ -233,14 +166,4 @@ impl Band {
         }
         self.changed.clear();
     }
-}
-
-/// `velocity` without the components that would carry paint off the canvas.
-#[inline(always)]
-fn on_canvas((right, down): (i32, i32), (x, y): (usize, usize), bounds: Rect) -> (i32, i32) {
-    let right = if x == 0 { right.max(0) } else { right };
-    let right = if x + 1 == bounds.width { right.min(0) } else { right };
-    let down = if y == 0 { down.max(0) } else { down };
-    let down = if y + 1 == bounds.height { down.min(0) } else { down };
-    (right, down)
 }

@@ -11,6 +11,12 @@ mod head_paint;
 
 mod penetration;
 
+mod step;
+
+mod velocities;
+
+mod exchanges;
+
 mod band;
 
 mod wick;

@@ -6,7 +6,7 @@ use super::head_paint::HeadPaint;
 use crate::contact::{Contact, Touch};
 use crate::motion::MotionConstants;
 use crate::motion::press::{
-    CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration,
+    CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration, pressure,
 };
 use graphics::field::Field;
 use graphics::tile::Rect;
@@ -15,13 +15,16 @@ use graphics::tile::Rect;
 /// need no bounds checks.
 const RIM: usize = 2;
 
-/// Tops and penetrations in quanta over the reach of a contact and a rim around it, where
-/// there is no contact.
+/// Tops, penetrations and pressures in quanta over the reach of a contact and a rim around it,
+/// where there is no contact.
 #[derive(Debug, Default)]
 pub(super) struct PenetrationMap {
     reach: Rect,
     tops: Vec<i32>,
     penetrations: Vec<i32>,
+    pressures: Vec<i32>,
+    /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
+    coats: Vec<u32>,
     /// Whether each column is crowded, with the same rim; empty if none is, which is
     /// nearly always so.
     crowded: Vec<bool>,
@@ -33,6 +36,7 @@ impl PenetrationMap {
     #[inline(always)]
     pub(super) fn measure(
         &mut self,
+        motion: &MotionConstants,
         contact: &Contact,
         reach: Rect,
         floor: &Field<i32>,
@@ -46,6 +50,9 @@ impl PenetrationMap {
         self.tops.resize(self.tops.len().max(cells), 0);
         self.penetrations.clear();
         self.penetrations.resize(cells, NO_CONTACT);
+        self.pressures.clear();
+        self.pressures.resize(cells, NO_CONTACT);
+        self.coats.resize(self.coats.len().max(cells), 0);
         for y in reach.y..reach.y + reach.height {
             let volume = &wet.volume()[y * floor.width() + reach.x..][..reach.width];
             let floor = floor.row(y, reach.x, reach.width);
@@ -63,25 +70,37 @@ impl PenetrationMap {
             self.tops.copy_within(first..first + row, first - i * row);
             self.tops.copy_within(last..last + row, last + i * row);
         }
-        self.press(contact, floor, wet, head);
+        self.press(motion, contact, floor, wet, head);
     }
 
     #[inline(always)]
-    fn press(&mut self, contact: &Contact, floor: &Field<i32>, wet: &Columns, head: &HeadPaint) {
+    fn press(
+        &mut self,
+        motion: &MotionConstants,
+        contact: &Contact,
+        floor: &Field<i32>,
+        wet: &Columns,
+        head: &HeadPaint,
+    ) {
         let rect = contact.rect;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
             let volume = &wet.volume()[y * floor.width() + rect.x..][..rect.width];
             let floor = floor.row(y, rect.x, rect.width);
             let start = self.start(y) + rect.x - self.reach.x;
             let found = &mut self.penetrations[start..][..rect.width];
-            for (((here, &touch), &floor), &volume) in
-                found.iter_mut().zip(touches).zip(floor).zip(volume)
+            let coats = &mut self.coats[start..][..rect.width];
+            for ((((here, covered), &touch), &floor), &volume) in
+                found.iter_mut().zip(coats).zip(touches).zip(floor).zip(volume)
             {
                 if touch.height == Touch::NONE.height {
                     continue;
                 }
-                let coat = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
-                *here = penetration(&contact.rates, touch, floor, volume, coat);
+                *covered = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
+                *here = penetration(&contact.rates, touch, floor, volume, *covered);
+            }
+            let pressures = &mut self.pressures[start..][..rect.width];
+            for (found, &penetration) in pressures.iter_mut().zip(&*found) {
+                *found = pressure(motion, penetration);
             }
         }
     }
@@ -104,12 +123,16 @@ impl PenetrationMap {
         }
     }
 
-    /// Step 2: applies [`avoid_crowded_columns`] to the velocity of a cell.
+    /// Whether any column of the reach is crowded.
+    #[inline(always)]
+    pub(super) fn has_crowded(&self) -> bool {
+        !self.crowded.is_empty()
+    }
+
+    /// Step 2: applies [`avoid_crowded_columns`] to the velocity of a cell. Some column is
+    /// crowded.
     #[inline(always)]
     pub(super) fn avoid_crowded(&self, (x, y): (usize, usize), velocity: (i32, i32)) -> (i32, i32) {
-        if self.crowded.is_empty() {
-            return velocity;
-        }
         let row = self.row_length() as isize;
         let place = self.start(y) + x - self.reach.x;
         avoid_crowded_columns(velocity, |right, down| {
@@ -131,6 +154,12 @@ impl PenetrationMap {
     #[inline(always)]
     pub(super) fn row(&self, y: usize, x: usize, width: usize) -> &[i32] {
         &self.penetrations[self.start(y) + x - self.reach.x..][..width]
+    }
+
+    /// Coat of `width` cells of row `y` from `x` on, in quanta, where they are in contact.
+    #[inline(always)]
+    pub(super) fn coats(&self, y: usize, x: usize, width: usize) -> &[u32] {
+        &self.coats[self.start(y) + x - self.reach.x..][..width]
     }
 
     /// Step 2: flows over the left sides of the cells of row `y` from `x` on, one for each of
@@ -162,15 +191,15 @@ impl PenetrationMap {
     fn flows(&self, motion: &MotionConstants, place: usize, stride: usize, found: &mut [i32]) {
         let count = found.len();
         let tops = |first: usize| &self.tops[first..][..count];
-        let depths = |first: usize| &self.penetrations[first..][..count];
-        let before = tops(place - 2 * stride);
-        let (here, next) = (tops(place - stride), tops(place));
+        let pressures = |first: usize| &self.pressures[first..][..count];
+        let before = tops(place - 2 * stride).iter();
+        let here = tops(place - stride).iter().zip(pressures(place - stride));
+        let next = tops(place).iter().zip(pressures(place));
         let beyond = tops(place + stride);
-        let (pressed_here, pressed_next) = (depths(place - stride), depths(place));
-        for (i, found) in found.iter_mut().enumerate() {
-            let here = Column { top: here[i], penetration: pressed_here[i] };
-            let next = Column { top: next[i], penetration: pressed_next[i] };
-            *found = flow(motion, before[i], here, next, beyond[i]);
+        let columns = before.zip(here).zip(next).zip(beyond);
+        for (found, (((&before, here), next), &beyond)) in found.iter_mut().zip(columns) {
+            let column = |(&top, &pressure): (&i32, &i32)| Column { top, pressure };
+            *found = flow(motion, before, column(here), column(next), beyond);
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::motion::MotionConstants;
 use crate::motion::advect::{mobile_share, outflow};
 use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, dragged, flow, penetration,
-    velocity,
+    pressure, velocity,
 };
 use crate::motion::transfer::{Exchange, exchange, leaving};
 use graphics::field::Field;
@@ -53,7 +53,8 @@ pub(super) fn sub_step(
         let y = y.clamp(reach.y as i64, (reach.y + reach.height) as i64 - 1) as usize;
         floor[(x, y)] + start.cell(y * width + x).volume() as i32
     };
-    let column = |x: i64, y: i64| Column { top: top(x, y), penetration: pressed(x, y) };
+    let column =
+        |x: i64, y: i64| Column { top: top(x, y), pressure: pressure(motion, pressed(x, y)) };
     // Flow from the cell at `(x, y)` to that one step on.
     let flow_from = |x: i64, y: i64, (right, down): (i64, i64)| -> i32 {
         let next = column(x + right, y + down);
@@ -86,11 +87,12 @@ pub(super) fn sub_step(
                 start.cell(at).volume() > CROWDED_VOLUME
             });
             let mobile = mobile_share(motion, volume);
-            let out = outflow(&cell, mobile, (right.unsigned_abs(), down.unsigned_abs()));
+            let out = outflow(mobile, (right.unsigned_abs(), down.unsigned_abs()));
             let (in_x, in_y) = (x + i64::from(right.signum()), y + i64::from(down.signum()));
-            for (to_x, to_y, part) in
+            for (to_x, to_y, share) in
                 [(in_x, y, out.in_x), (x, in_y, out.in_y), (in_x, in_y, out.diagonal)]
             {
+                let part = cell.share_of_65536(share);
                 change(wet, x, y, &|cell| cell.minus(&part));
                 change(wet, to_x, to_y, &|cell| cell.plus(&part));
             }

@@ -2,10 +2,11 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::band::{Band, SubStep};
+use super::band::Band;
 use super::columns::{Columns, Rows};
 use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
+use super::step::SubStep;
 use super::wick::Wick;
 use crate::contact::Contact;
 use crate::motion::MotionConstants;
@@ -55,7 +56,8 @@ impl SubStepRunner {
         let mut all = || {
             for contact in contacts {
                 if contact.wicking > 0 {
-                    self.wick.apply(contact.wicking, head);
+                    let (wick, wicking) = (&mut self.wick, contact.wicking);
+                    arch.dispatch(ApplyWick { wick, wicking, head });
                 }
                 if !contact.rect.is_empty() {
                     self.sub_step(arch, motion, contact, floor, wet, head);
@@ -89,7 +91,7 @@ impl SubStepRunner {
             band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
         }
         let penetration = &mut self.penetration;
-        arch.dispatch(MeasurePenetration { penetration, contact, reach, floor, wet, head });
+        arch.dispatch(MeasurePenetration { penetration, motion, contact, reach, floor, wet, head });
         let step = SubStep { motion, contact, bounds, reach, penetration, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
@@ -131,6 +133,7 @@ fn on_each_band(
 
 struct MeasurePenetration<'a> {
     penetration: &'a mut PenetrationMap,
+    motion: &'a MotionConstants,
     contact: &'a Contact,
     reach: Rect,
     floor: &'a Field<i32>,
@@ -155,13 +158,28 @@ struct AddBrushGains<'a> {
     head: &'a mut HeadPaint,
 }
 
+struct ApplyWick<'a> {
+    wick: &'a mut Wick,
+    wicking: u32,
+    head: &'a mut HeadPaint,
+}
+
+impl WithSimd for ApplyWick<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.wick.apply(self.wicking, self.head);
+    }
+}
+
 impl WithSimd for MeasurePenetration<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { penetration, contact, reach, floor, wet, head } = self;
-        penetration.measure(contact, reach, floor, wet, head);
+        let Self { penetration, motion, contact, reach, floor, wet, head } = self;
+        penetration.measure(motion, contact, reach, floor, wet, head);
     }
 }
 

@@ -29,6 +29,7 @@ pub(super) struct Wick {
 impl Wick {
     /// Moves paint within each column of `head`; see [`crate::motion::wick`]. `wicking` is the
     /// share of each surplus that moves, in parts of 65536.
+    #[inline(always)]
     pub(super) fn apply(&mut self, wicking: u32, head: &mut HeadPaint) {
         let HeadPaint { cells: brush, means } = head;
         let width = brush.width();
@@ -65,27 +66,31 @@ impl Wick {
         for hair in &mut self.hairs {
             hair.flowing = if hair.lacks > 0 { flowing(wicking, hair.lacks) } else { 0 };
         }
-        for at in 0..width * rows {
-            let hair = &mut self.hairs[hair_of(at % width, width)];
-            let share = given_share(brush.volume()[at], hair.mean, hair.flowing);
-            if share > 0 {
-                let cell = brush.cell(at);
-                let given = cell.share_of_65536(share);
-                hair.pot = hair.pot.plus(&given);
-                brush.set_cell(at, cell.minus(&given));
+        for row in (0..width * rows).step_by(width) {
+            for column in 0..width {
+                let (at, hair) = (row + column, &mut self.hairs[hair_of(column, width)]);
+                let share = given_share(brush.volume()[at], hair.mean, hair.flowing);
+                if share > 0 {
+                    let cell = brush.cell(at);
+                    let given = cell.share_of_65536(share);
+                    hair.pot = hair.pot.plus(&given);
+                    brush.set_cell(at, cell.minus(&given));
+                }
             }
         }
         for hair in &mut self.hairs {
             hair.rest = hair.pot;
         }
-        for at in 0..width * rows {
-            let hair = &mut self.hairs[hair_of(at % width, width)];
-            let lack = lack(brush.volume()[at], hair.mean);
-            if lack > 0 && hair.lacks > 0 {
-                let last = at == hair.last;
-                let part = if last { hair.rest } else { dealt(&hair.pot, lack, hair.lacks) };
-                hair.rest = hair.rest.minus(&part);
-                brush.set_cell(at, brush.cell(at).plus(&part));
+        for row in (0..width * rows).step_by(width) {
+            for column in 0..width {
+                let (at, hair) = (row + column, &mut self.hairs[hair_of(column, width)]);
+                let lack = lack(brush.volume()[at], hair.mean);
+                if lack > 0 && hair.lacks > 0 {
+                    let last = at == hair.last;
+                    let part = if last { hair.rest } else { dealt(&hair.pot, lack, hair.lacks) };
+                    hair.rest = hair.rest.minus(&part);
+                    brush.set_cell(at, brush.cell(at).plus(&part));
+                }
             }
         }
     }

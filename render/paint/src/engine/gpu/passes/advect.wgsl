@@ -22,8 +22,11 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     var cell = cell_at(id.xy);
     let own = flow_in[id.y * width + id.x];
     if own.x != 0u {
-        let out = outflow(cell, own.y, vec2<u32>(abs(halves(own.x))));
-        cell = minus(cell, plus(out.in_x, plus(out.in_y, out.diagonal)));
+        let start = cell;
+        let out = outflow(own.y, vec2<u32>(abs(halves(own.x))));
+        cell = minus(cell, cell_share_of_65536(start, out.in_x));
+        cell = minus(cell, cell_share_of_65536(start, out.in_y));
+        cell = minus(cell, cell_share_of_65536(start, out.diagonal));
     }
     for (var i = 0; i < 9; i++) {
         let direction = vec2(i % 3, i / 3) - vec2(1);
@@ -40,14 +43,14 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         if any((direction != vec2(0)) & (sign(speed) != direction)) {
             continue;
         }
-        let out = outflow(cell_at(source), flow_in[at].y, vec2<u32>(abs(speed)));
+        let out = outflow(flow_in[at].y, vec2<u32>(abs(speed)));
+        var share = out.diagonal;
         if direction.y == 0 {
-            cell = plus(cell, out.in_x);
+            share = out.in_x;
         } else if direction.x == 0 {
-            cell = plus(cell, out.in_y);
-        } else {
-            cell = plus(cell, out.diagonal);
+            share = out.in_y;
         }
+        cell = plus(cell, cell_share_of_65536(cell_at(source), share));
     }
     moved[id.y * width + id.x] = cell;
 }
