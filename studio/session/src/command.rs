@@ -75,8 +75,8 @@ pub enum Command {
     PenUp,
     /// Applies an action. An open stroke is finished first.
     Apply(Action),
-    /// Applies an action of light, gloss or opacity while its slider is dragged. All adjustments
-    /// until [`Command::EndAdjustment`] become one action of the history.
+    /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
+    /// adjustments until [`Command::EndAdjustment`] become one action of the history.
     Adjust(Action),
     /// Ends an adjustment: the slider was released.
     EndAdjustment,

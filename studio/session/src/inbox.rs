@@ -140,6 +140,7 @@ fn is_outdated_by(waiting: &Command, new: &Command) -> bool {
     match (waiting, new) {
         (Command::Adjust(Action::Light(_)), Command::Adjust(Action::Light(_)))
         | (Command::Adjust(Action::Gloss { .. }), Command::Adjust(Action::Gloss { .. }))
+        | (Command::Adjust(Action::Stiffness { .. }), Command::Adjust(Action::Stiffness { .. }))
         | (Command::SetSecondLight(_), Command::SetSecondLight(_)) => true,
         (
             Command::Adjust(Action::Opacity { layer, .. }),
@@ -176,12 +177,15 @@ mod tests {
     fn only_the_last_value_of_a_drag_is_kept() {
         let opacity =
             |layer, value| Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value });
+        let stiffness = |value| Command::Adjust(Action::Stiffness { value });
         let mut inbox = received(vec![
             Command::Adjust(light(1.0)),
             Command::Adjust(light(2.0)),
             opacity(0, 0.5),
             opacity(0, 0.6),
             opacity(1, 0.7),
+            stiffness(0.8),
+            stiffness(0.9),
             Command::EndAdjustment,
             Command::Apply(light(3.0)),
             Command::Apply(light(4.0)),
@@ -192,6 +196,7 @@ mod tests {
             Command::Adjust(light(2.0)),
             opacity(0, 0.6),
             opacity(1, 0.7),
+            stiffness(0.9),
             Command::EndAdjustment,
             Command::Apply(light(3.0)),
             Command::Apply(light(4.0)),

@@ -82,7 +82,7 @@ pub struct PaintingState {
     pub light: Arc<Light>,
     /// Second light of the split view, if it is on.
     pub second_lighting: Option<Lighting>,
-    /// Scattering per mm and gloss of the binder.
+    /// Scattering per mm, stiffness and gloss of the binder.
     pub medium: Medium,
     /// Reflectance of the ground on the grid of the library.
     pub ground_reflectance: Arc<Vec<f64>>,

@@ -1,6 +1,10 @@
 //! A value that a control shows before the worker has confirmed it.
 
-use eframe::egui::Response;
+use eframe::egui::{Response, Ui};
+use render::paint::strokes::Action;
+
+use super::context::PanelContext;
+use session::Command;
 
 /// Time after which an unconfirmed value is dropped, in seconds.
 const TIMEOUT_SECONDS: f64 = 3.0;
@@ -41,7 +45,7 @@ impl Edit {
 }
 
 /// A requested value, kept until the worker reports it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct PendingValue<T> {
     value: Option<T>,
     released_at: Option<f64>,
@@ -75,6 +79,31 @@ impl<T: Clone> PendingValue<T> {
     /// Stores a value set or released at time `now` in seconds.
     pub(super) fn set(&mut self, value: T, now: f64) {
         *self = Self { value: Some(value), released_at: Some(now) };
+    }
+
+    /// Queues `action` for a change of the control to `value`, and stores `value`. All actions
+    /// of one drag become one action of the history.
+    pub(super) fn request(
+        &mut self,
+        ui: &Ui,
+        cx: &mut PanelContext<'_>,
+        edit: Edit,
+        action: Action,
+        value: T,
+    ) {
+        match edit {
+            Edit::None => return,
+            Edit::Dragged => {
+                cx.command(Command::Adjust(action));
+                return self.drag(value);
+            }
+            Edit::Released => {
+                cx.command(Command::Adjust(action));
+                cx.command(Command::EndAdjustment);
+            }
+            Edit::Set => cx.command(Command::Apply(action)),
+        }
+        self.set(value, ui.input(|input| input.time));
     }
 }
 

@@ -36,6 +36,31 @@ fn all_or_a_share_dries() {
 }
 
 #[test]
+fn dragging_the_stiffness_adjusts_and_ends_once() {
+    let mut harness = layers();
+    let slider = harness.get_by_role_and_label(Role::Slider, "Stiffness");
+    assert_eq!(slider.accesskit_node().numeric_value(), Some(0.7), "paint from the tube");
+    let rail = slider.rect();
+    harness.hover_at(rail.center());
+    harness.drag_at(rail.center());
+    harness.run();
+    harness.hover_at(rail.left_center() - vec2(20.0, 0.0));
+    harness.run();
+    harness.drop_at(rail.left_center() - vec2(20.0, 0.0));
+    harness.run();
+    let stiffness = |value| Request::Worker(Command::Adjust(Action::Stiffness { value }));
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let [.., last, end] = &requests[..] else { panic!("it adjusts and ends: {requests:?}") };
+    assert_eq!(format!("{last:?}"), format!("{:?}", stiffness(0.0)));
+    assert!(matches!(end, Request::Worker(Command::EndAdjustment)), "{end:?}");
+    let slider = harness.get_by_role_and_label(Role::Slider, "Stiffness");
+    assert_eq!(slider.accesskit_node().numeric_value(), Some(0.0), "shown before it is reported");
+    slider.set_value_accesskit(0.4);
+    harness.run();
+    assert_requests(&mut harness, &[act(Action::Stiffness { value: 0.4 })]);
+}
+
+#[test]
 fn layers_are_listed_from_the_top_with_their_figures() {
     let harness = layers();
     let top = |label: &str| harness.get_by_label(label).rect().top();

@@ -166,6 +166,32 @@ fn ambient_and_relief_sliders_adjust_and_end() {
 }
 
 #[test]
+fn dragging_the_adaptation_adjusts_both_lights_and_ends() {
+    let mut painting = made_painting();
+    painting.lighting.adaptation = 0.5;
+    let second = Lighting { illuminant: "A".to_owned(), ..painting.lighting.clone() };
+    painting.second_lighting = Some(second.clone());
+    let mut stage = stage(painting);
+    let slider = stage.harness.get_by_role_and_label(eframe::egui::Role::Slider, "Adaptation");
+    assert_eq!(slider.accesskit_node().numeric_value(), Some(0.5), "as reported");
+    let rect = slider.rect();
+    stage.drag(&[rect.center(), rect.left_center() - vec2(30.0, 0.0)]);
+    let commands = stage.commands();
+    let [
+        ..,
+        Command::Adjust(Action::Light(last)),
+        Command::EndAdjustment,
+        Command::SetSecondLight(Some(to_second)),
+    ] = &commands[..]
+    else {
+        panic!("both lights change, the first as one action: {commands:?}");
+    };
+    let before = stage.state().painting.lighting.clone();
+    assert_eq!(*last, Lighting { adaptation: 0.0, ..before });
+    assert_eq!(*to_second, Lighting { adaptation: 0.0, ..second });
+}
+
+#[test]
 fn wet_and_dry_gloss_are_dragged() {
     let mut stage = stage(made_painting());
     let medium = stage.state().painting.medium.clone();

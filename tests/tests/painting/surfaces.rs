@@ -4,7 +4,7 @@ use render::amount::mm_from_quanta;
 use render::layer::SLOTS;
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
-use render::paint::document::Lighting;
+use render::paint::document::{Lighting, Medium};
 use render::paint::history::TILE_BYTES;
 use render::paint::painting::PaintingError;
 use render::paint::session::{Outcome, PaintingSession, SessionError};
@@ -179,25 +179,27 @@ fn paint_on_a_head_that_was_put_away_holds_no_pigment_back() {
 }
 
 #[test]
-fn light_shine_and_wet_swaps_are_those_of_both_surfaces() {
+fn light_gloss_stiffness_and_wet_swaps_are_those_of_both_surfaces() {
     for mut session in sessions() {
         let lamp = Lighting { illuminant: "A".to_owned(), relief: 0.5, ..Lighting::default() };
         session.apply(&Action::Light(lamp.clone())).unwrap();
         let wet = Gloss { strength: 0.5, exponent: 80.0 };
         session.apply(&Action::Gloss { wet, dry: wet }).unwrap();
+        session.apply(&Action::Stiffness { value: 0.25 }).unwrap();
         let (from, to) = ("Viridian".to_owned(), "Cobalt Blue".to_owned());
         session.apply(&Action::Swap { layer: LayerRef::Wet, from, to }).unwrap();
         for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
             let painting = session.painting(surface).unwrap();
             assert_eq!(painting.state().lighting, lamp);
             assert_eq!(painting.medium().wet, wet);
+            assert_eq!(painting.medium().stiffness, 0.25);
             assert!(painting.state().slots.contains(&Some(pigment("Cobalt Blue"))));
             let nodes = session.canvas().light().quadrature.nodes_nm.clone();
             assert_eq!(painting.light().quadrature.nodes_nm, nodes);
         }
         assert_eq!(
             session.history().0,
-            ["light A", "gloss", "Cobalt Blue for Viridian, wet paint"]
+            ["light A", "gloss", "stiffness 0.25", "Cobalt Blue for Viridian, wet paint"]
         );
         session.go_to(0).unwrap();
         for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
@@ -205,6 +207,7 @@ fn light_shine_and_wet_swaps_are_those_of_both_surfaces() {
             assert_eq!(painting.state().lighting, Lighting::default());
             assert!(painting.state().slots.contains(&Some(pigment("Viridian"))));
             assert_ne!(painting.medium().wet, wet);
+            assert_eq!(painting.medium().stiffness, Medium::default().stiffness);
         }
     }
 }

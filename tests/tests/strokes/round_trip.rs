@@ -73,6 +73,7 @@ fn action() -> impl Strategy<Value = Action> {
         1 => heap,
         1 => surface().prop_map(|on| Action::Scrape { on }),
         1 => (gloss(), gloss()).prop_map(|(wet, dry)| Action::Gloss { wet, dry }),
+        1 => (0.0..=1.0).prop_map(|value| Action::Stiffness { value }),
         1 => (0.0..=1.0).prop_map(|keep| Action::Wipe { brush: "big".to_owned(), keep }),
         1 => Just(Action::Wash { brush: "big".to_owned() }),
         1 => (0.001..=1.0).prop_map(|fraction| Action::Dry { fraction }),

@@ -70,6 +70,12 @@ pub enum PaintingError {
         /// Exponent of the highlight.
         exponent: f32,
     },
+    /// A stiffness is out of range.
+    #[error("the stiffness of paint is 0 to 1, found `{stiffness}`")]
+    Stiffness {
+        /// The stiffness.
+        stiffness: f64,
+    },
     /// A recipe has parts of a slot without pigment.
     #[error("no pigment is squeezed out in slot {slot}")]
     EmptySlot {
@@ -181,6 +187,7 @@ impl Explain for PaintingError {
             | Self::Amount { .. }
             | Self::Volume { .. }
             | Self::Gloss { .. }
+            | Self::Stiffness { .. }
             | Self::EmptySlot { .. }
             | Self::NotThere { .. }
             | Self::Opacity { .. }

@@ -1,4 +1,4 @@
-//! Lights and gloss of a painting.
+//! Lights of a painting, gloss and stiffness of its paint.
 
 use std::sync::Arc;
 
@@ -56,6 +56,24 @@ impl Painting {
             let medium = &mut painting.state.medium;
             (medium.wet, medium.dry) = (wet, dry);
             painting.views.mark_all_wet();
+            Ok(())
+        })
+    }
+
+    /// Sets the stiffness of the wet paint ([`stiffness`](crate::document::Medium::stiffness)). Paint levels by it after
+    /// the next stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError::Stiffness`] outside 0 to 1.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn set_stiffness(&mut self, stiffness: f64) -> Result<(), PaintingError> {
+        if !(0.0..=1.0).contains(&stiffness) {
+            return Err(PaintingError::Stiffness { stiffness });
+        }
+        self.apply_action(|painting| {
+            painting.state.medium.stiffness = stiffness;
             Ok(())
         })
     }

@@ -35,7 +35,7 @@ pub struct State {
     pub dry: Vec<DryLayerState>,
     /// Light that the painting is shown under.
     pub lighting: Lighting,
-    /// Scattering per mm and gloss of the binder.
+    /// Scattering per mm, stiffness and gloss of the binder.
     pub medium: Medium,
 }
 
@@ -220,7 +220,7 @@ impl Painting {
         self.dry_changes
     }
 
-    /// Scattering per mm and gloss of the binder.
+    /// Scattering per mm, stiffness and gloss of the binder.
     #[must_use]
     pub fn medium(&self) -> &Medium {
         &self.state.medium

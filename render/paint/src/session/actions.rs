@@ -23,8 +23,8 @@ const NONE: PerSurface<bool> = PerSurface { canvas: false, palette: false };
 
 impl PaintingSession {
     /// Applies one action. Any open stroke or adjustment is finished first. Drying, layers and
-    /// merging concern the canvas; light, gloss, pigments and a swap in the wet layer concern
-    /// both surfaces.
+    /// merging concern the canvas; light, gloss, stiffness, pigments and a swap in the wet layer
+    /// concern both surfaces.
     ///
     /// # Errors
     /// [`SessionError`] for an action that cannot be done; nothing is changed then. If the
@@ -156,6 +156,13 @@ impl PaintingSession {
                 self.canvas.set_gloss(*wet, *dry)?;
                 if let Some(palette) = &mut self.palette {
                     palette.set_gloss(*wet, *dry)?;
+                }
+                both
+            }
+            (Action::Stiffness { value }, _) => {
+                self.canvas.set_stiffness(*value)?;
+                if let Some(palette) = &mut self.palette {
+                    palette.set_stiffness(*value)?;
                 }
                 both
             }

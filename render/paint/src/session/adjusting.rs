@@ -9,6 +9,7 @@ impl Control {
         match action {
             Action::Light(_) => Ok(Self::Light),
             Action::Gloss { .. } => Ok(Self::Gloss),
+            Action::Stiffness { .. } => Ok(Self::Stiffness),
             Action::Opacity { layer, .. } => Ok(Self::Opacity(*layer)),
             _ => Err(SessionError::NoControl { kind: action.kind() }),
         }
@@ -16,9 +17,10 @@ impl Control {
 }
 
 impl PaintingSession {
-    /// Applies an action of light, gloss or opacity while its slider is dragged. All changes of
-    /// one property until [`PaintingSession::end_adjustment`] count as one action, which is
-    /// recorded with its last values. A change of another property begins another action.
+    /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
+    /// changes of one property until [`PaintingSession::end_adjustment`] count as one action,
+    /// which is recorded with its last values. A change of another property begins another
+    /// action.
     ///
     /// # Errors
     /// [`SessionError`] for other actions, and the errors of [`PaintingSession::apply`].

@@ -55,7 +55,7 @@ impl Explain for SessionError {
             Self::Unlike { .. } => "set the palette up after the canvas",
             Self::Save => "write the documents of the session",
             Self::NoStroke => "set the brush down first",
-            Self::NoControl { .. } => "light, gloss and opacity can be",
+            Self::NoControl { .. } => "light, gloss, stiffness and opacity can be",
         };
         Some(Hint::new(hint))
     }

@@ -20,6 +20,7 @@ pub(super) fn label(
         Action::Palette(_) => "other pigments".to_owned(),
         Action::Light(lighting) => format!("light {}", lighting.illuminant),
         Action::Gloss { .. } => "gloss".to_owned(),
+        Action::Stiffness { value } => format!("stiffness {value}"),
         Action::Opacity { layer, value } => {
             format!("{} of {}", percent(*value), layer_name(*layer))
         }

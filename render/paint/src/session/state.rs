@@ -46,6 +46,7 @@ pub(super) struct Adjusting {
 pub(super) enum Control {
     Light,
     Gloss,
+    Stiffness,
     Opacity(LayerRef),
 }
 

@@ -89,6 +89,11 @@ pub enum Action {
         /// Gloss of dry paint.
         dry: Gloss,
     },
+    /// Sets the stiffness of the wet paint.
+    Stiffness {
+        /// 0 is stand oil, which levels after a stroke, 1 is putty.
+        value: f64,
+    },
     /// Saves the painting (`.exr`) or its picture (`.png`).
     Save {
         /// Relative path of the file, below a folder that the player of the script chooses.
@@ -116,6 +121,7 @@ impl Action {
             Self::Squeeze(_) => "squeeze",
             Self::Scrape { .. } => "scrape",
             Self::Gloss { .. } => "gloss",
+            Self::Stiffness { .. } => "stiffness",
             Self::Save { .. } => "save",
         }
     }

@@ -53,6 +53,7 @@ impl ActionLimits {
             }
             Action::Scrape { on } => self.reach_mm(at, *on).map(|_| ()),
             Action::Gloss { wet, dry } => check_gloss(at, "", *wet, *dry),
+            Action::Stiffness { value } => at.range("value", *value, 0.0, 1.0),
             Action::Save { path } => match save_path::violation(path) {
                 None => Ok(()),
                 Some(wanted) => {

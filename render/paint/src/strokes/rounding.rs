@@ -52,6 +52,7 @@ impl Action {
                 volume_mm3: six_digits(squeeze.volume_mm3),
             }),
             Self::Gloss { wet, dry } => Self::Gloss { wet: gloss(*wet), dry: gloss(*dry) },
+            Self::Stiffness { value } => Self::Stiffness { value: six_digits(*value) },
             Self::Wash { .. }
             | Self::Palette(_)
             | Self::Undo {}

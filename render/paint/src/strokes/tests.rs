@@ -48,6 +48,7 @@ fn odd() -> Vec<Action> {
         }),
         Action::Scrape { on: SurfaceId::Palette },
         Action::Gloss { wet: gloss, dry: gloss },
+        Action::Stiffness { value: ODD },
     ]
 }
 

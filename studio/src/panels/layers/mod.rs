@@ -6,6 +6,8 @@ mod eye;
 
 mod opacity;
 
+mod stiffness;
+
 mod panel;
 
 pub use panel::{Layers, dry};

@@ -5,9 +5,11 @@ use render::paint::document::Slots;
 use render::paint::strokes::{Action, LayerRef};
 
 use super::opacity::Opacity;
+use super::stiffness::stiffness;
 use super::thumbnails::Thumbnails;
 use crate::panels::PanelContext;
 use crate::panels::controls::{button, millimetres, named_button, patch, percent};
+use crate::panels::pending_value::PendingValue;
 use crate::panels::pigments::{Catalogue, CatalogueCache, Exchange, ExchangeScope};
 use crate::theme;
 
@@ -17,6 +19,7 @@ pub struct Layers {
     catalogue: CatalogueCache,
     exchange: Exchange,
     opacity: Opacity,
+    stiffness: PendingValue<f64>,
     thumbnails: Thumbnails,
 }
 
@@ -43,12 +46,13 @@ impl Layers {
         self.exchange.show(&context, "exchange in a layer", &catalogue, cx);
     }
 
-    fn wet(&mut self, ui: &mut Ui, catalogue: &Catalogue, cx: &PanelContext<'_>) {
+    fn wet(&mut self, ui: &mut Ui, catalogue: &Catalogue, cx: &mut PanelContext<'_>) {
         group(ui, |ui| {
             ui.horizontal(|ui| {
                 ui.label(RichText::new("Wet").strong());
                 pigments(ui, catalogue, &cx.painting.slots);
             });
+            stiffness(ui, cx, &mut self.stiffness);
             self.exchange_button(ui, &cx.painting.slots, LayerRef::Wet, "the wet layer");
         });
     }

@@ -59,6 +59,7 @@ impl LightPanel {
         let reported = &cx.painting.lighting;
         let lighting = self.lighting.shown(reported, same_lighting, now);
         self.illuminant(ui, cx, &lighting);
+        self.adaptation(ui, cx, lighting.clone());
         self.spectrum(ui, cx);
         ui.separator();
         self.direction(ui, cx, lighting.clone());
@@ -94,6 +95,35 @@ impl LightPanel {
                 self.set_lighting(ui, cx, Lighting { observer, ..lighting.clone() });
             }
         });
+    }
+
+    fn adaptation(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, mut lighting: Lighting) {
+        let slider = Slider::new(&mut lighting.adaptation, 0.0..=1.0);
+        let slider = slider.fixed_decimals(2).update_while_editing(false);
+        let response = labelled_slider(ui, "Adaptation", slider).accessible_name("Adaptation");
+        let response = response.on_hover_text(
+            "How far the eye has adapted to the light: at 1 white paint is white under every \
+             lamp, at 0 the picture has the light's own colour beside daylight. Tubes, recipes \
+             and picked colours are shown as at 1",
+        );
+        self.adjust_both_lights(ui, cx, Edit::of(&response), lighting);
+    }
+
+    /// Queues a change of `lighting`. The second light gets all of it but its illuminant once
+    /// the change is complete.
+    fn adjust_both_lights(
+        &mut self,
+        ui: &Ui,
+        cx: &mut PanelContext<'_>,
+        edit: Edit,
+        lighting: Lighting,
+    ) {
+        self.lighting.request(ui, cx, edit, Action::Light(lighting.clone()), lighting.clone());
+        let finished = matches!(edit, Edit::Released | Edit::Set);
+        if let Some(second) = cx.painting.second_lighting.as_ref().filter(|_| finished) {
+            let illuminant = second.illuminant.clone();
+            cx.command(Command::SetSecondLight(Some(Lighting { illuminant, ..lighting })));
+        }
     }
 
     /// Switches to the previous illuminant; at first to illuminant A.
@@ -173,13 +203,7 @@ impl LightPanel {
                 edit = edit.or(Edit::of(&relief));
             });
         });
-        let action = Action::Light(lighting.clone());
-        adjust(ui, cx, edit, action, &mut self.lighting, lighting.clone());
-        let finished = matches!(edit, Edit::Released | Edit::Set);
-        if let Some(second) = cx.painting.second_lighting.as_ref().filter(|_| finished) {
-            let illuminant = second.illuminant.clone();
-            cx.command(Command::SetSecondLight(Some(Lighting { illuminant, ..lighting })));
-        }
+        self.adjust_both_lights(ui, cx, edit, lighting);
     }
 
     fn gloss_pads(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
@@ -206,7 +230,7 @@ impl LightPanel {
                 });
             }
         });
-        adjust(ui, cx, edit, Action::Gloss { wet, dry }, &mut self.gloss, (wet, dry));
+        self.gloss.request(ui, cx, edit, Action::Gloss { wet, dry }, (wet, dry));
     }
 
     fn split(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, lighting: &Lighting) {
@@ -237,33 +261,9 @@ impl LightPanel {
     }
 }
 
-/// Queues the commands for a change of a control, and stores its value in `draft`.
-fn adjust<T: Clone>(
-    ui: &Ui,
-    cx: &mut PanelContext<'_>,
-    edit: Edit,
-    action: Action,
-    draft: &mut PendingValue<T>,
-    value: T,
-) {
-    let now = ui.input(|input| input.time);
-    match edit {
-        Edit::None => return,
-        Edit::Dragged => {
-            cx.command(Command::Adjust(action));
-            return draft.drag(value);
-        }
-        Edit::Released => {
-            cx.command(Command::Adjust(action));
-            cx.command(Command::EndAdjustment);
-        }
-        Edit::Set => cx.command(Command::Apply(action)),
-    }
-    draft.set(value, now);
-}
-
 fn same_lighting(a: &Lighting, b: &Lighting) -> bool {
-    let numbers = |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief];
+    let numbers =
+        |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief, l.adaptation];
     // Recorded lighting is rounded to six digits, so it may differ slightly.
     let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-3;
     a.illuminant == b.illuminant
