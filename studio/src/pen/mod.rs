@@ -28,6 +28,8 @@ mod wayland;
 
 mod tablet;
 
+mod heading;
+
 mod pen_stroke;
 
 mod systems;

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::Pos2;
 use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
+use super::heading::Heading;
 use super::report::{Device, PointerState};
 use super::settings::PenSettings;
 use super::speed::SpeedPressure;
@@ -28,13 +28,8 @@ const LINE_SPEED_MM_S: f64 = 100.0;
 /// Length over which the pressure of a straight line rises, in mm.
 const LINE_START_MM: f64 = 2.0;
 
-/// Path length in points over which a brush that follows the stroke turns across it: the
-/// remaining angle falls by a factor of e.
-const TURNING_POINTS: f64 = 30.0;
-
-/// Path length in points over which the direction of the stroke is averaged: single steps
-/// of a mouse are a few whole points, so their directions jump by up to 45 degrees.
-const HEADING_POINTS: f64 = 20.0;
+/// Longest time for which the first samples wait for the direction of the stroke.
+const LONGEST_WAIT: Duration = Duration::from_millis(80);
 
 /// A stroke that has begun and not ended.
 #[derive(Debug)]
@@ -49,9 +44,7 @@ pub(super) struct PenStroke {
     moved: Instant,
     /// Whether the last sample was added because the pen rested.
     still: bool,
-    twist: f64,
-    /// Recent way of the stroke in points; older steps weigh less.
-    way: (f64, f64),
+    heading: Heading,
     last: Option<Sample>,
     samples: Vec<PenSample>,
 }
@@ -76,11 +69,13 @@ impl PenStroke {
             state,
             moved: at,
             still: false,
-            twist: settings.grip.twist_deg,
-            way: (0.0, 0.0),
+            heading: Heading::new(settings.grip.twist_deg),
             last: None,
             samples: Vec::new(),
         };
+        if !settings.follow {
+            stroke.heading.start();
+        }
         if let Some(from) = from {
             stroke.add_straight_line(from, at, settings);
         }
@@ -111,7 +106,7 @@ impl PenStroke {
     /// Adds a sample at a new state of the device.
     pub(super) fn extend(&mut self, state: PointerState, at: Instant, settings: &PenSettings) {
         if settings.follow {
-            self.follow(state.at);
+            self.heading.add(state.at - self.state.at);
         }
         let seconds = self.seconds(at);
         let by_speed = self.pressure_model.move_to(state.at, seconds);
@@ -121,11 +116,18 @@ impl PenStroke {
         self.moved = at;
         self.still = false;
         self.add_sample(pressure, seconds, at, settings);
+        let measured = settings.pen_tilt && state.twist_deg.is_some();
+        if measured || self.heading.is_clear() || self.has_waited(at) {
+            self.start_heading(settings);
+        }
     }
 
     /// Adds one sample when the pen comes to rest, and further ones only while the pressure
     /// changes.
     pub(super) fn add_rest_sample(&mut self, now: Instant, settings: &PenSettings) {
+        if self.has_waited(now) {
+            self.start_heading(settings);
+        }
         if now.saturating_duration_since(self.moved) < STILL {
             return;
         }
@@ -138,8 +140,14 @@ impl PenStroke {
         }
     }
 
-    /// Time until [`Self::add_rest_sample`] must be called; `None` if it would add nothing.
+    /// Time until [`Self::add_rest_sample`] must be called; `None` if it would do nothing.
     pub(super) fn next_rest_sample(&self, now: Instant) -> Option<Duration> {
+        let waits = (!self.heading.is_started())
+            .then(|| LONGEST_WAIT.saturating_sub(now.saturating_duration_since(self.began)));
+        [waits, self.next_still_sample(now)].into_iter().flatten().min()
+    }
+
+    fn next_still_sample(&self, now: Instant) -> Option<Duration> {
         let landing = self.state.pressure.is_none()
             && self.pressure_model.pressure(f64::INFINITY)
                 - self.pressure_model.pressure(self.seconds(now))
@@ -153,6 +161,7 @@ impl PenStroke {
 
     /// Adds the samples that end a stroke of a device without pressure.
     pub(super) fn finish(&mut self, at: Instant, settings: &PenSettings) {
+        self.start_heading(settings);
         if self.state.pressure.is_some() {
             return;
         }
@@ -163,9 +172,28 @@ impl PenStroke {
         }
     }
 
-    /// Removes and returns the samples since the last call.
+    /// Removes and returns the samples since the last call. There are none before the direction
+    /// of a stroke that the brush follows is known: a brush that turned on the canvas would
+    /// paint a hook.
     pub(super) fn take_samples(&mut self) -> Vec<PenSample> {
-        std::mem::take(&mut self.samples)
+        if self.heading.is_started() { std::mem::take(&mut self.samples) } else { Vec::new() }
+    }
+
+    fn has_waited(&self, now: Instant) -> bool {
+        now.saturating_duration_since(self.began) >= LONGEST_WAIT
+    }
+
+    /// Puts the brush across the direction of the stroke, from its first sample on.
+    fn start_heading(&mut self, settings: &PenSettings) {
+        if self.heading.is_started() {
+            return;
+        }
+        self.heading.start();
+        let Sample { twist_deg, .. } =
+            brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
+        for PenSample { sample, .. } in &mut self.samples {
+            sample.twist_deg = twist_deg;
+        }
     }
 
     /// Adds a straight line from `from`, in mm, to the current position.
@@ -174,6 +202,10 @@ impl PenStroke {
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         if length < LINE_START_MM {
             return;
+        }
+        if settings.follow {
+            self.heading.add(self.transform.way_in_window((to.0 - from.0, to.1 - from.1)));
+            self.start_heading(settings);
         }
         self.pressure_model =
             SpeedPressure::new(self.state.at, length / LINE_SPEED_MM_S).at_full_pressure();
@@ -185,7 +217,7 @@ impl PenStroke {
         for (mm, pressure) in [(0.0, 0.2 * full), (LINE_START_MM, full)] {
             let share = mm / length;
             let position_mm = (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share);
-            let sample = brush_sample(&self.transform, &self.state, self.twist, settings);
+            let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
             let sample = Sample { pressure, seconds: mm / LINE_SPEED_MM_S, ..sample };
             self.push(Sample { x_mm: position_mm.0, y_mm: position_mm.1, ..sample }, at);
         }
@@ -205,7 +237,7 @@ impl PenStroke {
     }
 
     fn add_sample(&mut self, pressure: f64, seconds: f64, at: Instant, settings: &PenSettings) {
-        let sample = brush_sample(&self.transform, &self.state, self.twist, settings);
+        let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
         self.push(Sample { pressure, seconds, ..sample }, at);
     }
 
@@ -215,21 +247,6 @@ impl PenStroke {
         let sample = Sample { seconds: sample.seconds.max(earliest), ..sample };
         self.last = Some(sample);
         self.samples.push(PenSample { sample, arrived });
-    }
-
-    /// Turns the broad side gradually across the direction of movement.
-    fn follow(&mut self, to: Pos2) {
-        let step = to - self.state.at;
-        let length = f64::from(step.length());
-        if length == 0.0 {
-            return;
-        }
-        let kept = (-length / HEADING_POINTS).exp();
-        self.way = (self.way.0 * kept + f64::from(step.x), self.way.1 * kept + f64::from(step.y));
-        let across = self.way.1.atan2(self.way.0).to_degrees() + 90.0;
-        // The broad side has no direction, so the difference is taken modulo 180 degrees.
-        let off = (across - self.twist + 90.0).rem_euclid(180.0) - 90.0;
-        self.twist += off * (1.0 - (-length / TURNING_POINTS).exp());
     }
 }
 

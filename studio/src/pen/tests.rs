@@ -200,14 +200,14 @@ fn mouse_events_sent_for_a_pen_do_not_paint_again() {
     // The rest of the mouse events is ignored; later the mouse can paint again.
     assert_eq!(letters(&test.frame(200, &[button(9.0, 9.0, true)])), "");
     assert_eq!(letters(&test.frame(220, &[button(9.0, 9.0, false)])), "");
-    assert_eq!(letters(&test.frame(600, &[button(9.0, 9.0, true)])), "DM");
+    assert_eq!(letters(&test.frame(600, &[button(9.0, 9.0, true)])), "D");
 }
 
 #[test]
 fn a_stroke_begun_by_mouse_events_is_taken_over_by_the_pen() {
     let mut test = TestPen::new();
     test.frame(0, &[]);
-    assert_eq!(letters(&test.frame(10, &[button(30.0, 40.0, true)])), "DM");
+    assert_eq!(letters(&test.frame(10, &[button(30.0, 40.0, true)])), "D");
     test.feed(9, ReportKind::Pressed(state(30.0, 0.3)));
     test.feed(14, ReportKind::Moved(state(34.0, 0.35)));
     let output = test.frame(16, &[moved(34.0, 40.0)]);
@@ -308,8 +308,47 @@ fn a_following_brush_turns_its_broad_side_across_the_path() {
     let events: Vec<Event> = (1_u8..=60).map(|x| moved(40.0 + 5.0 * f32::from(x), 40.0)).collect();
     let output = samples(&test.frame(200, &events));
     let twists: Vec<f64> = output.iter().map(|sample| sample.sample.twist_deg.abs()).collect();
-    assert!(twists.is_sorted() && twists[0] < 20.0, "{twists:?}");
-    assert!((twists[59] - 90.0).abs() < 0.1, "{twists:?}");
+    assert_eq!(twists.len(), 61, "every sample");
+    assert!(twists.iter().all(|twist| (twist - 90.0).abs() < 0.1), "from the start: {twists:?}");
+    // Round a corner the brush turns gradually.
+    let events: Vec<Event> = (1_u8..=60).map(|y| moved(340.0, 40.0 + 5.0 * f32::from(y))).collect();
+    let output = samples(&test.frame(400, &events));
+    let twists: Vec<f64> = output.iter().map(|sample| sample.sample.twist_deg.abs()).collect();
+    let off: Vec<f64> = twists.iter().map(|twist| (twist - 90.0).abs()).collect();
+    assert!(off.is_sorted() && off[0] < 20.0, "{off:?}");
+    assert!((off[59] - 90.0).abs() < 0.1, "{off:?}");
+}
+
+#[test]
+fn the_first_samples_wait_for_the_direction_but_not_long() {
+    let mut test = TestPen::new();
+    assert_eq!(letters(&test.frame(0, &[button(40.0, 40.0, true)])), "D");
+    assert_eq!(letters(&test.frame(20, &[moved(42.0, 40.0)])), "");
+    let waits = test.pen.repaint_after(test.at(70));
+    assert!(waits.is_some_and(|waits| waits <= Duration::from_millis(10)), "{waits:?}");
+    let output = samples(&test.frame(80, &[]));
+    assert!(output.len() >= 3 && output[0].arrived == test.start, "{output:?}");
+    let across = |sample: &PenSample| sample.sample.twist_deg.rem_euclid(180.0) == 90.0;
+    assert!(output.iter().all(across), "{output:?}");
+    // A press without a way keeps the rotation of the grip.
+    test.frame(100, &[button(42.0, 40.0, false)]);
+    test.pen.settings.grip.twist_deg = 30.0;
+    let output = test.frame(200, &[button(90.0, 90.0, true), button(90.0, 90.0, false)]);
+    let dab = samples(&output);
+    assert_eq!(letters(&output), "DMUH");
+    assert!(dab.iter().all(|sample| sample.sample.twist_deg == 30.0), "{dab:?}");
+}
+
+#[test]
+fn a_straight_line_is_painted_with_the_broad_side_across() {
+    let mut test = TestPen::new();
+    test.frame(0, &[button(40.0, 40.0, true), moved(80.0, 40.0), button(80.0, 40.0, false)]);
+    test.modifiers = Modifiers::SHIFT;
+    let line = samples(&test.frame(200, &[button(140.0, 100.0, true)]));
+    assert_eq!(line.len(), 3);
+    let twists: Vec<f64> =
+        line.iter().map(|sample| sample.sample.twist_deg.rem_euclid(180.0)).collect();
+    assert!(twists.iter().all(|twist| (twist - 135.0).abs() < 0.1), "{twists:?}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The position of a surface in the window, as an affine map.
 
-use eframe::egui::{Pos2, Rect, pos2};
+use eframe::egui::{Pos2, Rect, Vec2, pos2, vec2};
 use render::paint::strokes::SurfaceId;
 
 /// A surface in the window, with the affine map from points of the window to mm of the
@@ -57,6 +57,17 @@ impl SurfaceTransform {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let (x, y) = self.displacement((cos, sin));
         y.atan2(x).to_degrees()
+    }
+
+    /// Converts a displacement on the surface, in mm, to one in the window, in points; 0 if the
+    /// surface is shown without extent.
+    pub(super) fn way_in_window(&self, (x, y): (f64, f64)) -> Vec2 {
+        let ((a, b), (c, d)) = (self.right, self.down);
+        let area = a * d - b * c;
+        if area == 0.0 {
+            return Vec2::ZERO;
+        }
+        vec2(((x * d - y * c) / area) as f32, ((y * a - x * b) / area) as f32)
     }
 
     /// Converts a displacement in the window, in points, to one on the surface, in mm.
@@ -117,6 +128,10 @@ mod tests {
         near(turned(0.0, false).position_mm(pos2(340.0, 192.0)), (100.0, 48.0));
         near(turned(90.0, false).position_mm(pos2(300.0, 240.0)), (100.0, 50.0));
         near(turned(0.0, true).position_mm(pos2(340.0, 192.0)), (80.0, 48.0));
+        let turned = turned(30.0, true);
+        let ends = [pos2(340.0, 192.0), pos2(310.0, 250.0)].map(|at| turned.position_mm(at));
+        let way = turned.way_in_window((ends[1].0 - ends[0].0, ends[1].1 - ends[0].1));
+        near((way.x.into(), way.y.into()), (-30.0, 58.0));
     }
 
     #[test]
