@@ -30,7 +30,7 @@ pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> 
     line.inner.on_hover_text(tip)
 }
 
-/// Adds a slider for a share of 0 to 1, shown in percent.
+/// Adds a slider for a share of 0 to 1, shown in percent with up to one decimal.
 pub(super) fn percent(
     ui: &mut Ui,
     name: &str,
@@ -44,7 +44,8 @@ pub(super) fn percent(
         }
         *share * 100.0
     });
-    slider(ui, name, tip, shown.fixed_decimals(0).suffix(" %"))
+    let shown = shown.max_decimals(1).custom_formatter(|percent, _| percent.to_string());
+    slider(ui, name, tip, shown.suffix(" %"))
 }
 
 /// Adds a button. `disabled_reason` disables it and gives the reason for the tooltip. Returns

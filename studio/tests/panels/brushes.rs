@@ -170,6 +170,10 @@ fn loading_uses_tube_or_medium_with_the_slider_values() {
         act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
     };
     assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
+    harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(99.5);
+    harness.run();
+    click(&mut harness, "Load from tube");
+    assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.995)]);
     click(&mut harness, "Medium only");
     assert_requests(&mut harness, &[load(&[], 1.0)]);
     harness.state_mut().tools.tube = 7;

@@ -201,8 +201,8 @@ impl Brushes {
         let height = Slider::new(&mut cx.tools.load_mm, 0.02..=2.0).logarithmic(true);
         let tip = "Height of paint that one load adds to the head";
         slider(ui, "Load", tip, height.fixed_decimals(2).suffix(" mm"));
-        let tip =
-            "Share of clear medium in a load: more makes the paint thinner and more transparent";
+        let tip = "Share of clear medium in a load: more makes the paint thinner and more transparent. \
+             Glazes take 98 to 99.9 %; click the number to type it";
         percent(ui, "Medium", tip, &mut cx.tools.vehicle, 0.0..=100.0);
         ui.horizontal(|ui| {
             let slot = cx.tools.tube;
