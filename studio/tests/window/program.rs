@@ -65,10 +65,16 @@ impl<'a> Program<'a> {
     /// the log that the program writes once a second. The window has no frame and
     /// stands in the corner.
     pub(crate) fn canvas(&self) -> Option<[f64; 4]> {
-        let text = std::fs::read_to_string(&self.figures).ok()?;
-        let line: serde_json::Value = serde_json::from_str(text.lines().last()?).ok()?;
+        let lines = self.figures().ok()?;
+        let line = lines.last()?;
         let sides = line["canvas_px"].as_array()?.iter().map(serde_json::Value::as_f64);
         sides.collect::<Option<Vec<f64>>>()?.try_into().ok()
+    }
+
+    /// Lines of the log so far.
+    pub(crate) fn figures(&self) -> Result<Vec<serde_json::Value>, Box<dyn std::error::Error>> {
+        let text = std::fs::read_to_string(&self.figures)?;
+        Ok(text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?)
     }
 
     /// Columns and rows of the screen that the canvas covers when fitted, as at the
