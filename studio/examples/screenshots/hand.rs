@@ -98,7 +98,7 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
             seconds: way / SPEED,
             x_mm,
             y_mm,
-            pressure: pressure * (0.35 + 0.65 * soft),
+            pressure: pressure * (0.1 + 0.9 * soft),
             tilt_x_deg: 25.0 * course.cos(),
             tilt_y_deg: 25.0 * course.sin(),
             twist_deg: course.to_degrees() - 90.0,

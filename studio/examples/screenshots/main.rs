@@ -68,6 +68,7 @@ fn at_work(window: &mut Window) {
     study::surroundings(&mut hand);
     hand.actions.push(Action::Dry { fraction: 1.0 });
     study::fruits(&mut hand);
+    hand.actions.push(Action::Dry { fraction: 1.0 });
     study::lights(&mut hand);
     carry_out(window, hand);
     window.studio_mut().tools.brush = "round".to_owned();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use pigment::library::PigmentLibrary;
 use render::paint::brush::HeadShape;
-use render::paint::document::{Lighting, Medium};
+use render::paint::document::Lighting;
 use render::paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use render::paint::strokes::{BrushSpec, Canvas};
 use session::{Command, Origin, blank_canvas};
@@ -17,8 +17,7 @@ const HEIGHT: f64 = 54.0;
 /// Upper edge of the table, in mm.
 const EDGE: f64 = 31.0;
 
-/// Command that opens a toned linen canvas with stiff paint and low light from the
-/// left.
+/// Command that opens a toned linen canvas with low light from the left.
 pub(crate) fn new_painting() -> Command {
     let Origin::Blank { mut script, library } =
         blank_canvas(PigmentLibrary::van_gogh_oils(), WIDTH, HEIGHT, 0.1)
@@ -30,13 +29,12 @@ pub(crate) fn new_painting() -> Command {
     let primer = Primer::Color(ColorPrimer { rgb: "#c39a6b".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     script.canvas = Canvas { ground, ..script.canvas };
-    script.medium = Some(Medium { scattering_per_mm: 300.0, ..Medium::default() });
     script.lighting = Some(light());
     for (name, shape, size_mm) in [
-        ("round", HeadShape::Round, 4.0),
+        ("round", HeadShape::Round, 2.2),
         ("flat", HeadShape::Flat, 5.0),
-        ("filbert", HeadShape::Filbert, 5.0),
-        ("rigger", HeadShape::Rigger, 1.2),
+        ("filbert", HeadShape::Filbert, 6.0),
+        ("rigger", HeadShape::Rigger, 0.8),
         ("mop", HeadShape::Mop, 7.0),
         ("knife", HeadShape::Knife, 7.0),
     ] {
@@ -47,35 +45,37 @@ pub(crate) fn new_painting() -> Command {
 
 /// Low daylight that shows the relief.
 pub(crate) fn light() -> Lighting {
-    Lighting { azimuth_deg: 300.0, elevation_deg: 34.0, relief: 2.5, ..Lighting::default() }
+    Lighting { azimuth_deg: 300.0, elevation_deg: 34.0, ..Lighting::default() }
 }
 
-/// Squeezes heaps along the rim of the palette and mixes them with the knife.
+/// Squeezes heaps along the rim of the palette, and mixes some below with the filbert.
 pub(crate) fn palette(hand: &mut Hand) {
     for (index, parts) in ["W1", "L1", "Y1", "R1", "C1", "U1", "P1", "K1"].iter().enumerate() {
         let share = index as f64 / 7.0;
         let place = (7.0 + 50.0 * share, 8.0 - 2.5 * (share * TAU / 2.0).sin());
-        hand.squeeze(parts, place, if index == 0 { 60.0 } else { 34.0 });
+        hand.squeeze(parts, place, if index == 0 { 40.0 } else { 24.0 });
     }
-    for (one, other, (x, y)) in [
-        ("L3 Y1", "W1", (9.0, 18.0)),
-        ("Y2 R1", "W1", (28.0, 18.5)),
-        ("W5 K1", "U1 P0.3", (10.0, 31.0)),
-        ("C3 U1", "W1", (26.0, 31.5)),
+    for (one, other, (x, y), turns) in [
+        ("L3 Y1", "W1", (13.0, 20.0), 5.0),
+        ("Y2 R1", "W1", (33.0, 20.0), 2.0),
+        ("W5 K1", "U1 P0.3", (13.0, 33.0), 3.0),
+        ("C3 U1", "W1", (33.0, 33.0), 1.5),
     ] {
-        for (mixture, y) in [(one, y), (other, y + 4.5)] {
-            hand.load("flat", mixture, 0.1, 2.0);
-            hand.mix("flat", &[(x, y), (x + 13.0, y - 0.5)], 0.6);
-        }
-        // Push one heap into the other and back, then draw it out with the blade, which
-        // lies behind its tip.
-        hand.wash("flat");
-        let zigzag = [(4.0, 0.0), (5.0, 7.5), (7.0, -1.0), (8.5, 7.0), (10.5, -1.0), (12.0, 6.5)];
-        hand.mix("flat", &zigzag.map(|(right, down)| (x + right, y + down)), 0.5);
-        hand.wash("knife");
-        hand.mix("knife", &[(x + 12.0, y + 2.5), (x + 22.0, y + 2.0)], 0.4);
+        hand.squeeze(one, (x - 2.5, y), 14.0);
+        hand.squeeze(other, (x + 2.5, y), 14.0);
+        hand.wash("filbert");
+        // In circles that grow, as a brush mixes.
+        let steps = (turns * 12.0) as usize;
+        let spiral: Vec<Place> = (0..=steps)
+            .map(|step| {
+                let (share, turn) = (step as f64 / steps as f64, TAU * step as f64 / 12.0);
+                let radius = 1.0 + 3.2 * share;
+                (x + 1.3 * radius * turn.cos(), y + radius * turn.sin())
+            })
+            .collect();
+        hand.mix("filbert", &spiral, 0.45);
     }
-    hand.wash("knife");
+    hand.wash("filbert");
 }
 
 /// Paints wall and table in short strokes, with the shadows on the table.
@@ -96,27 +96,27 @@ pub(crate) fn surroundings(hand: &mut Hand) {
     .into_iter()
     .enumerate()
     {
-        hand.load("flat", shadow[index % 2], 0.15, 0.9);
+        hand.load("flat", shadow[index % 2], 0.15, 0.3);
         hand.stroke("flat", &[(x - 4.0, y), (x + 0.5 * long, y - 0.8), (x + long, y - 2.2)], 0.5);
     }
 }
 
 fn rows(hand: &mut Hand, mixtures: &[&str], from: f64, to: f64, slope: f64) {
-    let count = ((to - from) / 3.1).round();
+    let count = ((to - from) / 3.6).round();
     for row in 0..=count as usize {
         let y = from + (to - from) * row as f64 / count;
         let mut x = 1.0 - if row % 2 == 0 { 0.0 } else { 5.0 };
         let mut turn = row;
         while x < WIDTH {
-            let long = 11.0 + hand.about(2.5);
+            let long = 14.0 + hand.about(4.0);
             let mixture = mixtures[(turn * 7 + row * 3) % mixtures.len()];
-            hand.load("flat", mixture, 0.1, 1.4);
+            hand.load("flat", mixture, 0.1, 0.4);
             let (rise, bow) = (slope * long + hand.about(0.8), hand.about(0.6));
             let inside =
                 |(x, y): Place| (x.clamp(-2.0, WIDTH + 2.0), y.clamp(from - 1.0, to + 1.0));
             let along =
                 [(x, y - 0.5 * rise), (x + 0.5 * long, y + bow), (x + long, y + 0.5 * rise)];
-            let pressure = 0.6 + hand.about(0.08);
+            let pressure = 0.5 + hand.about(0.08);
             hand.stroke("flat", &along.map(inside), pressure);
             x += long - 1.5;
             turn += 1;
@@ -138,7 +138,7 @@ const PEAR: [(f64, f64); 9] = [
 ];
 
 const PLUM: [(f64, f64); 7] =
-    [(0.0, 0.2), (0.1, 0.6), (0.3, 0.92), (0.5, 1.0), (0.7, 0.92), (0.9, 0.6), (1.0, 0.2)];
+    [(0.0, 0.45), (0.1, 0.7), (0.3, 0.92), (0.5, 1.0), (0.7, 0.92), (0.9, 0.6), (1.0, 0.2)];
 
 /// An upright fruit.
 struct Fruit {
@@ -147,6 +147,8 @@ struct Fruit {
     tall: f64,
     half_width: f64,
     outline: &'static [(f64, f64)],
+    /// Point of the outline at which every other stroke begins.
+    below: usize,
     /// Mixtures from the lit side to the shaded side.
     mixtures: [&'static str; 7],
 }
@@ -159,6 +161,7 @@ pub(crate) fn fruits(hand: &mut Hand) {
         tall: 34.0,
         half_width: 9.6,
         outline: &PEAR,
+        below: 2,
         mixtures: [
             "Y3 R1.4 K0.5",
             "Y4 R1 W2",
@@ -175,6 +178,7 @@ pub(crate) fn fruits(hand: &mut Hand) {
         tall: 37.0,
         half_width: 11.0,
         outline: &PEAR,
+        below: 2,
         mixtures: [
             "L5 Y1 W4",
             "L4 W12 Y0.3",
@@ -191,6 +195,7 @@ pub(crate) fn fruits(hand: &mut Hand) {
         tall: 17.0,
         half_width: 8.6,
         outline: &PLUM,
+        below: 0,
         mixtures: [
             "C4 U1 W7",
             "C5 U1 W14",
@@ -205,7 +210,7 @@ pub(crate) fn fruits(hand: &mut Hand) {
         modelled(hand, fruit);
     }
     for (x, y, lean) in [(37.0, 10.5, -1.2), (58.0, 10.0, 2.2)] {
-        hand.load("rigger", "K2 R1 Y0.6", 0.05, 0.5);
+        hand.load("rigger", "K2 R1 Y0.6", 0.05, 0.4);
         hand.stroke("rigger", &[(x, y), (x + 0.2 * lean, y - 3.0), (x + lean, y - 6.0)], 0.7);
         hand.stroke("rigger", &[(x + 0.4, y), (x + 0.2 * lean + 0.4, y - 3.0)], 0.6);
     }
@@ -213,10 +218,10 @@ pub(crate) fn fruits(hand: &mut Hand) {
 
 /// Strokes from the top down, following the form, dark ones first.
 fn modelled(hand: &mut Hand, fruit: &Fruit) {
-    let last = 12;
+    let last = fruit.mixtures.len() - 1;
     for index in (0..=last).rev() {
         // Inside the outline by half a brush.
-        let side = (2.0 * index as f64 / last as f64 - 1.0) * (1.0 - 2.2 / fruit.half_width);
+        let side = (2.0 * index as f64 / last as f64 - 1.0) * (1.0 - 2.8 / fruit.half_width);
         let along: Vec<Place> = fruit
             .outline
             .iter()
@@ -224,25 +229,18 @@ fn modelled(hand: &mut Hand, fruit: &Fruit) {
                 (fruit.x + side * wide * fruit.half_width, fruit.top + down * fruit.tall)
             })
             .collect();
-        hand.load("filbert", fruit.mixtures[index / 2], 0.08, 1.8);
-        // Every other begins below the neck.
-        let from = if index % 2 == 0 { 0 } else { 2 };
-        hand.stroke("filbert", &along[from..], 0.6);
+        hand.load("filbert", fruit.mixtures[index], 0.08, 0.7);
+        let from = if index % 2 == 0 { 0 } else { fruit.below };
+        hand.stroke("filbert", &along[from..], 0.5);
     }
-    // Along the foot, where the ends are ragged.
-    let foot = [(-0.35, 3.6), (0.0, 2.6), (0.35, 2.5), (0.75, 3.6)];
-    let foot =
-        foot.map(|(side, up)| (fruit.x + side * fruit.half_width, fruit.top + fruit.tall - up));
-    hand.load("filbert", fruit.mixtures[3], 0.08, 1.2);
-    hand.stroke("filbert", &foot, 0.5);
 }
 
-/// Lights, thick: the last of them is left to the pen that is seen at work.
+/// Lights, thick, over the dry fruits: the last of them is left to the pen that is seen at work.
 pub(crate) fn lights(hand: &mut Hand) {
-    hand.load("round", "L1 W14", 0.02, 2.0);
+    hand.load("round", "L2 W12", 0.02, 0.8);
     hand.stroke("round", &[(31.0, 36.0), (30.3, 33.0), (31.5, 29.5)], 0.4);
     hand.stroke("round", &[(34.6, 17.5), (34.9, 14.0)], 0.35);
-    hand.load("round", "W20 C0.5 U0.2", 0.02, 1.6);
+    hand.load("round", "W16 C1 U0.3", 0.02, 0.8);
     hand.stroke("round", &[(75.0, 36.5), (76.0, 34.8), (77.5, 34.0)], 0.35);
     for (brush, parts) in [
         ("flat", "W8 U1 P0.2"),
@@ -250,7 +248,7 @@ pub(crate) fn lights(hand: &mut Hand) {
         ("rigger", "K2 R1"),
         ("round", "Y1.5 R0.3 W16"),
     ] {
-        hand.load(brush, parts, 0.05, if brush == "round" { 2.0 } else { 0.7 });
+        hand.load(brush, parts, 0.05, if brush == "round" { 0.9 } else { 0.5 });
     }
 }
 
@@ -259,9 +257,9 @@ pub(crate) const AT_WORK: [Place; 4] = [(56.0, 16.5), (55.3, 22.0), (54.4, 27.5)
 
 /// Over the dry study: cool glazes in the shadows, a warm one on the second pear.
 pub(crate) fn glazes(hand: &mut Hand) {
-    hand.load("mop", "U1 C0.1", 0.99, 0.4);
+    hand.load("mop", "U1 C0.1", 0.997, 0.12);
     hand.stroke("mop", &[(40.0, 49.0), (54.0, 47.5), (67.0, 45.5)], 0.35);
     hand.stroke("mop", &[(77.0, 48.5), (91.0, 47.0)], 0.35);
-    hand.load("mop", "R1 C0.2", 0.994, 0.4);
+    hand.load("mop", "R1 C0.2", 0.994, 0.12);
     hand.stroke("mop", &[(60.0, 18.0), (63.5, 28.0), (64.0, 38.0)], 0.35);
 }
