@@ -87,7 +87,7 @@ impl Touch {
 pub struct ExchangeRates {
     /// Thickness of the head's coat relative to that of the paint on it, beyond `film`.
     pub release: u32,
-    /// Thickness in quanta of the film that the head leaves even without paint of its own.
+    /// Thickness in quanta of the part of the coat that does not depend on the paint on the head.
     pub film: u32,
     /// Share of what a film lacks of the coat's thickness that is laid in a sub-step.
     pub deposit: u32,
@@ -115,7 +115,20 @@ pub struct Contact {
     pub touches: Vec<Touch>,
     /// How the head exchanges paint with the canvas.
     pub rates: ExchangeRates,
-    /// Share of the differences along the hair of the head that flows off before the sub-step,
-    /// in parts of 65536; 0 if no paint flows. The first contact of a stroke has some.
-    pub wicking: u32,
+    /// Flow of paint over the head before the sub-step. The first contact of a stroke has some.
+    pub wicking: Wicking,
+}
+
+/// Flow of paint over a head: along each hair, and between neighbouring hairs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Wicking {
+    /// Share of the differences that flows off, in parts of 65536; 0 if no paint flows.
+    pub share: u32,
+    /// First row of the head's cells that takes part; rows count from the ferrule.
+    pub first_row: u32,
+    /// Number of neighbouring hairs whose paint levels together; 0 and 1 level each hair alone.
+    pub hairs: u32,
+    /// Number of hairs by which the groups start before the first hair, below `hairs`. Groups
+    /// that overlap from flow to flow spread paint across the head.
+    pub shift: u32,
 }

@@ -68,7 +68,7 @@ pub fn contacts(
         for pose in poses.by_ref() {
             let mut contact = Contact::default();
             head.advance(&pose, relief, bounds, &mut contact);
-            if !contact.rect.is_empty() || contact.wicking > 0 {
+            if !contact.rect.is_empty() || contact.wicking.share > 0 {
                 return Some(contact);
             }
         }

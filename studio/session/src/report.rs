@@ -201,17 +201,18 @@ fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, Se
     let Some(paint) = session.brush_paint(name)? else {
         return Ok(BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1] });
     };
-    let cell_area = paint_cell_area(session, name).unwrap_or(1.0);
-    let area = (paint.width() * paint.height()).max(1) as f64 * cell_area;
+    let (rows, cell_area) = paint_rows(session, name).unwrap_or((paint.height(), 1.0));
+    let area = (paint.width() * rows).max(1) as f64 * cell_area;
     let head = paint.totals().map(|total| total as f64 / area * mm_from_quanta(1, cell_mm));
-    Ok(BrushLoad { head, tip: TipLoad::of(&paint, cell_mm, cell_area).amounts_mm })
+    Ok(BrushLoad { head, tip: TipLoad::of(&paint, rows, cell_mm, cell_area).amounts_mm })
 }
 
-/// Area of a cell of a head in cells of the canvas, the same on both surfaces; `None` if it was
-/// never used.
-fn paint_cell_area(session: &PaintingSession, name: &str) -> Option<f64> {
+/// Number of rows of a head that hold paint, and area of one of their cells in cells of the canvas,
+/// the same on both surfaces; `None` if it was never used.
+fn paint_rows(session: &PaintingSession, name: &str) -> Option<(usize, f64)> {
     [SurfaceId::Canvas, SurfaceId::Palette].into_iter().find_map(|surface| {
         let id = session.brush_id_on(name, surface)?;
-        Some(session.painting(surface)?.head(id).paint_cell_area())
+        let head = session.painting(surface)?.head(id);
+        Some((head.rows_with_paint().len(), head.paint_cell_area()))
     })
 }

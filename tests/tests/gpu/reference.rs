@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::{Cell, Layer};
 use render::paint::BrushId;
-use render::paint::contact::{Contact, ExchangeRates, Touch};
+use render::paint::contact::{Contact, ExchangeRates, Touch, Wicking};
 use render::paint::engine::PaintEngine;
 use render::tile::Rect;
 
@@ -106,7 +106,8 @@ pub(crate) fn contact(
         touch.weights |= sharers[touch.brush_cell as usize] << 16;
     }
     let mut share = || [0, 700, 65536, rng.random_range(0..=65536)][rng.random_range(0..4)];
-    let wicking = share();
+    let hairs = 1 + share() % 4;
+    let wicking = Wicking { share: share(), first_row: share() % 3, hairs, shift: share() % hairs };
     let rates = ExchangeRates {
         release: share(),
         film: share(),

@@ -1,5 +1,7 @@
 //! A brush head: its bending, its surface, and its contacts with the canvas.
 
+use std::ops::Range;
+
 use super::footprint::Footprint;
 use super::grip::Grip;
 use super::locks::Locks;
@@ -10,10 +12,10 @@ use super::shape::HeadShape;
 use super::sides::{Extent, Sides};
 use super::spines::Spines;
 use super::surface::LimitSurface;
-use super::uptake::{rates, wicking};
+use super::uptake::{rates, rows_with_paint, wicking};
 use super::vector::Vector;
 use crate::amount::QUANTA_PER_CELL;
-use crate::contact::{Contact, ExchangeRates};
+use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
 use graphics::tile::Rect;
 use spectra::hint::{Explain, Hint};
@@ -102,7 +104,7 @@ impl Head {
             net: Net::new(&spines),
             spines,
             footprint: Footprint::new(around, along, hair),
-            locks: Locks::new(0, around, column_mm, 0.1 * of.recess, cell_mm),
+            locks: Locks::new(0, around, column_mm, (0.1 * of.recess, of.variation), cell_mm),
             sides: Sides::default(),
             sub_step: 0,
             paint_cell_area: area / (around * along) as f64,
@@ -142,6 +144,14 @@ impl Head {
     #[must_use]
     pub fn paint_grid(&self) -> (usize, usize) {
         cells(&self.surface)
+    }
+
+    /// Rows of paint cells that hold the paint of a fresh load: all rows of hair, those at the edge
+    /// of a blade.
+    #[must_use]
+    pub fn rows_with_paint(&self) -> Range<usize> {
+        let rows = self.paint_grid().1;
+        rows - rows_with_paint(self.spines.of, rows, self.cell_mm)..rows
     }
 
     /// Area of a paint cell, in cells of the canvas. Paint `d` mm thick on the head takes a column
@@ -203,7 +213,7 @@ impl Head {
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
-        (out.rates, out.wicking) = (ExchangeRates::default(), 0);
+        (out.rates, out.wicking) = (ExchangeRates::default(), Wicking::default());
         let Some(grip) = Grip::new(pose, self.spines.of) else {
             self.lift();
             return;
@@ -260,7 +270,7 @@ impl Head {
         self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
         self.sides.thicken(out, extent, grip.origin, self.cell_mm as f32);
         out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
-        out.wicking = wicking(self.spines.of, self.sub_step, self.cell_mm);
+        out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
         self.sub_step += 1;
     }
 }

@@ -16,9 +16,6 @@ const LOCK_MM: f32 = 0.5;
 /// Distance in mm along a stroke over which the locks change.
 const CHANGE_MM: f32 = 6.0;
 
-/// Variation of the coat between locks, relative to its mean (chosen by measured furrows).
-const VARIATION: f32 = 0.6;
-
 /// Number of sub-steps between two changes of the locks.
 const SUB_STEPS: u32 = 4;
 
@@ -41,6 +38,8 @@ pub(super) struct Locks {
     cell_mm: f32,
     /// Largest recess in quanta.
     most: f32,
+    /// Variation of the coat between locks, relative to its mean.
+    variation: f32,
     /// Distance along the pattern, in units of [`CHANGE_MM`].
     along: f32,
     before: Option<((i64, i64), (f32, f32))>,
@@ -50,12 +49,13 @@ pub(super) struct Locks {
 
 impl Locks {
     /// Locks of a head with `count` columns of paint cells, each `column_mm` wide. The hair
-    /// stands back up to `recess_mm`. Heads with different seeds have different locks.
+    /// stands back up to `recess_mm`, and its coat varies by the share `variation`. Heads with
+    /// different seeds have different locks.
     pub(super) fn new(
         seed: u64,
         count: usize,
         column_mm: f64,
-        recess_mm: f32,
+        (recess_mm, variation): (f32, f32),
         cell_mm: f64,
     ) -> Self {
         let cell_mm = cell_mm as f32;
@@ -64,6 +64,7 @@ impl Locks {
             column: column_mm as f32 / LOCK_MM,
             cell_mm,
             most: recess_mm / cell_mm * QUANTA_PER_CELL as f32,
+            variation,
             along: 0.0,
             before: None,
             sub_steps: 0,
@@ -118,7 +119,7 @@ impl Locks {
             let height = hills.at(across, along + 0.11 * across).clamp(-1.0, 1.0);
             let back = 0.5 + 0.5 * height;
             lock.recess = (most * back * back) as i32;
-            let release = 32.0 * (1.0 + VARIATION * height);
+            let release = 32.0 * (1.0 + self.variation * height);
             lock.release = (release.clamp(1.0, 127.0) as u32) << 9;
         }
     }
@@ -131,7 +132,7 @@ mod tests {
     use crate::pose::Pose;
 
     fn locks(seed: u64) -> Locks {
-        Locks::new(seed, 60, 0.1, 0.05, 0.1)
+        Locks::new(seed, 60, 0.1, (0.05, 0.6), 0.1)
     }
 
     /// Locks after a way of 50 cells from `x`.

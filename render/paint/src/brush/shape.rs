@@ -146,6 +146,9 @@ pub(super) struct Proportions {
     pub(super) rigid: bool,
     /// Largest recess of bristles from the surface, in tenths of a mm.
     pub(super) recess: f32,
+    /// Variation of the coat between locks of hair, relative to its mean (chosen by measured
+    /// furrows).
+    pub(super) variation: f32,
 }
 
 const ROUND: Proportions = Proportions {
@@ -160,6 +163,7 @@ const ROUND: Proportions = Proportions {
     gaps: false,
     rigid: false,
     recess: 0.5,
+    variation: 0.6,
 };
 
 const FLAT: Proportions = Proportions {
@@ -227,6 +231,7 @@ const KNIFE: Proportions = Proportions {
     depth: [1.0, 1.0, 1.0, 1.0, 1.0, 0.0],
     rigid: true,
     recess: 0.0,
+    variation: 0.12,
     ..FLAT
 };
 

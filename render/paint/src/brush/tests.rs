@@ -213,7 +213,7 @@ fn paint_flows_along_the_hair_off_the_canvas_but_not_in_the_air() {
     let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
     let off = Rect { x: 4000, ..BOUNDS };
     head.advance(&POSE, &plane(), off, &mut contact);
-    assert!(contact.wicking > 0 && contact.rect.is_empty(), "{contact:?}");
+    assert!(contact.wicking.share > 0 && contact.rect.is_empty(), "{contact:?}");
     head.advance(&Pose { pressure: 0.0, ..POSE }, &plane(), off, &mut contact);
     assert_eq!(contact, nothing());
 }

@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{CommitOutcome, History, TILE_BYTES};
-use crate::contact::{Contact, ExchangeRates, Touch};
+use crate::contact::{Contact, ExchangeRates, Touch, Wicking};
 use crate::engine::{BrushId, PaintEngine};
 use crate::layer::{Cell, Layer};
 use crate::motion::MotionConstants;
@@ -63,7 +63,8 @@ fn stroke(history: &mut History<usize>, engine: &mut PaintEngine, random: &mut C
             mixing: 900,
             ..ExchangeRates::default()
         };
-        let contact = Contact { rect, touches: touches.collect(), rates, wicking: 9000 };
+        let wicking = Wicking { share: 9000, ..Wicking::default() };
+        let contact = Contact { rect, touches: touches.collect(), rates, wicking };
         engine.apply_contacts(brush, &MotionConstants::new(0.1, 0.7), &[contact]).unwrap();
     }
 }

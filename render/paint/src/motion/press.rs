@@ -30,8 +30,8 @@ const FASTEST_FLOW: u32 = 1 << 13;
 #[inline(always)]
 #[must_use]
 pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
-    let usual = share_of_65536(mean, rates.release).min(CROWDED_VOLUME);
-    rates.film + (usual >> 5) * touch.release()
+    let usual = rates.film + share_of_65536(mean, rates.release).min(CROWDED_VOLUME);
+    (usual >> 5) * touch.release()
 }
 
 /// Penetration of the head in quanta: how far its hair is below the top of the paint, but

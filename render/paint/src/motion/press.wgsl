@@ -8,8 +8,8 @@ const CELL_A_SUB_STEP: i32 = 16384;
 const FASTEST_FLOW: u32 = 8192u;
 
 fn coat(rates: ExchangeRates, touch: Touch, mean: u32) -> u32 {
-    let usual = min(share_of_65536(mean, rates.release), CROWDED_VOLUME);
-    return rates.film + (usual >> 5u) * touch_release(touch);
+    let usual = rates.film + min(share_of_65536(mean, rates.release), CROWDED_VOLUME);
+    return (usual >> 5u) * touch_release(touch);
 }
 
 fn penetration(

@@ -1,10 +1,11 @@
 //! Flow of paint along the hair of a head, from where there is more to where there is less.
 //!
 //! A hair is a column of cells and the column opposite to it, on the other side of the head.
-//! Each of its cells gives a share of what it has beyond the hair's mean to a pot, and the pot
-//! is divided among the cells below the mean in proportion to what they lack. So a head feeds
-//! its tip from its belly, and a level hair does not mix. The coat follows the mean of each hair,
-//! not the cell that touches: that cell empties between two flows, and the film would show it.
+//! Hairs level alone or in groups of neighbours. Each cell of a group gives a share of what it has
+//! beyond the group's mean to a pot, and the pot is divided among the cells below the mean in
+//! proportion to what they lack. So a head feeds its tip from its belly, and a level hair does not
+//! mix. The coat follows the mean of each group, not the cell that touches: that cell empties
+//! between two flows, and the film would show it.
 
 use crate::amount::{ratio_of_65536, share_of_65536};
 use crate::layer::Cell;
@@ -22,12 +23,12 @@ pub fn mean(sum: u32, count: u32) -> u32 {
 /// Most units that a pot holds, so that its quanta fit into 32 bits.
 const POT_UNITS: u32 = 1 << 21;
 
-/// Share of each surplus that goes to the pot of a hair whose cells lack `lacks` units, in parts
+/// Share of each surplus that goes to the pot of a group whose cells lack `lacks` units, in parts
 /// of 65536: `wicking`, or less if the pot could not hold it.
 #[inline(always)]
 #[must_use]
 pub fn flowing(wicking: u32, lacks: u32) -> u32 {
-    // A hair has about as much surplus as it lacks.
+    // A group has about as much surplus as it lacks.
     wicking.min(ratio_of_65536(POT_UNITS, lacks.max(POT_UNITS)))
 }
 
@@ -47,7 +48,7 @@ pub fn lack(volume: u32, mean: u32) -> u32 {
     mean.saturating_sub(volume >> UNIT_BITS)
 }
 
-/// Part of `pot` for a cell that lacks `lack` of the `lacks` units that all cells of its column
+/// Part of `pot` for a cell that lacks `lack` of the `lacks` units that all cells of its group
 /// lack. The last of these cells gets the rest of the pot instead.
 #[inline(always)]
 #[must_use]

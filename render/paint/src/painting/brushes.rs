@@ -28,9 +28,9 @@ impl Painting {
         Ok(id)
     }
 
-    /// Adds paint to a brush: all over the head `amount_mm` mm of the mixture of `recipe` (parts by
-    /// slot), of which the fraction `vehicle` (0 to 1) is clear medium. With `vehicle` 1 the recipe
-    /// may be empty.
+    /// Adds paint to a brush: all over its hair, or along the edge of a knife, `amount_mm` mm of the
+    /// mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear
+    /// medium. With `vehicle` 1 the recipe may be empty.
     ///
     /// # Errors
     /// [`PaintingError`] if the recipe has no parts or parts of an empty slot, or if the
@@ -49,13 +49,14 @@ impl Painting {
         let fresh = self.mixture(recipe, vehicle, amount_mm * area)?;
         let Brush { id, cells, .. } = self.brushes[brush.0];
         let mut paint = self.engine.brush_paint(id)?;
-        let cells = 0..cells.0 * cells.1;
-        let fullest = cells.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
+        let rows = self.brushes[brush.0].head.rows_with_paint();
+        let filled = rows.start * cells.0..rows.end * cells.0;
+        let fullest = filled.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
         let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm) / area;
         if amount_mm > most_mm {
             return Err(PaintingError::Overloaded { amount_mm, most_mm });
         }
-        for index in cells {
+        for index in filled {
             paint.set_cell(index, paint.cell(index).plus(&fresh));
         }
         self.change_brush(brush, &paint)

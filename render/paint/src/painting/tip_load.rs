@@ -18,12 +18,12 @@ pub struct TipLoad {
 }
 
 impl TipLoad {
-    /// The tip of a head with this paint, over cells of `cell_mm` mm. `paint_cell_area` is the
-    /// area of a cell of the head, in cells of the canvas.
+    /// The tip of a head with this paint in its last `rows` rows, over cells of `cell_mm` mm.
+    /// `paint_cell_area` is the area of a cell of the head, in cells of the canvas.
     #[must_use]
-    pub fn of(paint: &Layer, cell_mm: f64, paint_cell_area: f64) -> Self {
+    pub fn of(paint: &Layer, rows: usize, cell_mm: f64, paint_cell_area: f64) -> Self {
         let (width, height) = (paint.width(), paint.height());
-        let rows = height.div_ceil(TIP);
+        let rows = rows.min(height.div_ceil(TIP));
         let mut quanta = [0_u64; SLOTS + 1];
         for index in (height - rows) * width..height * width {
             let cell = paint.cell(index);
@@ -55,8 +55,9 @@ impl Painting {
     /// If there is no such brush.
     pub fn tip_load(&mut self, brush: BrushId) -> Result<TipLoad, PaintingError> {
         let cell_mm = self.cell_mm();
-        let area = self.head(brush).paint_cell_area();
-        Ok(TipLoad::of(&self.brush_paint(brush)?, cell_mm, area))
+        let head = self.head(brush);
+        let (rows, area) = (head.rows_with_paint().len(), head.paint_cell_area());
+        Ok(TipLoad::of(&self.brush_paint(brush)?, rows, cell_mm, area))
     }
 }
 
@@ -81,11 +82,11 @@ mod tests {
         for index in 36..39 {
             paint.set_cell(index, Cell::default());
         }
-        let tip = TipLoad::of(&paint, 0.1, 1.0);
+        let tip = TipLoad::of(&paint, 9, 0.1, 1.0);
         assert_eq!(tip.amounts_mm[0], 0.0);
         assert!((tip.thickness_mm() - 0.2 * 15.0 / 18.0).abs() < 1e-6, "{tip:?}");
-        let spread = TipLoad::of(&paint, 0.1, 1.25);
+        let spread = TipLoad::of(&paint, 9, 0.1, 1.25);
         assert!((spread.thickness_mm() * 1.25 - tip.thickness_mm()).abs() < 1e-9, "{spread:?}");
-        assert_eq!(TipLoad::of(&Layer::empty(3, 1), 0.1, 1.0).thickness_mm(), 0.0);
+        assert_eq!(TipLoad::of(&Layer::empty(3, 1), 1, 0.1, 1.0).thickness_mm(), 0.0);
     }
 }

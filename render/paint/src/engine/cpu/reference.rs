@@ -24,7 +24,7 @@ pub(super) fn sub_step(
 ) {
     let Contact { rect, touches, rates, wicking } = contact;
     let (width, height) = (floor.width(), floor.height());
-    if *wicking > 0 {
+    if wicking.share > 0 {
         Wick::default().apply(*wicking, paint);
     }
     let HeadPaint { cells: brush, means } = paint;

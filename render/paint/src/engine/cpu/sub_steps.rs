@@ -8,7 +8,7 @@ use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
 use super::step::SubStep;
 use super::wick::Wick;
-use crate::contact::Contact;
+use crate::contact::{Contact, Wicking};
 use crate::motion::MotionConstants;
 use graphics::field::Field;
 use graphics::tile::Rect;
@@ -55,7 +55,7 @@ impl SubStepRunner {
         let arch = Arch::new();
         let mut all = || {
             for contact in contacts {
-                if contact.wicking > 0 {
+                if contact.wicking.share > 0 {
                     let (wick, wicking) = (&mut self.wick, contact.wicking);
                     arch.dispatch(ApplyWick { wick, wicking, head });
                 }
@@ -160,7 +160,7 @@ struct AddBrushGains<'a> {
 
 struct ApplyWick<'a> {
     wick: &'a mut Wick,
-    wicking: u32,
+    wicking: Wicking,
     head: &'a mut HeadPaint,
 }
 

@@ -1,14 +1,16 @@
-//! Flow of paint along the hair of a head, column by column.
+//! Flow of paint over a head, along its hairs and between them.
 
 use super::head_paint::HeadPaint;
+use crate::contact::Wicking;
 use crate::layer::{Cell, SLOTS};
 use crate::motion::wick::{UNIT_BITS, dealt, flowing, given_share, lack, mean};
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
 
-/// Sums over one hair: a column of cells of the head and the column opposite to it.
+/// Sums over a group of hairs.
 #[derive(Debug, Clone, Copy)]
-struct Hair {
+struct Group {
+    columns: u32,
     mean: u32,
     flowing: u32,
     lacks: u32,
@@ -18,80 +20,100 @@ struct Hair {
     last: usize,
 }
 
-const BARE: Hair = Hair { mean: 0, flowing: 0, lacks: 0, pot: EMPTY, rest: EMPTY, last: 0 };
+const BARE: Group =
+    Group { columns: 0, mean: 0, flowing: 0, lacks: 0, pot: EMPTY, rest: EMPTY, last: 0 };
 
-/// Lets paint flow along the hair. Holds its buffers, so that no sub-step allocates.
+/// Lets paint flow along and between hairs. Holds its buffers, so that no sub-step allocates.
 #[derive(Debug, Default)]
 pub(super) struct Wick {
-    hairs: Vec<Hair>,
+    groups: Vec<Group>,
+    /// Index of the group of each column of cells.
+    group_of: Vec<usize>,
 }
 
 impl Wick {
-    /// Moves paint within each column of `head`; see [`crate::motion::wick`]. `wicking` is the
-    /// share of each surplus that moves, in parts of 65536.
+    /// Moves paint within each group of hairs of `head`; see [`crate::motion::wick`].
     #[inline(always)]
-    pub(super) fn apply(&mut self, wicking: u32, head: &mut HeadPaint) {
+    pub(super) fn apply(&mut self, wicking: Wicking, head: &mut HeadPaint) {
         let HeadPaint { cells: brush, means } = head;
         let width = brush.width();
         if width == 0 {
             return;
         }
-        let rows = brush.volume().len() / width;
-        self.hairs.clear();
-        self.hairs.resize(width.div_ceil(2), BARE);
-        for volumes in brush.volume().chunks_exact(width) {
-            for (column, &volume) in volumes.iter().enumerate() {
-                self.hairs[hair_of(column, width)].mean += volume >> UNIT_BITS;
+        let first = wicking.first_row as usize * width;
+        let Some(rows) = brush.volume().len().checked_sub(first).map(|cells| cells / width) else {
+            return;
+        };
+        self.divide(wicking, width);
+        let Self { groups, group_of } = self;
+        let cells = || (first..).step_by(width).take(rows);
+        for row in cells() {
+            for (&volume, &group) in brush.volume()[row..][..width].iter().zip(&*group_of) {
+                groups[group].mean += volume >> UNIT_BITS;
             }
         }
-        for (column, hair) in self.hairs.iter_mut().enumerate() {
-            let columns = if width - 1 - column == column { 1 } else { 2 };
-            hair.mean = mean(hair.mean, columns * rows as u32);
+        for group in &mut *groups {
+            group.mean = mean(group.mean, group.columns * rows as u32);
         }
-        for means in means.chunks_exact_mut(width) {
-            for (column, mean) in means.iter_mut().enumerate() {
-                *mean = self.hairs[hair_of(column, width)].mean << UNIT_BITS;
+        for row in cells() {
+            for (mean, &group) in means[row..][..width].iter_mut().zip(&*group_of) {
+                *mean = groups[group].mean << UNIT_BITS;
             }
         }
-        for (row, volumes) in brush.volume().chunks_exact(width).enumerate() {
-            for (column, &volume) in volumes.iter().enumerate() {
-                let hair = &mut self.hairs[hair_of(column, width)];
-                let lack = lack(volume, hair.mean);
+        for row in cells() {
+            let volumes = &brush.volume()[row..][..width];
+            for (column, (&volume, &group)) in volumes.iter().zip(&*group_of).enumerate() {
+                let group = &mut groups[group];
+                let lack = lack(volume, group.mean);
                 if lack > 0 {
-                    hair.lacks += lack;
-                    hair.last = row * width + column;
+                    group.lacks += lack;
+                    group.last = row + column;
                 }
             }
         }
-        for hair in &mut self.hairs {
-            hair.flowing = if hair.lacks > 0 { flowing(wicking, hair.lacks) } else { 0 };
+        for group in &mut *groups {
+            group.flowing = if group.lacks > 0 { flowing(wicking.share, group.lacks) } else { 0 };
         }
-        for row in (0..width * rows).step_by(width) {
-            for column in 0..width {
-                let (at, hair) = (row + column, &mut self.hairs[hair_of(column, width)]);
-                let share = given_share(brush.volume()[at], hair.mean, hair.flowing);
+        for row in cells() {
+            for (at, &group) in (row..).zip(&*group_of) {
+                let group = &mut groups[group];
+                let share = given_share(brush.volume()[at], group.mean, group.flowing);
                 if share > 0 {
                     let cell = brush.cell(at);
                     let given = cell.share_of_65536(share);
-                    hair.pot = hair.pot.plus(&given);
+                    group.pot = group.pot.plus(&given);
                     brush.set_cell(at, cell.minus(&given));
                 }
             }
         }
-        for hair in &mut self.hairs {
-            hair.rest = hair.pot;
+        for group in &mut *groups {
+            group.rest = group.pot;
         }
-        for row in (0..width * rows).step_by(width) {
-            for column in 0..width {
-                let (at, hair) = (row + column, &mut self.hairs[hair_of(column, width)]);
-                let lack = lack(brush.volume()[at], hair.mean);
-                if lack > 0 && hair.lacks > 0 {
-                    let last = at == hair.last;
-                    let part = if last { hair.rest } else { dealt(&hair.pot, lack, hair.lacks) };
-                    hair.rest = hair.rest.minus(&part);
+        for row in cells() {
+            for (at, &group) in (row..).zip(&*group_of) {
+                let group = &mut groups[group];
+                let lack = lack(brush.volume()[at], group.mean);
+                if lack > 0 && group.lacks > 0 {
+                    let last = at == group.last;
+                    let part = if last { group.rest } else { dealt(&group.pot, lack, group.lacks) };
+                    group.rest = group.rest.minus(&part);
                     brush.set_cell(at, brush.cell(at).plus(&part));
                 }
             }
+        }
+    }
+
+    /// Divides the hairs of a head of `width` columns into groups.
+    #[inline(always)]
+    fn divide(&mut self, wicking: Wicking, width: usize) {
+        let (hairs, shift) = (wicking.hairs.max(1) as usize, wicking.shift as usize);
+        self.groups.clear();
+        self.groups.resize((width.div_ceil(2) + shift).div_ceil(hairs), BARE);
+        self.group_of.clear();
+        for column in 0..width {
+            let group = (hair_of(column, width) + shift) / hairs;
+            self.groups[group].columns += 1;
+            self.group_of.push(group);
         }
     }
 }
@@ -110,12 +132,18 @@ mod tests {
     use super::*;
     use crate::amount::MAX_COLUMN;
     use crate::layer::Layer;
+    use graphics::tile::Rect;
 
     /// A head of `width` x `height` cells with the paint that `cell` makes.
     fn head(width: usize, height: usize, mut cell: impl FnMut(usize) -> Cell) -> HeadPaint {
         let mut layer = Layer::empty(width, height);
         (0..width * height).for_each(|index| layer.set_cell(index, cell(index)));
         HeadPaint::new(layer)
+    }
+
+    /// Each hair levels alone.
+    fn along(share: u32) -> Wicking {
+        Wicking { share, ..Wicking::default() }
     }
 
     /// Paint of each slot, vehicle last, on the hair of each column.
@@ -142,7 +170,7 @@ mod tests {
             });
             let before = by_hair(&paint, width);
             for _ in 0..40 {
-                Wick::default().apply(30_000, &mut paint);
+                Wick::default().apply(along(30_000), &mut paint);
                 assert_eq!(by_hair(&paint, width), before, "{width} x {height}");
             }
             for (index, (&volume, &mean)) in
@@ -165,7 +193,7 @@ mod tests {
             cell
         };
         let mut paint = head(4, 30, cell);
-        Wick::default().apply(65536, &mut paint);
+        Wick::default().apply(along(65536), &mut paint);
         assert!((0..120).all(|index| paint.cells.cell(index) == cell(index)), "paint moved");
         assert!(paint.means.iter().all(|mean| mean.abs_diff(5_000_000) < 1024), "{paint:?}");
     }
@@ -176,10 +204,31 @@ mod tests {
         let mut paint = head(2, 200, |index| if index < 200 { full } else { EMPTY });
         let before = by_hair(&paint, 2);
         for _ in 0..300 {
-            Wick::default().apply(65536, &mut paint);
+            Wick::default().apply(along(65536), &mut paint);
             assert_eq!(by_hair(&paint, 2), before);
         }
         let lowest = paint.cells.volume().iter().min();
         assert!(lowest > Some(&(MAX_COLUMN / 4)), "{lowest:?}");
+    }
+
+    #[test]
+    fn groups_that_shift_spread_paint_across_the_rows_that_take_part() {
+        let full = Cell { vehicle: 6_000_000, ..EMPTY };
+        let mut paint = head(40, 10, |index| if index % 40 == 3 { full } else { EMPTY });
+        let (above, total) =
+            (paint.cells.layer().part(Rect { x: 0, y: 0, width: 40, height: 4 }), {
+                paint.cells.layer().totals()
+            });
+        let wicking = Wicking { share: 65536, first_row: 4, hairs: 4, shift: 0 };
+        for step in 0..60 {
+            let shift = if step % 2 == 0 { 0 } else { 2 };
+            Wick::default().apply(Wicking { shift, ..wicking }, &mut paint);
+            assert_eq!(paint.cells.layer().totals(), total);
+        }
+        let layer = paint.cells.layer();
+        assert!(layer.part(Rect { x: 0, y: 0, width: 40, height: 4 }) == above, "upper rows moved");
+        let volumes = &paint.cells.volume()[4 * 40..];
+        let (low, high) = (volumes.iter().min().unwrap(), volumes.iter().max().unwrap());
+        assert!(*low > 100_000 && *high < 200_000, "{low} to {high}");
     }
 }

@@ -5,7 +5,7 @@ use super::drying::{self, DryParams};
 use super::render::{CanvasBuffers, ViewBuffers};
 use super::sub_step::{self, SubStepParams, WickParams};
 use super::undo_tiles::{UNDO_TILE, UndoTileParams, UndoTiles};
-use crate::contact::{Contact, Touch};
+use crate::contact::{Contact, Touch, Wicking};
 use crate::engine::ids::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
 use crate::motion::MotionConstants;
@@ -95,7 +95,7 @@ impl GpuPaint {
         contacts: &[Contact],
     ) -> Result<(), DeviceError> {
         for contact in contacts {
-            if contact.wicking > 0 {
+            if contact.wicking.share > 0 {
                 self.record_wicking(brush, contact.wicking)?;
             }
             if !contact.rect.is_empty() {
@@ -302,12 +302,15 @@ impl GpuPaint {
         self.submit_if_full()
     }
 
-    fn record_wicking(&mut self, brush: BrushId, wicking: u32) -> Result<(), DeviceError> {
+    fn record_wicking(&mut self, brush: BrushId, wicking: Wicking) -> Result<(), DeviceError> {
         let BrushBuffers { size, paint } = &self.brushes[brush.0];
-        let size_u32 = [size.0 as u32, size.1 as u32];
-        let params = WickParams { size: size_u32, wicking, padding: 0 };
-        // A group of 8 x 8 invocations takes 64 hairs.
-        let over = [groups(size.0.div_ceil(2).div_ceil(8)), 1, 1];
+        let Wicking { share, first_row, hairs, shift } = wicking;
+        let (hairs, size_u32) = (hairs.max(1), [size.0 as u32, size.1 as u32]);
+        let params =
+            WickParams { size: size_u32, wicking: share, first_row, hairs, shift, padding: [0; 2] };
+        let hair_groups = (size.0.div_ceil(2) + shift as usize).div_ceil(hairs as usize);
+        // A workgroup of 8 x 8 invocations takes 64 groups of hairs.
+        let over = [groups(hair_groups.div_ceil(8)), 1, 1];
         self.recording.dispatch(&sub_step::WICK, &params, &[&paint.pigments, &paint.vehicle], over);
         self.submit_if_full()
     }

@@ -118,10 +118,16 @@ pub(super) struct WickParams {
     pub(super) size: [u32; 2],
     /// Share of each surplus that moves, in parts of 65536.
     pub(super) wicking: u32,
-    pub(super) padding: u32,
+    /// First row that takes part.
+    pub(super) first_row: u32,
+    /// Number of hairs in a group.
+    pub(super) hairs: u32,
+    /// Number of hairs that the first group lacks.
+    pub(super) shift: u32,
+    pub(super) padding: [u32; 2],
 }
 
-/// Lets paint flow along the hair of a head; an invocation a hair.
+/// Lets paint flow over a head; an invocation a group of hairs.
 pub(super) static WICK: Kernel = Kernel {
     name: "wick_hairs",
     source: concat!(
@@ -130,7 +136,7 @@ pub(super) static WICK: Kernel = Kernel {
         include_str!("../../motion/wick.wgsl"),
         include_str!("passes/wick.wgsl"),
     ),
-    parameters: layout!(WickParams { size, wicking, padding }),
+    parameters: layout!(WickParams { size, wicking, first_row, hairs, shift, padding }),
     structs: &[],
     storage: &[Storage::Write, Storage::Write],
 };

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::amount::{MAX_COLUMN, QUANTA_PER_CELL};
-use crate::contact::{Contact, ExchangeRates, Touch};
+use crate::contact::{Contact, ExchangeRates, Touch, Wicking};
 use crate::engine::BrushId;
 use crate::engine::cpu::CpuPaint;
 use crate::engine::cpu::reference::sub_step;
@@ -88,7 +88,7 @@ fn random_contact(
     });
     let touches = touches.collect();
     let mut share = || [0, 700, 65536, random.random_range(0..=65536)][random.random_range(0..4)];
-    let wicking = share();
+    let wicking = Wicking { share: share(), first_row: share() % 3, hairs: share() % 4, shift: 0 };
     let rates = ExchangeRates {
         release: share(),
         film: share(),
@@ -207,7 +207,7 @@ fn a_still_brush_moves_no_paint_across_sides_and_leaves_the_adhesion() {
         let mut contact = random_contact(random, (38, 38), brush, Some(0));
         // Paint goes up onto a head that drags it over the edge, and flows along still hair.
         (contact.rect.x, contact.rect.y) = (contact.rect.x + 1, contact.rect.y + 1);
-        contact.wicking = 0;
+        contact.wicking = Wicking::default();
         engine.apply_contacts(BRUSH, &motion, &[contact]);
         let after = engine.wet();
         for index in 0..canvas.0 * canvas.1 {
@@ -267,7 +267,7 @@ fn paint_dragged_over_the_edge_goes_onto_the_head_and_piles_up_nowhere() {
         let touch = Touch::new(0, 0, velocity, 0, 108);
         let rect = engine.bounds();
         let rates = ExchangeRates { drag: 128, ..ExchangeRates::default() };
-        let contact = Contact { rect, touches: vec![touch; 108], rates, wicking: 0 };
+        let contact = Contact { rect, touches: vec![touch; 108], rates, ..Contact::default() };
         let mut highest = 0;
         for _ in 0..100 {
             let now = std::slice::from_ref(&contact);

@@ -1,4 +1,4 @@
-// Lets paint flow along the hair of a head, one invocation a hair: a column of cells and the
+// Lets paint flow over a head, one invocation a group of hairs. A hair is a column of cells and the
 // column opposite to it.
 
 struct WickParams {
@@ -6,7 +6,21 @@ struct WickParams {
     size: vec2<u32>,
     // Share of each surplus that moves, in parts of 65536.
     wicking: u32,
-    padding: u32,
+    // First row that takes part.
+    first_row: u32,
+    // Number of hairs in a group.
+    hairs: u32,
+    // Number of hairs that the first group lacks.
+    shift: u32,
+    padding: vec2<u32>,
+}
+
+// The cells of a group of hairs: its hairs from `first` to before `end`, then their opposites.
+struct Group {
+    first: u32,
+    end: u32,
+    columns: u32,
+    count: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: WickParams;
@@ -27,23 +41,27 @@ fn put(i: u32, cell: Cell) {
 @compute @workgroup_size(8, 8)
 fn wick_hairs(@builtin(global_invocation_id) id: vec3<u32>) {
     let width = params.size.x;
-    // A group is a row of 64 hairs.
-    let hair = id.x / 8u * 64u + id.y * 8u + id.x % 8u;
-    let opposite = width - 1u - hair;
-    if hair >= (width + 1u) / 2u {
+    let half = (width + 1u) / 2u;
+    // A workgroup is a row of 64 groups.
+    let before = (id.x / 8u * 64u + id.y * 8u + id.x % 8u) * params.hairs;
+    let first = before - min(before, params.shift);
+    if first >= half || params.first_row >= params.size.y {
         return;
     }
-    let columns = select(2u, 1u, opposite == hair);
-    let count = columns * params.size.y;
+    let end = min(before + params.hairs - params.shift, half);
+    // The middle column of an odd width is its own opposite.
+    let middle = select(0u, 1u, end == half && width % 2u == 1u);
+    let columns = 2u * (end - first) - middle;
+    let group = Group(first, end, columns, columns * (params.size.y - params.first_row));
     var sum = 0u;
-    for (var k = 0u; k < count; k++) {
-        sum += volume(cell_at(place(k, columns, hair, opposite))) >> UNIT_BITS;
+    for (var k = 0u; k < group.count; k++) {
+        sum += volume(cell_at(place(k, group))) >> UNIT_BITS;
     }
-    let mean = sum / max(count, 1u);
+    let mean = sum / max(group.count, 1u);
     var lacks = 0u;
     var last = 0u;
-    for (var k = 0u; k < count; k++) {
-        let i = place(k, columns, hair, opposite);
+    for (var k = 0u; k < group.count; k++) {
+        let i = place(k, group);
         vehicle[width * params.size.y + i] = mean << UNIT_BITS;
         let missing = lack(volume(cell_at(i)), mean);
         if missing > 0u {
@@ -56,8 +74,8 @@ fn wick_hairs(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let share_flowing = flowing(params.wicking, lacks);
     var pot = Cell();
-    for (var k = 0u; k < count; k++) {
-        let i = place(k, columns, hair, opposite);
+    for (var k = 0u; k < group.count; k++) {
+        let i = place(k, group);
         let cell = cell_at(i);
         let share = given_share(volume(cell), mean, share_flowing);
         if share > 0u {
@@ -67,8 +85,8 @@ fn wick_hairs(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     var rest = pot;
-    for (var k = 0u; k < count; k++) {
-        let i = place(k, columns, hair, opposite);
+    for (var k = 0u; k < group.count; k++) {
+        let i = place(k, group);
         let cell = cell_at(i);
         let missing = lack(volume(cell), mean);
         if missing > 0u {
@@ -82,8 +100,11 @@ fn wick_hairs(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-// Index of cell `k` of a hair, row by row.
-fn place(k: u32, columns: u32, hair: u32, opposite: u32) -> u32 {
-    let column = select(opposite, hair, k % columns == 0u);
-    return k / columns * params.size.x + column;
+// Index of cell `k` of a group, row by row.
+fn place(k: u32, group: Group) -> u32 {
+    let hairs = group.end - group.first;
+    let column = k % group.columns;
+    let opposite = params.size.x - group.columns + column - group.first;
+    let row = params.first_row + k / group.columns;
+    return row * params.size.x + select(opposite, group.first + column, column < hairs);
 }
