@@ -50,6 +50,7 @@ impl Footprint {
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
     /// of `bounds`, in coordinates from the cell `origin`. `locks` are those of each column of
     /// paint cells.
+    #[inline(always)]
     pub(super) fn draw(
         &mut self,
         surface: &LimitSurface,
@@ -70,19 +71,12 @@ impl Footprint {
         let (around, along) = (cells_around as f32 * ONE, cells_along as f32 * ONE);
         let most = (cells_around as i32 - 1, cells_along as i32 - 1);
         for facet in &self.facets {
-            let corner = |i: usize, s: f32, t: f32| {
-                let v = &surface.vertices[facet.corners[i] as usize];
-                Corner {
-                    x: v[0] - first.0,
-                    y: v[1] - first.1,
-                    values: [v[2], v[3], v[4], v[5], s, t, 0.0, 0.0],
-                }
-            };
+            let [a, b, c, d] = facet.corners.map(|i| &surface.vertices[i as usize]);
             let corners = [
-                corner(0, 0.0, 0.0),
-                corner(1, around, 0.0),
-                corner(2, 0.0, along),
-                corner(3, around, along),
+                Corner::new(a, first, (0.0, 0.0)),
+                Corner::new(b, first, (around, 0.0)),
+                Corner::new(c, first, (0.0, along)),
+                Corner::new(d, first, (around, along)),
             ];
             let mut canvas = Canvas {
                 touches: &mut out.touches,
@@ -101,6 +95,7 @@ impl Footprint {
 
     /// Collects the facets that face the canvas and reach below `ceiling`. Returns their extent
     /// in cells: lowest x and y, highest x and y.
+    #[inline(always)]
     fn choose(&mut self, surface: &LimitSurface, ceiling: f32) -> [f32; 4] {
         self.facets.clear();
         let (around, along) = surface.facets();
@@ -146,6 +141,7 @@ impl Footprint {
     }
 
     /// Sets in each touch the number of touches that share its paint cell.
+    #[inline(always)]
     fn count(&mut self, touches: &mut [Touch]) {
         let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
         for touch in touches.iter().filter(touching) {
@@ -185,6 +181,17 @@ struct Corner {
     x: f32,
     y: f32,
     values: Point,
+}
+
+impl Corner {
+    /// The corner at `vertex`, in cells from the cell `first`. `cells` are its paint cells around
+    /// and along from the facet's first, times 65536.
+    #[inline(always)]
+    fn new(vertex: &Point, first: (f32, f32), cells: (f32, f32)) -> Self {
+        let &[x, y, height, right, down, speed, ..] = vertex;
+        let values = [height, right, down, speed, cells.0, cells.1, 0.0, 0.0];
+        Self { x: x - first.0, y: y - first.1, values }
+    }
 }
 
 /// Target of the rasterisation of a facet.

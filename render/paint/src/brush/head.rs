@@ -18,6 +18,7 @@ use crate::amount::QUANTA_PER_CELL;
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
 use graphics::tile::Rect;
+use pulp::{Simd, WithSimd};
 use spectra::hint::{Explain, Hint};
 
 /// Range of the widths of heads, in mm.
@@ -244,9 +245,14 @@ impl Head {
             // Its edge stays where it is; the blade does not sweep over the paint.
             self.net.rest();
         }
-        self.touch(&grip, &view, bounds, out);
+        pulp::Arch::new().dispatch(Touching { head: self, grip: &grip, view, bounds, out });
+        out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
+        out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
+        self.sub_step += 1;
     }
 
+    /// Fills the touches of `out`.
+    #[inline(always)]
     fn touch(&mut self, grip: &Grip, view: &ReliefView<'_>, bounds: Rect, out: &mut Contact) {
         let reach = self.spines.width + grip.pressure * self.spines.length();
         let (lowest, highest) = view.range(grip.tip, reach);
@@ -258,20 +264,40 @@ impl Head {
         let (facets, cells) = (self.surface.facets().1, self.surface.cells_of_facet().1);
         let row_mm = cells as f64 * self.cell_mm;
         let fade = (row_mm / TIP_MM) as f32;
-        self.surface.evaluate(&self.net, ceiling, |row, vertex| {
-            let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
-            let grasp = ((facets - row) as f32 * fade).min(1.0);
-            *vertex = finished(vertex, relief, grasp);
-            if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
-                extent.include(vertex[0], vertex[1]);
-            }
-        });
+        self.surface.evaluate(
+            &self.net,
+            ceiling,
+            #[inline(always)]
+            |row, vertex| {
+                let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
+                let grasp = ((facets - row) as f32 * fade).min(1.0);
+                *vertex = finished(vertex, relief, grasp);
+                if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
+                    extent.include(vertex[0], vertex[1]);
+                }
+            },
+        );
         let ceiling = ceiling * QUANTA_PER_CELL as f32;
         self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
         self.sides.thicken(out, extent, grip.origin, self.cell_mm as f32);
-        out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
-        out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
-        self.sub_step += 1;
+    }
+}
+
+/// The work of a sub-step that pulp compiles once per instruction set.
+struct Touching<'a, 'b> {
+    head: &'a mut Head,
+    grip: &'a Grip,
+    view: ReliefView<'b>,
+    bounds: Rect,
+    out: &'a mut Contact,
+}
+
+impl WithSimd for Touching<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.head.touch(self.grip, &self.view, self.bounds, self.out);
     }
 }
 

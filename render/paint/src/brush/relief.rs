@@ -96,7 +96,7 @@ pub(super) struct ReliefView<'a> {
 
 impl ReliefView<'_> {
     /// Height at `(x, y)` in cells; outside the canvas that of its edge.
-    #[inline]
+    #[inline(always)]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {
         let (x, y) =
             (x * (1.0 / BLOCK as f32) + self.shift.0, y * (1.0 / BLOCK as f32) + self.shift.1);
@@ -107,6 +107,7 @@ impl ReliefView<'_> {
         upper + (lower - upper) * down
     }
 
+    #[inline(always)]
     fn between(&self, column: i32, row: i32, share: f32) -> f32 {
         let row = clamped(self.first.1 + i64::from(row), self.heights.height());
         let row = self.heights.row(row, 0, self.heights.width());
@@ -136,13 +137,13 @@ impl ReliefView<'_> {
 }
 
 /// Largest whole number not above the argument; `f32::floor` is slow without SSE 4.1.
-#[inline]
+#[inline(always)]
 fn floor_of(value: f32) -> i32 {
     let cut = value as i32;
     cut - i32::from(value < cut as f32)
 }
 
-#[inline]
+#[inline(always)]
 fn clamped(index: i64, count: usize) -> usize {
     index.clamp(0, count as i64 - 1) as usize
 }

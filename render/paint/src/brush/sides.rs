@@ -40,6 +40,7 @@ impl Extent {
         (length >= 0.2).then_some(Self { pen, across, low: f32::INFINITY, high: f32::NEG_INFINITY })
     }
 
+    #[inline(always)]
     fn at(&self, x: f32, y: f32) -> f32 {
         (x - self.pen.0) * self.across.0 + (y - self.pen.1) * self.across.1
     }
@@ -61,6 +62,7 @@ impl Sides {
 
     /// Thickens the coat near the sides of `contact`, whose extent is `now`. Positions in it
     /// count from the cell `origin`.
+    #[inline(always)]
     pub(super) fn thicken(
         &mut self,
         contact: &mut Contact,

@@ -93,6 +93,7 @@ impl LimitSurface {
 
     /// Evaluates the surface where it may reach below `ceiling`, and passes each vertex with
     /// its row to `finish`.
+    #[inline(always)]
     pub(super) fn evaluate(
         &mut self,
         net: &Net,

@@ -46,8 +46,8 @@ const HAIR: Uptake = Uptake {
 /// A blade scrapes off what lies higher than its edge, carries it as a bank that rolls along the
 /// edge, and lays a film from it. Chosen by the measured evenness of films.
 const BLADE: Uptake = Uptake {
-    coat: (0.06, -0.06),
-    film_mm: 0.15,
+    coat: (0.02, -0.02),
+    film_mm: 0.12,
     drag: 0.375,
     deposit_mm: 0.2,
     pick_up_mm: 0.2,

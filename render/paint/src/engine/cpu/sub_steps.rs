@@ -17,6 +17,10 @@ use graphics::tile::Rect;
 /// stays on one thread, one of 88 x 88 cells may use three.
 const CELLS_PER_BAND: usize = 2500;
 
+/// The same where there are two threads only. The other one bends the head most of the time, and
+/// waiting for it takes longer than the work.
+const CELLS_PER_BAND_OF_TWO: usize = 12_500;
+
 /// Runs sub-steps. Holds their buffers, so that no sub-step allocates.
 #[derive(Debug, Default)]
 pub(super) struct SubStepRunner {
@@ -27,8 +31,9 @@ pub(super) struct SubStepRunner {
 
 /// Number of bands that a reach is cut into, one thread each.
 fn band_count(reach: Rect) -> usize {
-    let worth = reach.width * reach.height / CELLS_PER_BAND;
-    worth.min(rayon::current_num_threads()).clamp(1, reach.height.max(1))
+    let threads = rayon::current_num_threads();
+    let cells = if threads > 2 { CELLS_PER_BAND } else { CELLS_PER_BAND_OF_TWO };
+    (reach.width * reach.height / cells).min(threads).clamp(1, reach.height.max(1))
 }
 
 impl SubStepRunner {
