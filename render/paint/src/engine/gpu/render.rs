@@ -8,10 +8,11 @@ use super::buffers::PaintBuffers;
 use crate::layer::SLOTS;
 use crate::optics::{Gloss, NODES, Scene};
 use crate::shade::{MOST, ReliefLamp, SOFT, Tap};
-use graphics::gpu::{
-    Buffer, Device, DeviceError, GROUP, Kernel, Layout, Recording, Storage, layout,
-};
+use graphics::gpu::{Buffer, Device, DeviceError, Kernel, Layout, Recording, Storage, layout};
 use graphics::tile::{TILE, TileSet};
+
+/// Number of cells that an invocation of [`BAKE`] or [`SHOW`] computes.
+const CELLS_AT_ONCE: u32 = 4;
 
 /// Maximum number of tiles in one dispatch: the WebGPU limit of workgroups along an
 /// axis.
@@ -277,7 +278,7 @@ impl ViewBuffers {
             let params = RaiseParams { canvas: canvas_size, first_tile, padding: 0 };
             let PaintBuffers { pigments, vehicle } = canvas.wet;
             let buffers = [pigments, vehicle, canvas.floor, &self.tops];
-            recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles));
+            recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles, 1));
         }
         for tiles in shown.chunks(MAX_TILES) {
             self.record_show(recording, canvas, scene, tiles);
@@ -300,15 +301,15 @@ impl ViewBuffers {
             first_tile: recording.batch(tiles),
             padding: 0,
         };
-        let workgroups = workgroups(tiles);
         let buffers = |paint: &PaintBuffers| {
             [&paint.pigments, &paint.vehicle, &self.baked, &self.material].map(Clone::clone)
         };
         let ground = buffers(canvas.wet);
-        recording.dispatch(&PRIME, &params, &ground.each_ref(), workgroups);
+        recording.dispatch(&PRIME, &params, &ground.each_ref(), workgroups(tiles, 1));
+        let fewer = workgroups(tiles, CELLS_AT_ONCE);
         for (layer, paint) in scene.dry.iter().zip(canvas.dry) {
             let params = BakeParams { layer: layer.into(), ..params };
-            recording.dispatch(&BAKE, &params, &buffers(paint).each_ref(), workgroups);
+            recording.dispatch(&BAKE, &params, &buffers(paint).each_ref(), fewer);
         }
     }
 
@@ -336,7 +337,7 @@ impl ViewBuffers {
         };
         let PaintBuffers { pigments, vehicle } = canvas.wet;
         let buffers = [pigments, vehicle, &self.tops, &self.baked, &self.material, &self.picture];
-        recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles));
+        recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles, CELLS_AT_ONCE));
     }
 }
 
@@ -344,8 +345,8 @@ fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
     tiles.iter().map(|tile| [tile.column as u32, tile.row as u32]).collect()
 }
 
-/// Workgroups that cover whole tiles, one tile per z.
-fn workgroups(tiles: &[[u32; 2]]) -> [u32; 3] {
-    let across = TILE as u32 / GROUP;
-    [across, across, tiles.len() as u32]
+/// Workgroups that cover whole tiles, one tile per z, with `cells` cells of a column per
+/// invocation.
+fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
+    [1, TILE as u32 / cells, tiles.len() as u32]
 }

@@ -21,7 +21,7 @@ struct BakeParams {
 @group(0) @binding(5) var<storage, read_write> material: array<u32>;
 
 // Sets tiles to the bare ground.
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(64)
 fn prime_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 64u * tiles[params.first_tile + id.z] + id.xy;
     if any(at >= params.canvas) {
@@ -33,21 +33,41 @@ fn prime_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     material[i] = 2u;
 }
 
-// Composites one dry layer over what is baked.
-@compute @workgroup_size(8, 8)
+// A cell of a dry layer over what is baked.
+struct BakedCell {
+    index: u32,
+    painted: bool,
+    internal: Nodes,
+}
+
+fn baked_cell(at: vec2<u32>) -> BakedCell {
+    let inside = min(at, params.canvas - vec2(1u));
+    let i = inside.y * params.canvas.x + inside.x;
+    let paint = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
+    let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
+    let painted = all(at < params.canvas) && volume(paint) > 0u;
+    return BakedCell(i, painted, composite(paint.low, paint.high, backing));
+}
+
+fn write(cell: BakedCell) {
+    if cell.painted {
+        baked[2u * cell.index] = cell.internal.low;
+        baked[2u * cell.index + 1u] = cell.internal.high;
+        material[cell.index] = 1u;
+    }
+}
+
+// Composites one dry layer over what is baked; four cells of a column of a tile, for the reason
+// told at `show_tiles`.
+@compute @workgroup_size(64)
 fn bake_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 64u * tiles[params.first_tile + id.z] + id.xy;
-    if any(at >= params.canvas) {
-        return;
-    }
-    let i = at.y * params.canvas.x + at.x;
-    let paint = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
-    if volume(paint) == 0u {
-        return;
-    }
-    let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
-    let above = composite(paint.low, paint.high, backing);
-    baked[2u * i] = above.low;
-    baked[2u * i + 1u] = above.high;
-    material[i] = 1u;
+    let a = baked_cell(at);
+    let b = baked_cell(at + vec2(0u, 16u));
+    let c = baked_cell(at + vec2(0u, 32u));
+    let d = baked_cell(at + vec2(0u, 48u));
+    write(a);
+    write(b);
+    write(c);
+    write(d);
 }

@@ -18,7 +18,7 @@ struct RaiseParams {
 // Height of the surface in quanta.
 @group(0) @binding(5) var<storage, read_write> tops: array<i32>;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(64)
 fn raise_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 64u * tiles[params.first_tile + id.z] + id.xy;
     if any(at >= params.canvas) {

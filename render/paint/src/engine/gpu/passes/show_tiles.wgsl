@@ -31,20 +31,52 @@ fn top(at: vec2<i32>) -> f32 {
     return f32(tops[inside.y * params.canvas.x + inside.x]);
 }
 
-@compute @workgroup_size(8, 8)
-fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = 64u * tiles[params.first_tile + id.z] + id.xy;
-    if any(at >= params.canvas) {
-        return;
-    }
-    let i = at.y * params.canvas.x + at.x;
+// A cell before relief and gloss.
+struct LevelCell {
+    at: vec2<u32>,
+    index: u32,
+    // 0 wet paint, 1 dry paint, 2 ground.
+    material: u32,
+    color: vec3<f32>,
+}
+
+// The cell at `at`, or the nearest cell of the canvas.
+fn level_cell(at: vec2<u32>) -> LevelCell {
+    let inside = min(at, params.canvas - vec2(1u));
+    let i = inside.y * params.canvas.x + inside.x;
     let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
     let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
-    let internal = composite(wet.low, wet.high, backing);
-    var rgb = color(internal);
-    if params.surface.relief_on != 0u {
-        let material_on_top = select(material[i], 0u, volume(wet) > 0u);
-        rgb = shade(vec2<i32>(at), material_on_top, rgb);
+    let rgb = color(composite(wet.low, wet.high, backing));
+    return LevelCell(at, i, select(material[i], 0u, volume(wet) > 0u), rgb);
+}
+
+fn shaded(cell: LevelCell) -> vec3<f32> {
+    return shade(vec2<i32>(cell.at), cell.material, cell.color);
+}
+
+fn write(cell: LevelCell) {
+    if all(cell.at < params.canvas) {
+        picture[cell.index] = vec4(cell.color, 1.0);
     }
-    picture[i] = vec4(rgb, 1.0);
+}
+
+// Shows four cells of a column of a tile. A software device loads the uniforms once for all
+// four, which takes longer than their arithmetic; so no branch may divide the four.
+@compute @workgroup_size(64)
+fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = 64u * tiles[params.first_tile + id.z] + id.xy;
+    var a = level_cell(at);
+    var b = level_cell(at + vec2(0u, 16u));
+    var c = level_cell(at + vec2(0u, 32u));
+    var d = level_cell(at + vec2(0u, 48u));
+    if params.surface.relief_on != 0u {
+        a.color = shaded(a);
+        b.color = shaded(b);
+        c.color = shaded(c);
+        d.color = shaded(d);
+    }
+    write(a);
+    write(b);
+    write(c);
+    write(d);
 }
