@@ -26,8 +26,8 @@ use graphics::tile::Rect;
 ///
 /// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
 /// Keyser 2011); pressure, tilt and twist are interpolated linearly, twist the shorter way
-/// round. Poses are one cell of path apart, or nearer while pressure changes by more than
-/// 1/16 or an angle by more than 3 degrees a cell. Time only orders the samples: a brush at
+/// round. Poses are as far apart as the sides of a brush of `size_mm` move by one cell, or nearer
+/// while pressure changes by more than 1/16 or an angle by more than 3 degrees a cell. Time only orders the samples: a brush at
 /// rest makes no sub-steps. If all samples have the same position and pose, the stroke is a
 /// dab: the brush is lowered, pressed and lifted at that position.
 ///
@@ -38,11 +38,12 @@ use graphics::tile::Rect;
 pub fn substeps(
     samples: &[Sample],
     cell_mm: f64,
+    size_mm: f64,
 ) -> Result<impl Iterator<Item = Pose> + use<>, StrokeError> {
     if samples.is_empty() {
         return Err(StrokeError::Empty);
     }
-    let mut path = Path::new(cell_mm)?;
+    let mut path = Path::new(cell_mm, size_mm)?;
     path.push(samples)?;
     path.finish();
     Ok(path)
@@ -96,8 +97,11 @@ mod tests {
         twist_deg: 0.0,
     };
 
+    /// Width of the brush.
+    const SIZE_MM: f64 = 3.0;
+
     fn poses(samples: &[Sample]) -> Vec<Pose> {
-        substeps(samples, 0.1).unwrap().collect()
+        substeps(samples, 0.1, SIZE_MM).unwrap().collect()
     }
 
     fn at(seconds: f64, x_mm: f64, y_mm: f64) -> Sample {
@@ -172,7 +176,7 @@ mod tests {
             let samples = random_samples(random);
             let whole = poses(&samples);
             dabs += usize::from(whole.len() == DAB.len());
-            let mut path = Path::new(0.1).unwrap();
+            let mut path = Path::new(0.1, SIZE_MM).unwrap();
             let (mut pieces, mut rest, mut lagged) = (Vec::new(), &samples[..], 0);
             while !rest.is_empty() {
                 let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
@@ -200,7 +204,7 @@ mod tests {
     #[test]
     fn a_refused_sample_leaves_the_path_where_it_was() {
         let good = [SAMPLE, at(0.1, 7.0, 5.0), at(0.2, 9.0, 6.0)];
-        let mut path = Path::new(0.1).unwrap();
+        let mut path = Path::new(0.1, SIZE_MM).unwrap();
         path.push(&good[..2]).unwrap();
         for bad in [
             Sample { pressure: -0.1, ..good[2] },
@@ -229,6 +233,29 @@ mod tests {
     }
 
     #[test]
+    fn sides_of_a_brush_move_by_a_cell_at_most() {
+        let bend = |index: u32| {
+            let angle = f64::from(index) * 0.2;
+            let (sin, cos) = angle.sin_cos();
+            let twist_deg = angle.to_degrees();
+            Sample { twist_deg, ..at(f64::from(index), 5.0 + 2.0 * sin, 5.0 - 2.0 * cos) }
+        };
+        let samples: Vec<Sample> = (0..20).map(bend).collect();
+        let size_mm = 6.0;
+        let side = |pose: &Pose| {
+            let (sin, cos) = pose.twist_deg.to_radians().sin_cos();
+            let half = size_mm / 2.0 / 0.1;
+            (pose.x + half * sin, pose.y - half * cos)
+        };
+        let poses: Vec<Pose> = substeps(&samples, 0.1, size_mm).unwrap().collect();
+        for pair in poses.windows(2) {
+            let (from, to) = (side(&pair[0]), side(&pair[1]));
+            let way = (from.0 - to.0).hypot(from.1 - to.1);
+            assert!(way <= 1.0 + 1e-9, "{way} cells from {pair:?}");
+        }
+    }
+
+    #[test]
     fn one_sample_is_a_dab() {
         for samples in [&[SAMPLE][..], &[SAMPLE, at(1.0, 5.0, 5.0)]] {
             let pressures: Vec<f64> = poses(samples).iter().map(|pose| pose.pressure).collect();
@@ -242,8 +269,8 @@ mod tests {
     fn contacts_begin_at_rest_and_a_dab_moves() {
         let relief = Relief::flat(300, 100, 0.1);
         let bounds = Rect { x: 0, y: 0, width: 300, height: 100 };
-        let mut head = Head::new(HeadShape::Filbert, 3.0, 0.1).unwrap();
-        let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1).unwrap();
+        let mut head = Head::new(HeadShape::Filbert, SIZE_MM, 0.1).unwrap();
+        let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1, SIZE_MM).unwrap();
         let stroke: Vec<Contact> = contacts(&mut head, line, &relief, bounds).collect();
         assert!(stroke.len() > 150, "{}", stroke.len());
         // Hair is pressed by about half its sink.
@@ -254,7 +281,7 @@ mod tests {
         };
         assert!(fastest(&stroke[0]) < Some(96), "{:?}", fastest(&stroke[0]));
         assert!(fastest(&stroke[140]) > Some(240), "{:?}", fastest(&stroke[140]));
-        let dab = substeps(&[SAMPLE], 0.1).unwrap();
+        let dab = substeps(&[SAMPLE], 0.1, SIZE_MM).unwrap();
         let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
         assert_eq!(dab.len(), DAB.len() - 2);
         let paints = |contact: &Contact| {
@@ -266,7 +293,7 @@ mod tests {
 
     #[test]
     fn impossible_samples_are_refused_with_their_index() {
-        let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1).err().unwrap();
+        let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap();
         let error = refused(Sample { pressure: 1.5, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: pressure is from 0 to 1: `1.5`");
         let error = refused(Sample { tilt_y_deg: -91.0, ..SAMPLE });
@@ -285,7 +312,7 @@ mod tests {
             let error = refused(Sample { x_mm, ..SAMPLE });
             assert!(matches!(error, StrokeError::TooLong { .. }), "{error}");
         }
-        assert!(matches!(substeps(&[], 0.1).err(), Some(StrokeError::Empty)));
-        assert!(matches!(substeps(&[SAMPLE], 0.0).err(), Some(StrokeError::Cell { .. })));
+        assert!(matches!(substeps(&[], 0.1, SIZE_MM).err(), Some(StrokeError::Empty)));
+        assert!(matches!(substeps(&[SAMPLE], 0.0, SIZE_MM).err(), Some(StrokeError::Cell { .. })));
     }
 }

@@ -116,7 +116,8 @@ impl<'a> Trial<'a> {
         let points = (4.0 * LENGTH) as usize;
         let path: Vec<[f64; 2]> =
             (0..=points).map(|point| [size * (1.5 + 0.25 * point as f64), middle]).collect();
-        let poses = substeps(&poses(&path, self.plan, size, cell_mm), cell_mm)?;
+        let samples = poses(&path, self.plan, size, cell_mm);
+        let poses = substeps(&samples, cell_mm, self.head.size_mm())?;
         let motion = MotionConstants::new(cell_mm, Medium::default().stiffness);
         for contact in contacts(&mut self.head, poses, &self.relief, bounds) {
             self.engine.apply_contacts(self.brush, &motion, &[contact])?;

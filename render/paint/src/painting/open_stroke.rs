@@ -86,12 +86,12 @@ impl Batch {
 }
 
 impl OpenStroke {
-    /// A stroke without samples, on cells of `cell_mm` mm, that is not yet open in a
-    /// painting.
-    pub(crate) fn new(cell_mm: f64) -> Result<Self, StrokeError> {
+    /// A stroke without samples, on cells of `cell_mm` mm with a brush of `size_mm`, that is not
+    /// yet open in a painting.
+    pub(crate) fn new(cell_mm: f64, size_mm: f64) -> Result<Self, StrokeError> {
         Ok(Self {
             brush: None,
-            path: Path::new(cell_mm)?,
+            path: Path::new(cell_mm, size_mm)?,
             lifted: false,
             down: false,
             batch: Batch::empty(),
@@ -333,7 +333,7 @@ impl Painting {
         if samples.is_empty() {
             return Err(StrokeError::Empty.into());
         }
-        let mut stroke = OpenStroke::new(self.cell_mm)?;
+        let mut stroke = OpenStroke::new(self.cell_mm, self.brushes[brush.0].head.size_mm())?;
         stroke.extend(samples)?;
         stroke.open(self, brush, None)?;
         stroke.finish(self)
@@ -347,7 +347,7 @@ impl Painting {
     /// # Panics
     /// If there is no such brush, or a stroke is open.
     pub fn begin_stroke(&mut self, brush: BrushId) -> Result<OpenStroke, PaintingError> {
-        let mut stroke = OpenStroke::new(self.cell_mm)?;
+        let mut stroke = OpenStroke::new(self.cell_mm, self.brushes[brush.0].head.size_mm())?;
         stroke.open(self, brush, None)?;
         Ok(stroke)
     }

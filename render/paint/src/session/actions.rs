@@ -39,7 +39,10 @@ impl PaintingSession {
                 // A stroke that is too long is refused before any of it is painted.
                 let samples: Vec<_> =
                     samples.iter().map(|sample| SampleDecimals::RECORDING.round(sample)).collect();
-                let mut path = Path::new(self.canvas.cell_mm()).map_err(PaintingError::from)?;
+                let tool = self.brushes.find(brush).map(|tool| &self.brushes.tools[tool]);
+                let size_mm = tool.map_or(0.0, |tool| tool.spec.size_mm);
+                let mut path =
+                    Path::new(self.canvas.cell_mm(), size_mm).map_err(PaintingError::from)?;
                 path.push(&samples).map_err(PaintingError::from)?;
                 self.begin_stroke(*on, brush)?;
                 let extended = self.extend(&samples);

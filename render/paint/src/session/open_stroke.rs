@@ -46,7 +46,9 @@ impl PaintingSession {
         self.surface_mut(on)?;
         check_brush(&CheckContext::default(), brush, self.brushes.names().map(|(name, _)| name))?;
         if let Some(tool) = self.brushes.find(brush) {
-            let stroke = OpenStroke::new(self.canvas.cell_mm()).map_err(PaintingError::from)?;
+            let size_mm = self.brushes.tools[tool].spec.size_mm;
+            let stroke =
+                OpenStroke::new(self.canvas.cell_mm(), size_mm).map_err(PaintingError::from)?;
             let samples = Vec::new();
             self.stroke = Some(SessionStroke { on, tool, decimals, samples, from: None, stroke });
         }

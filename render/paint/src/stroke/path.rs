@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::error::StrokeError;
 use super::limits::{DAB, FARTHEST, MOST_SUBSTEPS};
-use super::piece::{Piece, distance, turned};
+use super::piece::Piece;
 use crate::pose::{Pose, Sample};
 
 /// Iterator over the poses of a stroke whose samples arrive in portions. The poses are the
@@ -16,6 +16,8 @@ use crate::pose::{Pose, Sample};
 #[derive(Debug, Clone)]
 pub struct Path {
     cell_mm: f64,
+    /// Half of the width of the brush in cells.
+    reach: f64,
     samples: usize,
     seconds: f64,
     /// Poses of the last three samples, the newest last: the curve of the next piece needs them.
@@ -39,16 +41,18 @@ pub struct Path {
 }
 
 impl Path {
-    /// A path without samples over cells of `cell_mm`.
+    /// A path without samples over cells of `cell_mm`, for a brush of `size_mm`, whose sides move
+    /// by a cell or less in a sub-step.
     ///
     /// # Errors
     /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.
-    pub fn new(cell_mm: f64) -> Result<Self, StrokeError> {
+    pub fn new(cell_mm: f64, size_mm: f64) -> Result<Self, StrokeError> {
         if !(cell_mm.is_finite() && cell_mm > 0.0) {
             return Err(StrokeError::Cell { cell_mm });
         }
         Ok(Self {
             cell_mm,
+            reach: 0.5 * size_mm / cell_mm,
             samples: 0,
             seconds: f64::NEG_INFINITY,
             recent: [None; 3],
@@ -82,8 +86,9 @@ impl Path {
         self.check(sample)?;
         let pose = sample.pose(self.cell_mm);
         let [before, from, to] = self.recent;
-        let known = from.zip(to).map(|(from, to)| Piece::new(before, from, to, Some(pose)));
-        let guessed = to.map(|to| Piece::new(from, to, pose, None));
+        let known =
+            from.zip(to).map(|(from, to)| Piece::new((before, from), (to, Some(pose)), self.reach));
+        let guessed = to.map(|to| Piece::new((from, to), (pose, None), self.reach));
         let size = |piece: &Option<Piece>| piece.as_ref().map_or(0.0, Piece::size);
         let substeps = self.length + size(&known) + size(&guessed);
         if substeps > MOST_SUBSTEPS as f64 {
@@ -106,7 +111,9 @@ impl Path {
     pub fn finish(&mut self) {
         let [before, from, to] = self.recent;
         if !self.finished {
-            self.add(from.zip(to).map(|(from, to)| Piece::new(before, from, to, None)));
+            self.add(
+                from.zip(to).map(|(from, to)| Piece::new((before, from), (to, None), self.reach)),
+            );
         }
         self.finished = true;
     }
@@ -173,11 +180,10 @@ impl Path {
         }
         while let Some(piece) = self.pieces.front() {
             while self.look < piece.looks {
-                let (here, next) = (piece.pose(self.look), piece.pose(self.look + 1));
-                let part = distance((here.x, here.y), (next.x, next.y)).max(turned(&here, &next));
+                let part = piece.part(self.look);
                 if self.since + part > 1.0 {
                     self.since = 0.0;
-                    return Some(here);
+                    return Some(piece.pose(self.look));
                 }
                 self.since += part;
                 self.look += 1;

@@ -18,14 +18,20 @@ pub(super) struct Piece {
     to: Pose,
     /// Bezier points of the curve, in cells.
     points: [(f64, f64); 4],
+    /// Half of the width of the brush in cells.
+    reach: f64,
     /// Number of equal steps of the curve's parameter in which it is walked.
     pub(super) looks: u64,
 }
 
 impl Piece {
     /// The curve between the samples `from` and `to`; the samples before and after them, if
-    /// there are any, set its tangents.
-    pub(super) fn new(before: Option<Pose>, from: Pose, mut to: Pose, after: Option<Pose>) -> Self {
+    /// there are any, set its tangents. `reach` is half of the width of the brush in cells.
+    pub(super) fn new(
+        (before, from): (Option<Pose>, Pose),
+        (mut to, after): (Pose, Option<Pose>),
+        reach: f64,
+    ) -> Self {
         let turn = (to.twist_deg - from.twist_deg) % 360.0;
         to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
         let place = |pose: &Pose| (pose.x, pose.y);
@@ -33,7 +39,7 @@ impl Piece {
         let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
         let after = after.map_or_else(|| mirrored(b, c), |pose| place(&pose));
         let points = [b, handle(before, b, c), handle(after, c, b), c];
-        let mut piece = Self { from, to, points, looks: 0 };
+        let mut piece = Self { from, to, points, reach, looks: 0 };
         piece.looks = (piece.size() * LOOKS).ceil() as u64;
         piece
     }
@@ -43,7 +49,13 @@ impl Piece {
         let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
         // A Bezier curve of parameter 0..1 is nowhere faster than this.
         let fastest = 3.0 * legs.fold(0.0, f64::max);
-        fastest.max(turned(&self.from, &self.to))
+        let swung = swung(&self.from, &self.to, self.reach);
+        (fastest + swung).max(turned(&self.from, &self.to))
+    }
+
+    /// Number of sub-steps from its step `look` to the next.
+    pub(super) fn part(&self, look: u64) -> f64 {
+        substeps_between(&self.pose(look), &self.pose(look + 1), self.reach)
     }
 
     /// Pose after `look` of its `looks` steps.
@@ -65,6 +77,17 @@ impl Piece {
     }
 }
 
+/// Number of sub-steps from `a` to `b` near by: one for each cell that the sides of the brush may
+/// move.
+pub(super) fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
+    (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b))
+}
+
+/// Way in cells of the sides of a brush as it twists; `reach` is half of its width in cells.
+fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
+    reach * (a.twist_deg - b.twist_deg).abs().to_radians()
+}
+
 /// Number of sub-steps that the change of pressure and angles takes.
 pub(super) fn turned(a: &Pose, b: &Pose) -> f64 {
     let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
@@ -72,7 +95,7 @@ pub(super) fn turned(a: &Pose, b: &Pose) -> f64 {
     (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / MOST_PRESSURE)
 }
 
-pub(super) fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
+fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
     (a.0 - b.0).hypot(a.1 - b.1)
 }
 
