@@ -45,6 +45,7 @@ fn films_follow_the_load_and_are_the_same_on_all_cells() {
 fn strokes_have_furrows_that_are_no_stamp_and_lips() {
     assert_met(&report("furrows"), "RMS of the cross-mean along");
     assert_met(&report("furrows"), "RMS across");
+    assert_met(&report("stiffness"), "stiffness ");
     assert_met(&report("stamp"), "two ");
     assert_met(&report("lips"), "flat 10: lip");
 }
@@ -78,7 +79,7 @@ fn a_case_repeats_to_the_bit_and_is_drawn() {
 
 #[test]
 fn figures_have_names_of_their_own() {
-    for name in ["film", "furrows", "lips", "outline", "edge", "knife"] {
+    for name in ["film", "furrows", "stiffness", "lips", "outline", "edge", "knife"] {
         let report = report(name);
         let names: BTreeSet<&str> =
             report.figures.iter().map(|figure| figure.name.trim()).collect();

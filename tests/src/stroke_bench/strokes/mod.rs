@@ -29,6 +29,7 @@ pub const CASES: &[Case] = &[
     ("film", film::film),
     ("cell", film::cell),
     ("furrows", relief::furrows),
+    ("stiffness", relief::stiffness),
     ("stamp", relief::stamp),
     ("lips", thick::lips),
     ("saw-tooth", thick::saw_tooth),

@@ -75,6 +75,33 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
     CaseReport { name: "furrows", title, figures, panels }
 }
 
+/// Furrows of the same stroke in paint from stand oil to putty.
+pub(super) fn stiffness(bench: &Bench) -> CaseReport {
+    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut softer = 0.0;
+    for stiffness in [0.0, 0.35, 0.7, 1.0] {
+        let mut easel = bench.panel((80.0, 20.0));
+        easel.painting.set_stiffness(stiffness).expect("a stiffness");
+        let brush = easel.brush(HeadShape::Flat, SIZE_MM);
+        stroke(&mut easel, brush, 10.0, 60.0);
+        let heights = easel.heights();
+        let across = Mark::along_x(&heights).map_or(f64::NAN, |Mark { steady, middle, .. }| {
+            let relief = |x: usize| {
+                let profile = &heights.across(x..x + 1)[middle.clone()];
+                rms(&without_parabola(profile)) / mean(profile)
+            };
+            100.0 * mean(&steady.map(relief).collect::<Vec<_>>())
+        });
+        let name = format!("stiffness {stiffness}: RMS across over film");
+        let figure = Figure::new(name, across, "%").at_least(softer);
+        figures.push(if stiffness == 0.0 { figure.at_most(5.0) } else { figure });
+        panels.push(easel.show(format!("stiffness {stiffness}"), 2.0..78.0, 2.0..18.0));
+        softer = across;
+    }
+    let title = "Levelling of the furrows of a flat 10, load 1: oily paint levels, stiff paint stays";
+    CaseReport { name: "stiffness", title, figures, panels }
+}
+
 /// Furrows of several strokes compared.
 pub(super) fn stamp(bench: &Bench) -> CaseReport {
     let mut easel = bench.panel((80.0, 48.0));
