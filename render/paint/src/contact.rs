@@ -101,8 +101,9 @@ pub struct ExchangeRates {
     /// Velocity of the paint that the head has penetrated, relative to that of the head, in
     /// parts of 256; up to 256.
     pub drag: u32,
-    /// Unused; pads the uniforms of the shaders.
-    pub padding: u32,
+    /// Share of the paint from before the stroke that bears the hair, in parts of 65536; less where
+    /// the coat is thin.
+    pub bearing: u32,
 }
 
 /// The head of a brush over the canvas during one sub-step.

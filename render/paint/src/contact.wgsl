@@ -15,7 +15,7 @@ struct ExchangeRates {
     mixing: u32,
     sink: u32,
     drag: u32,
-    padding: u32,
+    bearing: u32,
 }
 
 // Unpacks two 16-bit numbers in two's complement: low half, high half.

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::paint::engine::PaintEngine;
 use render::paint::motion::MotionConstants;
-use render::tile::Rect;
+use render::tile::{Rect, TileSet};
 
 use crate::reference::{Amounts, Reference, contact, paint};
 
@@ -64,6 +64,11 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
         let (mut wanted, wanted_brush) = start.on_cpu();
         let motion = MotionConstants::new(0.1, 0.7);
         for rect in rects().into_iter().chain(rects()) {
+            // Some paint bears the hair, as if a stroke began here.
+            for tile in TileSet::all(engine.bounds()).iter().filter(|_| rng.random_bool(0.3)) {
+                wanted.note_bed(tile).unwrap();
+                engine.note_bed(tile).unwrap();
+            }
             let contact = [contact_on(&mut rng, &start, rect)];
             wanted.apply_contacts(wanted_brush, &motion, &contact).unwrap();
             engine.apply_contacts(brush, &motion, &contact).unwrap();

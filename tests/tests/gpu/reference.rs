@@ -116,7 +116,7 @@ pub(crate) fn contact(
         mixing: share(),
         sink: 8 * share(),
         drag: share() >> 8,
-        ..ExchangeRates::default()
+        bearing: share(),
     };
     Contact { rect, touches, rates, wicking }
 }

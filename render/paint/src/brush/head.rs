@@ -61,6 +61,8 @@ pub struct Head {
     sides: Sides,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
+    /// Pressure in the last sub-step.
+    pressure: f32,
     /// Area of a paint cell in cells of the canvas.
     paint_cell_area: f64,
     /// Origin of coordinates while the head touches the canvas.
@@ -108,6 +110,7 @@ impl Head {
             locks: Locks::new(0, around, column_mm, (0.1 * of.recess, of.variation), cell_mm),
             sides: Sides::default(),
             sub_step: 0,
+            pressure: 0.0,
             paint_cell_area: area / (around * along) as f64,
             surface,
             origin: None,
@@ -167,7 +170,7 @@ impl Head {
         (self.origin, self.hovering) = (None, None);
         self.locks.lift();
         self.sides.lift();
-        self.sub_step = 0;
+        (self.sub_step, self.pressure) = (0, 0.0);
     }
 
     /// Holds the straight head just above the canvas at `pose`, for any pressure, so that it
@@ -200,6 +203,7 @@ impl Head {
         let way = Vector::new(heading.0 as f32, heading.1 as f32, 0.0);
         self.spines.hang(&grip, way, &view);
         self.spines.lower(&grip, &view);
+        self.pressure = grip.pressure;
         self.net.follow(&self.spines, &grip);
         self.net.rest();
     }
@@ -209,8 +213,8 @@ impl Head {
     /// finite; over no canvas, paint may still flow along the hair. A lifted head comes down from
     /// just above the canvas; a head that is more than 64 cells away is set down anew.
     ///
-    /// The speed that governs transfer includes the surface's vertical motion, so that a head
-    /// that is pressed straight down leaves paint too.
+    /// The speed that governs transfer includes the surface's vertical motion and the change of
+    /// pressure, so that a head that is pressed straight down leaves paint too.
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         out.rect = Rect::default();
         out.touches.clear();
@@ -249,6 +253,7 @@ impl Head {
         out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
         out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
         self.sub_step += 1;
+        self.pressure = grip.pressure;
     }
 
     /// Fills the touches of `out`.
@@ -264,6 +269,8 @@ impl Head {
         let (facets, cells) = (self.surface.facets().1, self.surface.cells_of_facet().1);
         let row_mm = cells as f64 * self.cell_mm;
         let fade = (row_mm / TIP_MM) as f32;
+        // Cells by which the sides of the mark move as pressure changes.
+        let pressed = (grip.pressure - self.pressure).abs() * self.spines.width;
         self.surface.evaluate(
             &self.net,
             ceiling,
@@ -271,7 +278,7 @@ impl Head {
             |row, vertex| {
                 let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
                 let grasp = ((facets - row) as f32 * fade).min(1.0);
-                *vertex = finished(vertex, relief, grasp);
+                *vertex = finished(vertex, relief, grasp, pressed);
                 if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
                     extent.include(vertex[0], vertex[1]);
                 }
@@ -308,13 +315,14 @@ fn cells(surface: &LimitSurface) -> (usize, usize) {
 }
 
 /// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
-/// 0.2 cells per sub-step, full from 0.3), both times `grasp`. Where the surface would be below
+/// 0.2 cells per sub-step, full from 0.3, and at least that of a speed of `pressed`), both times
+/// `grasp`. Where the surface would be below
 /// the relief, it is raised to it.
 #[inline(always)]
-fn finished(vertex: &Point, relief: f32, grasp: f32) -> Point {
+fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
     let height = z.max(relief);
-    let speed = (dx * dx + dy * dy + dz * dz).sqrt();
+    let speed = (dx * dx + dy * dy + dz * dz).sqrt().max(pressed);
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
     let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
     [

@@ -59,7 +59,7 @@ struct Mark {
 
 /// Whether a dry head touches the bare plane.
 fn touches(rates: &ExchangeRates, touch: &Touch) -> bool {
-    penetration(rates, *touch, 0, 0, coat(rates, *touch, 0)) != NO_CONTACT
+    penetration(rates, *touch, (0, 0), 0, coat(rates, *touch, 0)) != NO_CONTACT
 }
 
 fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {

@@ -16,6 +16,8 @@ struct Uptake {
     film_mm: f64,
     /// Velocity of the paint relative to that of the head.
     drag: f64,
+    /// Share of the wet paint from before the stroke that bears the head at pressure 0.
+    bearing: f64,
     /// For a film thinner than the coat.
     deposit_mm: f64,
     /// For a film thicker than the coat.
@@ -35,6 +37,7 @@ const HAIR: Uptake = Uptake {
     coat: (0.1, 0.56),
     film_mm: 0.0,
     drag: 0.375,
+    bearing: 1.0,
     deposit_mm: 0.5,
     pick_up_mm: 5.0,
     mixing_mm: 9.0,
@@ -49,6 +52,7 @@ const BLADE: Uptake = Uptake {
     coat: (0.02, -0.02),
     film_mm: 0.12,
     drag: 0.375,
+    bearing: 0.0,
     deposit_mm: 0.2,
     pick_up_mm: 0.2,
     mixing_mm: 0.7,
@@ -94,7 +98,7 @@ pub(super) fn rates(
         mixing: share(cell_mm, uptake.mixing_mm),
         sink: quanta_from_mm(sink_mm, cell_mm),
         drag: (256.0 * uptake.drag) as u32,
-        padding: 0,
+        bearing: (65536.0 * uptake.bearing * (1.0 - f64::from(pressure))) as u32,
     }
 }
 

@@ -305,6 +305,26 @@ impl PaintEngine {
         }
     }
 
+    /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
+    /// contacts that follow, until the tile is noted again; see [`bed`](crate::motion::bed). Before
+    /// the first time it is unknown and bears nothing.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    ///
+    /// # Panics
+    /// If the tile lies outside the canvas.
+    pub fn note_bed(&mut self, tile: Tile) -> Result<(), DeviceError> {
+        let rect = tile.rect(self.bounds());
+        match self {
+            Self::Cpu(paint) => {
+                paint.note_bed(rect);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.note_bed(rect),
+        }
+    }
+
     /// Copies the wet paint of a tile to `slot`, within the engine's memory.
     ///
     /// # Errors

@@ -11,8 +11,9 @@
 //!
 //! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint flows along the
 //!    hair of the head, and the mean volume of each hair is taken anew: see [`wick`].
-//!    [`press::penetration`] of each touched cell, from the floor, the wet volume and
-//!    the [`press::coat`] of the head at the start; [`press::NO_CONTACT`] everywhere else.
+//!    [`press::penetration`] of each touched cell, from the floor, the wet volume, the [`bed`] of
+//!    the stroke and the [`press::coat`] of the head at the start; [`press::NO_CONTACT`]
+//!    everywhere else.
 //! 2. [`press::flow`] between each cell of the rectangle grown by one and its neighbours in x
 //!    and y; beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of
 //!    each of these cells from its flows and from [`press::dragged`]. A component that would
@@ -30,6 +31,8 @@
 //! advection leaves every column below [`crate::amount::MAX_COLUMN`].
 
 mod constants;
+
+pub mod bed;
 
 pub mod press;
 

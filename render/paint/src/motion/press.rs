@@ -24,6 +24,9 @@ pub const CELL_A_SUB_STEP: i32 = 1 << 14;
 /// Largest velocity of flow: half a column in a sub-step.
 const FASTEST_FLOW: u32 = 1 << 13;
 
+/// Thickness of the paint, relative to the coat of a head, that may bear its hair.
+const BORNE: u32 = 2;
+
 /// Thickness in quanta of the film that a head leaves when it presses down on the ground: the
 /// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of
 /// that hair.
@@ -39,11 +42,26 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 /// reaches the paint. `floor` is the height of ground and dry paint, `volume` that of the wet
 /// paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless its
 /// coat is thick enough to bear it, so a thick film hides a weave.
+///
+/// A loaded head rides on a share of the paint that was there before the stroke, from the ground
+/// under the hair up to `bed`, the height of that paint in quanta, as far as [`BORNE`] times its
+/// coat, and lays its coat on that; a clean head digs in. It is never borne higher than its coat
+/// above the paint that is there now.
 #[inline(always)]
 #[must_use]
-pub fn penetration(rates: &ExchangeRates, touch: Touch, floor: i32, volume: u32, coat: u32) -> i32 {
+pub fn penetration(
+    rates: &ExchangeRates,
+    touch: Touch,
+    (floor, volume): (i32, u32),
+    bed: i32,
+    coat: u32,
+) -> i32 {
     let sunk = touch.height.saturating_sub_unsigned(rates.sink.saturating_sub(coat));
-    let hair = sunk.max(floor);
+    let ground = sunk.max(floor);
+    let there = (floor + volume as i32).saturating_add_unsigned(coat);
+    let above = bed.min(there).saturating_sub(ground).max(0) as u32;
+    let borne = share_of_65536(above.min(BORNE * coat), rates.bearing);
+    let hair = ground.saturating_add_unsigned(borne);
     let top = floor + volume as i32;
     let reached = touch.height != Touch::NONE.height && hair - coat as i32 <= top;
     if reached { top - hair } else { NO_CONTACT }
@@ -210,18 +228,32 @@ mod tests {
     }
 
     #[test]
+    fn a_loaded_head_rides_on_paint_from_before_the_stroke() {
+        let rates = ExchangeRates { bearing: 32768, ..ExchangeRates::default() };
+        let touch = Touch::new(0, 0, (0, 0), 0, 1);
+        let found =
+            |volume: u32, bed: i32, coat: u32| penetration(&rates, touch, (100, volume), bed, coat);
+        assert_eq!(found(300, 100, 200), 300, "none was there");
+        assert_eq!(found(300, 300, 200), 200, "half of it bears");
+        assert_eq!(found(0, 500, 200), -100, "all of it was taken up");
+        assert_eq!(found(2000, 2100, 200), 1800, "no more than the coat can ride on");
+        assert_eq!(found(300, 300, 0), 300, "clean hair digs in");
+    }
+
+    #[test]
     fn hair_sinks_to_the_floor_unless_its_coat_bears_it() {
         let rates = ExchangeRates { sink: 1000, ..ExchangeRates::default() };
         let touch = Touch::new(5000, 0, (0, 0), 0, 1);
-        let found =
-            |floor: i32, volume: u32, coat: u32| penetration(&rates, touch, floor, volume, coat);
+        let found = |floor: i32, volume: u32, coat: u32| {
+            penetration(&rates, touch, (floor, volume), floor, coat)
+        };
         assert_eq!(found(4000, 0, 0), 0, "on a floor that it just reaches");
         assert_eq!(found(3900, 300, 0), 200, "above a floor that it does not reach");
         assert_eq!(found(4500, 300, 0), 300, "never below the floor");
         assert_eq!(found(3900, 300, 600), -400, "on a coat that bears it");
         assert_eq!(found(3900, 0, 0), NO_CONTACT, "above the paint");
         assert_eq!(
-            penetration(&rates, Touch::NONE, 4000, 300, 600),
+            penetration(&rates, Touch::NONE, (4000, 300), 4000, 600),
             NO_CONTACT,
             "where the head is not"
         );

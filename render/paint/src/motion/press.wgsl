@@ -4,6 +4,7 @@
 const NO_CONTACT: i32 = i32(-2147483647 - 1);
 const NO_HEAD: i32 = 2147483647;
 const CROWDED_VOLUME: u32 = MAX_COLUMN / 10u;
+const BORNE: u32 = 2u;
 const CELL_A_SUB_STEP: i32 = 16384;
 const FASTEST_FLOW: u32 = 8192u;
 
@@ -17,6 +18,7 @@ fn penetration(
     touch: Touch,
     floor_quanta: i32,
     volume_quanta: u32,
+    bed: i32,
     coat_quanta: u32,
 ) -> i32 {
     if touch.height == NO_HEAD {
@@ -24,8 +26,12 @@ fn penetration(
     }
     let sinks = bitcast<i32>(select(0u, rates.sink - coat_quanta, rates.sink > coat_quanta));
     // Heads far below the canvas do not wrap.
-    let hair = max(max(touch.height, -NO_HEAD + sinks) - sinks, floor_quanta);
+    let ground = max(max(touch.height, -NO_HEAD + sinks) - sinks, floor_quanta);
     let top = floor_quanta + bitcast<i32>(volume_quanta);
+    let there = min(bed, top + bitcast<i32>(coat_quanta));
+    let above = select(0u, bitcast<u32>(there - ground), there > ground);
+    let borne = share_of_65536(min(above, BORNE * coat_quanta), rates.bearing);
+    let hair = ground + bitcast<i32>(borne);
     return select(NO_CONTACT, top - hair, hair - bitcast<i32>(coat_quanta) <= top);
 }
 

@@ -4,12 +4,14 @@ use super::failure::PaintingError;
 use super::state::Painting;
 use crate::brush::{Head, Relief};
 use crate::contact::{Contact, Touch};
-use crate::engine::BrushId;
+use crate::engine::{BrushId, PaintEngine};
 use crate::history::CommitOutcome;
 use crate::layer::Layer;
+use crate::motion::bed::BLOCK;
 use crate::motion::levelling_sub_steps;
 use crate::pose::Sample;
 use crate::stroke::{Path, StrokeError};
+use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
 
 /// Sub-steps that go to the backend together: enough to hide the cost of a call, few
@@ -54,6 +56,8 @@ pub struct OpenStroke {
     waiting: usize,
     /// Tiles that the head was over.
     touched: TileSet,
+    /// Tiles whose surface before the stroke is noted.
+    noted: TileSet,
     report: StrokeReport,
 }
 
@@ -100,6 +104,7 @@ impl OpenStroke {
             reached: 0,
             waiting: 0,
             touched: TileSet::default(),
+            noted: TileSet::default(),
             report: StrokeReport::default(),
         })
     }
@@ -211,10 +216,13 @@ impl OpenStroke {
             let all = now.len() == rest.len();
             let touching = now.iter().filter(|contact| !contact.rect.is_empty());
             let (path, next) = (&mut self.path, &mut self.next);
+            let noted = &mut self.noted;
             let (result, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
-                        history.save_tiles(engine, contact.rect.grown(2, bounds))?;
+                        let reach = contact.rect.grown(2, bounds);
+                        history.save_tiles(engine, reach)?;
+                        note_bed(engine, noted, contact.rect.grown(BLOCK, bounds))?;
                     }
                     engine.apply_contacts(tool.id, &motion, now)
                 },
@@ -313,6 +321,18 @@ impl OpenStroke {
             self.down = true;
         }
     }
+}
+
+/// Notes the surface of the tiles under `rect` that are not yet `noted`.
+fn note_bed(engine: &mut PaintEngine, noted: &mut TileSet, rect: Rect) -> Result<(), DeviceError> {
+    let mut tiles = TileSet::default();
+    tiles.insert(rect);
+    for tile in tiles.iter() {
+        if noted.insert_tile(tile) {
+            engine.note_bed(tile)?;
+        }
+    }
+    Ok(())
 }
 
 impl Painting {

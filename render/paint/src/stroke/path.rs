@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use super::error::StrokeError;
-use super::limits::{DAB, FARTHEST, MOST_SUBSTEPS};
-use super::piece::Piece;
+use super::limits::{FARTHEST, MOST_SUBSTEPS};
+use super::piece::{Piece, most_pressure};
 use crate::pose::{Pose, Sample};
 
 /// Iterator over the poses of a stroke whose samples arrive in portions. The poses are the
@@ -28,7 +28,7 @@ pub struct Path {
     length: f64,
     first: Option<Pose>,
     finished: bool,
-    /// Number of poses returned of a dab, or 1 after the last pose of a path.
+    /// Number of poses returned of a dab, or of the lifting of the brush after a path.
     ended: usize,
     /// Number of pieces walked to their end.
     walked: usize,
@@ -141,14 +141,15 @@ impl Path {
             return 0;
         }
         if self.length == 0.0 {
-            return DAB.len() + 1 - self.ended;
+            return self.pressing().1 + 1 - self.ended;
         }
         let looked = match self.pieces.front() {
             Some(piece) => piece.size() * self.look as f64 / piece.looks.max(1) as f64,
             None => 0.0,
         };
         let sizes: f64 = self.pieces.iter().map(Piece::size).sum();
-        1 + (sizes - looked + self.since).max(0.0) as usize
+        let lifting = if self.finished { self.pressing().1 - self.ended } else { 0 };
+        1 + lifting + (sizes - looked + self.since).max(0.0) as usize
     }
 
     /// The next pose, if it is known, without removing it.
@@ -173,7 +174,7 @@ impl Path {
 
     fn walk(&mut self) -> Option<Pose> {
         if self.length == 0.0 {
-            return self.dab();
+            return self.pressed();
         }
         if let Some(first) = self.first.take() {
             return Some(first);
@@ -192,17 +193,25 @@ impl Path {
             self.walked += 1;
             self.look = 0;
         }
-        if !self.finished || self.ended > 0 {
-            return None;
-        }
-        self.ended = 1;
-        self.recent[2]
+        self.pressed()
     }
 
-    fn dab(&mut self) -> Option<Pose> {
+    /// Number of sub-steps in which the brush is lifted at the last sample, and number of poses at
+    /// that sample: of a path those of the lifting, of a dab also those before it, in which the
+    /// brush is pressed down.
+    fn pressing(&self) -> (usize, usize) {
+        let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
+        let lifting = (pressure / (2.0 * most_pressure(self.reach))).ceil() as usize;
+        (lifting, if self.length == 0.0 { 2 * lifting + 1 } else { lifting + 1 })
+    }
+
+    /// The next pose at the last sample.
+    fn pressed(&mut self) -> Option<Pose> {
         let last = self.recent[2].filter(|_| self.finished)?;
-        let share = DAB.get(self.ended)?;
+        let (lifting, poses) = self.pressing();
+        let left = (poses - 1).checked_sub(self.ended)?;
         self.ended += 1;
+        let share = 1.0 - lifting.abs_diff(left) as f64 / lifting.max(1) as f64;
         Some(Pose { pressure: share * last.pressure, ..last })
     }
 

@@ -4,6 +4,12 @@ use crate::pose::Pose;
 
 /// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).
 const MOST_PRESSURE: f64 = 1.0 / 16.0;
+
+/// Maximum change of pressure in a sub-step of a brush whose half width is `reach` in cells: the
+/// sides of its mark move by about a cell.
+pub(super) fn most_pressure(reach: f64) -> f64 {
+    MOST_PRESSURE.min(0.5 / reach)
+}
 /// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
 const MOST_DEGREES: f64 = 3.0;
 
@@ -50,7 +56,7 @@ impl Piece {
         // A Bezier curve of parameter 0..1 is nowhere faster than this.
         let fastest = 3.0 * legs.fold(0.0, f64::max);
         let swung = swung(&self.from, &self.to, self.reach);
-        (fastest + swung).max(turned(&self.from, &self.to))
+        (fastest + swung).max(turned(&self.from, &self.to, self.reach))
     }
 
     /// Number of sub-steps from its step `look` to the next.
@@ -80,7 +86,7 @@ impl Piece {
 /// Number of sub-steps from `a` to `b` near by: one for each cell that the sides of the brush may
 /// move.
 pub(super) fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
-    (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b))
+    (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
 }
 
 /// Way in cells of the sides of a brush as it twists; `reach` is half of its width in cells.
@@ -89,10 +95,10 @@ fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
 }
 
 /// Number of sub-steps that the change of pressure and angles takes.
-pub(super) fn turned(a: &Pose, b: &Pose) -> f64 {
+pub(super) fn turned(a: &Pose, b: &Pose, reach: f64) -> f64 {
     let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
     let turned = tilted.max((a.twist_deg - b.twist_deg).abs());
-    (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / MOST_PRESSURE)
+    (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / most_pressure(reach))
 }
 
 fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {

@@ -98,7 +98,8 @@ pub(super) fn stiffness(bench: &Bench) -> CaseReport {
         panels.push(easel.show(format!("stiffness {stiffness}"), 2.0..78.0, 2.0..18.0));
         softer = across;
     }
-    let title = "Levelling of the furrows of a flat 10, load 1: oily paint levels, stiff paint stays";
+    let title =
+        "Levelling of the furrows of a flat 10, load 1: oily paint levels, stiff paint stays";
     CaseReport { name: "stiffness", title, figures, panels }
 }
 

@@ -1,5 +1,6 @@
 //! The state of a painting in the machine's memory, and what changes it.
 
+use super::bed::Bed;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
 use super::render::{PaintLayers, RenderedView};
@@ -22,6 +23,8 @@ pub struct CpuPaint {
     /// Height of ground and dry paint in quanta.
     floor: Field<i32>,
     pub(super) wet: Columns,
+    /// Surface before the stroke.
+    pub(super) bed: Bed,
     pub(super) brushes: Vec<HeadPaint>,
     /// Dry layers, lowest first.
     pub(super) dry: Vec<SparseLayer>,
@@ -36,6 +39,7 @@ impl CpuPaint {
     pub(crate) fn new(floor: Field<i32>) -> Self {
         Self {
             wet: Columns::new(Layer::empty(floor.width(), floor.height())),
+            bed: Bed::unknown(floor.bounds()),
             ground: floor.clone(),
             floor,
             brushes: Vec::new(),
@@ -64,7 +68,7 @@ impl CpuPaint {
         contacts: &[Contact],
     ) {
         let brush = &mut self.brushes[brush.0];
-        self.runner.apply(motion, contacts, &self.floor, &mut self.wet, brush);
+        self.runner.apply(motion, contacts, (&self.floor, &self.bed), &mut self.wet, brush);
     }
 
     pub(crate) fn add_brush(&mut self, width: usize, height: usize) -> BrushId {
@@ -91,6 +95,10 @@ impl CpuPaint {
         let size = (paint.width(), paint.height());
         assert_eq!(size, (rect.width, rect.height), "paint must cover {rect:?}");
         self.wet.put((rect.x, rect.y), paint);
+    }
+
+    pub(crate) fn note_bed(&mut self, rect: Rect) {
+        self.bed.note(rect, &self.floor, &self.wet);
     }
 
     pub(crate) fn wet_tiles(&self) -> TileSet {

@@ -7,6 +7,8 @@
 
 mod columns;
 
+mod bed;
+
 mod head_paint;
 
 mod penetration;

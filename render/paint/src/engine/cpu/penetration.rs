@@ -1,6 +1,7 @@
 //! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
 //! specification in [`crate::motion`], row by row.
 
+use super::bed::Bed;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
 use crate::contact::{Contact, Touch};
@@ -25,6 +26,8 @@ pub(super) struct PenetrationMap {
     pressures: Vec<i32>,
     /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
     coats: Vec<u32>,
+    /// Heights in quanta of the bed of one row of the contact.
+    bed: Vec<i32>,
     /// Whether each column is crowded, with the same rim; empty if none is, which is
     /// nearly always so.
     crowded: Vec<bool>,
@@ -40,7 +43,7 @@ impl PenetrationMap {
         contact: &Contact,
         reach: Rect,
         floor: &Field<i32>,
-        wet: &Columns,
+        (wet, bed): (&Columns, &Bed),
         head: &HeadPaint,
     ) {
         self.reach = reach;
@@ -70,7 +73,8 @@ impl PenetrationMap {
             self.tops.copy_within(first..first + row, first - i * row);
             self.tops.copy_within(last..last + row, last + i * row);
         }
-        self.press(motion, contact, floor, wet, head);
+        self.bed.resize(self.bed.len().max(contact.rect.width), 0);
+        self.press(motion, contact, floor, (wet, bed), head);
     }
 
     #[inline(always)]
@@ -79,24 +83,28 @@ impl PenetrationMap {
         motion: &MotionConstants,
         contact: &Contact,
         floor: &Field<i32>,
-        wet: &Columns,
+        (wet, bed): (&Columns, &Bed),
         head: &HeadPaint,
     ) {
         let rect = contact.rect;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
-            let volume = &wet.volume()[y * floor.width() + rect.x..][..rect.width];
+            let cells = y * floor.width() + rect.x..;
+            let volume = &wet.volume()[cells][..rect.width];
             let floor = floor.row(y, rect.x, rect.width);
+            let paint = floor.iter().copied().zip(volume.iter().copied());
             let start = self.start(y) + rect.x - self.reach.x;
+            let heights = &mut self.bed[..rect.width];
+            bed.row((rect.x, y), heights);
             let found = &mut self.penetrations[start..][..rect.width];
             let coats = &mut self.coats[start..][..rect.width];
-            for ((((here, covered), &touch), &floor), &volume) in
-                found.iter_mut().zip(coats).zip(touches).zip(floor).zip(volume)
+            for ((((here, covered), &touch), paint), &bed) in
+                found.iter_mut().zip(coats).zip(touches).zip(paint).zip(&*heights)
             {
                 if touch.height == Touch::NONE.height {
                     continue;
                 }
                 *covered = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
-                *here = penetration(&contact.rates, touch, floor, volume, *covered);
+                *here = penetration(&contact.rates, touch, paint, bed, *covered);
             }
             let pressures = &mut self.pressures[start..][..rect.width];
             for (found, &penetration) in pressures.iter_mut().zip(&*found) {

@@ -1,6 +1,7 @@
 //! A sub-step written directly from the specification in [`crate::motion`], cell by
 //! cell. Tests compare the fast implementation with it.
 
+use super::bed::Bed;
 use super::head_paint::HeadPaint;
 use super::wick::Wick;
 use crate::contact::{Contact, Touch};
@@ -14,12 +15,12 @@ use crate::motion::press::{
 use crate::motion::transfer::{Exchange, exchange, leaving};
 use graphics::field::Field;
 
-/// Applies one sub-step to `wet` and `brush`.
+/// Applies one sub-step to `wet` and `brush`; `bed` is the surface before the stroke.
 pub(super) fn sub_step(
     motion: &MotionConstants,
     contact: &Contact,
     floor: &Field<i32>,
-    wet: &mut Layer,
+    (wet, bed): (&mut Layer, &Bed),
     paint: &mut HeadPaint,
 ) {
     let Contact { rect, touches, rates, wicking } = contact;
@@ -45,7 +46,8 @@ pub(super) fn sub_step(
             return NO_CONTACT;
         }
         let index = y as usize * width + x as usize;
-        penetration(rates, here, floor.values()[index], start.cell(index).volume(), coat_at(x, y))
+        let paint = (floor.values()[index], start.cell(index).volume());
+        penetration(rates, here, paint, bed.at((x as usize, y as usize)), coat_at(x, y))
     };
     let reach = rect.grown(2, floor.bounds());
     let top = |x: i64, y: i64| -> i32 {

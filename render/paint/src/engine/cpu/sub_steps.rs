@@ -3,6 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::band::Band;
+use super::bed::Bed;
 use super::columns::{Columns, Rows};
 use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
@@ -45,7 +46,7 @@ impl SubStepRunner {
         &mut self,
         motion: &MotionConstants,
         contacts: &[Contact],
-        floor: &Field<i32>,
+        (floor, bed): (&Field<i32>, &Bed),
         wet: &mut Columns,
         head: &mut HeadPaint,
     ) {
@@ -65,7 +66,7 @@ impl SubStepRunner {
                     arch.dispatch(ApplyWick { wick, wicking, head });
                 }
                 if !contact.rect.is_empty() {
-                    self.sub_step(arch, motion, contact, floor, wet, head);
+                    self.sub_step(arch, motion, contact, (floor, bed), wet, head);
                 }
             }
         };
@@ -82,7 +83,7 @@ impl SubStepRunner {
         arch: Arch,
         motion: &MotionConstants,
         contact: &Contact,
-        floor: &Field<i32>,
+        (floor, bed): (&Field<i32>, &Bed),
         wet: &mut Columns,
         head: &mut HeadPaint,
     ) {
@@ -96,7 +97,16 @@ impl SubStepRunner {
             band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
         }
         let penetration = &mut self.penetration;
-        arch.dispatch(MeasurePenetration { penetration, motion, contact, reach, floor, wet, head });
+        arch.dispatch(MeasurePenetration {
+            penetration,
+            motion,
+            contact,
+            reach,
+            floor,
+            bed,
+            wet,
+            head,
+        });
         let step = SubStep { motion, contact, bounds, reach, penetration, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
@@ -142,6 +152,7 @@ struct MeasurePenetration<'a> {
     contact: &'a Contact,
     reach: Rect,
     floor: &'a Field<i32>,
+    bed: &'a Bed,
     wet: &'a Columns,
     head: &'a HeadPaint,
 }
@@ -183,8 +194,8 @@ impl WithSimd for MeasurePenetration<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { penetration, motion, contact, reach, floor, wet, head } = self;
-        penetration.measure(motion, contact, reach, floor, wet, head);
+        let Self { penetration, motion, contact, reach, floor, bed, wet, head } = self;
+        penetration.measure(motion, contact, reach, floor, (wet, bed), head);
     }
 }
 

@@ -3,12 +3,13 @@
 use super::buffers::{BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers};
 use super::drying::{self, DryParams};
 use super::render::{CanvasBuffers, ViewBuffers};
-use super::sub_step::{self, SubStepParams, WickParams};
+use super::sub_step::{self, BedParams, SubStepParams, WickParams};
 use super::undo_tiles::{UNDO_TILE, UndoTileParams, UndoTiles};
 use crate::contact::{Contact, Touch, Wicking};
 use crate::engine::ids::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
 use crate::motion::MotionConstants;
+use crate::motion::bed::{BLOCK, NO_BED};
 use crate::optics::Scene;
 use graphics::field::Field;
 use graphics::gpu::{Adapter, Buffer, Device, DeviceError, Kernel, Recording, Rows, groups};
@@ -31,7 +32,8 @@ pub struct GpuPaint {
     /// Commands that were not submitted yet.
     recording: Recording,
     wet: PaintBuffers,
-    /// Height of ground and dry paint in quanta.
+    /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks; see
+    /// [`crate::motion::bed`].
     floor: Buffer,
     brushes: Vec<BrushBuffers>,
     sub_step: SubStepBuffers,
@@ -60,7 +62,7 @@ impl GpuPaint {
             bounds,
             recording: Recording::default(),
             wet: PaintBuffers::empty(&device, "the wet paint", cells)?,
-            floor: device.buffer_of("the ground", floor.values())?,
+            floor: floor_buffer(&mut device, floor)?,
             brushes: Vec::new(),
             sub_step: SubStepBuffers::new(&device, 1)?,
             dry: Vec::new(),
@@ -207,6 +209,16 @@ impl GpuPaint {
 
     pub(crate) fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
         self.record_undo_tile(tile, slot, true)
+    }
+
+    pub(crate) fn note_bed(&mut self, rect: Rect) -> Result<(), DeviceError> {
+        let (rect, _) = self.canvas_rows(rect);
+        let params = BedParams { tile: as_u32(rect), canvas: self.canvas_size(), padding: [0; 2] };
+        let buffers = [&self.wet.pigments, &self.wet.vehicle, &self.floor];
+        let over = [rect.width, rect.height].map(|cells| groups(cells.div_ceil(BLOCK)));
+        let over = [over[0], over[1], 1];
+        self.recording.dispatch(&sub_step::NOTE_BED, &params, &buffers, over);
+        self.submit_if_full()
     }
 
     pub(crate) fn render(
@@ -358,6 +370,14 @@ impl GpuPaint {
         self.views[view as usize] = Some(buffers.clone());
         Ok(buffers)
     }
+}
+
+/// The buffer of the floor and of a bed that was never noted.
+fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
+    let blocks = floor.width().div_ceil(BLOCK) * floor.height().div_ceil(BLOCK);
+    let mut values = floor.values().to_vec();
+    values.resize(values.len() + blocks, NO_BED);
+    device.buffer_of("the ground", &values)
 }
 
 fn as_u32(rect: Rect) -> [u32; 4] {

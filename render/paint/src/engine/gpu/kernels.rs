@@ -12,6 +12,7 @@ pub fn kernels() -> Vec<&'static Kernel> {
         &sub_step::ADVECT,
         &sub_step::TRANSFER,
         &sub_step::WICK,
+        &sub_step::NOTE_BED,
         &drying::DRY,
         &drying::MOVE_FLOOR,
         &undo_tiles::UNDO_TILE,

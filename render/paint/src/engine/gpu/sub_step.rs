@@ -37,7 +37,7 @@ const STRUCTS: &[Layout] = &[
         adhesion_quanta,
         padding
     }),
-    layout!(ExchangeRates { release, film, deposit, pick_up, mixing, sink, drag, padding }),
+    layout!(ExchangeRates { release, film, deposit, pick_up, mixing, sink, drag, bearing }),
     layout!(Touch { height, brush_cell, velocity, weights }),
 ];
 
@@ -50,6 +50,7 @@ macro_rules! sub_step_source {
             include_str!("../../contact.wgsl"),
             include_str!("../../motion/constants.wgsl"),
             include_str!("../../motion/press.wgsl"),
+            include_str!("../../motion/bed.wgsl"),
             include_str!("passes/sub_step.wgsl"),
             $(include_str!($part)),*
         )
@@ -108,6 +109,30 @@ pub(super) static TRANSFER: Kernel = Kernel {
         Storage::Write,
         Storage::Write,
     ],
+};
+
+/// Uniforms of [`NOTE_BED`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct BedParams {
+    /// x, y, width and height in cells of the canvas.
+    pub(super) tile: [u32; 4],
+    /// Width and height of the canvas in cells.
+    pub(super) canvas: [u32; 2],
+    pub(super) padding: [u32; 2],
+}
+
+/// Notes the surface of the paint in a tile as the bed of a stroke.
+pub(super) static NOTE_BED: Kernel = Kernel {
+    name: "note_bed",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("passes/note_bed.wgsl"),
+    ),
+    parameters: layout!(BedParams { tile, canvas, padding }),
+    structs: &[],
+    storage: &[Storage::Read, Storage::Read, Storage::Write],
 };
 
 /// Uniforms of [`WICK`].

@@ -97,7 +97,7 @@ fn random_contact(
         mixing: share(),
         sink: 8 * share(),
         drag: share() >> 8,
-        ..ExchangeRates::default()
+        bearing: share(),
     };
     Contact { rect: Rect { x, y, width, height }, touches, rates, wicking }
 }
@@ -160,10 +160,13 @@ fn the_fast_path_agrees_with_the_specification() {
             },
         ];
         for (i, motion) in motions.iter().cycle().take(60).enumerate() {
+            if i % 7 == 3 {
+                engine.note_bed(engine.bounds());
+            }
             let contact = random_contact(random, canvas, brush, None);
             let (mut wet, mut head) = (engine.wet(), engine.brushes[BRUSH.0].clone());
             let floor = engine.floor();
-            sub_step(motion, &contact, &floor, &mut wet, &mut head);
+            sub_step(motion, &contact, &floor, (&mut wet, &engine.bed), &mut head);
             engine.apply_contacts(BRUSH, motion, &[contact]);
             assert!(engine.wet() == wet, "canvas {canvas:?}, sub-step {i}");
             assert!(engine.brush_paint(BRUSH) == *head.cells.layer(), "brush, sub-step {i}");

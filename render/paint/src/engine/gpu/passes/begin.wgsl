@@ -5,6 +5,7 @@
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
 @group(0) @binding(2) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> vehicle: array<u32>;
+// The floor of all cells, then the bed of all blocks.
 @group(0) @binding(4) var<storage, read> floor_height: array<i32>;
 @group(0) @binding(5) var<storage, read> brush_pigments: array<vec4<u32>>;
 // The vehicle of all cells, then the mean of each cell's hair.
@@ -12,6 +13,21 @@
 // x: penetration, y: volume, z: top, w: coat.
 @group(0) @binding(7) var<storage, read_write> depths: array<vec4<i32>>;
 @group(0) @binding(8) var<storage, read_write> above: array<Cell>;
+
+// Height in quanta of the bed of the stroke at a cell.
+fn bed_at(at: vec2<u32>) -> i32 {
+    let blocks = (params.canvas + vec2(7u)) / 8u;
+    let across = between_blocks(at.x, blocks.x);
+    let down = between_blocks(at.y, blocks.y);
+    let upper = params.canvas.x * params.canvas.y + down.x * blocks.x;
+    let lower = params.canvas.x * params.canvas.y + down.y * blocks.x;
+    return bed_height(
+        vec2(floor_height[upper + across.x], floor_height[upper + across.y]),
+        vec2(floor_height[lower + across.x], floor_height[lower + across.y]),
+        across.z,
+        down.z,
+    );
+}
 
 @compute @workgroup_size(8, 8)
 fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -28,7 +44,8 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         let b = touch.brush_cell;
         if touch.height != NO_HEAD {
             coat_quanta = coat(params.rates, touch, brush_vehicle[params.brush_cells + b]);
-            depth = penetration(params.rates, touch, floor_height[i], wet, coat_quanta);
+            let bed = bed_at(params.region.xy + id.xy);
+            depth = penetration(params.rates, touch, floor_height[i], wet, bed, coat_quanta);
         }
         if depth != NO_CONTACT {
             above[place] =
