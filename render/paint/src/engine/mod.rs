@@ -19,6 +19,8 @@ mod gpu;
 
 mod paint_engine;
 
+mod tiles;
+
 pub use cpu::CpuPaint;
 pub use gpu::{GpuPaint, kernels, max_canvas_cells};
 pub use ids::{BrushId, UndoSlot, View};

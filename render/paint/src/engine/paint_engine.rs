@@ -2,14 +2,14 @@
 
 use super::cpu::CpuPaint;
 use super::gpu::GpuPaint;
-use super::ids::{BrushId, UndoSlot, View};
+use super::ids::{BrushId, View};
 use crate::contact::Contact;
 use crate::layer::Layer;
 use crate::motion::MotionConstants;
 use crate::optics::Scene;
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, Device, DeviceError, choose};
-use graphics::tile::{Rect, Tile, TileSet};
+use graphics::tile::{Rect, TileSet};
 
 /// The paint of one painting: the wet layer, dry layers, the paint on each brush, and
 /// pictures of the canvas.
@@ -302,54 +302,6 @@ impl PaintEngine {
         match self {
             Self::Cpu(paint) => Ok(paint.floor()),
             Self::Gpu(paint) => paint.floor(),
-        }
-    }
-
-    /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
-    /// contacts that follow, until the tile is noted again; see [`bed`](crate::motion::bed). Before
-    /// the first time it is unknown and bears nothing.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
-    ///
-    /// # Panics
-    /// If the tile lies outside the canvas.
-    pub fn note_bed(&mut self, tile: Tile) -> Result<(), DeviceError> {
-        let rect = tile.rect(self.bounds());
-        match self {
-            Self::Cpu(paint) => {
-                paint.note_bed(rect);
-                Ok(())
-            }
-            Self::Gpu(paint) => paint.note_bed(rect),
-        }
-    }
-
-    /// Copies the wet paint of a tile to `slot`, within the engine's memory.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
-    pub fn save_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
-        match self {
-            Self::Cpu(paint) => {
-                paint.save_tile(tile, slot);
-                Ok(())
-            }
-            Self::Gpu(paint) => paint.save_tile(tile, slot),
-        }
-    }
-
-    /// Swaps the wet paint of a tile with that saved in `slot`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
-    pub fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
-        match self {
-            Self::Cpu(paint) => {
-                paint.swap_tile(tile, slot);
-                Ok(())
-            }
-            Self::Gpu(paint) => paint.swap_tile(tile, slot),
         }
     }
 

@@ -60,8 +60,8 @@ impl MotionConstants {
 const LEVELS_BELOW: f64 = 0.5;
 
 /// Sub-steps of levelling of the most fluid paint on cells of 0.1 mm. A wave of 1 mm then falls
-/// to a twentieth.
-const MOST_LEVELLING: f64 = 64.0;
+/// to a hundredth.
+const MOST_LEVELLING: f64 = 96.0;
 
 /// Number of sub-steps without a head after a stroke in which paint of this `stiffness` levels,
 /// on cells of `cell_mm` mm: at most 256, none for paint from the tube.

@@ -196,13 +196,14 @@ impl Path {
         self.pressed()
     }
 
-    /// Number of sub-steps in which the brush is lifted at the last sample, and number of poses at
-    /// that sample: of a path those of the lifting, of a dab also those before it, in which the
-    /// brush is pressed down.
+    /// Number of sub-steps in which the brush is lifted at the last sample, two cells at a time, and
+    /// number of poses at that sample: of a path those of the lifting, of a dab also those before
+    /// it, in which the brush is pressed down, a cell at a time.
     fn pressing(&self) -> (usize, usize) {
         let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
-        let lifting = (pressure / (2.0 * most_pressure(self.reach))).ceil() as usize;
-        (lifting, if self.length == 0.0 { 2 * lifting + 1 } else { lifting + 1 })
+        let pressed = (pressure / most_pressure(self.reach)).ceil() as usize;
+        let lifting = pressed.div_ceil(2);
+        (lifting, lifting + 1 + if self.length == 0.0 { pressed } else { 0 })
     }
 
     /// The next pose at the last sample.
@@ -210,8 +211,13 @@ impl Path {
         let last = self.recent[2].filter(|_| self.finished)?;
         let (lifting, poses) = self.pressing();
         let left = (poses - 1).checked_sub(self.ended)?;
+        let pressed = poses - 1 - lifting;
+        let share = if left > lifting {
+            self.ended as f64 / pressed as f64
+        } else {
+            left as f64 / lifting.max(1) as f64
+        };
         self.ended += 1;
-        let share = 1.0 - lifting.abs_diff(left) as f64 / lifting.max(1) as f64;
         Some(Pose { pressure: share * last.pressure, ..last })
     }
 

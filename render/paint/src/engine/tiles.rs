@@ -1,0 +1,56 @@
+//! What the engine keeps of a tile before it changes: the bed of a stroke, and its paint for undo.
+
+use super::ids::UndoSlot;
+use super::paint_engine::PaintEngine;
+use graphics::gpu::DeviceError;
+use graphics::tile::Tile;
+
+impl PaintEngine {
+    /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
+    /// contacts that follow, until the tile is noted again; see [`bed`](crate::motion::bed). Before
+    /// the first time it is unknown and bears nothing.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    ///
+    /// # Panics
+    /// If the tile lies outside the canvas.
+    pub fn note_bed(&mut self, tile: Tile) -> Result<(), DeviceError> {
+        let rect = tile.rect(self.bounds());
+        match self {
+            Self::Cpu(paint) => {
+                paint.note_bed(rect);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.note_bed(rect),
+        }
+    }
+
+    /// Copies the wet paint of a tile to `slot`, within the engine's memory.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn save_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.save_tile(tile, slot);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.save_tile(tile, slot),
+        }
+    }
+
+    /// Swaps the wet paint of a tile with that saved in `slot`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.swap_tile(tile, slot);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.swap_tile(tile, slot),
+        }
+    }
+}
