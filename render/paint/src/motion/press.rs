@@ -44,9 +44,9 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 /// coat is thick enough to bear it, so a thick film hides a weave.
 ///
 /// A loaded head rides on a share of the paint that was there before the stroke, from the ground
-/// under the hair up to `bed`, the height of that paint in quanta, as far as twice its
-/// coat, and lays its coat on that; a clean head digs in. It is never borne higher than its coat
-/// above the paint that is there now.
+/// under the hair up to `bed`, the height of that paint in quanta, as far as twice its coat, and
+/// lays its coat on that; a clean head digs in. It is never borne higher than its coat above the
+/// paint that is there now.
 #[inline(always)]
 #[must_use]
 pub fn penetration(
