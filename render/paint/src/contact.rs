@@ -132,4 +132,8 @@ pub struct Wicking {
     /// Number of hairs by which the groups start before the first hair, below `hairs`. Groups
     /// that overlap from flow to flow spread paint across the head.
     pub shift: u32,
+    /// Number of flows in which all groups have their turn; 0 and 1 let all flow at once.
+    pub turns: u32,
+    /// Groups take part whose number divided by `turns` leaves this, below `turns`.
+    pub turn: u32,
 }

@@ -107,7 +107,15 @@ pub(crate) fn contact(
     }
     let mut share = || [0, 700, 65536, rng.random_range(0..=65536)][rng.random_range(0..4)];
     let hairs = 1 + share() % 4;
-    let wicking = Wicking { share: share(), first_row: share() % 3, hairs, shift: share() % hairs };
+    let turns = 1 + share() % 3;
+    let wicking = Wicking {
+        share: share(),
+        first_row: share() % 3,
+        hairs,
+        shift: share() % hairs,
+        turns,
+        turn: share() % turns,
+    };
     let rates = ExchangeRates {
         release: share(),
         film: share(),

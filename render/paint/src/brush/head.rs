@@ -61,8 +61,8 @@ pub struct Head {
     sides: Sides,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
-    /// Pressure in the last sub-step.
-    pressure: f32,
+    /// Pose in the last sub-step.
+    last: Option<Pose>,
     /// Area of a paint cell in cells of the canvas.
     paint_cell_area: f64,
     /// Origin of coordinates while the head touches the canvas.
@@ -110,7 +110,7 @@ impl Head {
             locks: Locks::new(0, around, column_mm, (0.1 * of.recess, of.variation), cell_mm),
             sides: Sides::default(),
             sub_step: 0,
-            pressure: 0.0,
+            last: None,
             paint_cell_area: area / (around * along) as f64,
             surface,
             origin: None,
@@ -170,7 +170,7 @@ impl Head {
         (self.origin, self.hovering) = (None, None);
         self.locks.lift();
         self.sides.lift();
-        (self.sub_step, self.pressure) = (0, 0.0);
+        (self.sub_step, self.last) = (0, None);
     }
 
     /// Holds the straight head just above the canvas at `pose`, for any pressure, so that it
@@ -203,7 +203,7 @@ impl Head {
         let way = Vector::new(heading.0 as f32, heading.1 as f32, 0.0);
         self.spines.hang(&grip, way, &view);
         self.spines.lower(&grip, &view);
-        self.pressure = grip.pressure;
+        self.last = Some(*pose);
         self.net.follow(&self.spines, &grip);
         self.net.rest();
     }
@@ -251,9 +251,18 @@ impl Head {
         }
         pulp::Arch::new().dispatch(Touching { head: self, grip: &grip, view, bounds, out });
         out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
+        out.rates.drag = (f64::from(out.rates.drag) * (2.0 * self.travelled(pose)).min(1.0)) as u32;
         out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
         self.sub_step += 1;
-        self.pressure = grip.pressure;
+        self.last = Some(*pose);
+    }
+
+    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is pressed
+    /// or lifted on the spot, which drags no paint along.
+    fn travelled(&self, pose: &Pose) -> f64 {
+        let Some(last) = self.last else { return 0.0 };
+        let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();
+        (pose.x - last.x).hypot(pose.y - last.y) + 0.5 * f64::from(self.spines.width) * turned
     }
 
     /// Fills the touches of `out`.
@@ -270,7 +279,8 @@ impl Head {
         let row_mm = cells as f64 * self.cell_mm;
         let fade = (row_mm / TIP_MM) as f32;
         // Cells by which the sides of the mark move as pressure changes.
-        let pressed = (grip.pressure - self.pressure).abs() * self.spines.width;
+        let before = self.last.map_or(0.0, |last| last.pressure) as f32;
+        let pressed = (grip.pressure - before).abs() * self.spines.width;
         self.surface.evaluate(
             &self.net,
             ceiling,

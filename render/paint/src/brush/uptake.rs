@@ -28,6 +28,9 @@ struct Uptake {
     wicking_mm: f64,
     /// Distance between two flows of paint over the head.
     wicking_every_mm: f64,
+    /// Number of flows in which all hairs have their turn, so that they do not fill in step, which
+    /// would leave beads along a stroke.
+    turns: u32,
     /// Width of the groups of hairs that level together; 0 if each hair levels alone.
     spread_mm: f64,
 }
@@ -42,7 +45,8 @@ const HAIR: Uptake = Uptake {
     pick_up_mm: 5.0,
     mixing_mm: 9.0,
     wicking_mm: 1.5,
-    wicking_every_mm: 1.6,
+    wicking_every_mm: 0.4,
+    turns: 4,
     spread_mm: 0.0,
 };
 
@@ -58,6 +62,7 @@ const BLADE: Uptake = Uptake {
     mixing_mm: 0.7,
     wicking_mm: 0.1,
     wicking_every_mm: 0.2,
+    turns: 1,
     spread_mm: 1.5,
 };
 
@@ -121,11 +126,16 @@ pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64
     // Sums over a group must fit into 32 bits.
     let most = 2048.0 / with_paint as f64;
     let hairs = (uptake.spread_mm / cell_mm).min(most).max(1.0) as u32;
-    let odd = sub_step / between % 2 == 1;
+    let flow = sub_step / between;
+    let odd = flow % 2 == 1;
+    // The first flow is that of all hairs.
+    let turns = if flow == 0 { 1 } else { uptake.turns };
     Wicking {
-        share: share(cell_mm * f64::from(between), uptake.wicking_mm),
+        share: share(cell_mm * f64::from(between * uptake.turns), uptake.wicking_mm),
         first_row: (rows - with_paint) as u32,
         hairs,
         shift: if odd { hairs / 2 } else { 0 },
+        turns,
+        turn: flow % turns,
     }
 }

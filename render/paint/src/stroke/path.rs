@@ -7,6 +7,10 @@ use super::limits::{FARTHEST, MOST_SUBSTEPS};
 use super::piece::{Piece, most_pressure};
 use crate::pose::{Pose, Sample};
 
+/// Cells by which the side of a mark moves in a sub-step of pressing down or lifting on the spot
+/// (chosen by the measured lip at the end of a stroke).
+const LIFT: f64 = 1.5;
+
 /// Iterator over the poses of a stroke whose samples arrive in portions. The poses are the
 /// same to the bit as those of [`substeps`](super::substeps) for all samples at once.
 ///
@@ -196,14 +200,13 @@ impl Path {
         self.pressed()
     }
 
-    /// Number of sub-steps in which the brush is lifted at the last sample, two cells at a time, and
-    /// number of poses at that sample: of a path those of the lifting, of a dab also those before
-    /// it, in which the brush is pressed down, a cell at a time.
+    /// Number of sub-steps in which the brush is lifted at the last sample, and number of poses at
+    /// that sample: of a path those of the lifting, of a dab also those before it, in which the brush
+    /// is pressed down.
     fn pressing(&self) -> (usize, usize) {
         let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
-        let pressed = (pressure / most_pressure(self.reach)).ceil() as usize;
-        let lifting = pressed.div_ceil(2);
-        (lifting, lifting + 1 + if self.length == 0.0 { pressed } else { 0 })
+        let lifting = (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize;
+        (lifting, if self.length == 0.0 { 2 * lifting + 1 } else { lifting + 1 })
     }
 
     /// The next pose at the last sample.
@@ -211,13 +214,8 @@ impl Path {
         let last = self.recent[2].filter(|_| self.finished)?;
         let (lifting, poses) = self.pressing();
         let left = (poses - 1).checked_sub(self.ended)?;
-        let pressed = poses - 1 - lifting;
-        let share = if left > lifting {
-            self.ended as f64 / pressed as f64
-        } else {
-            left as f64 / lifting.max(1) as f64
-        };
         self.ended += 1;
+        let share = 1.0 - lifting.abs_diff(left) as f64 / lifting.max(1) as f64;
         Some(Pose { pressure: share * last.pressure, ..last })
     }
 

@@ -27,8 +27,8 @@ const BARE: Group =
 #[derive(Debug, Default)]
 pub(super) struct Wick {
     groups: Vec<Group>,
-    /// Index of the group of each column of cells.
-    group_of: Vec<usize>,
+    /// Columns of cells that take part, with the index of their group.
+    columns: Vec<(usize, usize)>,
 }
 
 impl Wick {
@@ -45,26 +45,28 @@ impl Wick {
             return;
         };
         self.divide(wicking, width);
-        let Self { groups, group_of } = self;
+        let Self { groups, columns } = self;
         let cells = || (first..).step_by(width).take(rows);
         for row in cells() {
-            for (&volume, &group) in brush.volume()[row..][..width].iter().zip(&*group_of) {
-                groups[group].mean += volume >> UNIT_BITS;
+            let volumes = &brush.volume()[row..][..width];
+            for &(column, group) in &*columns {
+                groups[group].mean += volumes[column] >> UNIT_BITS;
             }
         }
         for group in &mut *groups {
             group.mean = mean(group.mean, group.columns * rows as u32);
         }
         for row in cells() {
-            for (mean, &group) in means[row..][..width].iter_mut().zip(&*group_of) {
-                *mean = groups[group].mean << UNIT_BITS;
+            let means = &mut means[row..][..width];
+            for &(column, group) in &*columns {
+                means[column] = groups[group].mean << UNIT_BITS;
             }
         }
         for row in cells() {
             let volumes = &brush.volume()[row..][..width];
-            for (column, (&volume, &group)) in volumes.iter().zip(&*group_of).enumerate() {
+            for &(column, group) in &*columns {
                 let group = &mut groups[group];
-                let lack = lack(volume, group.mean);
+                let lack = lack(volumes[column], group.mean);
                 if lack > 0 {
                     group.lacks += lack;
                     group.last = row + column;
@@ -75,8 +77,8 @@ impl Wick {
             group.flowing = if group.lacks > 0 { flowing(wicking.share, group.lacks) } else { 0 };
         }
         for row in cells() {
-            for (at, &group) in (row..).zip(&*group_of) {
-                let group = &mut groups[group];
+            for &(column, group) in &*columns {
+                let (at, group) = (row + column, &mut groups[group]);
                 let share = given_share(brush.volume()[at], group.mean, group.flowing);
                 if share > 0 {
                     let cell = brush.cell(at);
@@ -90,8 +92,8 @@ impl Wick {
             group.rest = group.pot;
         }
         for row in cells() {
-            for (at, &group) in (row..).zip(&*group_of) {
-                let group = &mut groups[group];
+            for &(column, group) in &*columns {
+                let (at, group) = (row + column, &mut groups[group]);
                 let lack = lack(brush.volume()[at], group.mean);
                 if lack > 0 && group.lacks > 0 {
                     let last = at == group.last;
@@ -107,13 +109,17 @@ impl Wick {
     #[inline(always)]
     fn divide(&mut self, wicking: Wicking, width: usize) {
         let (hairs, shift) = (wicking.hairs.max(1) as usize, wicking.shift as usize);
+        let (turns, turn) = (wicking.turns.max(1) as usize, wicking.turn as usize);
         self.groups.clear();
-        self.groups.resize((width.div_ceil(2) + shift).div_ceil(hairs), BARE);
-        self.group_of.clear();
+        self.groups.resize((width.div_ceil(2) + shift).div_ceil(hairs).div_ceil(turns), BARE);
+        self.columns.clear();
         for column in 0..width {
             let group = (hair_of(column, width) + shift) / hairs;
-            self.groups[group].columns += 1;
-            self.group_of.push(group);
+            if group % turns == turn {
+                let group = group / turns;
+                self.groups[group].columns += 1;
+                self.columns.push((column, group));
+            }
         }
     }
 }
@@ -219,7 +225,7 @@ mod tests {
             (paint.cells.layer().part(Rect { x: 0, y: 0, width: 40, height: 4 }), {
                 paint.cells.layer().totals()
             });
-        let wicking = Wicking { share: 65536, first_row: 4, hairs: 4, shift: 0 };
+        let wicking = Wicking { share: 65536, first_row: 4, hairs: 4, ..Wicking::default() };
         for step in 0..60 {
             let shift = if step % 2 == 0 { 0 } else { 2 };
             Wick::default().apply(Wicking { shift, ..wicking }, &mut paint);
@@ -230,5 +236,24 @@ mod tests {
         let volumes = &paint.cells.volume()[4 * 40..];
         let (low, high) = (volumes.iter().min().unwrap(), volumes.iter().max().unwrap());
         assert!(*low > 100_000 && *high < 200_000, "{low} to {high}");
+    }
+
+    #[test]
+    fn hairs_flow_in_turns() {
+        let full = |index: usize| Cell { vehicle: 6_000_000 * (index / 12) as u32, ..EMPTY };
+        let mut paint = head(12, 5, full);
+        let volumes = |paint: &HeadPaint| paint.cells.volume().to_vec();
+        let mut whole = paint.clone();
+        Wick::default().apply(along(9000), &mut whole);
+        for turn in 0..4 {
+            let before = volumes(&paint);
+            Wick::default().apply(Wicking { turns: 4, turn, ..along(9000) }, &mut paint);
+            for (index, (before, after)) in before.iter().zip(volumes(&paint)).enumerate() {
+                let flows = hair_of(index % 12, 12) as u32 % 4 == turn;
+                // The middle row holds the mean.
+                assert_eq!(*before != after, flows && index / 12 != 2, "turn {turn}, {index}");
+            }
+        }
+        assert_eq!(volumes(&paint), volumes(&whole));
     }
 }

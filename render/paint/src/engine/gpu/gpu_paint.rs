@@ -316,11 +316,12 @@ impl GpuPaint {
 
     fn record_wicking(&mut self, brush: BrushId, wicking: Wicking) -> Result<(), DeviceError> {
         let BrushBuffers { size, paint } = &self.brushes[brush.0];
-        let Wicking { share, first_row, hairs, shift } = wicking;
-        let (hairs, size_u32) = (hairs.max(1), [size.0 as u32, size.1 as u32]);
+        let Wicking { share, first_row, hairs, shift, turns, turn } = wicking;
+        let (hairs, turns, size_u32) = (hairs.max(1), turns.max(1), [size.0 as u32, size.1 as u32]);
         let params =
-            WickParams { size: size_u32, wicking: share, first_row, hairs, shift, padding: [0; 2] };
+            WickParams { size: size_u32, wicking: share, first_row, hairs, shift, turns, turn };
         let hair_groups = (size.0.div_ceil(2) + shift as usize).div_ceil(hairs as usize);
+        let hair_groups = hair_groups.div_ceil(turns as usize);
         // A workgroup of 8 x 8 invocations takes 64 groups of hairs.
         let over = [groups(hair_groups.div_ceil(8)), 1, 1];
         self.recording.dispatch(&sub_step::WICK, &params, &[&paint.pigments, &paint.vehicle], over);

@@ -149,7 +149,10 @@ pub(super) struct WickParams {
     pub(super) hairs: u32,
     /// Number of hairs that the first group lacks.
     pub(super) shift: u32,
-    pub(super) padding: [u32; 2],
+    /// Number of flows in which all groups have their turn.
+    pub(super) turns: u32,
+    /// Which of them this is.
+    pub(super) turn: u32,
 }
 
 /// Lets paint flow over a head; an invocation a group of hairs.
@@ -161,7 +164,7 @@ pub(super) static WICK: Kernel = Kernel {
         include_str!("../../motion/wick.wgsl"),
         include_str!("passes/wick.wgsl"),
     ),
-    parameters: layout!(WickParams { size, wicking, first_row, hairs, shift, padding }),
+    parameters: layout!(WickParams { size, wicking, first_row, hairs, shift, turns, turn }),
     structs: &[],
     storage: &[Storage::Write, Storage::Write],
 };

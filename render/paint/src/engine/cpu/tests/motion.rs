@@ -88,7 +88,12 @@ fn random_contact(
     });
     let touches = touches.collect();
     let mut share = || [0, 700, 65536, random.random_range(0..=65536)][random.random_range(0..4)];
-    let wicking = Wicking { share: share(), first_row: share() % 3, hairs: share() % 4, shift: 0 };
+    let wicking = Wicking {
+        share: share(),
+        first_row: share() % 3,
+        hairs: share() % 4,
+        ..Wicking::default()
+    };
     let rates = ExchangeRates {
         release: share(),
         film: share(),

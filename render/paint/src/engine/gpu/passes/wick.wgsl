@@ -12,7 +12,9 @@ struct WickParams {
     hairs: u32,
     // Number of hairs that the first group lacks.
     shift: u32,
-    padding: vec2<u32>,
+    // Number of flows in which all groups have their turn, and which of them this is.
+    turns: u32,
+    turn: u32,
 }
 
 // The cells of a group of hairs: its hairs from `first` to before `end`, then their opposites.
@@ -43,7 +45,8 @@ fn wick_hairs(@builtin(global_invocation_id) id: vec3<u32>) {
     let width = params.size.x;
     let half = (width + 1u) / 2u;
     // A workgroup is a row of 64 groups.
-    let before = (id.x / 8u * 64u + id.y * 8u + id.x % 8u) * params.hairs;
+    let number = (id.x / 8u * 64u + id.y * 8u + id.x % 8u) * params.turns + params.turn;
+    let before = number * params.hairs;
     let first = before - min(before, params.shift);
     if first >= half || params.first_row >= params.size.y {
         return;
