@@ -2,8 +2,8 @@
 //!
 //! Strokes run from samples to paint: the head bends, its footprint is rasterised, the paint of
 //! eight pigments moves, and undo saves tiles. Items are cells of the rectangles of contacts,
-//! cycles are sub-steps. Target on two cores: 20 million cells/s with a rectangle of 88 x 88, 5,000
-//! sub-steps/s with one of 26 x 26.
+//! cycles are sub-steps. Target on two cores: 30 million cells/s with a rectangle of 88 x 88,
+//! 25,000 sub-steps/s with one of 26 x 26.
 //!
 //! The replay paints the shipped colour study from bare linen to the last stroke. Items are
 //! strokes.
