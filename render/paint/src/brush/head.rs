@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::error::BrushError;
 use super::footprint::Footprint;
 use super::grip::Grip;
 use super::locks::Locks;
@@ -19,7 +20,6 @@ use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
 use graphics::tile::Rect;
 use pulp::{Simd, WithSimd};
-use spectra::hint::{Explain, Hint};
 
 /// Range of the widths of heads, in mm.
 const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
@@ -367,39 +367,4 @@ fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
         off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
     };
     (0..around * along).map(hair).collect()
-}
-
-/// Why a head cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BrushError {
-    /// The width of the head is out of range.
-    #[error("a head is 0.2 to 100 mm wide: `{size_mm}` mm")]
-    Size {
-        /// Width of the head in mm.
-        size_mm: f64,
-    },
-    /// The width of a cell is not above 0.
-    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
-    Cell {
-        /// Width of a cell in mm.
-        cell_mm: f64,
-    },
-    /// The head would have more cells than allowed.
-    #[error("a head is at most 2048 cells wide: `{size_mm}` mm over cells of {cell_mm} mm")]
-    TooFine {
-        /// Width of the head in mm.
-        size_mm: f64,
-        /// Width of a cell in mm.
-        cell_mm: f64,
-    },
-}
-
-impl Explain for BrushError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Size { .. } => "give the width of the head in mm, such as 6",
-            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
-            Self::TooFine { .. } => "take a smaller brush or larger cells",
-        }))
-    }
 }

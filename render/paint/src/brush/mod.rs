@@ -5,6 +5,8 @@
 //! subdivision surface; the skeleton is laid on the canvas in equilibrium, without masses and
 //! springs. Each sub-step the surface gives one [`Contact`](super::contact::Contact).
 
+mod error;
+
 mod vector;
 
 mod b_spline;
@@ -35,7 +37,8 @@ mod footprint;
 
 mod head;
 
-pub use head::{BrushError, Head};
+pub use error::BrushError;
+pub use head::Head;
 pub use mesh::HeadMesh;
 pub use relief::{BLOCK, Relief};
 pub use shape::{HeadShape, UnknownShape};
