@@ -47,8 +47,8 @@ pub fn quotient(amount: u32, count: u32) -> u32 {
     floor_of_quotient(f64::from(amount as i32), count)
 }
 
-/// Computes `part / whole`, rounded down, for whole numbers. Processors
-/// cannot divide vectors of whole numbers, so this divides in f64, which is exact here.
+/// Computes `part / whole`, rounded down, for whole numbers. Processors cannot divide vectors of
+/// whole numbers, so this divides in f64, which is exact here.
 #[inline(always)]
 fn floor_of_quotient(part: f64, whole: u32) -> u32 {
     /// 2^52: above this number, neighbouring f64 values are 1 apart. Adding it is faster than the

@@ -26,11 +26,12 @@ use graphics::tile::Rect;
 ///
 /// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
 /// Keyser 2011); pressure, tilt and twist are interpolated linearly, twist the shorter way
-/// round. Poses are as far apart as the sides of a brush of `size_mm` move by one cell, or nearer
-/// while pressure changes by more than 1/16, or by more than moves the sides of the mark by a
-/// cell, or an angle by more than 3 degrees a cell. Time only orders the samples: a brush at rest
-/// makes no sub-steps. If all samples have the same position and pose, the stroke is a dab: the
-/// brush is lowered, pressed and lifted at that position.
+/// round. From one pose to the next, the sides of a brush of `size_mm` move by one cell at most,
+/// an angle changes by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush,
+/// so that the sides of its mark move by about a cell. At the last sample the brush is lifted on
+/// the spot, by 1.5 cells of its sides a pose. Time only orders the samples: a brush at rest makes
+/// no sub-steps. If all samples have the same position and pose, the stroke is a dab: the brush is
+/// pressed down and lifted at that position.
 ///
 /// # Errors
 /// [`StrokeError`] if there is no sample, a number is not finite or out of range, time runs

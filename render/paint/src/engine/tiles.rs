@@ -1,4 +1,5 @@
-//! What the engine keeps of a tile before it changes: the bed of a stroke, and its paint for undo.
+//! What the engine stores of a tile before its paint changes: the surface, which bears loaded hair
+//! during a stroke, and the paint itself, for undo.
 
 use super::ids::UndoSlot;
 use super::paint_engine::PaintEngine;

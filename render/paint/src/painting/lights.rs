@@ -60,8 +60,8 @@ impl Painting {
         })
     }
 
-    /// Sets the stiffness of the wet paint ([`stiffness`](crate::document::Medium::stiffness)). Paint levels by it after
-    /// the next stroke.
+    /// Sets the stiffness of the wet paint ([`stiffness`](crate::document::Medium::stiffness)).
+    /// Paint levels by it after the next stroke.
     ///
     /// # Errors
     /// [`PaintingError::Stiffness`] outside 0 to 1.

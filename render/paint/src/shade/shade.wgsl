@@ -60,35 +60,15 @@ fn rise(tap: vec4<f32>, at: vec2<i32>, here: f32) -> f32 {
 // function `top`, the height in quanta at a cell or at the nearest cell of the canvas.
 fn shade(at: vec2<i32>, material: u32, flat_color: vec3<f32>) -> vec3<f32> {
     let here = top(at);
-    // Unrolled: loops cost more than what they do on software devices.
-    let shadow = &params.lamp.shadow;
-    let hidden = max(
-        max(
-            max(rise((*shadow)[0], at, here), rise((*shadow)[1], at, here)),
-            max(rise((*shadow)[2], at, here), rise((*shadow)[3], at, here)),
-        ),
-        max(max(rise((*shadow)[4], at, here), rise((*shadow)[5], at, here)), 0.0),
-    );
-    let around = &params.lamp.around;
-    let sides = max(
-        vec4(
-            rise((*around)[0], at, here),
-            rise((*around)[1], at, here),
-            rise((*around)[2], at, here),
-            rise((*around)[3], at, here),
-        ),
-        vec4(0.0),
-    );
-    let corners = max(
-        vec4(
-            rise((*around)[4], at, here),
-            rise((*around)[5], at, here),
-            rise((*around)[6], at, here),
-            rise((*around)[7], at, here),
-        ),
-        vec4(0.0),
-    );
-    let sky = dot(sides, sides) + dot(corners, corners);
+    var hidden = 0.0;
+    for (var i = 0u; i < 6u; i++) {
+        hidden = max(hidden, rise(params.lamp.shadow[i], at, here));
+    }
+    var sky = 0.0;
+    for (var i = 0u; i < 8u; i++) {
+        let up = max(rise(params.lamp.around[i], at, here), 0.0);
+        sky += up * up;
+    }
     let over = hidden / params.lamp.soft;
     let free = 1.0 / (1.0 + over * over);
     let open = 1.0 / (1.0 + 0.125 * sky);

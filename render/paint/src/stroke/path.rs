@@ -200,9 +200,9 @@ impl Path {
         self.pressed()
     }
 
-    /// Number of sub-steps in which the brush is lifted at the last sample, and number of poses at
-    /// that sample: of a path those of the lifting, of a dab also those before it, in which the brush
-    /// is pressed down.
+    /// Number of sub-steps in which the brush is lifted at the last sample, and number of all poses
+    /// there. A path arrives pressed and is only lifted; a dab is pressed down first, in as many
+    /// sub-steps.
     fn pressing(&self) -> (usize, usize) {
         let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
         let lifting = (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize;

@@ -83,9 +83,9 @@ impl Piece {
     }
 }
 
-/// Number of sub-steps from `a` to `b` near by: one for each cell that the sides of the brush may
-/// move.
-pub(super) fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
+/// Number of sub-steps, or part of one, from `a` to the near pose `b`. In a sub-step the sides of
+/// the brush move by a cell at most.
+fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
     (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
 }
 

@@ -18,8 +18,8 @@ use graphics::tile::Rect;
 /// stays on one thread, one of 88 x 88 cells may use three.
 const CELLS_PER_BAND: usize = 2500;
 
-/// The same where there are two threads only. The other one bends the head most of the time, and
-/// waiting for it takes longer than the work.
+/// [`CELLS_PER_BAND`] on a machine with two threads. Its second thread bends the head most of the
+/// time, so on small contacts waiting for it takes longer than doing the work alone.
 const CELLS_PER_BAND_OF_TWO: usize = 12_500;
 
 /// Runs sub-steps. Holds their buffers, so that no sub-step allocates.
