@@ -173,7 +173,7 @@ pub const ENTRIES: &[Entry] = &[
         Intent::Fit,
         Menu::View,
         "Whole canvas",
-        "Fits the whole canvas into the view, keeping its rotation",
+        "Fits the whole canvas and the palette into their views, keeping the rotation",
         &[key(CTRL, Key::Num0), key(NONE, Key::Num0)],
     ),
     entry(

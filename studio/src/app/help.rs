@@ -1,6 +1,6 @@
 //! The window with the table of keys.
 
-use eframe::egui::{Context, Grid, ScrollArea, Window, vec2};
+use eframe::egui::{Context, Grid, Key, ScrollArea, Window, vec2};
 
 use super::entries::ENTRIES;
 use super::intent::Menu;
@@ -18,8 +18,9 @@ const POINTER: &[(&str, &str)] = &[
     ("Held tool key", "Restores the previous tool on release"),
 ];
 
-/// Shows the window while `open` is true; its close button clears `open`.
+/// Shows the window while `open` is true; its close button and Escape clear `open`.
 pub(super) fn show(context: &Context, open: &mut bool) {
+    *open &= !context.input(|input| input.key_pressed(Key::Escape));
     let window = Window::new("Keys").open(open).resizable(false).collapsible(false);
     window.default_pos(eframe::egui::pos2(120.0, 60.0)).show(context, |ui| {
         let height = (ui.ctx().content_rect().height() - 140.0).max(120.0);

@@ -59,7 +59,7 @@ pub enum Intent {
     ZoomIn,
     /// Reduces the view by one step.
     ZoomOut,
-    /// Fits the whole canvas into the view, keeping its rotation.
+    /// Fits the whole canvas and the palette into their views, keeping the rotation.
     Fit,
     /// Shows one canvas cell as one screen pixel.
     ActualSize,

@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
                         ui.separator();
                     }
                     let name = match checked(entry.intent, state) {
-                        Some(true) => format!("\u{2713} {}", entry.name),
+                        Some(true) => format!("\u{2714} {}", entry.name),
                         Some(false) => format!("    {}", entry.name),
                         None => entry.name.to_owned(),
                     };

@@ -61,7 +61,10 @@ impl Studio {
             Intent::Tool(mode) => self.tools.mode = mode,
             Intent::ZoomIn => zoom(self, ZOOM),
             Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
-            Intent::Fit => self.canvas.fit(),
+            Intent::Fit => {
+                self.canvas.fit();
+                self.palette.fit();
+            }
             Intent::ActualSize => self.canvas.view.actual_size(),
             Intent::Upright => {
                 self.canvas.view.rotation = 0.0;
