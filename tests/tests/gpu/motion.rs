@@ -89,7 +89,8 @@ fn other_constants_are_followed_too() {
             yield_quanta: 0,
             levelling_share: 8192,
             adhesion_quanta: 0,
-            padding: [0; 3],
+            everywhere: 0,
+            padding: [0; 2],
         },
         MotionConstants {
             push_share: 0,
@@ -97,7 +98,8 @@ fn other_constants_are_followed_too() {
             yield_quanta: 1 << 31,
             levelling_share: 0,
             adhesion_quanta: 65535,
-            padding: [0; 3],
+            everywhere: 1,
+            padding: [0; 2],
         },
     ] {
         let mut rng = ChaCha8Rng::seed_from_u64(motion.push_share.into());

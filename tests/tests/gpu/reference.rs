@@ -73,7 +73,8 @@ pub(crate) fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), amounts: Amounts
 }
 
 /// A random contact over `rect`: heights near the tops of the paint, head cells that several
-/// canvas cells share, and an eighth of the canvas cells without a head cell.
+/// canvas cells share, and an eighth of the canvas cells without a head cell. Half of the heads are
+/// stripes across the rows.
 pub(crate) fn contact(
     rng: &mut ChaCha8Rng,
     rect: Rect,
@@ -81,9 +82,10 @@ pub(crate) fn contact(
     brush_cells: u32,
 ) -> Contact {
     let mut touches = Vec::new();
+    let stripes = rng.random_bool(0.5);
     for y in rect.y..rect.y + rect.height {
         for x in rect.x..rect.x + rect.width {
-            if rng.random_range(0..8) == 0 {
+            if stripes && (x + 2 * y) % 16 > 3 || rng.random_range(0..8) == 0 {
                 touches.push(Touch::NONE);
                 continue;
             }

@@ -1,5 +1,7 @@
 //! Rasterisation of the facets near the canvas.
 
+use std::ops::Range;
+
 use super::locks::Lock;
 use super::net::Point;
 use super::surface::LimitSurface;
@@ -30,6 +32,8 @@ pub(super) struct Footprint {
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
     sharers: Vec<u16>,
+    /// Columns of each row of the contact between which all touches lie.
+    spans: Vec<Range<usize>>,
     /// Number of paint cells in a row.
     width: u32,
 }
@@ -44,7 +48,8 @@ struct Facet {
 impl Footprint {
     /// A footprint of a head of `width` x `height` paint cells with hair on these facets.
     pub(super) fn new(width: usize, height: usize, hair: Vec<bool>) -> Self {
-        Self { hair, facets: Vec::new(), sharers: vec![0; width * height], width: width as u32 }
+        let (sharers, width) = (vec![0; width * height], width as u32);
+        Self { hair, facets: Vec::new(), sharers, spans: Vec::new(), width }
     }
 
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
@@ -63,6 +68,8 @@ impl Footprint {
         let reach = self.choose(surface, ceiling);
         out.rect = cells_within(reach, origin, bounds);
         out.touches.resize(out.rect.width * out.rect.height, Touch::NONE);
+        self.spans.clear();
+        self.spans.resize(out.rect.height, 0..0);
         if out.rect.is_empty() {
             return;
         }
@@ -80,6 +87,7 @@ impl Footprint {
             ];
             let mut canvas = Canvas {
                 touches: &mut out.touches,
+                spans: &mut self.spans,
                 width: out.rect.width,
                 height: out.rect.height,
                 cell: facet.cell,
@@ -90,7 +98,12 @@ impl Footprint {
             canvas.triangle(&corners[0], &corners[1], &corners[2]);
             canvas.triangle(&corners[3], &corners[2], &corners[1]);
         }
-        self.count(&mut out.touches);
+        self.count(out);
+    }
+
+    /// The columns of each row of the contact drawn last between which all touches lie.
+    pub(super) fn spans(&self) -> &[Range<usize>] {
+        &self.spans
     }
 
     /// Collects the facets that face the canvas and reach below `ceiling`. Returns their extent
@@ -142,21 +155,34 @@ impl Footprint {
 
     /// Sets in each touch the number of touches that share its paint cell.
     #[inline(always)]
-    fn count(&mut self, touches: &mut [Touch]) {
+    fn count(&mut self, contact: &mut Contact) {
+        let Self { sharers, spans, .. } = self;
         let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
-        for touch in touches.iter().filter(touching) {
-            let sharers = &mut self.sharers[touch.brush_cell as usize];
+        for touch in within(&contact.touches, contact.rect.width, spans).filter(touching) {
+            let sharers = &mut sharers[touch.brush_cell as usize];
             *sharers = sharers.saturating_add(1);
         }
-        for touch in touches.iter_mut() {
+        let rows = contact.touches.chunks_exact_mut(contact.rect.width);
+        for touch in rows.zip(&*spans).flat_map(|(row, span)| row.get_mut(span.clone())).flatten() {
             if touch.height != Touch::NONE.height {
-                touch.weights |= u32::from(self.sharers[touch.brush_cell as usize]) << 16;
+                touch.weights |= u32::from(sharers[touch.brush_cell as usize]) << 16;
             }
         }
-        for touch in touches.iter().filter(touching) {
-            self.sharers[touch.brush_cell as usize] = 0;
+        for touch in within(&contact.touches, contact.rect.width, spans).filter(touching) {
+            sharers[touch.brush_cell as usize] = 0;
         }
     }
+}
+
+/// The touches of the `spans` of the rows, which are `width` long.
+#[inline(always)]
+fn within<'a>(
+    touches: &'a [Touch],
+    width: usize,
+    spans: &'a [Range<usize>],
+) -> impl Iterator<Item = &'a Touch> {
+    let rows = touches.chunks_exact(width).zip(spans);
+    rows.flat_map(|(row, span)| row.get(span.clone()).unwrap_or_default())
 }
 
 /// Cells of `bounds` whose centre may lie within `reach`.
@@ -197,6 +223,7 @@ impl Corner {
 /// Target of the rasterisation of a facet.
 struct Canvas<'a> {
     touches: &'a mut [Touch],
+    spans: &'a mut [Range<usize>],
     width: usize,
     height: usize,
     /// First paint cell of the facet, and number of paint cells in a row.
@@ -244,6 +271,9 @@ impl Canvas<'_> {
             if start >= end {
                 continue;
             }
+            let span = &mut self.spans[y];
+            let first = if span.end == 0 { start } else { span.start.min(start) };
+            *span = first..span.end.max(end);
             let (x, y_off) = (start as f32 + 0.5 - a.x, middle - a.y);
             let mut begin = a.values;
             for i in 0..8 {

@@ -296,7 +296,8 @@ impl Head {
         );
         let ceiling = ceiling * QUANTA_PER_CELL as f32;
         self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
-        self.sides.thicken(out, extent, grip.origin, self.cell_mm as f32);
+        let spans = self.footprint.spans();
+        self.sides.thicken((out, spans), extent, grip.origin, self.cell_mm as f32);
     }
 }
 
@@ -326,8 +327,7 @@ fn cells(surface: &LimitSurface) -> (usize, usize) {
 
 /// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
 /// 0.2 cells per sub-step, full from 0.3, and at least that of a speed of `pressed`), both times
-/// `grasp`. Where the surface would be below
-/// the relief, it is raised to it.
+/// `grasp`. Where the surface would be below the relief, it is raised to it.
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;

@@ -4,6 +4,8 @@
 //! between the hairs, below the size of a cell, so it is not computed: the coat is thicker near
 //! the sides of the contact.
 
+use std::ops::Range;
+
 use crate::contact::{Contact, Touch};
 
 /// Increase of the coat at the sides (chosen by measured lips).
@@ -61,11 +63,11 @@ impl Sides {
     }
 
     /// Thickens the coat near the sides of `contact`, whose extent is `now`. Positions in it
-    /// count from the cell `origin`.
+    /// count from the cell `origin`. `spans` are the columns of its rows that may have touches.
     #[inline(always)]
     pub(super) fn thicken(
         &mut self,
-        contact: &mut Contact,
+        (contact, spans): (&mut Contact, &[Range<usize>]),
         now: Option<Extent>,
         origin: (i64, i64),
         cell_mm: f32,
@@ -79,9 +81,12 @@ impl Sides {
         let left = (contact.rect.x as i64 - origin.0) as f32 + 0.5;
         let top = (contact.rect.y as i64 - origin.1) as f32 + 0.5;
         let width = contact.rect.width.max(1);
-        for (row, touches) in contact.touches.chunks_exact_mut(width).enumerate() {
+        let rows = contact.touches.chunks_exact_mut(width).zip(spans);
+        for (row, (touches, span)) in rows.enumerate() {
             let start = now.at(left, top + row as f32);
-            for (column, touch) in touches.iter_mut().enumerate() {
+            for (column, touch) in
+                span.clone().zip(touches.get_mut(span.clone()).unwrap_or_default())
+            {
                 let at = start + column as f32 * now.across.0;
                 let inside = (at - low).min(high - at);
                 if inside < reach && touch.height != Touch::NONE.height {
@@ -108,7 +113,8 @@ mod tests {
         for x in [10.0, 50.0] {
             extent.iter_mut().for_each(|extent| extent.include(x, 21.5));
         }
-        Sides::default().thicken(&mut contact, extent, (0, 0), 0.1);
+        let whole = [0..40, 0..40, 0..40];
+        Sides::default().thicken((&mut contact, &whole), extent, (0, 0), 0.1);
         contact.touches[40..80].iter().map(Touch::release).collect()
     }
 
@@ -131,7 +137,7 @@ mod tests {
             let mut extent = Extent::new((0.0, 0.0), (1.0, 0.0)).unwrap();
             extent.include(0.0, -half);
             extent.include(0.0, half);
-            sides.thicken(&mut Contact::default(), Some(extent), (0, 0), 0.1);
+            sides.thicken((&mut Contact::default(), &[]), Some(extent), (0, 0), 0.1);
             sides.extent.unwrap().1
         };
         assert_eq!(reach(10.0), 10.0);

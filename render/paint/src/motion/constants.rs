@@ -21,8 +21,11 @@ pub struct MotionConstants {
     pub levelling_share: u32,
     /// Height in quanta that always stays behind when a column moves; below 65536.
     pub adhesion_quanta: u32,
+    /// 0 if paint moves in contact with the head and next to it only; 1 if it moves everywhere, as
+    /// after a stroke.
+    pub everywhere: u32,
     /// Unused; pads the uniforms of the shaders.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 /// Flow under the head: mm2 of paint that leaves under a pressure of 1 mm of paint, for each mm
@@ -51,8 +54,15 @@ impl MotionConstants {
             yield_quanta: (slope * f64::from(QUANTA_PER_CELL)) as u32,
             levelling_share: parts(1.0 / 16.0),
             adhesion_quanta: quanta_from_mm(ADHESION_MM, cell_mm).min(65535),
-            padding: [0; 3],
+            everywhere: 0,
+            padding: [0; 2],
         }
+    }
+
+    /// These constants for paint that moves everywhere.
+    #[must_use]
+    pub fn everywhere(self) -> Self {
+        Self { everywhere: 1, ..self }
     }
 }
 

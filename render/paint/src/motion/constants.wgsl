@@ -6,7 +6,7 @@ struct MotionConstants {
     yield_quanta: u32,
     levelling_share: u32,
     adhesion_quanta: u32,
+    everywhere: u32,
     padding: u32,
     padding_b: u32,
-    padding_c: u32,
 }

@@ -18,7 +18,8 @@
 //!    and y; beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of
 //!    each of these cells from its flows and from [`press::dragged`]. A component that would
 //!    carry paint off the canvas is set to 0; near crowded columns
-//!    [`press::avoid_crowded_columns`] applies.
+//!    [`press::avoid_crowded_columns`] applies. Unless [`MotionConstants::everywhere`] is 1, only
+//!    cells move that have a penetration or one of whose eight neighbours has.
 //! 3. [`advect::outflow`] of each of these cells, from the amounts at the start, for all
 //!    cells at once.
 //! 4. [`transfer::exchange`] for every cell that was in contact in step 1, with that

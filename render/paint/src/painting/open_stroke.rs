@@ -287,7 +287,7 @@ impl OpenStroke {
     /// Lets fluid paint level where the head was.
     fn level(&self, painting: &mut Painting) -> Result<(), PaintingError> {
         let Some(brush) = self.brush else { return Ok(()) };
-        let (bounds, motion) = (painting.engine.bounds(), painting.motion());
+        let (bounds, motion) = (painting.engine.bounds(), painting.motion().everywhere());
         let stiffness = painting.state.medium.stiffness;
         let sub_steps = levelling_sub_steps(painting.cell_mm, stiffness);
         if sub_steps == 0 {

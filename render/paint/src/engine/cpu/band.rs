@@ -47,16 +47,12 @@ impl Band {
     /// [`Band::add_inflow_and_transfer`].
     #[inline(always)]
     pub(super) fn advect(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
-        let moving = step.moving();
-        let first = self.rows.start.max(moving.y);
-        let end = self.rows.end.min(moving.y + moving.height);
-        if first < end {
-            self.velocities.begin(step, first);
-        }
-        for y in first..end {
-            let row = rows.row(y, moving.x, moving.width);
+        self.velocities.begin(step, self.rows.start);
+        for y in self.rows.clone() {
+            let columns = step.penetration.moving(y);
+            let row = rows.row(y, columns.start, columns.len());
             self.velocities.of_row(step, row.volume, y);
-            self.scatter(step, row, (moving.x, y));
+            self.scatter(step, row, (columns.start, y));
         }
     }
 
@@ -65,7 +61,7 @@ impl Band {
     fn scatter(&mut self, step: &SubStep<'_>, mut row: Row<'_>, (x, y): (usize, usize)) {
         let stride = step.reach.width;
         let inflow_row = y + 1 - self.rows.start;
-        let here = inflow_row * stride + x - step.reach.x;
+        let here = (inflow_row * stride + x).saturating_sub(step.reach.x);
         let Velocities { x, y, mobile, .. } = &self.velocities;
         let mut flows = false;
         for (i, ((&x, &y), &mobile)) in x.iter().zip(y).zip(mobile).enumerate() {
@@ -113,13 +109,14 @@ impl Band {
     /// later, by [`Band::add_brush_gains`].
     #[inline(always)]
     pub(super) fn add_inflow_and_transfer(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
-        let SubStep { reach, contact, .. } = *step;
-        let rect = contact.rect;
+        let reach = step.reach;
         for y in self.rows.clone() {
             let inflow_row = y + 1 - self.rows.start;
-            if self.row_flows[inflow_row] {
-                let mut row = rows.row(y, reach.x, reach.width);
-                let inflow = &mut self.inflow[inflow_row * reach.width..][..reach.width];
+            let changing = step.penetration.changing(y);
+            if self.row_flows[inflow_row] && !changing.is_empty() {
+                let first = inflow_row * reach.width + changing.start - reach.x;
+                let mut row = rows.row(y, changing.start, changing.len());
+                let inflow = &mut self.inflow[first..][..changing.len()];
                 for (i, inflow) in inflow.iter_mut().enumerate() {
                     let cell = row.cell(i).plus(inflow);
                     *inflow = EMPTY;
@@ -127,17 +124,17 @@ impl Band {
                     row.volume[i] = cell.volume();
                 }
             }
-            if (rect.y..rect.y + rect.height).contains(&y) {
-                self.transfer(step, rows.row(y, rect.x, rect.width), y);
+            let columns = step.penetration.in_contact(y);
+            if !columns.is_empty() {
+                self.transfer(step, rows.row(y, columns.start, columns.len()), y);
             }
         }
     }
 
     #[inline(always)]
     fn transfer(&mut self, step: &SubStep<'_>, mut row: Row<'_>, y: usize) {
-        let rect = step.contact.rect;
         self.exchanges.of_row(step, row.volume, y);
-        let touches = &step.contact.touches[(y - rect.y) * rect.width..][..rect.width];
+        let touches = step.touches(y);
         for (i, (touch, &exchange)) in touches.iter().zip(&self.exchanges.found).enumerate() {
             let Exchange { down, up } = exchange;
             if down | up == 0 {

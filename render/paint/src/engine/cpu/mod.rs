@@ -11,6 +11,8 @@ mod bed;
 
 mod head_paint;
 
+mod spans;
+
 mod penetration;
 
 mod step;

@@ -1,9 +1,12 @@
 //! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
 //! specification in [`crate::motion`], row by row.
 
+use std::ops::Range;
+
 use super::bed::Bed;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
+use super::spans::{Spans, joined};
 use crate::contact::{Contact, Touch};
 use crate::motion::MotionConstants;
 use crate::motion::press::{
@@ -24,6 +27,12 @@ pub(super) struct PenetrationMap {
     tops: Vec<i32>,
     penetrations: Vec<i32>,
     pressures: Vec<i32>,
+    /// Columns in contact, columns that may move, columns that may change, and columns of which
+    /// tops are known.
+    contact: Spans,
+    moving: Spans,
+    changing: Spans,
+    seen: Spans,
     /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
@@ -46,37 +55,42 @@ impl PenetrationMap {
         (wet, bed): (&Columns, &Bed),
         head: &HeadPaint,
     ) {
+        self.clear();
         self.reach = reach;
         self.find_crowded(wet);
-        let row = self.row_length();
-        let cells = row * (reach.height + 2 * RIM);
+        let cells = self.row_length() * (reach.height + 2 * RIM);
         self.tops.resize(self.tops.len().max(cells), 0);
-        self.penetrations.clear();
-        self.penetrations.resize(cells, NO_CONTACT);
-        self.pressures.clear();
-        self.pressures.resize(cells, NO_CONTACT);
+        self.penetrations.resize(self.penetrations.len().max(cells), NO_CONTACT);
+        self.pressures.resize(self.pressures.len().max(cells), NO_CONTACT);
         self.coats.resize(self.coats.len().max(cells), 0);
-        for y in reach.y..reach.y + reach.height {
-            let volume = &wet.volume()[y * floor.width() + reach.x..][..reach.width];
-            let floor = floor.row(y, reach.x, reach.width);
-            let start = self.start(y);
-            let tops = &mut self.tops[start - RIM..][..row];
-            for ((top, &floor), &volume) in tops[RIM..].iter_mut().zip(floor).zip(volume) {
-                *top = floor + volume as i32;
-            }
-            let (first, last) = (tops[RIM], tops[RIM + reach.width - 1]);
-            tops[..RIM].fill(first);
-            tops[RIM + reach.width..].fill(last);
-        }
-        let (first, last) = (RIM * row, (RIM + reach.height - 1) * row);
-        for i in 1..=RIM {
-            self.tops.copy_within(first..first + row, first - i * row);
-            self.tops.copy_within(last..last + row, last + i * row);
-        }
         self.bed.resize(self.bed.len().max(contact.rect.width), 0);
+        for spans in [&mut self.contact, &mut self.moving, &mut self.changing, &mut self.seen] {
+            spans.clear(reach);
+        }
         self.press(motion, contact, floor, (wet, bed), head);
+        let moving = contact.rect.grown(1, floor.bounds());
+        if motion.everywhere == 0 {
+            self.moving.surround(&self.contact, moving);
+        } else {
+            self.moving.fill(moving);
+        }
+        self.changing.surround(&self.moving, reach);
+        self.seen.surround(&self.changing, reach);
+        self.find_tops(floor, wet);
     }
 
+    /// Removes the contact of the sub-step before.
+    #[inline(always)]
+    fn clear(&mut self) {
+        for y in self.contact.rows() {
+            let columns = self.contact.of(y);
+            let start = self.start(y) + columns.start.saturating_sub(self.reach.x);
+            self.penetrations[start..][..columns.len()].fill(NO_CONTACT);
+            self.pressures[start..][..columns.len()].fill(NO_CONTACT);
+        }
+    }
+
+    /// Computes the penetration of each cell of `contact`, and the pressure there.
     #[inline(always)]
     fn press(
         &mut self,
@@ -88,28 +102,108 @@ impl PenetrationMap {
     ) {
         let rect = contact.rect;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
-            let cells = y * floor.width() + rect.x..;
-            let volume = &wet.volume()[cells][..rect.width];
-            let floor = floor.row(y, rect.x, rect.width);
+            let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
+            let Some(from) = touches.iter().position(below_head) else { continue };
+            let touches = &touches[from..];
+            let count = touches.iter().rposition(below_head).map_or(0, |last| last + 1);
+            let (touches, x) = (&touches[..count], rect.x + from);
+            let volume = &wet.volume()[y * floor.width() + x..][..count];
+            let floor = floor.row(y, x, count);
             let paint = floor.iter().copied().zip(volume.iter().copied());
-            let start = self.start(y) + rect.x - self.reach.x;
-            let heights = &mut self.bed[..rect.width];
-            bed.row((rect.x, y), heights);
-            let found = &mut self.penetrations[start..][..rect.width];
-            let coats = &mut self.coats[start..][..rect.width];
-            for ((((here, covered), &touch), paint), &bed) in
-                found.iter_mut().zip(coats).zip(touches).zip(paint).zip(&*heights)
+            let start = self.start(y) + x - self.reach.x;
+            let heights = &mut self.bed[..count];
+            bed.row((x, y), heights);
+            let found = &mut self.penetrations[start..][..count];
+            let coats = &mut self.coats[start..][..count];
+            let (mut first, mut end) = (usize::MAX, 0);
+            let inputs = touches.iter().zip(paint).zip(&*heights);
+            for (i, ((here, covered), ((&touch, paint), &bed))) in
+                found.iter_mut().zip(coats).zip(inputs).enumerate()
             {
                 if touch.height == Touch::NONE.height {
                     continue;
                 }
                 *covered = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
                 *here = penetration(&contact.rates, touch, paint, bed, *covered);
+                if *here != NO_CONTACT {
+                    (first, end) = (first.min(i), i + 1);
+                }
             }
-            let pressures = &mut self.pressures[start..][..rect.width];
-            for (found, &penetration) in pressures.iter_mut().zip(&*found) {
-                *found = pressure(motion, penetration);
+            if first < end {
+                self.contact.set(y, x + first..x + end);
+                let pressures = &mut self.pressures[start..][first..end];
+                for (pressed, &penetration) in pressures.iter_mut().zip(&found[first..end]) {
+                    *pressed = pressure(motion, penetration);
+                }
             }
+        }
+    }
+
+    /// Computes the tops of the columns that are seen, and those of the rim beside them.
+    #[inline(always)]
+    fn find_tops(&mut self, floor: &Field<i32>, wet: &Columns) {
+        let (reach, row) = (self.reach, self.row_length());
+        for y in self.seen.rows() {
+            let columns = self.seen.of(y);
+            let volume = &wet.volume()[y * floor.width()..][columns.clone()];
+            let floor = floor.row(y, columns.start, columns.len());
+            let (start, from) = (self.start(y), columns.start.saturating_sub(reach.x));
+            let tops = &mut self.tops[start - RIM..][..row];
+            let inner = &mut tops[RIM + from..][..columns.len()];
+            for ((top, &floor), &volume) in inner.iter_mut().zip(floor).zip(volume) {
+                *top = floor + volume as i32;
+            }
+            let (first, last) = (tops[RIM], tops[RIM + reach.width - 1]);
+            tops[..RIM].fill(first);
+            tops[RIM + reach.width..].fill(last);
+        }
+        let (first, last) = (RIM * row, (RIM + reach.height - 1) * row);
+        for i in 1..=RIM {
+            self.tops.copy_within(first..first + row, first - i * row);
+            self.tops.copy_within(last..last + row, last + i * row);
+        }
+    }
+
+    /// Columns of row `y` that are in contact, with those between them.
+    #[inline(always)]
+    pub(super) fn in_contact(&self, y: usize) -> Range<usize> {
+        self.contact.of(y)
+    }
+
+    /// Columns of row `y` that may move.
+    #[inline(always)]
+    pub(super) fn moving(&self, y: usize) -> Range<usize> {
+        self.moving.of(y)
+    }
+
+    /// Columns of row `y` that paint may move to or from.
+    #[inline(always)]
+    pub(super) fn changing(&self, y: usize) -> Range<usize> {
+        self.changing.of(y)
+    }
+
+    /// Columns of the rows `y - 1` and `y` that may move, and those between them.
+    #[inline(always)]
+    pub(super) fn moving_beside(&self, y: usize) -> Range<usize> {
+        joined(&self.moving.of(y.wrapping_sub(1)), &self.moving.of(y))
+    }
+
+    /// Sets all bits of `found` for each of the cells of row `y` from `x` on that, or a neighbour
+    /// of which, is in contact, and none for the others.
+    #[inline(always)]
+    pub(super) fn near_contact(&self, (x, y): (usize, usize), found: &mut [u32]) {
+        let (row, count) = (self.row_length(), found.len());
+        let middle = self.start(y) + x - self.reach.x;
+        // Nine rows of pressures; those without contact are the lowest.
+        let beside = |place: usize| {
+            let at = |place: usize| &self.pressures[place..][..count];
+            at(place - 1).iter().zip(at(place)).zip(at(place + 1))
+        };
+        let rows = beside(middle - row).zip(beside(middle)).zip(beside(middle + row));
+        for (found, ((above, here), below)) in found.iter_mut().zip(rows) {
+            let highest = |((&a, &b), &c): ((&i32, &i32), &i32)| a.max(b).max(c);
+            let highest = highest(above).max(highest(here)).max(highest(below));
+            *found = if highest == NO_CONTACT { 0 } else { u32::MAX };
         }
     }
 

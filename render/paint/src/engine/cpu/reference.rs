@@ -68,9 +68,15 @@ pub(super) fn sub_step(
         let cell = act(&wet.cell(index));
         wet.set_cell(index, cell);
     };
+    let near = |x: i64, y: i64| {
+        (-1..=1).any(|down| (-1..=1).any(|right| pressed(x + right, y + down) != NO_CONTACT))
+    };
     let moving = rect.grown(1, floor.bounds());
     for y in moving.y as i64..(moving.y + moving.height) as i64 {
         for x in moving.x as i64..(moving.x + moving.width) as i64 {
+            if motion.everywhere == 0 && !near(x, y) {
+                continue;
+            }
             let cell = start.cell(y as usize * width + x as usize);
             let volume = cell.volume();
             let head = dragged(rates, touch(x, y), pressed(x, y), volume);

@@ -2,7 +2,7 @@
 
 use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
-use crate::contact::Contact;
+use crate::contact::{Contact, Touch};
 use crate::motion::MotionConstants;
 use graphics::tile::Rect;
 
@@ -19,9 +19,11 @@ pub(super) struct SubStep<'a> {
 }
 
 impl SubStep<'_> {
-    /// The cells that may move: the contact's rectangle grown by one cell.
+    /// Touches of the cells in contact of row `y`, and of those between them.
     #[inline(always)]
-    pub(super) fn moving(&self) -> Rect {
-        self.contact.rect.grown(1, self.bounds)
+    pub(super) fn touches(&self, y: usize) -> &[Touch] {
+        let (rect, columns) = (self.contact.rect, self.penetration.in_contact(y));
+        let first = (y - rect.y) * rect.width + columns.start - rect.x;
+        &self.contact.touches[first..][..columns.len()]
     }
 }

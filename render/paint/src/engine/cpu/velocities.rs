@@ -1,6 +1,8 @@
 //! Velocities of the paint of one row: step 2 of the specification in [`crate::motion`]. Its loops
 //! have no branches, so that they are compiled to vector instructions.
 
+use std::ops::Range;
+
 use super::step::SubStep;
 use crate::contact::{Contact, Touch};
 use crate::motion::advect::mobile_share;
@@ -16,9 +18,12 @@ pub(super) struct Velocities {
     /// Share of each column that may move, in parts of 65536.
     pub(super) mobile: Vec<u32>,
     touches: Vec<Touch>,
+    /// All bits set for each cell that, or a neighbour of which, is in contact; else 0.
+    near: Vec<u32>,
     /// Flows over the left sides of the cells of the row and over the right side of its last.
     in_x: Vec<i32>,
-    /// Flows over the upper and the lower sides of the cells of the row.
+    /// Flows over the upper and the lower sides of the cells of the row, from the left end of the
+    /// reach on.
     in_y: [Vec<i32>; 2],
 }
 
@@ -26,66 +31,90 @@ impl Velocities {
     /// Begins with the row `first` of `step`.
     #[inline(always)]
     pub(super) fn begin(&mut self, step: &SubStep<'_>, first: usize) {
-        let moving = step.moving();
         let [above, below] = &mut self.in_y;
-        for buffer in [above, below, &mut self.x, &mut self.y] {
-            buffer.resize(moving.width, 0);
-        }
-        self.mobile.resize(moving.width, 0);
-        self.in_x.resize(moving.width + 1, 0);
-        step.penetration.flows_in_y(step.motion, (moving.x, first), &mut self.in_y[0]);
+        above.resize(step.reach.width, 0);
+        below.resize(step.reach.width, 0);
+        self.flow_in_y(step, first, 0);
     }
 
-    /// Computes those of row `y`, whose columns are `volumes` quanta high. The row before it was
-    /// the one above.
+    /// Computes those of the cells of row `y` that may move, whose columns are `volumes` quanta
+    /// high. The row before it was the one above.
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
-        let moving = step.moving();
-        self.gather_touches(step.contact, moving, y);
-        let Self { x, mobile, touches, in_x, in_y: [above, below], .. } = self;
-        step.penetration.flows_in_x(step.motion, (moving.x, y), in_x);
-        step.penetration.flows_in_y(step.motion, (moving.x, y + 1), below);
-        let depths = step.penetration.row(y, moving.x, moving.width);
-        let flows = in_x.iter().zip(&in_x[1..]).zip(above.iter().zip(&*below));
-        let columns = touches.iter().zip(depths).zip(volumes).zip(flows);
+        let columns = step.penetration.moving(y);
+        for buffer in [&mut self.x, &mut self.y] {
+            buffer.resize(columns.len(), 0);
+        }
+        self.mobile.resize(columns.len(), 0);
+        self.in_x.resize(columns.len() + 1, 0);
+        self.near.clear();
+        self.near.resize(columns.len(), u32::MAX);
+        self.flow_in_y(step, y + 1, 1);
+        if columns.is_empty() {
+            self.in_y.swap(0, 1);
+            return;
+        }
+        self.gather_touches(step.contact, &columns, y);
+        if step.motion.everywhere == 0 {
+            step.penetration.near_contact((columns.start, y), &mut self.near);
+        }
+        let Self { x, mobile, near, touches, in_x, in_y: [above, below], .. } = self;
+        step.penetration.flows_in_x(step.motion, (columns.start, y), in_x);
+        let depths = step.penetration.row(y, columns.start, columns.len());
+        let from = columns.start - step.reach.x;
+        let in_y = above[from..].iter().zip(&below[from..]);
+        let flows = in_x.iter().zip(&in_x[1..]).zip(in_y);
+        let inputs = touches.iter().zip(depths).zip(volumes).zip(flows).zip(&*near);
         let found = x.iter_mut().zip(&mut self.y).zip(mobile);
-        for (((x, y), mobile), (((&touch, &depth), &volume), flows)) in found.zip(columns) {
+        for (((x, y), mobile), ((((&touch, &depth), &volume), flows), &near)) in found.zip(inputs) {
             let ((&left, &right), (&above, &below)) = flows;
             let head = dragged(&step.contact.rates, touch, depth, volume);
             *x = velocity(head.0, volume, left, right);
             *y = velocity(head.1, volume, above, below);
-            *mobile = mobile_share(step.motion, volume);
+            *mobile = mobile_share(step.motion, volume) & near;
         }
         self.in_y.swap(0, 1);
-        self.keep_on_canvas(moving, step.bounds, y);
+        self.keep_on_canvas(&columns, step.bounds, y);
         if step.penetration.has_crowded() {
-            for (column, (x, y_speed)) in self.x.iter_mut().zip(&mut self.y).enumerate() {
-                let place = (moving.x + column, y);
-                (*x, *y_speed) = step.penetration.avoid_crowded(place, (*x, *y_speed));
+            for (column, (x, y_speed)) in columns.zip(self.x.iter_mut().zip(&mut self.y)) {
+                (*x, *y_speed) = step.penetration.avoid_crowded((column, y), (*x, *y_speed));
             }
         }
     }
 
-    /// Copies the touches of row `y`; cells beyond the contact get [`Touch::NONE`].
+    /// Computes the flows over the upper sides of row `y`, and keeps them as the first or second
+    /// of [`Velocities::in_y`].
     #[inline(always)]
-    fn gather_touches(&mut self, contact: &Contact, moving: Rect, y: usize) {
+    fn flow_in_y(&mut self, step: &SubStep<'_>, y: usize, which: usize) {
+        let columns = step.penetration.moving_beside(y);
+        if !columns.is_empty() {
+            let found = &mut self.in_y[which][columns.start - step.reach.x..][..columns.len()];
+            step.penetration.flows_in_y(step.motion, (columns.start, y), found);
+        }
+    }
+
+    /// Copies the touches of `columns` of row `y`; cells beyond the contact get [`Touch::NONE`].
+    #[inline(always)]
+    fn gather_touches(&mut self, contact: &Contact, columns: &Range<usize>, y: usize) {
         let rect = contact.rect;
         self.touches.clear();
         if (rect.y..rect.y + rect.height).contains(&y) {
-            self.touches.resize(rect.x - moving.x, Touch::NONE);
-            let start = (y - rect.y) * rect.width;
-            self.touches.extend_from_slice(&contact.touches[start..][..rect.width]);
+            let within = |x: usize| x.clamp(rect.x, rect.x + rect.width) - rect.x;
+            let (from, to) = (within(columns.start), within(columns.end));
+            self.touches.resize(rect.x.saturating_sub(columns.start), Touch::NONE);
+            let row = &contact.touches[(y - rect.y) * rect.width..];
+            self.touches.extend_from_slice(&row[from..to]);
         }
-        self.touches.resize(moving.width, Touch::NONE);
+        self.touches.resize(columns.len(), Touch::NONE);
     }
 
     /// Removes the components that would carry paint off the canvas.
     #[inline(always)]
-    fn keep_on_canvas(&mut self, moving: Rect, bounds: Rect, y: usize) {
-        if let Some(first) = self.x.first_mut().filter(|_| moving.x == 0) {
+    fn keep_on_canvas(&mut self, columns: &Range<usize>, bounds: Rect, y: usize) {
+        if let Some(first) = self.x.first_mut().filter(|_| columns.start == 0) {
             *first = (*first).max(0);
         }
-        let at_right = moving.x + moving.width == bounds.width;
+        let at_right = columns.end == bounds.width;
         if let Some(last) = self.x.last_mut().filter(|_| at_right) {
             *last = (*last).min(0);
         }

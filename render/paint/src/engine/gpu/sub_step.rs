@@ -35,6 +35,7 @@ const STRUCTS: &[Layout] = &[
         yield_quanta,
         levelling_share,
         adhesion_quanta,
+        everywhere,
         padding
     }),
     layout!(ExchangeRates { release, film, deposit, pick_up, mixing, sink, drag, bearing }),

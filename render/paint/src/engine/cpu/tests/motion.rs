@@ -75,8 +75,11 @@ fn random_contact(
     let mut sharers = vec![0_u16; brush.0 * brush.1];
     (0..width * height).for_each(|i| sharers[cell(i) as usize] += 1);
     let lowest = random.random_range(-1..=2) * QUANTA_PER_CELL as i32;
+    // Half of the heads are stripes across the rows.
+    let stripes = random.random_bool(0.5);
     let touches = (0..width * height).map(|i| {
-        if random.random_range(0..5) == 0 {
+        let between = stripes && (i % width + 2 * (i / width)) % 16 > 3;
+        if between || random.random_range(0..5) == 0 {
             return Touch::NONE;
         }
         let height = lowest + random.random_range(0..2 * QUANTA_PER_CELL as i32);
@@ -153,7 +156,8 @@ fn the_fast_path_agrees_with_the_specification() {
                 yield_quanta: 0,
                 levelling_share: 8192,
                 adhesion_quanta: 65535,
-                padding: [0; 3],
+                everywhere: 0,
+                padding: [0; 2],
             },
             MotionConstants {
                 push_share: 0,
@@ -161,7 +165,8 @@ fn the_fast_path_agrees_with_the_specification() {
                 yield_quanta: 1 << 31,
                 levelling_share: 0,
                 adhesion_quanta: 0,
-                padding: [0; 3],
+                everywhere: 1,
+                padding: [0; 2],
             },
         ];
         for (i, motion) in motions.iter().cycle().take(60).enumerate() {

@@ -49,6 +49,16 @@ fn avoid_crowded_columns(place: vec2<u32>, velocity: vec2<i32>) -> vec2<i32> {
     return allowed;
 }
 
+// Whether the cell at `place` or a neighbour of it is in contact.
+fn near_contact(place: vec2<i32>) -> bool {
+    for (var i = 0; i < 9; i++) {
+        if column(place + vec2(i % 3, i / 3) - vec2(1)).y != NO_CONTACT {
+            return true;
+        }
+    }
+    return false;
+}
+
 @compute @workgroup_size(8, 8)
 fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= params.region.zw) {
@@ -61,12 +71,15 @@ fn press_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(moving >= params.contact.zw + vec2(2u)) {
         return;
     }
+    let cell = vec2<i32>(id.xy);
+    if params.motion.everywhere == 0u && !near_contact(cell) {
+        return;
+    }
     let here = depths[place];
     var head = vec2(0);
     if here.x != NO_CONTACT {
         head = dragged(params.rates, touches[touch_index(id.xy)], here.x, bitcast<u32>(here.y));
     }
-    let cell = vec2<i32>(id.xy);
     let volume_quanta = bitcast<u32>(here.y);
     var speed = vec2(
         velocity(
