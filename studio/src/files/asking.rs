@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use eframe::egui::Ui;
 use pigment::library::PigmentLibrary;
 use render::export::PictureFormat;
+use render::paint::scene::PixelsPerCell;
 use render::paint::strokes::PaletteSpec;
 
 use super::browser::{Answer, Browser, BrowserOptions, Filter};
 use super::dialogs::{self, Choice, NewPainting};
-use super::exporting::Export;
+use super::exporting::{Export, ExportKind};
 use super::notice::Notice;
 use super::open_dialog::{FilePurpose, OpenDialog};
 use super::pending::PendingAction;
@@ -179,18 +180,23 @@ impl Files {
     }
 
     pub(super) fn ask_what_to_export(&mut self) {
-        self.dialogs.push(OpenDialog::Export(Export::Picture(PictureFormat::Png8)));
+        let kind = ExportKind::Picture(PictureFormat::Png8);
+        let export = Export { kind, pixels: PixelsPerCell::default() };
+        self.dialogs.push(OpenDialog::Export(export));
     }
 
     fn ask_where_to_export(&mut self, export: Export) {
-        let ending = export.ending();
-        let filters: &[Filter] = match export {
-            Export::Picture(PictureFormat::Png8 | PictureFormat::Png16) => &[PICTURES, Filter::ALL],
-            Export::PigmentMaps => &[Filter::ALL],
+        let ending = export.kind.ending();
+        let filters: &[Filter] = match export.kind {
+            ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => {
+                &[PICTURES, Filter::ALL]
+            }
+            ExportKind::PigmentMaps => &[Filter::ALL],
             _ => &[PAINTINGS, Filter::ALL],
         };
         // A linear EXR must not get the name of the painting's own file.
-        let kind = if export == Export::Picture(PictureFormat::LinearExr) { ".linear" } else { "" };
+        let linear = export.kind == ExportKind::Picture(PictureFormat::LinearExr);
+        let kind = if linear { ".linear" } else { "" };
         let name = format!("{}{kind}.{ending}", self.title());
         let title = "Export";
         let options = BrowserOptions { title, saving: true, filters, ending: Some(ending), name };

@@ -5,9 +5,10 @@ use std::path::Path;
 use eframe::egui::{Align, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, Ui};
 use render::export::{PictureFormat, SpectralBands};
 use render::paint::ground::GroundKind;
+use render::paint::scene::PixelsPerCell;
 use render::paint::strokes::Canvas;
 
-use super::exporting::Export;
+use super::exporting::{Export, ExportKind};
 use super::preferences::{Backend, Preferences};
 use crate::pen::PenSettings;
 
@@ -82,34 +83,34 @@ pub(super) fn delete(ctx: &Context, path: &Path) -> Option<Choice> {
 
 /// Asks what to export.
 pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
-    const KINDS: [(Export, &str, &str); 6] = [
+    const KINDS: [(ExportKind, &str, &str); 6] = [
         (
-            Export::Picture(PictureFormat::Png8),
+            ExportKind::Picture(PictureFormat::Png8),
             "Picture, PNG of 8 bits",
             "sRGB, for viewing and for the web",
         ),
         (
-            Export::Picture(PictureFormat::Png16),
+            ExportKind::Picture(PictureFormat::Png16),
             "Picture, PNG of 16 bits",
             "sRGB with finer steps, for editing",
         ),
         (
-            Export::Picture(PictureFormat::LinearExr),
+            ExportKind::Picture(PictureFormat::LinearExr),
             "Picture, linear OpenEXR",
             "Linear light in 32-bit floats, nothing clipped",
         ),
         (
-            Export::Spectral(SpectralBands::Nodes),
+            ExportKind::Spectral(SpectralBands::Nodes),
             "Spectra, OpenEXR of 8 wavelengths",
             "Reflectance of every cell at the eight wavelengths of the light",
         ),
         (
-            Export::Spectral(SpectralBands::Full),
+            ExportKind::Spectral(SpectralBands::Full),
             "Spectra, OpenEXR of all wavelengths",
             "Reflectance of every cell at all wavelengths of the library; takes a while",
         ),
         (
-            Export::PigmentMaps,
+            ExportKind::PigmentMaps,
             "Pigment maps, a folder of PNG",
             "How much of each pigment lies where, with the scale in JSON and the sums in CSV",
         ),
@@ -117,7 +118,19 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
     let next = ("Choose a name", "Asks where to write it (Enter)");
     dialog(ctx, "Export", next, None, |ui| {
         for (kind, words, tip) in KINDS {
-            ui.radio_value(chosen, kind, words).on_hover_text(tip);
+            ui.radio_value(&mut chosen.kind, kind, words).on_hover_text(tip);
+        }
+        if let ExportKind::Picture(_) = chosen.kind {
+            ui.add_space(4.0);
+            ui.label("Pixels for each cell");
+            ui.horizontal(|ui| {
+                let counts = 1..=PixelsPerCell::MOST;
+                for pixels in counts.filter_map(|count| PixelsPerCell::new(count).ok()) {
+                    let words = format!("{0} x {0}", pixels.count());
+                    let tip = "More hide the cells, and the light shades the relief between them";
+                    ui.radio_value(&mut chosen.pixels, pixels, words).on_hover_text(tip);
+                }
+            });
         }
     })
 }

@@ -8,15 +8,23 @@ use render::export::{
 };
 use render::light::Light;
 use render::paint::document::Document;
-use render::paint::scene::{picture, scene};
+use render::paint::scene::{PixelsPerCell, fine_picture, picture, scene};
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
 use spectra::file::write_whole;
 
+/// What to export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Export {
+    pub(crate) kind: ExportKind,
+    /// Resolution of a picture; spectra and maps have one value a cell.
+    pub(crate) pixels: PixelsPerCell,
+}
+
 /// The kind of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Export {
+pub(crate) enum ExportKind {
     /// The picture under its light.
     Picture(PictureFormat),
     /// A spectral OpenEXR with the reflectance of every cell.
@@ -25,7 +33,7 @@ pub(crate) enum Export {
     PigmentMaps,
 }
 
-impl Export {
+impl ExportKind {
     /// Extension of the file's or folder's name.
     #[must_use]
     pub(crate) fn ending(self) -> &'static str {
@@ -45,26 +53,30 @@ impl Export {
 /// [`JobError`] if the export failed or was cancelled. No incomplete file is left; pigment
 /// maps that were already written stay.
 pub(crate) fn export(
-    export: Export,
+    Export { kind, pixels }: Export,
     document: &Document,
     light: &Light,
     path: &Path,
     progress: &Progress,
 ) -> Result<Option<Problem>, JobError> {
     let problem = |error: render::export::ExportError| Problem::without_hint(&error);
-    let render_picture = || picture(document, &scene(document, light));
     progress.report(0.0)?;
-    match export {
-        Export::Picture(format) => {
-            let picture = render_picture();
+    match kind {
+        ExportKind::Picture(format) => {
+            let scene = scene(document, light);
+            let picture = match pixels.count() {
+                1 => picture(document, &scene),
+                _ => fine_picture(document, &scene, pixels),
+            };
             progress.report(0.5)?;
-            let file = picture_file(&picture, document.cell_mm, format).map_err(problem)?;
+            let pixel_mm = document.cell_mm / pixels.count() as f64;
+            let file = picture_file(&picture, pixel_mm, format).map_err(problem)?;
             progress.report(0.9)?;
             write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
         }
-        Export::Spectral(bands) => {
-            let picture = render_picture();
+        ExportKind::Spectral(bands) => {
+            let picture = picture(document, &scene(document, light));
             let rows = document.wet.height().max(1) as f64;
             let go_on = |row| progress.report(0.1 + 0.7 * row as f64 / rows).is_ok();
             let file = spectral_file(document, light, &picture, bands, go_on).map_err(problem)?;
@@ -73,7 +85,7 @@ pub(crate) fn export(
             write_whole(path, &bytes).map_err(Problem::from)?;
             Ok(None)
         }
-        Export::PigmentMaps => {
+        ExportKind::PigmentMaps => {
             let maps = painting_maps(document);
             progress.report(0.3)?;
             let files = pigment_maps("painting", &maps, document.cell_mm).map_err(problem)?;

@@ -6,6 +6,7 @@ use eframe::egui::Event as Input;
 use render::export::{
     self, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
 };
+use render::paint::scene::{PixelsPerCell, fine_picture, scene};
 use render::paint::strokes::{Action, StrokeScript};
 use session::{Command, Origin};
 use studio::files::{FileRequest, Preferences, ReferenceChange};
@@ -84,6 +85,16 @@ fn exports_equal_those_of_the_engine() {
         until(&mut window, name, |window| shows(window, "Exported") && path.is_file());
         assert!(std::fs::read(&path).unwrap() == wanted, "{name} differs");
     }
+    let pixels = PixelsPerCell::new(2).unwrap();
+    let fine = fine_picture(&document, &scene(&document, &light), pixels);
+    let fine = picture_file(&fine, document.cell_mm / 2.0, PictureFormat::Png8).unwrap();
+    ask(&mut window, FileRequest::Export);
+    ["2 x 2", "Choose a name"].iter().for_each(|words| click(&mut window, words));
+    type_name(&mut window, "fine.png");
+    click(&mut window, "Save");
+    let path = folder.path().join("fine.png");
+    until(&mut window, "the fine picture", |_| path.is_file());
+    assert!(std::fs::read(&path).unwrap() == fine.bytes, "the fine picture differs");
     ask(&mut window, FileRequest::Export);
     ["Pigment maps, a folder of PNG", "Choose a name"].iter().for_each(|l| click(&mut window, l));
     type_name(&mut window, "f");
