@@ -14,6 +14,10 @@ for script in landscape glaze colour-study; do
         --picture "$scratch/$script.png" --output "$scratch/$script.exr"
 done
 
+# Three pixels along every cell.
+"$impasto" relight "$scratch/landscape.exr" --backend cpu --supersample 3 \
+    --picture "$scratch/landscape.png"
+
 # The glaze painting again: under illuminant A, and under a low light from the right.
 "$impasto" relight "$scratch/glaze.exr" --backend cpu --illuminant A --picture "$scratch/lamp.png"
 "$impasto" relight "$scratch/glaze.exr" --backend cpu --azimuth 90 --elevation 15 \
@@ -38,9 +42,8 @@ def keep(picture, name):
 landscape = opened("landscape")
 keep(landscape.resize((900, 630), Image.Resampling.LANCZOS), "landscape")
 
-# A detail with 3 x 3 pixels per cell, without interpolation.
-detail = landscape.crop((620, 330, 960, 530))
-keep(detail.resize((1020, 600), Image.Resampling.NEAREST), "landscape-detail")
+# A detail, pixel by pixel.
+keep(landscape.crop((1860, 990, 2880, 1590)), "landscape-detail")
 
 keep(opened("colour-study").resize((900, 600), Image.Resampling.LANCZOS), "colour-study")
 
