@@ -72,6 +72,14 @@ impl Touch {
         self.weights = self.weights & !(0x7f << 9) | release << 9;
     }
 
+    /// Reduces the velocity to the share `left` of it.
+    #[inline(always)]
+    pub(crate) fn slow(&mut self, left: f32) {
+        let (x, y) = self.velocity();
+        let part = |along: i32| (along as f32 * left) as i32 as u32 & 0xffff;
+        self.velocity = part(x) | part(y) << 16;
+    }
+
     /// Number of canvas cells that lie under the same cell of the head, 1 and up.
     #[inline(always)]
     #[must_use]

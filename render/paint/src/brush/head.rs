@@ -297,7 +297,7 @@ impl Head {
         let ceiling = ceiling * QUANTA_PER_CELL as f32;
         self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
         let spans = self.footprint.spans();
-        self.sides.thicken((out, spans), extent, grip.origin, self.cell_mm as f32);
+        self.sides.apply((out, spans), extent, grip.origin, self.cell_mm as f32);
     }
 }
 

@@ -1,8 +1,12 @@
-//! Lips at the sides of a stroke.
+//! The sides of a stroke: lips, and cells that are under the head in part.
 //!
 //! A pressed head squeezes paint to its sides, where it stands up as a lip. The flow takes place
 //! between the hairs, below the size of a cell, so it is not computed: the coat is thicker near
 //! the sides of the contact.
+//!
+//! A side that crosses the rows of cells at a small angle takes one cell after another. Over the
+//! last cell, the velocity therefore falls to 0; else the paint that is dragged along would be left
+//! as a bead in each cell that the side leaves.
 
 use std::ops::Range;
 
@@ -62,10 +66,11 @@ impl Sides {
         self.extent = None;
     }
 
-    /// Thickens the coat near the sides of `contact`, whose extent is `now`. Positions in it
-    /// count from the cell `origin`. `spans` are the columns of its rows that may have touches.
+    /// Thickens the coat near the sides of `contact`, whose extent is `now`, and slows the cells at
+    /// the very sides. Positions in it count from the cell `origin`. `spans` are the columns of its
+    /// rows that may have touches.
     #[inline(always)]
-    pub(super) fn thicken(
+    pub(super) fn apply(
         &mut self,
         (contact, spans): (&mut Contact, &[Range<usize>]),
         now: Option<Extent>,
@@ -89,10 +94,14 @@ impl Sides {
             {
                 let at = start + column as f32 * now.across.0;
                 let inside = (at - low).min(high - at);
-                if inside < reach && touch.height != Touch::NONE.height {
-                    let near = 1.0 - (inside / reach).max(0.0);
-                    let release = touch.release() as f32 * (1.0 + THICKER * near * near);
-                    touch.set_release(release.min(127.0) as u32);
+                if inside >= reach || touch.height == Touch::NONE.height {
+                    continue;
+                }
+                let near = 1.0 - (inside / reach).max(0.0);
+                let release = touch.release() as f32 * (1.0 + THICKER * near * near);
+                touch.set_release(release.min(127.0) as u32);
+                if inside < 1.0 {
+                    touch.slow(inside.max(0.0));
                 }
             }
         }
@@ -106,16 +115,21 @@ mod tests {
 
     /// Coats across a contact of 40 x 3 cells after a head moved by `moved` cells over it.
     fn coats(moved: (f32, f32)) -> Vec<u32> {
+        touches(moved, 10.0).iter().map(Touch::release).collect()
+    }
+
+    /// The same touches, with the first side at `side`.
+    fn touches(moved: (f32, f32), side: f32) -> Vec<Touch> {
         let rect = Rect { x: 10, y: 20, width: 40, height: 3 };
-        let touch = Touch::new(0, 0, (0, 0), 256, 1);
+        let touch = Touch::new(0, 0, (200, -100), 256, 1);
         let mut contact = Contact { rect, touches: vec![touch; 120], ..Contact::default() };
         let mut extent = Extent::new((30.0, 21.5), moved);
-        for x in [10.0, 50.0] {
+        for x in [side, 50.0] {
             extent.iter_mut().for_each(|extent| extent.include(x, 21.5));
         }
         let whole = [0..40, 0..40, 0..40];
-        Sides::default().thicken((&mut contact, &whole), extent, (0, 0), 0.1);
-        contact.touches[40..80].iter().map(Touch::release).collect()
+        Sides::default().apply((&mut contact, &whole), extent, (0, 0), 0.1);
+        contact.touches[40..80].to_vec()
     }
 
     #[test]
@@ -131,13 +145,26 @@ mod tests {
     }
 
     #[test]
+    fn the_velocity_falls_to_nothing_over_the_last_cell() {
+        for (side, shares) in [(10.0, [0.5, 1.0]), (10.4, [0.1, 1.0]), (10.6, [0.0, 0.9])] {
+            let across = touches((0.0, 0.9), side);
+            for (touch, share) in across.iter().zip(shares) {
+                let (right, down) = touch.velocity();
+                let far = (f64::from(right) - share * 200.0).abs();
+                assert!(far.max((f64::from(down) + share * 100.0).abs()) <= 1.0, "{across:?}");
+            }
+            assert!(across[2..38].iter().all(|touch| touch.velocity() == (200, -100)));
+        }
+    }
+
+    #[test]
     fn the_sides_follow_a_change_slowly_within_a_stroke() {
         let mut sides = Sides::default();
         let mut reach = |half: f32| {
             let mut extent = Extent::new((0.0, 0.0), (1.0, 0.0)).unwrap();
             extent.include(0.0, -half);
             extent.include(0.0, half);
-            sides.thicken((&mut Contact::default(), &[]), Some(extent), (0, 0), 0.1);
+            sides.apply((&mut Contact::default(), &[]), Some(extent), (0, 0), 0.1);
             sides.extent.unwrap().1
         };
         assert_eq!(reach(10.0), 10.0);
