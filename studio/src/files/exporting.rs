@@ -14,7 +14,7 @@ use super::job::{JobError, Progress};
 use super::problem::Problem;
 use spectra::file::write_whole;
 
-/// What to export.
+/// An export that the painter chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Export {
     pub(crate) kind: ExportKind,

@@ -118,7 +118,8 @@ mod tests {
         touches(moved, 10.0).iter().map(Touch::release).collect()
     }
 
-    /// The same touches, with the first side at `side`.
+    /// Touches of the middle row of such a contact. The head reaches from `side` to 50 cells along
+    /// x.
     fn touches(moved: (f32, f32), side: f32) -> Vec<Touch> {
         let rect = Rect { x: 10, y: 20, width: 40, height: 3 };
         let touch = Touch::new(0, 0, (200, -100), 256, 1);

@@ -1,5 +1,5 @@
-//! What the engine stores of a tile before its paint changes: the surface, which bears loaded hair
-//! during a stroke, and the paint itself, for undo.
+//! Copies of a tile from before its paint changes: of its heights, for the bed of a stroke, and of
+//! its paint, for undo.
 
 use super::ids::UndoSlot;
 use super::paint_engine::PaintEngine;

@@ -89,7 +89,9 @@ fn exports_equal_those_of_the_engine() {
     let fine = fine_picture(&document, &scene(&document, &light), pixels);
     let fine = picture_file(&fine, document.cell_mm / 2.0, PictureFormat::Png8).unwrap();
     ask(&mut window, FileRequest::Export);
-    ["2 x 2", "Choose a name"].iter().for_each(|words| click(&mut window, words));
+    click(&mut window, "2 x 2");
+    picture(&mut window, "export-pixels");
+    click(&mut window, "Choose a name");
     type_name(&mut window, "fine.png");
     click(&mut window, "Save");
     let path = folder.path().join("fine.png");

@@ -27,11 +27,13 @@ pub(super) struct PenetrationMap {
     tops: Vec<i32>,
     penetrations: Vec<i32>,
     pressures: Vec<i32>,
-    /// Columns in contact, columns that may move, columns that may change, and columns of which
-    /// tops are known.
+    /// Columns in contact.
     contact: Spans,
+    /// Columns that may move.
     moving: Spans,
+    /// Columns that paint may leave or reach.
     changing: Spans,
+    /// Columns whose tops are computed, as flows depend on them.
     seen: Spans,
     /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
     coats: Vec<u32>,
