@@ -28,13 +28,12 @@ pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
     (second.saturating_sub(1), second.min(blocks - 1), 2 * cell as i32 + 1)
 }
 
-/// Height of the bed in quanta between four blocks: the upper and the lower pair, and the shares of
-/// the right and of the lower ones in parts of 16.
+/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. That of the
+/// blocks above each other, and of those means side by side, is the height of the bed in quanta.
 #[inline(always)]
 #[must_use]
-pub fn height(upper: (i32, i32), lower: (i32, i32), right: i32, down: i32) -> i32 {
-    let along = |(first, second): (i32, i32)| first * (16 - right) + second * right;
-    along(upper) * (16 - down) + along(lower) * down
+pub fn weighted((first, second): (i32, i32), share: i32) -> i32 {
+    first * (16 - share) + second * share
 }
 
 #[cfg(test)]
@@ -48,7 +47,7 @@ mod tests {
         let found = (0..24).map(|place| {
             let (first, second, share) = between(place, blocks.len());
             let pair = (blocks[first], blocks[second]);
-            height(pair, pair, share, 7)
+            weighted((weighted((pair.0, pair.0), 7), weighted((pair.1, pair.1), 7)), share)
         });
         let wanted = (0..24).map(|place: i32| (16 * (2 * place - 7)).clamp(0, 256) * 100);
         assert!(found.eq(wanted));
@@ -58,7 +57,8 @@ mod tests {
     fn heights_of_the_highest_paint_fit() {
         let highest = (crate::amount::MAX_COLUMN / 256) as i32;
         for share in [1, 15] {
-            let found = height((highest, NO_BED), (NO_BED, highest), share, share);
+            let left = weighted((highest, NO_BED), share);
+            let found = weighted((left, weighted((NO_BED, highest), share)), share);
             assert!(found.abs() <= 1 << 30, "{found}");
         }
     }

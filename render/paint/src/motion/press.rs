@@ -56,15 +56,30 @@ pub fn penetration(
     bed: i32,
     coat: u32,
 ) -> i32 {
-    let sunk = touch.height.saturating_sub_unsigned(rates.sink.saturating_sub(coat));
-    let ground = sunk.max(floor);
-    let there = (floor + volume as i32).saturating_add_unsigned(coat);
-    let above = bed.min(there).saturating_sub(ground).max(0) as u32;
-    let borne = share_of_65536(above.min(BORNE * coat), rates.bearing);
-    let hair = ground.saturating_add_unsigned(borne);
     let top = floor + volume as i32;
-    let reached = touch.height != Touch::NONE.height && hair - coat as i32 <= top;
-    if reached { top - hair } else { NO_CONTACT }
+    let sunk = lowered(touch.height, rates.sink.saturating_sub(coat));
+    let ground = sunk.max(floor);
+    let bearing = bed.min(raised(top, coat));
+    let above = if bearing > ground { bearing.wrapping_sub(ground) as u32 } else { 0 };
+    let borne = share_of_65536(above.min(BORNE * coat), rates.bearing);
+    let hair = raised(ground, borne);
+    let reached = (touch.height != Touch::NONE.height) & (hair - coat as i32 <= top);
+    if reached { top.wrapping_sub(hair) } else { NO_CONTACT }
+}
+
+/// `height + by`, at most the highest number, for a `by` below 2^31. Unlike the method of `i32`, it
+/// is compiled to vector instructions.
+#[inline(always)]
+fn raised(height: i32, by: u32) -> i32 {
+    let sum = height.wrapping_add(by as i32);
+    if sum < height { i32::MAX } else { sum }
+}
+
+/// `height - by`, at least the lowest number, for a `by` below 2^31.
+#[inline(always)]
+fn lowered(height: i32, by: u32) -> i32 {
+    let difference = height.wrapping_sub(by as i32);
+    if difference > height { i32::MIN } else { difference }
 }
 
 /// One column of paint in the field of pressure.
@@ -225,6 +240,16 @@ mod tests {
         let out = flow(&motion, CELL, column(CELL / 2), column(0), CELL);
         assert!(out > 0, "{out}");
         assert_eq!(flow(&motion, CELL, column(CELL / 2), column(CELL / 2), CELL), 0);
+    }
+
+    #[test]
+    fn sums_stop_at_the_highest_and_the_lowest_number() {
+        for height in [i32::MIN, i32::MIN + 5, -1, 0, 7, i32::MAX - 5, i32::MAX] {
+            for by in [0, 1, 5, 6, 1 << 30, i32::MAX as u32] {
+                assert_eq!(raised(height, by), height.saturating_add_unsigned(by));
+                assert_eq!(lowered(height, by), height.saturating_sub_unsigned(by));
+            }
+        }
     }
 
     #[test]

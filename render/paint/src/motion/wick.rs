@@ -8,7 +8,6 @@
 //! between two flows, and the film would show it.
 
 use crate::amount::{ratio_of_65536, share_of_65536};
-use crate::layer::Cell;
 
 /// Volumes are summed in units of this power of two of quanta, so that sums fit into 32 bits.
 pub const UNIT_BITS: u32 = 10;
@@ -48,10 +47,10 @@ pub fn lack(volume: u32, mean: u32) -> u32 {
     mean.saturating_sub(volume >> UNIT_BITS)
 }
 
-/// Part of `pot` for a cell that lacks `lack` of the `lacks` units that all cells of its group
-/// lack. The last of these cells gets the rest of the pot instead.
+/// Share of the pot, in parts of 65536, for a cell that lacks `lack` of the `lacks` units that all
+/// cells of its group lack. The last of these cells gets the rest of the pot instead.
 #[inline(always)]
 #[must_use]
-pub fn dealt(pot: &Cell, lack: u32, lacks: u32) -> Cell {
-    pot.share_of_65536(ratio_of_65536(lack, lacks))
+pub fn dealt_share(lack: u32, lacks: u32) -> u32 {
+    ratio_of_65536(lack, lacks)
 }

@@ -16,7 +16,7 @@ use graphics::tile::{Rect, Tile, TileSet};
 
 /// Sub-steps that go to the backend together: enough to hide the cost of a call, few
 /// enough that the contacts stay in the cache (chosen by timing).
-const BATCH: usize = 32;
+const BATCH: usize = 12;
 
 /// Work done for a finished stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,7 +1,7 @@
 //! The surface of the paint before a stroke, block by block; see [`crate::motion::bed`].
 
 use super::columns::Columns;
-use crate::motion::bed::{BLOCK, NO_BED, between, block_height, height};
+use crate::motion::bed::{BLOCK, NO_BED, between, block_height, weighted};
 use graphics::field::Field;
 use graphics::tile::Rect;
 
@@ -39,13 +39,21 @@ impl Bed {
 
     /// Writes the heights in quanta of the cells of row `y` from `x` on to `out`.
     #[inline(always)]
-    pub(super) fn row(&self, (x, y): (usize, usize), out: &mut [i32]) {
+    pub(super) fn row(&self, (mut x, y): (usize, usize), mut out: &mut [i32]) {
         let (upper, lower, down) = between(y, self.blocks.height());
         let row = |block: usize| self.blocks.row(block, 0, self.blocks.width());
         let (upper, lower) = (row(upper), row(lower));
-        for (x, out) in (x..).zip(out) {
+        while !out.is_empty() {
             let (left, right, share) = between(x, upper.len());
-            *out = height((upper[left], upper[right]), (lower[left], lower[right]), share, down);
+            let column = |block: usize| weighted((upper[block], lower[block]), down);
+            let columns = (column(left), column(right));
+            // The cells up to the middle of the right block.
+            let count = (BLOCK - (x + BLOCK / 2) % BLOCK).min(out.len());
+            let (cells, rest) = out.split_at_mut(count);
+            for (i, out) in (0..).zip(cells) {
+                *out = weighted(columns, share + 2 * i);
+            }
+            (x, out) = (x + count, rest);
         }
     }
 

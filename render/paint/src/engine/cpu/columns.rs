@@ -116,17 +116,3 @@ pub(super) struct Row<'a> {
     pub(super) vehicle: &'a mut [u32],
     pub(super) volume: &'a mut [u32],
 }
-
-impl Row<'_> {
-    #[inline(always)]
-    pub(super) fn cell(&self, index: usize) -> Cell {
-        Cell { pigments: self.pigments[index], vehicle: self.vehicle[index] }
-    }
-
-    /// Replaces the paint at `index`. The caller updates `volume`.
-    #[inline(always)]
-    pub(super) fn put(&mut self, index: usize, cell: Cell) {
-        self.pigments[index] = cell.pigments;
-        self.vehicle[index] = cell.vehicle;
-    }
-}

@@ -19,6 +19,10 @@ mod step;
 
 mod velocities;
 
+mod cells;
+
+mod inflow;
+
 mod exchanges;
 
 mod band;

@@ -39,6 +39,8 @@ pub(super) struct PenetrationMap {
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
+    /// Mean volumes of the hair over the cells of one row of the contact.
+    means: Vec<u32>,
     /// Whether each column is crowded, with the same rim; empty if none is, which is
     /// nearly always so.
     crowded: Vec<bool>,
@@ -66,6 +68,7 @@ impl PenetrationMap {
         self.pressures.resize(self.pressures.len().max(cells), NO_CONTACT);
         self.coats.resize(self.coats.len().max(cells), 0);
         self.bed.resize(self.bed.len().max(contact.rect.width), 0);
+        self.means.resize(self.means.len().max(contact.rect.width), 0);
         for spans in [&mut self.contact, &mut self.moving, &mut self.changing, &mut self.seen] {
             spans.clear(reach);
         }
@@ -115,28 +118,27 @@ impl PenetrationMap {
             let start = self.start(y) + x - self.reach.x;
             let heights = &mut self.bed[..count];
             bed.row((x, y), heights);
+            let means = &mut self.means[..count];
+            for (mean, touch) in means.iter_mut().zip(touches) {
+                *mean = head.means.get(touch.brush_cell as usize).copied().unwrap_or_default();
+            }
             let found = &mut self.penetrations[start..][..count];
             let coats = &mut self.coats[start..][..count];
-            let (mut first, mut end) = (usize::MAX, 0);
-            let inputs = touches.iter().zip(paint).zip(&*heights);
-            for (i, ((here, covered), ((&touch, paint), &bed))) in
-                found.iter_mut().zip(coats).zip(inputs).enumerate()
+            let inputs = touches.iter().zip(paint).zip(&*heights).zip(&*means);
+            // Without branches, so that it is compiled to vector instructions.
+            for ((here, covered), (((&touch, paint), &bed), &mean)) in
+                found.iter_mut().zip(coats).zip(inputs)
             {
-                if touch.height == Touch::NONE.height {
-                    continue;
-                }
-                *covered = coat(&contact.rates, touch, head.means[touch.brush_cell as usize]);
+                *covered = coat(&contact.rates, touch, mean);
                 *here = penetration(&contact.rates, touch, paint, bed, *covered);
-                if *here != NO_CONTACT {
-                    (first, end) = (first.min(i), i + 1);
-                }
             }
-            if first < end {
-                self.contact.set(y, x + first..x + end);
-                let pressures = &mut self.pressures[start..][first..end];
-                for (pressed, &penetration) in pressures.iter_mut().zip(&found[first..end]) {
-                    *pressed = pressure(motion, penetration);
-                }
+            let touching = |penetration: &i32| *penetration != NO_CONTACT;
+            let Some(first) = found.iter().position(touching) else { continue };
+            let end = found.iter().rposition(touching).map_or(first, |last| last + 1);
+            self.contact.set(y, x + first..x + end);
+            let pressures = &mut self.pressures[start..][first..end];
+            for (pressed, &penetration) in pressures.iter_mut().zip(&found[first..end]) {
+                *pressed = pressure(motion, penetration);
             }
         }
     }

@@ -114,7 +114,7 @@ impl SubStepRunner {
         });
         for i in 1..count {
             let (above, below) = bands.split_at_mut(i);
-            above[i - 1].exchange_border_rows(&mut below[0], reach.width);
+            above[i - 1].exchange_border_rows(&mut below[0]);
         }
         on_each_band(bands, &mut rows, &|band, rows| {
             arch.dispatch(AddInflowAndTransfer { band, step, rows });

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::step::SubStep;
 use crate::contact::{Contact, Touch};
-use crate::motion::advect::mobile_share;
+use crate::motion::advect::{mobile_share, outflow};
 use crate::motion::press::{dragged, velocity};
 use graphics::tile::Rect;
 
@@ -13,10 +13,15 @@ use graphics::tile::Rect;
 #[derive(Debug, Default)]
 pub(super) struct Velocities {
     /// Along x and y in 1/16384 cell a sub-step.
-    pub(super) x: Vec<i32>,
-    pub(super) y: Vec<i32>,
+    x: Vec<i32>,
+    y: Vec<i32>,
     /// Share of each column that may move, in parts of 65536.
-    pub(super) mobile: Vec<u32>,
+    mobile: Vec<u32>,
+    /// Shares of each column that leave it along x, along y and diagonally; see [`outflow`].
+    pub(super) outflow: [Vec<u32>; 3],
+    /// Signs of the velocities along x and y: to which neighbours paint moves.
+    pub(super) beside: Vec<i32>,
+    pub(super) below: Vec<i32>,
     touches: Vec<Touch>,
     /// All bits set for each cell that, or a neighbour of which, is in contact; else 0.
     near: Vec<u32>,
@@ -42,10 +47,12 @@ impl Velocities {
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
         let columns = step.penetration.moving(y);
-        for buffer in [&mut self.x, &mut self.y] {
+        for buffer in [&mut self.x, &mut self.y, &mut self.beside, &mut self.below] {
             buffer.resize(columns.len(), 0);
         }
-        self.mobile.resize(columns.len(), 0);
+        for buffer in self.outflow.iter_mut().chain([&mut self.mobile]) {
+            buffer.resize(columns.len(), 0);
+        }
         self.in_x.resize(columns.len() + 1, 0);
         self.near.clear();
         self.near.resize(columns.len(), u32::MAX);
@@ -79,6 +86,20 @@ impl Velocities {
             for (column, (x, y_speed)) in columns.zip(self.x.iter_mut().zip(&mut self.y)) {
                 (*x, *y_speed) = step.penetration.avoid_crowded((column, y), (*x, *y_speed));
             }
+        }
+        self.find_outflows();
+    }
+
+    /// Computes the shares that leave the columns, and to which neighbours.
+    #[inline(always)]
+    fn find_outflows(&mut self) {
+        let Self { x, y, mobile, outflow: [in_x, in_y, diagonal], beside, below, .. } = self;
+        let inputs = mobile.iter().zip(&*x).zip(&*y);
+        let found = in_x.iter_mut().zip(in_y).zip(diagonal).zip(beside.iter_mut().zip(below));
+        for ((((in_x, in_y), diagonal), (beside, below)), ((&mobile, x), y)) in found.zip(inputs) {
+            let out = outflow(mobile, (x.unsigned_abs(), y.unsigned_abs()));
+            (*in_x, *in_y, *diagonal) = (out.in_x, out.in_y, out.diagonal);
+            (*beside, *below) = (x.signum(), y.signum());
         }
     }
 

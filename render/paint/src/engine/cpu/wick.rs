@@ -1,18 +1,18 @@
 //! Flow of paint over a head, along its hairs and between them.
 
+use super::columns::Columns as Paint;
 use super::head_paint::HeadPaint;
 use crate::contact::Wicking;
 use crate::layer::{Cell, SLOTS};
-use crate::motion::wick::{UNIT_BITS, dealt, flowing, given_share, lack, mean};
+use crate::motion::wick::{UNIT_BITS, dealt_share, flowing, given_share, lack, mean};
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
 
-/// Sums over a group of hairs.
+/// Figures of a group of hairs.
 #[derive(Debug, Clone, Copy)]
 struct Group {
     columns: u32,
     mean: u32,
-    flowing: u32,
     lacks: u32,
     pot: Cell,
     rest: Cell,
@@ -20,84 +20,171 @@ struct Group {
     last: usize,
 }
 
-const BARE: Group =
-    Group { columns: 0, mean: 0, flowing: 0, lacks: 0, pot: EMPTY, rest: EMPTY, last: 0 };
+const BARE: Group = Group { columns: 0, mean: 0, lacks: 0, pot: EMPTY, rest: EMPTY, last: 0 };
+
+/// Figures of the columns of cells that take part, by column. Their loops have no branches, so that
+/// they are compiled to vector instructions.
+#[derive(Debug, Default)]
+struct Columns {
+    /// Place of the column in a row of cells.
+    places: Vec<usize>,
+    group_of: Vec<usize>,
+    /// Volume of its cells, or what they lack, in units.
+    sums: Vec<u32>,
+    /// Index of the last row with a cell that lacks paint.
+    last: Vec<u32>,
+    /// Mean, flow and lacks of its group.
+    means: Vec<u32>,
+    flowing: Vec<u32>,
+    lacks: Vec<u32>,
+    /// Volumes in quanta of all cells, row by row.
+    volumes: Vec<u32>,
+    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they get.
+    shares: Vec<u32>,
+}
 
 /// Lets paint flow along and between hairs. Holds its buffers, so that no sub-step allocates.
 #[derive(Debug, Default)]
 pub(super) struct Wick {
     groups: Vec<Group>,
-    /// Columns of cells that take part, with the index of their group.
-    columns: Vec<(usize, usize)>,
+    columns: Columns,
 }
 
 impl Wick {
     /// Moves paint within each group of hairs of `head`; see [`crate::motion::wick`].
     #[inline(always)]
     pub(super) fn apply(&mut self, wicking: Wicking, head: &mut HeadPaint) {
-        let HeadPaint { cells: brush, means } = head;
-        let width = brush.width();
+        let width = head.cells.width();
         if width == 0 {
             return;
         }
         let first = wicking.first_row as usize * width;
-        let Some(rows) = brush.volume().len().checked_sub(first).map(|cells| cells / width) else {
-            return;
-        };
+        let cells = head.means.len();
         self.divide(wicking, width);
+        if first >= cells || self.columns.places.is_empty() {
+            return;
+        }
+        let rows = || (first..cells).step_by(width);
+        self.level(rows(), head);
+        self.find_lacks(rows());
+        self.give(wicking, rows(), &mut head.cells);
+        self.deal(rows(), &mut head.cells);
+    }
+
+    /// Finds the mean of each group, and notes it for the coat. `rows` are the indices of the first
+    /// cells of the rows.
+    #[inline(always)]
+    fn level(&mut self, rows: impl Iterator<Item = usize> + Clone, head: &mut HeadPaint) {
         let Self { groups, columns } = self;
-        let cells = || (first..).step_by(width).take(rows);
-        for row in cells() {
-            let volumes = &brush.volume()[row..][..width];
-            for &(column, group) in &*columns {
-                groups[group].mean += volumes[column] >> UNIT_BITS;
+        let Columns { places, group_of, sums, means, volumes, .. } = columns;
+        volumes.clear();
+        sums.clear();
+        sums.resize(places.len(), 0);
+        let mut count = 0;
+        for row in rows.clone() {
+            let cells = &head.cells.volume()[row..][..head.cells.width()];
+            let begin = volumes.len();
+            volumes.resize(begin + places.len(), 0);
+            let found = &mut volumes[begin..];
+            for (volume, &place) in found.iter_mut().zip(&*places) {
+                *volume = cells[place];
             }
+            for (sum, &mut volume) in sums.iter_mut().zip(found) {
+                *sum += volume >> UNIT_BITS;
+            }
+            count += 1;
+        }
+        for (&sum, &group) in sums.iter().zip(&*group_of) {
+            groups[group].mean += sum;
         }
         for group in &mut *groups {
-            group.mean = mean(group.mean, group.columns * rows as u32);
+            group.mean = mean(group.mean, group.columns * count);
         }
-        for row in cells() {
-            let means = &mut means[row..][..width];
-            for &(column, group) in &*columns {
-                means[column] = groups[group].mean << UNIT_BITS;
+        means.clear();
+        means.extend(group_of.iter().map(|&group| groups[group].mean));
+        for row in rows {
+            let out = &mut head.means[row..][..head.cells.width()];
+            for (&place, &mean) in places.iter().zip(&*means) {
+                out[place] = mean << UNIT_BITS;
             }
         }
-        for row in cells() {
-            let volumes = &brush.volume()[row..][..width];
-            for &(column, group) in &*columns {
-                let group = &mut groups[group];
-                let lack = lack(volumes[column], group.mean);
-                if lack > 0 {
-                    group.lacks += lack;
-                    group.last = row + column;
-                }
+    }
+
+    /// Finds what each group lacks, and its last cell that lacks paint.
+    #[inline(always)]
+    fn find_lacks(&mut self, rows: impl Iterator<Item = usize>) {
+        let Self { groups, columns } = self;
+        let Columns { places, group_of, sums, last, means, lacks, volumes, .. } = columns;
+        for buffer in [&mut *sums, &mut *last] {
+            buffer.clear();
+            buffer.resize(places.len(), 0);
+        }
+        for (row, volumes) in rows.zip(volumes.chunks_exact(places.len())) {
+            let found = sums.iter_mut().zip(&mut *last);
+            for ((sum, last), (&volume, &mean)) in found.zip(volumes.iter().zip(&*means)) {
+                let lack = lack(volume, mean);
+                *sum += lack;
+                *last = if lack > 0 { row as u32 } else { *last };
             }
         }
-        for group in &mut *groups {
-            group.flowing = if group.lacks > 0 { flowing(wicking.share, group.lacks) } else { 0 };
+        let found = sums.iter().zip(&*last).zip(&*places);
+        for (((&sum, &row), &place), &group) in found.zip(&*group_of) {
+            let group = &mut groups[group];
+            group.lacks += sum;
+            group.last = if sum > 0 { group.last.max(row as usize + place) } else { group.last };
         }
-        for row in cells() {
-            for &(column, group) in &*columns {
-                let (at, group) = (row + column, &mut groups[group]);
-                let share = given_share(brush.volume()[at], group.mean, group.flowing);
+        lacks.clear();
+        lacks.extend(group_of.iter().map(|&group| groups[group].lacks));
+    }
+
+    /// Moves a share of what cells have beyond the mean to the pots of their groups.
+    #[inline(always)]
+    fn give(&mut self, wicking: Wicking, rows: impl Iterator<Item = usize>, brush: &mut Paint) {
+        let Self { groups, columns } = self;
+        let Columns { places, group_of, means, flowing, lacks, volumes, shares, .. } = columns;
+        flowing.clear();
+        flowing.extend(lacks.iter().map(|&lacks| match lacks {
+            0 => 0,
+            lacks => self::flowing(wicking.share, lacks),
+        }));
+        shares.resize(places.len(), 0);
+        for (row, volumes) in rows.zip(volumes.chunks_exact(places.len())) {
+            let inputs = volumes.iter().zip(&*means).zip(&*flowing);
+            for (share, ((&volume, &mean), &flowing)) in shares.iter_mut().zip(inputs) {
+                *share = given_share(volume, mean, flowing);
+            }
+            for ((&share, &place), &group) in shares.iter().zip(&*places).zip(&*group_of) {
                 if share > 0 {
-                    let cell = brush.cell(at);
+                    let cell = brush.cell(row + place);
                     let given = cell.share_of_65536(share);
-                    group.pot = group.pot.plus(&given);
-                    brush.set_cell(at, cell.minus(&given));
+                    groups[group].pot = groups[group].pot.plus(&given);
+                    brush.set_cell(row + place, cell.minus(&given));
                 }
             }
         }
+    }
+
+    /// Divides the pots among the cells that lack paint.
+    #[inline(always)]
+    fn deal(&mut self, rows: impl Iterator<Item = usize>, brush: &mut Paint) {
+        let Self { groups, columns } = self;
+        let Columns { places, group_of, means, lacks, volumes, shares, .. } = columns;
         for group in &mut *groups {
             group.rest = group.pot;
         }
-        for row in cells() {
-            for &(column, group) in &*columns {
-                let (at, group) = (row + column, &mut groups[group]);
-                let lack = lack(brush.volume()[at], group.mean);
-                if lack > 0 && group.lacks > 0 {
+        for (row, volumes) in rows.zip(volumes.chunks_exact(places.len())) {
+            let inputs = volumes.iter().zip(&*means).zip(&*lacks);
+            for (share, ((&volume, &mean), &lacks)) in shares.iter_mut().zip(inputs) {
+                *share = dealt_share(lack(volume, mean), lacks);
+            }
+            let cells = volumes.iter().zip(&*means).zip(&*shares);
+            for (((&volume, &mean), &share), (&place, &group)) in
+                cells.zip(places.iter().zip(&*group_of))
+            {
+                if volume >> UNIT_BITS < mean {
+                    let (at, group) = (row + place, &mut groups[group]);
                     let last = at == group.last;
-                    let part = if last { group.rest } else { dealt(&group.pot, lack, group.lacks) };
+                    let part = if last { group.rest } else { group.pot.share_of_65536(share) };
                     group.rest = group.rest.minus(&part);
                     brush.set_cell(at, brush.cell(at).plus(&part));
                 }
@@ -112,13 +199,15 @@ impl Wick {
         let (turns, turn) = (wicking.turns.max(1) as usize, wicking.turn as usize);
         self.groups.clear();
         self.groups.resize((width.div_ceil(2) + shift).div_ceil(hairs).div_ceil(turns), BARE);
-        self.columns.clear();
-        for column in 0..width {
-            let group = (hair_of(column, width) + shift) / hairs;
+        let Columns { places, group_of, .. } = &mut self.columns;
+        places.clear();
+        group_of.clear();
+        for place in 0..width {
+            let group = (hair_of(place, width) + shift) / hairs;
             if group % turns == turn {
-                let group = group / turns;
-                self.groups[group].columns += 1;
-                self.columns.push((column, group));
+                self.groups[group / turns].columns += 1;
+                places.push(place);
+                group_of.push(group / turns);
             }
         }
     }
