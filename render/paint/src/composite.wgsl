@@ -12,10 +12,11 @@ struct LayerOptics {
     scattering: array<vec4<f32>, 16>,
 }
 
-// 1 - exp(-y), given e = exp(-y); by a series where the difference would lose digits.
+// 1 - exp(-y), given e = exp(-y); by a series where the difference would lose digits. It has no
+// quotients, which software devices compute slowly.
 fn one_minus_exp(y: vec4<f32>, e: vec4<f32>) -> vec4<f32> {
-    let tail = 1.0 - y / 4.0 * (1.0 - y / 5.0 * (1.0 - y / 6.0 * (1.0 - y / 7.0)));
-    let series = y * (1.0 - y / 2.0 * (1.0 - y / 3.0 * tail));
+    let tail = 1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0 - y * (1.0 / 5040.0)));
+    let series = y * (1.0 - y * (0.5 - y * (1.0 / 6.0 - y * tail)));
     return select(1.0 - e, series, y < vec4(0.5));
 }
 
@@ -32,7 +33,8 @@ fn film(k: vec4<f32>, s: vec4<f32>, g: vec4<f32>) -> vec4<f32> {
     let den = (k + s) * rest + through;
     let above = (k + s * (1.0 - g)) * rest + through;
     // Separate quotients, since the product of the denominators may overflow f32.
-    let r = n / den + (2.0 * x / den) * (2.0 * x / above) * e * g;
+    let share = 1.0 / den;
+    let r = n * share + (2.0 * x * share) * (2.0 * x / above) * e * g;
     return select(min(r, vec4(1.0)), g, k + s <= vec4(0.0));
 }
 

@@ -13,6 +13,8 @@ mod plan;
 
 mod trace;
 
+mod level_target;
+
 mod planned;
 
 mod deposit_curve;

@@ -6,8 +6,9 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use super::deposit_curve::DepositCurve;
+use super::level_target::{BLUR_SIZES, LevelTarget};
 use super::plan::Plan;
-use super::planned::{BLUR_SIZES, PlannedStroke, plan_layer};
+use super::planned::{PlannedStroke, plan_strokes};
 use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -82,7 +83,10 @@ impl Painter<'_> {
         script: &mut StrokeScript,
         mut progress: impl FnMut(PaintProgress),
     ) -> Result<Vec<LevelReport>, PainterError> {
+        self.plan.check().expect("the plan is valid");
         let mut reports = Vec::with_capacity(self.plan.sizes_mm.len());
+        let cell_mm = session.canvas().cell_mm();
+        let mut painted = colors(session.canvas_mut())?;
         for (level, &size_mm) in self.plan.sizes_mm.iter().enumerate() {
             let brush = BrushSpec { shape: shape(size_mm), size_mm };
             let mut report = LevelReport {
@@ -92,9 +96,10 @@ impl Painter<'_> {
                 substeps: 0,
                 mean_error: 0.0,
             };
+            let target = LevelTarget::new(self.target, self.separation, size_mm / cell_mm, level);
             let mut curve = None;
             for round in 0..ROUNDS {
-                let planned = self.planned(session.canvas_mut(), level, round)?;
+                let planned = self.planned(&target, &painted, round, cell_mm);
                 if planned.is_empty() {
                     break;
                 }
@@ -107,9 +112,9 @@ impl Painter<'_> {
                 let played = play(round, session, script, &mut progress)?;
                 report.strokes += played.strokes;
                 report.substeps += played.substeps;
+                painted = colors(session.canvas_mut())?;
             }
-            let blur_cells = Self::blur_cells(size_mm, session.canvas().cell_mm());
-            report.mean_error = self.mean_error(session.canvas_mut(), blur_cells)?;
+            report.mean_error = self.mean_error(&target, &painted);
             reports.push(report);
         }
         Ok(reports)
@@ -131,17 +136,16 @@ impl Painter<'_> {
     }
 
     /// Mean of [`Painter::errors`], which is found much faster than what is in gamut.
-    fn mean_error(&self, painting: &mut Painting, blur_cells: f64) -> Result<f64, PaintingError> {
+    fn mean_error(&self, target: &LevelTarget, painted: &Picture) -> f64 {
         let film = self.separation.film();
-        let wanted = blurred(self.target, blur_cells);
-        let painted = blurred(&colors(painting)?, blur_cells);
-        let pairs = wanted.values().par_iter().zip(painted.values());
+        let painted = blurred(painted, target.blur_cells);
+        let pairs = target.picture.values().par_iter().zip(painted.values());
         let errors: Vec<f64> = pairs
             .map(|(&wanted, &painted)| {
                 delta_e_ciede2000(film.lab_from_rgb(wanted), film.lab_from_rgb(painted))
             })
             .collect();
-        Ok(errors.iter().sum::<f64>() / errors.len() as f64)
+        errors.iter().sum::<f64>() / errors.len() as f64
     }
 
     /// Standard deviation in cells of the blur at which pictures are compared for a brush of
@@ -151,20 +155,20 @@ impl Painter<'_> {
         BLUR_SIZES * size_mm / cell_mm
     }
 
-    /// Strokes of one round with the brush of `level`.
+    /// Strokes of one round over the canvas that looks like `painted`.
     fn planned(
         &self,
-        painting: &mut Painting,
-        level: usize,
+        target: &LevelTarget,
+        painted: &Picture,
         round: u64,
-    ) -> Result<Vec<PlannedStroke>, PaintingError> {
-        let current = match (level, round) {
-            (0, 0) => unlike(self.target),
-            _ => colors(painting)?,
-        };
+        cell_mm: f64,
+    ) -> Vec<PlannedStroke> {
         let plan = Plan { seed: self.plan.seed.wrapping_add(round), ..self.plan.clone() };
-        let cell_mm = painting.cell_mm();
-        Ok(plan_layer(self.target, &current, self.separation, &plan, level, cell_mm))
+        let strokes = |current| plan_strokes(target, current, self.separation, &plan, cell_mm);
+        match (target.level, round) {
+            (0, 0) => strokes(&unlike(self.target)),
+            _ => strokes(painted),
+        }
     }
 
     /// Heights that the brush lays.

@@ -8,28 +8,18 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use spectra::color::{Lab, RgbSpace};
 
+use super::level_target::LevelTarget;
 use super::plan::{Order, Plan};
-use super::trace::{TraceInput, cell, distance, trace_path};
-use graphics::blurred;
+use super::trace::{TraceInput, cell, trace_path};
 use graphics::field::Field;
-use graphics::orientation::OrientationField;
 use graphics::picture::Picture;
 use paint::layer::SLOTS;
 use paint::pose::Sample;
 use paint::separation::Separation;
 
-/// Standard deviation of the blur at which pictures are compared, in brush widths (chosen by
-/// eye).
-pub(super) const BLUR_SIZES: f64 = 0.2;
 /// Number of passes that look for further strokes between those already planned.
 const PASSES: usize = 3;
-/// Change of the target in CIELAB over the width of a brush from which on it is detail (chosen by
-/// eye).
-const DETAIL: f32 = 16.0;
-/// Factor on differences where the target does not change at all (chosen by eye).
-const SMOOTH: f32 = 0.5;
 /// Greatest thickness of a stroke in brush widths (chosen by eye).
 const THICKEST: f64 = 0.06;
 /// Share of the impasto that the first coat has (chosen by eye).
@@ -71,18 +61,21 @@ pub fn plan_layer(
     level: usize,
     cell_mm: f64,
 ) -> Vec<PlannedStroke> {
-    assert_eq!(target.bounds(), current.bounds(), "pictures differ in size");
     plan.check().expect("the plan is valid");
-    let size_mm = plan.sizes_mm[level];
-    let size = size_mm / cell_mm;
-    let blurred_target = blurred(target, BLUR_SIZES * size);
-    let target_lab = lab_picture(&blurred_target);
-    let mut difference =
-        differences(&target_lab, &blurred_target, current, separation, BLUR_SIZES * size);
-    if level > 1 {
-        leave_smooth_alone(&mut difference, &target_lab, size);
-    }
-    let flow = OrientationField::from_lab(&target_lab, BLUR_SIZES * size);
+    let target = LevelTarget::new(target, separation, plan.sizes_mm[level] / cell_mm, level);
+    plan_strokes(&target, current, separation, plan, cell_mm)
+}
+
+/// Plans like [`plan_layer`], for a target that is prepared.
+pub(super) fn plan_strokes(
+    target: &LevelTarget,
+    current: &Picture,
+    separation: &Separation,
+    plan: &Plan,
+    cell_mm: f64,
+) -> Vec<PlannedStroke> {
+    let LevelTarget { level, size, .. } = *target;
+    let difference = target.differences(current);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     random.set_stream(level as u64);
 
@@ -94,7 +87,7 @@ pub fn plan_layer(
             if f64::from(mean) <= plan.tolerance {
                 continue;
             }
-            let (target, flow) = (&target_lab, &flow);
+            let (target, flow) = (&target.lab, &target.flow);
             let input = TraceInput { target, flow, difference: &difference, bare: &bare, size };
             let path = trace_path(&input, plan, start);
             cover(&mut bare, &path, size);
@@ -108,7 +101,7 @@ pub fn plan_layer(
     let mut strokes: Vec<(f64, PlannedStroke)> = paths
         .par_iter()
         .map(|(_, path)| {
-            let color = mean_color(&blurred_target, path);
+            let color = mean_color(&target.picture, path);
             let heights = separation.refined_heights_mm(color).map(f64::from);
             let film_mm: f64 = heights.iter().sum();
             let lightness = separation.film().lab(&heights).lightness;
@@ -138,59 +131,6 @@ fn impasto_mm(plan: &Plan, level: usize, lightness: f64) -> f64 {
     let lean = if level == 0 && plan.sizes_mm.len() > 1 { LEAN } else { 1.0 };
     let height_mm = plan.darks_mm + lean * light * (plan.lights_mm - plan.darks_mm);
     height_mm.min(THICKEST * plan.sizes_mm[level])
-}
-
-/// A picture in CIELAB under the white of sRGB.
-fn lab_picture(picture: &Picture) -> Field<[f32; 3]> {
-    let white = RgbSpace::Srgb.white();
-    let xyz_from_rgb = RgbSpace::Srgb.xyz_from_linear();
-    let lab = |rgb: &[f32; 3]| {
-        let xyz = xyz_from_rgb.apply(rgb.map(f64::from)).into();
-        Lab::from_xyz(xyz, white).to_array().map(|value| value as f32)
-    };
-    let values = picture.values().par_iter().with_min_len(1024).map(lab).collect();
-    Field::from_values(picture.width(), picture.height(), values)
-}
-
-/// CIELAB difference (CIE 1976) of the canvas from the target or from the nearest colour that
-/// the palette reaches, whichever is less.
-fn differences(
-    target_lab: &Field<[f32; 3]>,
-    blurred_target: &Picture,
-    current: &Picture,
-    separation: &Separation,
-    sigma: f64,
-) -> Field<f32> {
-    let painted = lab_picture(&blurred(current, sigma));
-    let reached = blurred_target.values().par_iter().with_min_len(1024);
-    let reached = reached.map(|&rgb| separation.film().rgb(&separation.heights_mm(rgb))).collect();
-    let (width, height) = (target_lab.width(), target_lab.height());
-    let reached = lab_picture(&Field::from_values(width, height, reached));
-    let all = target_lab.values().iter().zip(reached.values()).zip(painted.values());
-    let differences = all.map(|((&target, &reached), &painted)| {
-        distance(target, painted).min(distance(reached, painted))
-    });
-    Field::from_values(width, height, differences.collect())
-}
-
-/// Reduces the difference where the target is smooth at the scale of a brush `size` cells wide:
-/// there the strokes of broader brushes may stay as they are.
-fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>, size: f64) {
-    let (width, height) = (target_lab.width(), target_lab.height());
-    let reach = (size / 2.0).ceil() as usize;
-    let change = |at: usize| {
-        let (x, y) = (at % width, at / width);
-        let (left, right) = (x.saturating_sub(reach), (x + reach).min(width - 1));
-        let (above, below) = (y.saturating_sub(reach), (y + reach).min(height - 1));
-        let across = distance(target_lab[(left, y)], target_lab[(right, y)]);
-        let down = distance(target_lab[(x, above)], target_lab[(x, below)]);
-        [across.max(down)]
-    };
-    let changes = (0..width * height).into_par_iter().map(change).collect();
-    let changes = blurred(&Field::from_values(width, height, changes), size / 4.0);
-    for (difference, [change]) in difference.values_mut().iter_mut().zip(changes.values()) {
-        *difference *= SMOOTH + (1.0 - SMOOTH) * (change / DETAIL).min(1.0);
-    }
 }
 
 /// A square in which a stroke may begin: first and end column, first and end row.

@@ -14,9 +14,12 @@ use crate::stroke::{Path, StrokeError};
 use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
 
-/// Sub-steps that go to the backend together: enough to hide the cost of a call, few
-/// enough that the contacts stay in the cache (chosen by timing).
-const BATCH: usize = 12;
+/// Most sub-steps that go to the backend together: enough to hide the cost of a call.
+const BATCH: usize = 32;
+
+/// Number of cells of contacts after which no more sub-steps are added to a batch, so that they
+/// stay in the cache (chosen by timing).
+const BATCH_CELLS: usize = 80_000;
 
 /// Work done for a finished stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -80,9 +83,14 @@ impl Batch {
     /// Bends `head` through the next poses of `path`.
     fn bend(&mut self, path: &mut Path, head: &mut Head, relief: &Relief, bounds: Rect) {
         self.count = 0;
+        let mut cells = 0;
         for contact in &mut self.contacts {
+            if cells >= BATCH_CELLS {
+                break;
+            }
             let Some(pose) = path.next() else { break };
             head.advance(&pose, relief, bounds, contact);
+            cells += contact.touches.len();
             self.count += 1;
         }
         self.reached = path.reached();

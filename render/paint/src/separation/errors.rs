@@ -46,17 +46,18 @@ impl ColorErrors {
         assert_eq!(target.bounds(), painted.bounds(), "pictures differ in size");
         let film = separation.film();
         let pairs = target.values().par_iter().zip(painted.values()).with_min_len(256);
-        let errors: Vec<(f64, bool)> = pairs
+        let all: Vec<f64> = pairs
             .map(|(&target, &painted)| {
-                let labs = (film.lab_from_rgb(target), film.lab_from_rgb(painted));
-                let error = delta_e_ciede2000(labs.0, labs.1);
-                // A colour painted within `OUT_OF_GAMUT` is in gamut, which saves the
-                // slower check.
-                (error, error > OUT_OF_GAMUT && separation.is_out_of_gamut(target))
+                delta_e_ciede2000(film.lab_from_rgb(target), film.lab_from_rgb(painted))
             })
             .collect();
-        let all: Vec<f64> = errors.iter().map(|(error, _)| *error).collect();
-        let within: Vec<f64> = errors.iter().filter(|(_, out)| !out).map(|(e, _)| *e).collect();
+        // A colour painted within `OUT_OF_GAMUT` is in gamut, which saves the slower check.
+        let doubtful = all.iter().zip(target.values()).filter(|(error, _)| **error > OUT_OF_GAMUT);
+        let outside = Outside::of(separation, doubtful.map(|(_, &target)| target));
+        let pixels = all.iter().zip(target.values());
+        let is_within = |error: f64, target| error <= OUT_OF_GAMUT || !outside.holds(target);
+        let within = pixels.filter(|(error, target)| is_within(**error, **target));
+        let within: Vec<f64> = within.map(|(error, _)| *error).collect();
         let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
         Self {
             mean: mean(&all),
@@ -67,4 +68,33 @@ impl ColorErrors {
             out_of_gamut: 1.0 - within.len() as f64 / all.len() as f64,
         }
     }
+}
+
+/// Colours out of gamut. Finding one film takes long, so all colours that agree in the first 7
+/// bits of the fractions of their linear channels, about a step of 8-bit sRGB, are judged by the
+/// one in their middle.
+struct Outside {
+    /// In ascending order.
+    colors: Vec<[u16; 3]>,
+}
+
+impl Outside {
+    /// Those of `colors` that are out of gamut.
+    fn of(separation: &Separation, colors: impl Iterator<Item = [f32; 3]>) -> Self {
+        let mut colors: Vec<_> = colors.map(leading_bits).collect();
+        colors.par_sort_unstable();
+        colors.dedup();
+        let middle = |bits: u16| f32::from_bits(u32::from(bits) << 16 | 0x8000);
+        let is_outside = |color: &[u16; 3]| separation.is_out_of_gamut(color.map(middle));
+        Self { colors: colors.into_par_iter().filter(is_outside).collect() }
+    }
+
+    fn holds(&self, color: [f32; 3]) -> bool {
+        self.colors.binary_search(&leading_bits(color)).is_ok()
+    }
+}
+
+/// Sign, exponent and the first 7 bits of the fraction of each channel.
+fn leading_bits(color: [f32; 3]) -> [u16; 3] {
+    color.map(|channel| (channel.to_bits() >> 16) as u16)
 }

@@ -56,10 +56,11 @@ fn rise(tap: vec4<f32>, at: vec2<i32>, here: f32) -> f32 {
     return tap.z * (top(at + vec2<i32>(tap.xy)) - here) - tap.w;
 }
 
-// Shades a cell; `material` is 0 wet paint, 1 dry paint, 2 ground. The including shader has a
-// function `top`, the height in quanta at a cell or at the nearest cell of the canvas.
-fn shade(at: vec2<i32>, material: u32, flat_color: vec3<f32>) -> vec3<f32> {
-    let here = top(at);
+// Shades a cell. `column` holds the heights in quanta of the cell above, of the cell, and of the
+// cell below; `material` is 0 wet paint, 1 dry paint, 2 ground. The including shader has a function
+// `top`, the height at a cell or at the nearest cell of the canvas.
+fn shade(at: vec2<i32>, column: vec3<f32>, material: u32, flat_color: vec3<f32>) -> vec3<f32> {
+    let here = column.y;
     var hidden = 0.0;
     for (var i = 0u; i < 6u; i++) {
         hidden = max(hidden, rise(params.lamp.shadow[i], at, here));
@@ -69,26 +70,29 @@ fn shade(at: vec2<i32>, material: u32, flat_color: vec3<f32>) -> vec3<f32> {
         let up = max(rise(params.lamp.around[i], at, here), 0.0);
         sky += up * up;
     }
-    let over = hidden / params.lamp.soft;
-    let free = 1.0 / (1.0 + over * over);
+    // Quotients take long on software devices, so there are few.
+    let soft = params.lamp.soft * params.lamp.soft;
+    let free = soft / (soft + hidden * hidden);
     let open = 1.0 / (1.0 + 0.125 * sky);
 
     let slopes = params.lamp.slope * vec2(
         top(at + vec2(1, 0)) - top(at - vec2(1, 0)),
-        top(at + vec2(0, 1)) - top(at - vec2(0, 1)),
+        column.z - column.x,
     );
-    let length = sqrt(dot(slopes, slopes) + 1.0);
-    let lit = max((1.0 + dot(slopes, params.lamp.towards_lamp)) / length, 0.0);
+    let per_length = inverseSqrt(dot(slopes, slopes) + 1.0);
+    let lit = max((1.0 + dot(slopes, params.lamp.towards_lamp)) * per_length, 0.0);
     let ambient = params.lamp.ambient;
     let diffuse = 1.0 + ambient * (open - 1.0) + (1.0 - ambient) * (free * lit - 1.0);
 
     let most = max(max(flat_color.x, flat_color.y), max(flat_color.z, 0.0));
     let more = max(diffuse - 1.0, 0.0);
     let room = max(1.0 - most, 1e-6);
-    let factor = min(diffuse, 1.0) + more * room / (room + more * (most + room / params.lamp.most));
+    let bound = params.lamp.most * room;
+    let factor =
+        min(diffuse, 1.0) + more * bound / (bound + more * (params.lamp.most * most + room));
     let color = flat_color * factor;
 
-    let n_dot_h = (params.lamp.halfway.z - dot(slopes, params.lamp.halfway.xy)) / length;
+    let n_dot_h = (params.lamp.halfway.z - dot(slopes, params.lamp.halfway.xy)) * per_length;
     let gloss = params.lamp.gloss[min(material, 2u)];
     let facing = gloss.x != 0.0 && n_dot_h > params.lamp.halfway.z;
     let above = max(pow(max(n_dot_h, 0.0), gloss.y) - gloss.z, 0.0);

@@ -50,8 +50,9 @@ fn level_cell(at: vec2<u32>) -> LevelCell {
     return LevelCell(at, i, select(material[i], 0u, volume(wet) > 0u), rgb);
 }
 
-fn shaded(cell: LevelCell) -> vec3<f32> {
-    return shade(vec2<i32>(cell.at), cell.material, cell.color);
+// `column` holds the heights of the cell above, of the cell, and of the cell below.
+fn shaded(cell: LevelCell, column: vec3<f32>) -> vec3<f32> {
+    return shade(vec2<i32>(cell.at), column, cell.material, cell.color);
 }
 
 fn write(cell: LevelCell) {
@@ -64,16 +65,23 @@ fn write(cell: LevelCell) {
 // four, which takes longer than their arithmetic; so no branch may divide the four.
 @compute @workgroup_size(64)
 fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = 64u * tiles[params.first_tile + id.z] + id.xy;
+    let at = 64u * tiles[params.first_tile + id.z] + vec2(id.x, 4u * id.y);
     var a = level_cell(at);
-    var b = level_cell(at + vec2(0u, 16u));
-    var c = level_cell(at + vec2(0u, 32u));
-    var d = level_cell(at + vec2(0u, 48u));
+    var b = level_cell(at + vec2(0u, 1u));
+    var c = level_cell(at + vec2(0u, 2u));
+    var d = level_cell(at + vec2(0u, 3u));
     if params.surface.relief_on != 0u {
-        a.color = shaded(a);
-        b.color = shaded(b);
-        c.color = shaded(c);
-        d.color = shaded(d);
+        let place = vec2<i32>(at);
+        let above = top(place - vec2(0, 1));
+        let of_a = top(place);
+        let of_b = top(place + vec2(0, 1));
+        let of_c = top(place + vec2(0, 2));
+        let of_d = top(place + vec2(0, 3));
+        let below = top(place + vec2(0, 4));
+        a.color = shaded(a, vec3(above, of_a, of_b));
+        b.color = shaded(b, vec3(of_a, of_b, of_c));
+        c.color = shaded(c, vec3(of_b, of_c, of_d));
+        d.color = shaded(d, vec3(of_c, of_d, below));
     }
     write(a);
     write(b);
